@@ -1,0 +1,98 @@
+"""What every distance has in common: the same four questions, answered per connected component."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import SolverError
+from .laplacian import Component, Laplacian, as_laplacian
+from .progress import Progress
+from .surface import Surface
+
+ROUNDING = 1e-9
+"""Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""
+
+
+class Distance(ABC):
+    """A distance between the vertices of a surface.
+
+    `label` says what it is and how it was computed; `length_power` how it scales: a surface s times as large has
+    distances s ** length_power times as large.  Distances between components, and of vertices that belong to no
+    face, are NaN.  A vertex asked for that does not exist or belongs to no face is a VertexError.
+
+    Constructing a distance does its long work on the largest component; on another, the first question does.
+    """
+
+    label: str
+    length_power: float
+
+    def __init__(self, laplacian: Laplacian | Surface) -> None:
+        self.laplacian = as_laplacian(laplacian)
+        self.surface = self.laplacian.surface
+
+    def from_source(self, vertex: int, progress: Progress | None = None) -> np.ndarray:
+        """(n,) distance of every vertex from one; 0 at the source."""
+        component = self.laplacian.component_of(vertex)
+        self.prepare(component, progress)
+        index = component.local(np.array([vertex]))
+        field = np.full(len(self.surface.vertices), np.nan)
+        field[component.vertices] = self._columns(component, index, progress)[:, 0]
+        field[vertex] = 0
+        return field
+
+    def from_sources(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> np.ndarray:
+        """(n, k) distances of every vertex from each of k."""
+        ids = self.surface.check_vertices(vertices)
+        fields = np.full((len(self.surface.vertices), len(ids)), np.nan)
+        for component, mine in self._by_component(ids):
+            self.prepare(component, progress)
+            columns = self._columns(component, component.local(ids[mine]), progress)
+            fields[np.ix_(component.vertices, mine)] = columns
+        fields[ids, np.arange(len(ids))] = 0
+        return fields
+
+    def between(self, u: int, v: int) -> float:
+        """The distance of two vertices; NaN between components."""
+        return float(self.pairwise([u, v])[0, 1])
+
+    def pairwise(self, vertices: npt.ArrayLike) -> np.ndarray:
+        """(k, k) distances among k vertices: symmetric, zero diagonal."""
+        ids = self.surface.check_vertices(vertices)
+        distances = np.full((len(ids), len(ids)), np.nan)
+        for component, mine in self._by_component(ids):
+            block = self._pairwise(component, component.local(ids[mine]))
+            distances[np.ix_(mine, mine)] = (block + block.T) / 2
+        distances[ids[:, None] == ids] = 0
+        return distances
+
+    @abstractmethod
+    def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        """Do the long work that questions about a component need; nothing if it is done."""
+
+    @abstractmethod
+    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+        """(m, k) distances within a component from its local vertices `index` (k,)."""
+
+    def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
+        """(k, k) distances among local vertices `index` (k,)."""
+        self.prepare(component)
+        return self._columns(component, index, None)[index]
+
+    def _by_component(self, ids: np.ndarray) -> Iterable[tuple[Component, np.ndarray]]:
+        """Each component with the positions of its vertices among ids (k,)."""
+        label = self.surface.component_of_vertex[ids]
+        for index in np.unique(label):
+            yield self.laplacian.components[index], np.flatnonzero(label == index)
+
+
+def root(squares: np.ndarray, terms: np.ndarray | float) -> np.ndarray:
+    """Square root of squared distances, computed as sums of `terms` (their size; broadcasts).
+
+    Values below zero by rounding become 0; SolverError if one is further below, or not a number.
+    """
+    if not (squares >= -ROUNDING * np.max(terms)).all():
+        worst = float(np.nanmin(squares)) if not np.isnan(squares).all() else float("nan")
+        raise SolverError(f"A squared distance came out as {worst:g}: the mesh is too badly shaped for its operator.")
+    return np.sqrt(np.maximum(squares, 0))

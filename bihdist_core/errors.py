@@ -1,0 +1,29 @@
+"""Named errors.  Catch `BihdistError` to catch all of them; each is also the built-in error it resembles."""
+
+
+class BihdistError(Exception):
+    """Anything this library refuses or fails to do; the message is one sentence a user can act on."""
+
+
+class MeshError(BihdistError, ValueError):
+    """A mesh file or array that cannot be a surface."""
+
+
+class VertexError(BihdistError, ValueError):
+    """A vertex id that does not exist or belongs to no face."""
+
+
+class ParameterError(BihdistError, ValueError):
+    """A parameter outside its meaning: a negative time, an unknown method."""
+
+
+class SolverError(BihdistError, RuntimeError):
+    """A numerical result that cannot be trusted."""
+
+
+class OutputError(BihdistError, OSError):
+    """A file that could not be written."""
+
+
+class Cancelled(BihdistError):
+    """Raised from a progress callback to stop a long construction; raised again to whoever asked for it."""

@@ -1,0 +1,223 @@
+"""The Laplacian of a surface with what is expensive to compute about it, each computed once, when first needed.
+
+Everything here happens on one connected component: the stiffness matrix of a component has the constants as its
+only kernel.  One vertex p is pinned, and G is the inverse of the stiffness matrix without row and column p, padded
+with zeros.  With a the component's area and u = G A 1,
+
+    C = G A G - u u^T / a                          (paper, Eq. 10, without ever forming L A^-1 L)
+
+is the Green's function of the biharmonic operator up to terms that cancel in distances.
+"""
+
+import threading
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from .elimination_tree import EliminationTree
+from .errors import ParameterError
+from .factor import Factor
+from .operators import AREAS, stiffness, vertex_areas
+from .progress import Progress, part
+from .spectrum import Spectrum, smallest_eigenpairs
+from .surface import Surface
+
+
+class Laplacian:
+    """Operators of a surface: `stiffness` (n, n), `areas` (n,), and its connected `components`.
+
+    areas: "voronoi" (mixed Voronoi) or "barycentric"; anything else is a ParameterError.  Distances share a
+    Laplacian by being given it; nothing is cached elsewhere.
+    """
+
+    def __init__(self, surface: Surface, areas: str = "voronoi") -> None:
+        if areas not in AREAS:
+            raise ParameterError(f"There are no {areas!r} vertex areas; choose one of {', '.join(AREAS)}.")
+        self.surface = surface
+        self.areas_kind = areas
+        self.components = tuple(Component(self, k) for k in range(surface.component_count))
+
+    @cached_property
+    def stiffness(self) -> sp.csr_matrix:
+        """(n, n) cotangent stiffness matrix (see `operators`)."""
+        return stiffness(self.surface)
+
+    @cached_property
+    def areas(self) -> np.ndarray:
+        """(n,) vertex areas, unit length squared."""
+        return vertex_areas(self.surface, self.areas_kind)
+
+    def component_of(self, vertex: int) -> "Component":
+        """The component a vertex belongs to; VertexError if there is none."""
+        return self.components[self.surface.component_of_vertex[self.surface.check_vertex(vertex)]]
+
+
+class Component:
+    """One connected component, in its own vertex numbering: local vertex k is `vertices[k]` of the surface.
+
+    Safe to use from several threads; a cancelled computation leaves nothing behind and can be asked for again.
+    """
+
+    pin = 0
+
+    def __init__(self, laplacian: Laplacian, index: int) -> None:
+        self.laplacian = laplacian
+        self.index = index
+        # Two locks, so that a click is answered from the factor while eigenpairs are being computed.
+        self._factor_lock = threading.RLock()
+        self._spectrum_lock = threading.Lock()
+        self._tree: EliminationTree | None = None
+        self._factor: Factor | None = None
+        self._factor_has_diagonals = False
+        self._spectrum: Spectrum | None = None
+
+    @cached_property
+    def _cut(self) -> tuple[Surface, np.ndarray]:
+        return self.laplacian.surface.component(self.index)
+
+    @property
+    def surface(self) -> Surface:
+        """The component alone."""
+        return self._cut[0]
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(m,) ids in the whole surface, ascending."""
+        return self._cut[1]
+
+    def local(self, vertices: np.ndarray) -> np.ndarray:
+        """Local numbers of ids that belong to this component."""
+        return np.searchsorted(self.vertices, vertices)
+
+    @cached_property
+    def stiffness(self) -> sp.csr_matrix:
+        """(m, m) stiffness matrix."""
+        whole = self.laplacian.stiffness
+        return whole if len(self.vertices) == whole.shape[0] else whole[self.vertices][:, self.vertices]
+
+    @cached_property
+    def areas(self) -> np.ndarray:
+        """(m,) vertex areas, unit length squared."""
+        return self.laplacian.areas[self.vertices]
+
+    # ------------------------------------------------------------------ the factor
+    def tree(self, progress: Progress | None = None) -> EliminationTree:
+        """The elimination order, which serves every matrix with the pattern of the stiffness matrix."""
+        with self._factor_lock:
+            if self._tree is None:
+                self._tree = EliminationTree(self.stiffness, self.surface.vertices, progress=progress)
+            return self._tree
+
+    def factor(self, progress: Progress | None = None, diagonals: bool = False) -> Factor:
+        """The factor of the pinned stiffness matrix; with the diagonals of G and G A G if asked for.
+
+        The pinned vertex stays in the matrix as an equation of its own, x_p = 0, and gets no area: then the
+        entries of G and G A G elsewhere are the ones wanted.
+        """
+        with self._factor_lock:
+            if self._factor is None or (diagonals and not self._factor_has_diagonals):
+                tree = self.tree(part(progress, 0, 0.4))
+                areas = self.areas.copy()
+                areas[self.pin] = 0
+                self._factor = Factor(
+                    tree, _pinned(self.stiffness, self.pin), areas if diagonals else None, part(progress, 0.4, 1)
+                )
+                self._factor_has_diagonals = diagonals
+            return self._factor
+
+    def solve(self, b: np.ndarray, progress: Progress | None = None) -> np.ndarray:
+        """G b; b (m,) or (m, k)."""
+        b = np.array(b, np.float64)
+        b[self.pin] = 0
+        return self.factor(progress).solve(b)
+
+    def centred(self, x: np.ndarray) -> np.ndarray:
+        """x (m,) or (m, k) less its mean by area."""
+        return x - self.areas @ x / self.areas.sum()
+
+    # ------------------------------------------------------------------ Green's functions
+    def green_diagonal(self, progress: Progress | None = None) -> np.ndarray:
+        """(m,) G_jj; no unit."""
+        diagonal = self.factor(progress, diagonals=True).diagonal.copy()
+        diagonal[self.pin] = 0
+        return diagonal
+
+    def biharmonic_diagonal(self, progress: Progress | None = None) -> np.ndarray:
+        """(m,) C_jj; unit length squared."""
+        with self._factor_lock:
+            self.factor(progress, diagonals=True)
+            return self._biharmonic_diagonal
+
+    @cached_property
+    def _biharmonic_diagonal(self) -> np.ndarray:
+        return self.factor(diagonals=True).sandwich_diagonal - self._u**2 / self.areas.sum()
+
+    @cached_property
+    def _u(self) -> np.ndarray:
+        """(m,) u = G A 1."""
+        return self.solve(self.areas)
+
+    def biharmonic_columns(self, index: np.ndarray) -> np.ndarray:
+        """(m, k) columns `index` (k,) of C; unit length squared."""
+        index = np.asarray(index)
+        columns = self.factor(diagonals=True).sandwich_columns(index)
+        columns -= self._u[:, None] * (self._u[index] / self.areas.sum())
+        return columns
+
+    # ------------------------------------------------------------------ the spectrum
+    def spectrum(self, count: int, progress: Progress | None = None) -> Spectrum:
+        """At least the first `count` eigenpairs (at most m - 1 there are); grown and kept."""
+        count = min(count, len(self.vertices) - 1)
+        with self._spectrum_lock:
+            have = self._spectrum
+            if have is not None and len(have.eigenvalues) >= count:
+                return have
+            self.factor(part(progress, 0, 0.1))
+            self._spectrum = smallest_eigenpairs(
+                self.stiffness, self.areas, self.solve, count, start=have, progress=part(progress, 0.1, 1)
+            )
+            return self._spectrum
+
+
+def eigenpairs(laplacian: "Laplacian | Surface", count: int, progress: Progress | None = None) -> Spectrum:
+    """The first `count` eigenpairs L phi = lambda A phi, phi^T A phi = 1, the constant of each component not counted.
+
+    Returns eigenvalues (count,), ascending, unit 1 / length squared, and eigenvectors (n, count), 0 at
+    unreferenced vertices.  Raises ParameterError if there are not that many.
+    """
+    laplacian = as_laplacian(laplacian)
+    components = laplacian.components
+    most = sum(len(c.vertices) - 1 for c in components)
+    if not 1 <= count <= most:
+        raise ParameterError(f"{laplacian.surface.name} has {most} eigenpairs besides constants; {count} asked for.")
+    spectra = [
+        c.spectrum(count, part(progress, k / len(components), (k + 1) / len(components)))
+        for k, c in enumerate(components)
+    ]
+    values = np.concatenate([s.eigenvalues[:count] for s in spectra])
+    owner = np.concatenate([np.full(min(count, len(s.eigenvalues)), k) for k, s in enumerate(spectra)])
+    column = np.concatenate([np.arange(min(count, len(s.eigenvalues))) for s in spectra])
+    first = np.argsort(values, kind="stable")[:count]
+    vectors = np.zeros((len(laplacian.areas), count))
+    for k, component in enumerate(components):
+        mine = np.flatnonzero(owner[first] == k)
+        vectors[np.ix_(component.vertices, mine)] = spectra[k].eigenvectors[:, column[first[mine]]]
+    return Spectrum(values[first], vectors)
+
+
+def as_laplacian(laplacian: Laplacian | Surface) -> Laplacian:
+    """A Surface stands for its Laplacian with the default vertex areas."""
+    if isinstance(laplacian, Surface):
+        return Laplacian(laplacian)
+    if isinstance(laplacian, Laplacian):
+        return laplacian
+    raise ParameterError(f"A Surface or a Laplacian is needed, not {type(laplacian).__name__}.")
+
+
+def _pinned(matrix: sp.csr_matrix, pin: int) -> sp.csr_matrix:
+    """The matrix with row and column `pin` replaced by the identity's."""
+    pinned = matrix.tocoo(copy=True)
+    pinned.data[(pinned.row == pin) | (pinned.col == pin)] = 0
+    pinned.data[(pinned.row == pin) & (pinned.col == pin)] = 1
+    return pinned.tocsr()

@@ -1,0 +1,232 @@
+"""A triangle mesh, checked once and never changed: the input of everything else."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from .errors import MeshError, VertexError
+
+FLAT = 1e-10
+"""A face whose height is at most this share of its longest edge counts as having no area."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A triangle mesh: `vertices` (n, 3) float64 and `faces` (m, 3) int64 vertex ids, both read-only copies.
+
+    Vertex ids are the caller's and never change.  Faces that name a vertex twice and repeated faces (same three
+    vertices) are dropped; `repairs` says so in words, after whatever a file reader already did.
+
+    Raises MeshError for wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    name: str = "surface"
+    repairs: Sequence[str] = field(default=())
+
+    def __post_init__(self) -> None:
+        vertices = _checked_vertices(self.vertices, self.name)
+        faces, dropped = _checked_faces(self.faces, len(vertices), self.name)
+        vertices.flags.writeable = faces.flags.writeable = False
+        for key, value in [("vertices", vertices), ("faces", faces), ("repairs", (*self.repairs, *dropped))]:
+            object.__setattr__(self, key, value)
+
+    def __repr__(self) -> str:
+        return f"Surface({self.name}: {len(self.vertices)} vertices, {len(self.faces)} faces)"
+
+    def check_vertex(self, vertex: int) -> int:
+        """The id as an int; VertexError if there is no such vertex or it belongs to no face."""
+        n = len(self.vertices)
+        if isinstance(vertex, (bool, np.bool_)) or not isinstance(vertex, (int, np.integer)):
+            raise VertexError(f"{self.name}: {vertex!r} is not a vertex id; ids are whole numbers from 0 to {n - 1}.")
+        if not 0 <= vertex < n:
+            raise VertexError(f"{self.name} has no vertex {vertex}; ids run from 0 to {n - 1}.")
+        if self.component_of_vertex[vertex] < 0:
+            raise VertexError(f"{self.name}: vertex {vertex} belongs to no face, so no distance is defined from it.")
+        return int(vertex)
+
+    def check_vertices(self, vertices: npt.ArrayLike) -> np.ndarray:
+        """(k,) int64 ids, each checked as by `check_vertex`."""
+        return np.array([self.check_vertex(v) for v in np.atleast_1d(np.asarray(vertices))], np.int64)
+
+    # ------------------------------------------------------------------ connectivity
+    @cached_property
+    def component_of_vertex(self) -> np.ndarray:
+        """(n,) component of each vertex, the one with most vertices first (0); -1 for a vertex of no face.
+
+        Vertices that share a face are connected, also through a single vertex.
+        """
+        n, f = len(self.vertices), self.faces
+        pairs = np.concatenate([f[:, :2], f[:, 1:]])
+        graph = sp.coo_matrix((np.ones(len(pairs), np.int8), pairs.T), shape=(n, n))
+        label = connected_components(graph, directed=False)[1]
+        used = np.zeros(n, bool)
+        used[f] = True
+        _, first, label[used], count = np.unique(
+            label[used], return_index=True, return_inverse=True, return_counts=True
+        )
+        rank = np.empty(len(count), np.int64)
+        rank[np.lexsort((first, -count))] = np.arange(len(count))
+        return np.where(used, rank[np.minimum(label, len(count) - 1)], -1)
+
+    @cached_property
+    def component_count(self) -> int:
+        return int(self.component_of_vertex.max()) + 1
+
+    @property
+    def unreferenced_count(self) -> int:
+        return int((self.component_of_vertex < 0).sum())
+
+    def component(self, index: int) -> tuple["Surface", np.ndarray]:
+        """One component as a surface of its own, and (k,) the ids its vertices have here, ascending."""
+        ids = np.flatnonzero(self.component_of_vertex == index)
+        if len(ids) == len(self.vertices):
+            return self, ids
+        new = np.full(len(self.vertices), -1)
+        new[ids] = np.arange(len(ids))
+        faces = self.faces[self.component_of_vertex[self.faces[:, 0]] == index]
+        return Surface(self.vertices[ids], new[faces], self.name), ids
+
+    @cached_property
+    def _sides(self) -> tuple[np.ndarray, np.ndarray]:
+        """(e, 2) edges, ascending, and (3m,) the edge of each face's sides 01, 12, 20 (all 01 first)."""
+        f = self.faces
+        sides = np.sort(np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]]), axis=1)
+        key, of_side = np.unique(sides[:, 0] * len(self.vertices) + sides[:, 1], return_inverse=True)
+        return np.stack([key // len(self.vertices), key % len(self.vertices)], 1), of_side
+
+    @property
+    def edges(self) -> np.ndarray:
+        """(e, 2) vertex ids, smaller first, each edge once."""
+        return self._sides[0]
+
+    @cached_property
+    def faces_per_edge(self) -> np.ndarray:
+        """(e,) how many faces meet at each edge: 1 on a boundary, more than 2 where not manifold."""
+        return np.bincount(self._sides[1], minlength=len(self.edges))
+
+    @property
+    def boundary_edges(self) -> np.ndarray:
+        """(b, 2) edges with one face."""
+        return self.edges[self.faces_per_edge == 1]
+
+    @cached_property
+    def boundary_loop_count(self) -> int:
+        """Connected pieces of the boundary."""
+        b = self.boundary_edges
+        if not len(b):
+            return 0
+        ends, b = np.unique(b, return_inverse=True)
+        b = b.reshape(-1, 2)
+        graph = sp.coo_matrix((np.ones(len(b)), b.T), shape=(len(ends), len(ends)))
+        return int(connected_components(graph, directed=False)[0])
+
+    @property
+    def nonmanifold_edge_count(self) -> int:
+        return int((self.faces_per_edge > 2).sum())
+
+    @cached_property
+    def nonmanifold_vertex_count(self) -> int:
+        """Vertices whose faces fall apart into several fans."""
+        m = len(self.faces)
+        # Two corners at one vertex are in one fan if their faces share an edge there.  Side s of a face has the
+        # corners s and s + 1; the corners of a face are numbered face + m * corner.
+        of_side = self._sides[1]
+        order = np.argsort(of_side, kind="stable")
+        same = np.flatnonzero(of_side[order][1:] == of_side[order][:-1])
+        left, right = order[same], order[same + 1]
+        corner = self.faces.T.ravel()
+
+        def ends(side: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            a, b = side, side % m + (side // m + 1) % 3 * m
+            swap = corner[a] > corner[b]
+            return np.where(swap, b, a), np.where(swap, a, b)
+
+        joined = np.concatenate([np.stack(pair) for pair in zip(ends(left), ends(right), strict=True)], axis=1)
+        graph = sp.coo_matrix((np.ones(joined.shape[1]), joined), shape=(3 * m, 3 * m))
+        fan = connected_components(graph, directed=False)[1]
+        vertex_of_fan = np.unique(np.stack([corner, fan]), axis=1)[0]
+        return int((np.bincount(vertex_of_fan) > 1).sum())
+
+    @property
+    def is_manifold(self) -> bool:
+        return self.nonmanifold_edge_count == 0 and self.nonmanifold_vertex_count == 0
+
+    @property
+    def genus(self) -> int | None:
+        """Handles of all components together; None where the mesh is not manifold or not orientable."""
+        used = len(self.vertices) - self.unreferenced_count
+        twice = 2 * self.component_count - self.boundary_loop_count - (used - len(self.edges) + len(self.faces))
+        return twice // 2 if self.is_manifold and twice % 2 == 0 else None
+
+    # ------------------------------------------------------------------ measures
+    @cached_property
+    def face_areas(self) -> np.ndarray:
+        """(m,) areas."""
+        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
+        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+    @cached_property
+    def flat_faces(self) -> np.ndarray:
+        """(k,) faces of (nearly) no area: height at most `FLAT` times the longest edge."""
+        x = self.vertices[self.faces]
+        longest = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
+        return np.flatnonzero(2 * self.face_areas <= FLAT * longest**2)
+
+    @cached_property
+    def mean_edge_length(self) -> float:
+        i, j = self.edges.T
+        return float(np.linalg.norm(self.vertices[i] - self.vertices[j], axis=1).mean())
+
+
+def _checked_vertices(vertices: npt.ArrayLike, name: str) -> np.ndarray:
+    try:
+        x = np.array(vertices, np.float64)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"{name}: the vertices are not an array of numbers ({error}).") from None
+    if x.ndim != 2 or x.shape[1] != 3:
+        raise MeshError(f"{name}: vertices must have shape (n, 3), not {x.shape}.")
+    bad = np.flatnonzero(~np.isfinite(x).all(axis=1))
+    if len(bad):
+        raise MeshError(f"{name}: vertex {bad[0]} has the coordinates {_row(x[bad[0]])}; all must be finite numbers.")
+    return x
+
+
+def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[np.ndarray, list[str]]:
+    """(m, 3) faces that can be used, and what was dropped, in words."""
+    try:
+        f = np.array(faces)
+        whole = f.astype(np.int64)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"{name}: the faces are not an array of vertex ids ({error}).") from None
+    if f.size == 0:
+        raise MeshError(f"{name} has no faces; a surface needs at least one triangle.")
+    if f.ndim != 2 or f.shape[1] != 3:
+        raise MeshError(f"{name}: faces must have shape (m, 3), not {f.shape}.")
+    bad = np.flatnonzero(((whole < 0) | (whole >= n) | (whole != f)).any(axis=1))
+    if len(bad):
+        raise MeshError(f"{name}: face {bad[0]} has the vertices {_row(f[bad[0]])}; ids run from 0 to {n - 1}.")
+    ordered = np.sort(whole, axis=1)
+    proper = np.flatnonzero((ordered[:, 0] < ordered[:, 1]) & (ordered[:, 1] < ordered[:, 2]))
+    once = np.sort(proper[np.unique(ordered[proper], axis=0, return_index=True)[1]])
+    said = [
+        f"{count} {'face' if count == 1 else 'faces'} {what} dropped"
+        for count, what in [
+            (len(f) - len(proper), "with a repeated vertex"),
+            (len(proper) - len(once), "that repeated another"),
+        ]
+        if count
+    ]
+    if not len(once):
+        raise MeshError(f"{name}: every face names a vertex twice; a surface needs at least one triangle.")
+    return whole[once], said
+
+
+def _row(values: np.ndarray) -> str:
+    return "(" + ", ".join(f"{v:g}" for v in values) + ")"

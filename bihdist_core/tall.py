@@ -1,0 +1,58 @@
+"""Products of tall arrays (many rows, few columns) in row chunks on our own worker threads; for use inside
+`blas.one_blas_thread`.
+"""
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+import scipy.sparse as sp
+
+from .worker_threads import side_by_side
+
+Result = TypeVar("Result")
+
+ROWS = 8192
+"""Rows multiplied at a time: enough to keep a core busy, few enough to stay in its cache."""
+
+
+def gram(x: np.ndarray, y: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """(j, k) products x^T diag(weights) y of x (n, j) and y (n, k)."""
+    return sum(over_rows(lambda rows: x[rows].T @ (weights[rows, None] * y[rows]), len(x)))
+
+
+def multiply(x: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """(n, k) product of x (n, j) and c (j, k)."""
+    out = np.empty((len(x), c.shape[1]))
+    over_rows(lambda rows: np.matmul(x[rows], c, out=out[rows]), len(x))
+    return out
+
+
+def subtract(y: np.ndarray, x: np.ndarray, c: np.ndarray) -> None:
+    """y -= x c, in place; y (n, k), x (n, j), c (j, k)."""
+
+    def one(rows: slice) -> None:
+        y[rows] -= x[rows] @ c
+
+    over_rows(one, len(x))
+
+
+def recombine(x: np.ndarray, c: np.ndarray) -> None:
+    """Overwrite the first k columns of x (n, j) by x c, c (j, k), k <= j."""
+
+    def one(rows: slice) -> None:
+        x[rows, : c.shape[1]] = x[rows] @ c
+
+    over_rows(one, len(x))
+
+
+def sparse_rows(matrix: sp.csr_matrix, rows: slice) -> sp.csr_matrix:
+    """Some rows of a sparse matrix, sharing its memory."""
+    first, last = matrix.indptr[rows.start], matrix.indptr[rows.stop]
+    parts = (matrix.data[first:last], matrix.indices[first:last], matrix.indptr[rows.start : rows.stop + 1] - first)
+    return sp.csr_matrix(parts, shape=(rows.stop - rows.start, matrix.shape[1]))
+
+
+def over_rows(work: Callable[[slice], Result], n: int) -> list[Result]:
+    """What `work` returns for each chunk of n rows, in order."""
+    return side_by_side(work, [slice(first, min(first + ROWS, n)) for first in range(0, n, ROWS)])

@@ -1,0 +1,74 @@
+"""Files written whole or not at all."""
+
+import os
+import secrets
+import stat
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from .errors import OutputError
+
+
+def check_output(path: str | os.PathLike[str], formats: Sequence[str]) -> str:
+    """The extension of an output path, in lower case; to be called before long work whose result goes there.
+
+    `formats` are extensions with their dot.  Raises OutputError for another extension, a folder that is missing or
+    cannot be written, and a path that is a folder.
+    """
+    path = Path(path)
+    extension = path.suffix.lower()
+    if extension not in formats:
+        ending = f"the extension {path.suffix!r}" if path.suffix else "no extension"
+        raise OutputError(f"{path} has {ending}; this can be written as {', '.join(formats)}.")
+    _check_place(path)
+    return extension
+
+
+@contextmanager
+def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """A temporary path in the same folder, with the same extension, that replaces `path` when the block ends well.
+
+    If the block raises (also KeyboardInterrupt), the temporary file is removed and an old file at `path` stays as it
+    was.  A link is followed, not replaced; an old file's permissions are kept.
+    OSError inside the block, a full disk for example, becomes OutputError.
+    """
+    path = Path(path)
+    _check_place(path)
+    target = Path(os.path.realpath(path))
+    temporary = target.with_name(f".{target.stem[:60]}-{secrets.token_hex(4)}{target.suffix}")
+    try:
+        with temporary.open("xb"):
+            pass
+        if target.exists():
+            temporary.chmod(stat.S_IMODE(target.stat().st_mode) | stat.S_IWUSR)
+        yield temporary
+        os.replace(temporary, target)
+    except OutputError:
+        raise
+    except OSError as error:
+        raise OutputError(f"{path} could not be written: {error.strerror or error}.") from error
+    finally:
+        with suppress(OSError):
+            temporary.unlink()
+
+
+def _check_place(path: Path) -> None:
+    folder = path.parent
+    if "\0" in str(path):
+        raise OutputError(f"{str(path)!r} cannot be written: a file name holds no zero bytes.")
+    try:
+        if path.is_dir():
+            raise OutputError(f"{path} is a folder; give the name of a file in it.")
+        if not folder.exists():
+            raise OutputError(f"{path} cannot be written: there is no folder {folder}.")
+        if not folder.is_dir():
+            raise OutputError(f"{path} cannot be written: {folder} is not a folder.")
+        if path.exists() and not path.is_file():
+            raise OutputError(f"{path} is not a regular file and will not be replaced.")
+        if not os.access(folder, os.W_OK | os.X_OK) or (path.exists() and not os.access(path, os.W_OK)):
+            raise OutputError(f"{path} cannot be written: permission denied.")
+    except OutputError:
+        raise
+    except OSError as error:
+        raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from None

@@ -1,0 +1,200 @@
+"""What holds for every distance, on every kind of surface."""
+
+import numpy as np
+import pytest
+
+from bihdist_core import (
+    BiharmonicDistance,
+    Cancelled,
+    CommuteTimeDistance,
+    DiffusionDistance,
+    GeodesicDistance,
+    Laplacian,
+    ParameterError,
+    PowerDistance,
+    Surface,
+    TruncatedBiharmonicDistance,
+    VertexError,
+)
+from tests.shapes import bumpy, components_apart, fin, grid, slivers, tetrahedron, torus, two_pieces
+
+DISTANCES = {
+    "biharmonic": BiharmonicDistance,
+    "commute-time": CommuteTimeDistance,
+    "diffusion": lambda s: DiffusionDistance(s, t=0.5),
+    "truncated": lambda s: TruncatedBiharmonicDistance(s, k=30),
+    "power": lambda s: PowerDistance(s, alpha=1.5, k=30),
+    "exact": lambda s: GeodesicDistance(s, "exact"),
+    "heat": lambda s: GeodesicDistance(s, "heat"),
+    "dijkstra": lambda s: GeodesicDistance(s, "dijkstra"),
+}
+every_distance = pytest.mark.parametrize("make", DISTANCES.values(), ids=DISTANCES)
+SURFACES = [bumpy(150), grid(6, 4), torus(10, 6), tetrahedron(), slivers(), fin()]
+every_surface = pytest.mark.parametrize("surface", SURFACES, ids=lambda s: s.name)
+FULL_METRICS = ["biharmonic", "commute-time", "exact", "dijkstra"]
+
+SMALL = 1e-9  # rounding of sums of squares, against the largest distance
+
+
+def all_pairs(make, surface):
+    return make(surface).from_sources(np.arange(len(surface.vertices)))
+
+
+@every_distance
+@every_surface
+def test_zero_at_the_source_finite_and_positive_elsewhere(make, surface):
+    if make is DISTANCES["exact"] and not surface.is_manifold:
+        pytest.skip("refused there; see test_geodesic")
+    field = make(surface).from_source(2)
+    assert field.shape == (len(surface.vertices),)
+    assert field[2] == 0
+    elsewhere = np.delete(field, 2)
+    assert np.isfinite(elsewhere).all()
+    # The heat method clips values next to the source that fall below it.
+    assert (elsewhere >= 0).all() if make is DISTANCES["heat"] else (elsewhere > 0).all()
+
+
+@pytest.mark.parametrize("name", FULL_METRICS)
+@every_surface
+def test_symmetry_and_triangle_inequality(name, surface):
+    if name == "exact" and not surface.is_manifold:
+        pytest.skip("refused there; see test_geodesic")
+    d = all_pairs(DISTANCES[name], surface)
+    slack = SMALL * d.max()
+    assert np.abs(d - d.T).max() <= slack
+    assert (d[:, :, None] <= d[:, None, :] + d[None, :, :].swapaxes(1, 2) + slack).all()
+
+
+@every_distance
+def test_many_sources_equal_single_ones_and_pairs_equal_both(make):
+    distance, sources = make(bumpy(150)), [3, 77, 9, 149, 3]
+    fields = distance.from_sources(sources)
+    assert fields.shape == (150, 5)
+    slack = SMALL * fields.max()
+    for k, source in enumerate(sources):
+        assert np.abs(fields[:, k] - distance.from_source(source)).max() <= slack
+    pairs = distance.pairwise(sources)
+    symmetric = 0.05 if distance.label == "geodesic, heat method" else SMALL  # not symmetric by itself
+    assert np.abs(pairs - fields[sources]).max() <= symmetric * fields.max()
+    assert np.array_equal(pairs, pairs.T)
+    assert distance.between(3, 77) == pytest.approx(pairs[0, 1], rel=1e-12)
+    assert pairs[0, 4] == 0
+
+
+@every_distance
+def test_components_do_not_see_each_other(make):
+    s = two_pieces()
+    distance = make(s)
+    large, small = components_apart(s)
+    for here, there in [(large, small), (small, large)]:
+        field = distance.from_source(here[0])
+        assert np.isfinite(field[here]).all()
+        assert np.isnan(field[there]).all()
+        assert np.isnan(field[60])
+        alone = make(s.component(s.component_of_vertex[here[0]])[0]).from_source(0)
+        assert np.abs(field[here] - alone).max() <= SMALL * alone.max()
+    mixed = distance.pairwise([large[0], small[0], small[1]])
+    assert np.isnan(mixed[0, 1:]).all()
+    assert mixed[1, 2] > 0
+    assert np.isnan(distance.between(large[0], small[0]))
+    fields = distance.from_sources([small[0], large[5]])
+    assert np.isnan(fields[large, 0]).all()
+    assert fields[large[5], 1] == 0
+
+
+@every_distance
+def test_scales_with_the_surface_as_it_says(make):
+    s = bumpy(150)
+    large = Surface(1000 * s.vertices, s.faces)
+    distance, larger = make(s), make(large)
+    expected = 1000**distance.length_power * distance.from_source(5)
+    assert larger.from_source(5) == pytest.approx(expected, rel=1e-6, abs=1e-8 * expected.max())
+
+
+@every_distance
+def test_does_not_depend_on_position_or_numbering(make):
+    s = bumpy(150)
+    rng = np.random.default_rng(1)
+    turn, order = np.linalg.qr(rng.standard_normal((3, 3)))[0], rng.permutation(150)
+    other = Surface(s.vertices[order] @ turn + [5, -3, 2], np.argsort(order)[s.faces])
+    moved = make(other).from_source(int(np.argsort(order)[7]))
+    expected = make(s).from_source(7)
+    assert np.abs(moved - expected[order]).max() <= 1e-7 * expected.max()  # eigenpairs are found to 1e-8
+
+
+@every_distance
+@pytest.mark.parametrize("vertex", [65, -1, 60])
+def test_a_bad_vertex_is_an_error_in_every_question(make, vertex):
+    distance = make(two_pieces())
+    for ask in (
+        lambda: distance.from_source(vertex),
+        lambda: distance.from_sources([0, vertex]),
+        lambda: distance.between(0, vertex),
+        lambda: distance.pairwise([0, vertex]),
+    ):
+        with pytest.raises(VertexError, match=f"vertex {vertex}"):
+            ask()
+
+
+@every_distance
+def test_a_surface_stands_for_its_laplacian(make):
+    s = bumpy(150)
+    assert np.array_equal(make(s).from_source(3), make(Laplacian(s)).from_source(3))
+    with pytest.raises(ParameterError, match="A Surface or a Laplacian is needed, not list"):
+        make([1, 2])
+
+
+@pytest.mark.parametrize("name", ["biharmonic", "commute-time", "diffusion", "truncated", "power", "heat"])
+def test_construction_reports_progress_and_can_be_cancelled(name):
+    kinds = {
+        "biharmonic": BiharmonicDistance,
+        "commute-time": CommuteTimeDistance,
+        "diffusion": DiffusionDistance,
+        "truncated": TruncatedBiharmonicDistance,
+        "power": PowerDistance,
+        "heat": lambda s, progress: GeodesicDistance(s, "heat", progress),
+    }
+    laplacian, said = Laplacian(bumpy(400)), []
+
+    def stop(fraction, text):
+        raise Cancelled("enough")
+
+    with pytest.raises(Cancelled, match="enough"):
+        kinds[name](laplacian, progress=stop)
+    distance = kinds[name](laplacian, progress=lambda fraction, text: said.append((fraction, text)))
+    fractions = [fraction for fraction, _ in said]
+    assert said
+    assert fractions == sorted(fractions)
+    assert 0 <= fractions[0] <= fractions[-1] <= 1
+    assert np.isfinite(distance.from_source(0)).all()
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda s: DiffusionDistance(s, t=0), "time t is 0; it must be positive"),
+        (lambda s: DiffusionDistance(s, tolerance=2), "tolerance is 2"),
+        (lambda s: TruncatedBiharmonicDistance(s, k=0), "k is 0"),
+        (lambda s: PowerDistance(s, k=2.5), "k is 2.5"),
+        (lambda s: PowerDistance(s, alpha=1), "needs alpha > 1"),
+        (lambda s: GeodesicDistance(s, "fast"), "no geodesic method 'fast'; choose one of auto"),
+        (lambda s: Laplacian(s, "mixed"), "no 'mixed' vertex areas"),
+    ],
+)
+def test_parameters_outside_their_meaning_are_refused(make, words):
+    with pytest.raises(ParameterError, match=words):
+        make(tetrahedron())
+
+
+def test_labels_say_what_is_shown():
+    s = bumpy(150)
+    assert [make(s).label for make in DISTANCES.values()] == [
+        "biharmonic, exact",
+        "commute-time, exact",
+        "diffusion, t = 0.5",
+        "biharmonic, 30 eigenpairs",
+        "1/λ^1.5, 30 eigenpairs",
+        "geodesic, exact",
+        "geodesic, heat method",
+        "geodesic, Dijkstra along edges",
+    ]

@@ -1,0 +1,151 @@
+"""Reading mesh files: every format gives the file's ids, coordinates and faces."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bihdist_core.field_output import write_fields
+from bihdist_core.mesh_io import read_surface
+from bihdist_core.surface import Surface
+from tests.core.mesh_samples import (
+    FACES,
+    QUAD_AND_TRIANGLE,
+    SAMPLES,
+    VERTICES,
+    assert_same,
+    obj,
+    off,
+    ply,
+    stl_binary,
+    stl_text,
+    written_by_vtk,
+)
+
+MESHES = Path(__file__).parents[2].parent / "shared" / "meshes"
+
+
+# ---------------------------------------------------------------------- each format gives the same surface
+@pytest.mark.parametrize("name", SAMPLES)
+def test_ids_coordinates_and_faces_are_the_files(put, name):
+    surface = read_surface(put(name, SAMPLES[name]))
+    assert_same(surface)
+    assert surface.name == name
+    assert surface.repairs == ()
+
+
+@pytest.mark.parametrize("form", ["ascii", "binary_little_endian", "binary_big_endian"])
+@pytest.mark.parametrize("with_colour", [False, True])
+def test_ply_polygons_of_different_size_and_other_properties(put, form, with_colour):
+    surface = read_surface(put("a.ply", ply(form, QUAD_AND_TRIANGLE, with_colour=with_colour)))
+    assert_same(surface)
+    assert surface.repairs == ("1 polygon split into 2 triangles",)
+
+
+@pytest.mark.parametrize("mode", ["ascii", "binary"])
+@pytest.mark.parametrize("version", [42, 51])
+@pytest.mark.parametrize("polygons", [FACES, QUAD_AND_TRIANGLE], ids=["triangles", "mixed"])
+def test_legacy_files_written_by_vtk(tmp_path, mode, version, polygons):
+    assert_same(read_surface(written_by_vtk(tmp_path / "a.vtk", polygons, mode, version)))
+
+
+@pytest.mark.parametrize("mode", ["ascii", "binary", "appended", "appended base64", "big"])
+@pytest.mark.parametrize("compressor", ["zlib", "lzma", None])
+def test_xml_files_written_by_vtk(tmp_path, mode, compressor):
+    path = written_by_vtk(tmp_path / "a.vtp", QUAD_AND_TRIANGLE, mode, compressor=compressor)
+    assert_same(read_surface(path))
+
+
+def test_xml_with_many_compressed_blocks(tmp_path):
+    rng = np.random.default_rng(0)
+    vertices = rng.normal(size=(20000, 3))
+    faces = np.stack([np.arange(19998), np.arange(1, 19999), np.arange(2, 20000)], axis=1)
+    path = written_by_vtk(tmp_path / "a.vtp", faces, "binary", vertices=vertices)
+    assert_same(read_surface(path), vertices, faces)
+
+
+@pytest.mark.parametrize("content", [stl_text(), stl_binary()], ids=["text", "binary"])
+def test_stl_merges_corners_at_one_place(put, content):
+    surface = read_surface(put("a.stl", content))
+    # Numbered as they first appear: here that is their order in VERTICES.  Binary STL holds single precision.
+    assert_same(surface, VERTICES.astype(np.float32) if isinstance(content, bytes) else VERTICES)
+    said = "9 triangle corners at 5 places merged into one vertex each, numbered in the order of the file"
+    assert surface.repairs == (said,)
+
+
+def test_stl_takes_both_zeros_for_one_place(put):
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [-0.0, 0, 0], [0, -1, 0]])
+    assert len(read_surface(put("a.stl", stl_text(vertices, np.array([[0, 1, 2], [3, 4, 1]])))).vertices) == 4
+
+
+@pytest.mark.parametrize("extension", [".ply", ".vtp"])
+def test_written_surfaces_read_back(tmp_path, extension):
+    surface = Surface(VERTICES, FACES)
+    path = tmp_path / f"a{extension}"
+    write_fields(path, surface, {"d": np.arange(5.0)})
+    assert_same(read_surface(path))
+
+
+def test_upper_case_extension(put):
+    assert_same(read_surface(put("A.OFF", off())))
+
+
+# ---------------------------------------------------------------------- OFF
+@pytest.mark.parametrize(("header", "extra"), [("COFF", 4), ("COFF", 3), ("NOFF", 3), ("STOFF", 2), ("STCNOFF", 9)])
+def test_off_with_normals_colours_and_texture_coordinates(put, header, extra):
+    wide = np.hstack([VERTICES, np.full((5, extra), 0.5)])
+    assert_same(read_surface(put("a.off", off(wide, header=header))))
+
+
+@pytest.mark.parametrize("first", ["OFF 5 3 0\n", "OFF5 3 0\n", "# c\n\nOFF # c\n# c\n\n5 3\n", "  OFF\n\t5 3 0 # c\n"])
+def test_off_headers(put, first):
+    assert_same(read_surface(put("a.off", first + off().split("\n", 2)[2])))
+
+
+def test_off_colours_after_faces_comments_and_blank_lines(put):
+    text = off().replace("3 0 1 2\n", "3 0 1 2 0.1 0.2 0.3 1\n\n# comment\n").replace("3 0 2 3\n", "3 0 2 3 17 # c\n")
+    text = text.replace("1.0 0.0 0.0", "  1.0\t0.0  0 # \xe9")
+    assert_same(read_surface(put("a.off", text.encode("latin-1"))))
+
+
+# ---------------------------------------------------------------------- OBJ
+def test_obj_texture_and_normal_ids_do_not_split_vertices(put):
+    text = obj(polygons=[]) + "vt 0 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1\nf 1/2 3/1 4/2\nf 4//1 5//1 1//1\n"
+    assert_same(read_surface(put("a.obj", text)))
+
+
+def test_obj_negative_ids_count_back_from_their_line(put):
+    lines = obj(polygons=[]).splitlines(keepends=True)
+    text = "".join(lines[:4]) + "f -4 -3 -2\nf -4/-1 -2/-1 -1/-1\n" + lines[4] + "f -2 -1 -5\n"
+    assert_same(read_surface(put("a.obj", text)))
+
+
+def test_obj_continued_lines_colours_weights_and_other_statements(put):
+    lines = obj(polygons=[]).splitlines()
+    text = f"mtllib x.mtl # c\no thing\n{lines[0]} 1.0\n{lines[1]} 0.1 0.2 0.3\n" + "\n".join(lines[2:])
+    text += "\n\ng a b\ns off\nusemtl \xe9\nf 1 \\\n  2 \\\n 3\nf 1 3 4\nl 1 2\nf 4 5 1"
+    surface = read_surface(put("a.obj", text.encode("latin-1")))
+    assert_same(surface)
+    assert surface.repairs == ("1 line or point statement ignored",)
+
+
+def test_obj_vertices_and_normals_in_turn(put):
+    text = "".join(f"{line}\nvn 0 0 1\n" for line in obj(polygons=[]).splitlines()) + obj(VERTICES[:0])
+    assert_same(read_surface(put("a.obj", text)))
+
+
+# ---------------------------------------------------------------------- sample meshes
+@pytest.mark.skipif(not MESHES.is_dir(), reason="the shared sample meshes are not there")
+def test_sample_meshes_have_the_counts_of_their_table():
+    listed = re.findall(r"^\| (\S+\.o\w\w) \| (\d+) \| (\d+) \|", (MESHES / "TABLE.md").read_text(), re.MULTILINE)
+    assert len(listed) == 20
+    for name, vertices, faces in listed:
+        surface = read_surface(MESHES / name)
+        # The table counts the face that repeats another.
+        assert (len(surface.vertices), len(surface.faces)) == (int(vertices), int(faces) - (name == "suzanne.obj")), (
+            name
+        )
+        if name == "suzanne.obj":
+            assert surface.repairs == ("468 polygons split into 936 triangles", "1 face that repeated another dropped")
+        assert surface.unreferenced_count == (1113 if name == "bunny_raw.obj" else 0)

@@ -1,0 +1,71 @@
+import numpy as np
+import pytest
+
+from bihdist_core import ParameterError, Surface
+from bihdist_core.operators import AREAS, stiffness, vertex_areas
+from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces
+
+SURFACES = [bumpy(200), grid(4, 3), tetrahedron(), fin(), slivers(), two_pieces()]
+
+
+@pytest.mark.parametrize("surface", SURFACES, ids=lambda s: s.name)
+def test_stiffness_is_symmetric_semi_definite_and_its_kernel_is_the_constants(surface):
+    stiff = stiffness(surface).toarray()
+    assert np.array_equal(stiff, stiff.T)
+    values = np.linalg.eigvalsh(stiff)
+    kernel = surface.component_count + surface.unreferenced_count
+    rounding = 1e-12 * values[-1]  # eigvalsh is backward stable
+    assert np.abs(values[:kernel]).max() < rounding
+    assert values[kernel] > 1e-9 * values[-1]
+
+
+def test_stiffness_measures_the_gradient_of_a_linear_function():
+    g = grid(4, 3)
+    f = 2 * g.vertices[:, 0] - 3 * g.vertices[:, 1]
+    assert f @ stiffness(g) @ f == pytest.approx(13 * 12)  # |grad f|^2 times the area
+
+
+def test_weights_of_a_right_angle_square():
+    stiff = stiffness(grid(1, 1)).toarray()
+    # Sides lie opposite to one angle of 45 degrees: weight cot(45)/2; the diagonal opposite to right angles: 0.
+    assert stiff == pytest.approx(
+        np.array([[1, -0.5, -0.5, 0], [-0.5, 1, 0, -0.5], [-0.5, 0, 1, -0.5], [0, -0.5, -0.5, 1]])
+    )
+
+
+@pytest.mark.parametrize("kind", AREAS)
+@pytest.mark.parametrize("surface", SURFACES, ids=lambda s: s.name)
+def test_vertex_areas_are_positive_and_sum_to_the_area(surface, kind):
+    areas = vertex_areas(surface, kind)
+    used = surface.component_of_vertex >= 0
+    assert (areas[used] > 0).all()
+    assert (areas[~used] == 0).all()
+    thickened = 1e-3 if len(surface.flat_faces) else 1e-12
+    assert areas.sum() == pytest.approx(surface.face_areas.sum(), rel=thickened)
+
+
+def test_mixed_voronoi_areas_of_known_triangles():
+    equilateral = Surface([[0, 0, 0], [1, 0, 0], [0.5, 3**0.5 / 2, 0]], [[0, 1, 2]])
+    assert vertex_areas(equilateral) == pytest.approx(np.full(3, 3**0.5 / 12))
+    obtuse = Surface([[0, 0, 0], [4, 0, 0], [1, 1, 0]], [[0, 1, 2]])
+    assert vertex_areas(obtuse) == pytest.approx([0.5, 0.5, 1])  # half the area at the obtuse corner
+    right = Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    assert vertex_areas(right) == pytest.approx([0.25, 0.125, 0.125])
+
+
+def test_a_flat_face_leaves_the_others_as_they_are():
+    with_flat, without = slivers(), Surface(slivers().vertices, np.delete(slivers().faces, 18, axis=0))
+    difference = stiffness(with_flat) - stiffness(without)
+    touched = np.unique(difference.tocoo().row[difference.tocoo().data != 0])
+    assert touched.tolist() == [0, 1, 16]
+
+
+def test_all_points_in_one_place_still_give_a_proper_operator():
+    s = Surface(np.concatenate([grid(1, 1).vertices, np.zeros((2, 3))]), [[0, 1, 2], [1, 3, 2], [0, 4, 5]])
+    assert np.isfinite(stiffness(s).data).all()
+    assert (vertex_areas(s) > 0).all()
+
+
+def test_unknown_areas_are_refused():
+    with pytest.raises(ParameterError, match="no 'mixed' vertex areas; choose one of voronoi, barycentric"):
+        vertex_areas(tetrahedron(), "mixed")

@@ -1,0 +1,92 @@
+"""A file is written whole or not at all."""
+
+import errno
+import os
+
+import pytest
+
+from bihdist_core.errors import OutputError
+from bihdist_core.whole_file import check_output, whole_file
+
+
+def test_a_new_file_and_a_replaced_one(tmp_path):
+    path = tmp_path / "a.txt"
+    for text in ("new", "newer"):
+        with whole_file(path) as temporary:
+            assert temporary.parent == path.parent
+            assert temporary.suffix == ".txt"
+            temporary.write_text(text)
+        assert path.read_text() == text
+    assert os.listdir(tmp_path) == ["a.txt"]
+
+
+@pytest.mark.parametrize("reason", [KeyboardInterrupt, ZeroDivisionError])
+def test_the_old_file_stays_when_writing_fails(tmp_path, reason):
+    path = tmp_path / "a.txt"
+    path.write_text("old")
+
+    def write_a_part():
+        with whole_file(path) as temporary:
+            temporary.write_text("ne")
+            raise reason
+
+    with pytest.raises(reason):
+        write_a_part()
+    assert path.read_text() == "old"
+    assert os.listdir(tmp_path) == ["a.txt"]
+
+
+def test_a_full_disk_is_an_output_error(tmp_path):
+    def write_a_part():
+        with whole_file(tmp_path / "a.txt") as temporary:
+            temporary.write_text("part")
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    with pytest.raises(OutputError, match=r"a\.txt could not be written: No space left on device\."):
+        write_a_part()
+    assert not os.listdir(tmp_path)
+
+
+def test_no_new_file_appears_while_the_block_runs(tmp_path):
+    with whole_file(tmp_path / "a.txt") as temporary:
+        temporary.write_text("x")
+        assert not (tmp_path / "a.txt").exists()
+
+
+def test_a_link_is_followed_and_permissions_are_kept(tmp_path):
+    target, link = tmp_path / "target.txt", tmp_path / "link.txt"
+    target.write_text("old")
+    target.chmod(0o640)
+    link.symlink_to(target)
+    with whole_file(link) as temporary:
+        temporary.write_text("new")
+    assert link.is_symlink()
+    assert target.read_text() == "new"
+    assert target.stat().st_mode & 0o777 == 0o640
+
+
+def test_a_new_file_has_the_usual_permissions(tmp_path):
+    (tmp_path / "usual").write_text("")
+    with whole_file(tmp_path / "a.txt") as temporary:
+        temporary.write_text("x")
+    assert (tmp_path / "a.txt").stat().st_mode == (tmp_path / "usual").stat().st_mode
+
+
+def test_places_that_cannot_be_written(tmp_path, monkeypatch):
+    (tmp_path / "folder.txt").mkdir()
+    (tmp_path / "file").write_text("")
+    os.mkfifo(tmp_path / "pipe.txt")
+    for path, expected in [
+        (tmp_path / "none" / "a.txt", "there is no folder"),
+        (tmp_path / "folder.txt", "is a folder"),
+        (tmp_path / "file" / "a.txt", "is not a folder"),
+        (tmp_path / "pipe.txt", "is not a regular file"),
+        (tmp_path / "a\0.txt", "zero bytes"),
+    ]:
+        with pytest.raises(OutputError, match=expected), whole_file(path):
+            pytest.fail("the block must not run")
+        with pytest.raises(OutputError, match=expected):
+            check_output(path, [".txt"])
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    with pytest.raises(OutputError, match="permission denied"):
+        check_output(tmp_path / "a.txt", [".txt"])

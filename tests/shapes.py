@@ -1,0 +1,92 @@
+"""Small surfaces named for what they are, made here; and where the shared meshes and reference distances lie."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull
+
+from bihdist_core import Surface
+
+SHARED = Path(__file__).resolve().parents[2] / "shared"
+MESHES = SHARED / "meshes"
+ORACLE = SHARED / "oracle"
+ORACLE_NAMES = ("hand_lowres_boundary", "pelvis_genus1", "spot", "lilium_boundary")
+
+needs_meshes = pytest.mark.skipif(not MESHES.is_dir(), reason="the shared meshes are not here")
+needs_oracle = pytest.mark.skipif(not ORACLE.is_dir(), reason="the shared reference distances are not here")
+
+
+def sphere(n: int, seed: int = 0) -> Surface:
+    """Closed, genus 0: n points spread over the unit sphere, slightly irregular, in random order."""
+    rng = np.random.default_rng(seed)
+    k = np.arange(n) + 0.5
+    polar, turn = np.arccos(1 - 2 * k / n), np.pi * (1 + 5**0.5) * k
+    x = np.stack([np.cos(turn) * np.sin(polar), np.sin(turn) * np.sin(polar), np.cos(polar)], 1)
+    x += 0.3 / np.sqrt(n) * rng.standard_normal((n, 3))
+    return _hull(rng.permutation(x / np.linalg.norm(x, axis=1)[:, None]), "sphere")
+
+
+def bumpy(n: int, seed: int = 0) -> Surface:
+    """Closed, genus 0, no symmetry: a sphere whose radius varies."""
+    s = sphere(n, seed)
+    x, y, z = s.vertices.T
+    radius = 1 + 0.2 * np.sin(5 * x) * np.cos(4 * y) + 0.1 * np.sin(7 * z + 2 * x)
+    return Surface(s.vertices * radius[:, None], s.faces, "bumpy")
+
+
+def _hull(x: np.ndarray, name: str) -> Surface:
+    faces = ConvexHull(x).simplices
+    a, b, c = (x[faces[:, k]] for k in range(3))
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    return Surface(x, faces, name)
+
+
+def grid(columns: int, rows: int) -> Surface:
+    """A flat rectangle of unit squares, each cut along the same diagonal: with boundary, right angles everywhere."""
+    x, y = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0))
+    corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    a, b, c, d = corner, corner + 1, corner + columns + 2, corner + columns + 1
+    faces = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    return Surface(np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], 1), faces, "grid")
+
+
+def torus(around: int = 24, across: int = 12) -> Surface:
+    """Closed, genus 1."""
+    u, v = np.meshgrid(np.arange(around) * 2 * np.pi / around, np.arange(across) * 2 * np.pi / across, indexing="ij")
+    x = np.stack([(2 + np.cos(v)) * np.cos(u), (2 + np.cos(v)) * np.sin(u), np.sin(v)], -1).reshape(-1, 3)
+    i, j = (q.ravel() for q in np.meshgrid(np.arange(around), np.arange(across), indexing="ij"))
+    a, b = i * across + j, (i + 1) % around * across + j
+    c, d = (i + 1) % around * across + (j + 1) % across, i * across + (j + 1) % across
+    return Surface(x, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)]), "torus")
+
+
+def tetrahedron() -> Surface:
+    """The smallest closed surface."""
+    return Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], "tetra")
+
+
+def two_pieces() -> Surface:
+    """A sphere of 60 vertices, a tetrahedron beside it (ids 61 to 64), and vertex 60 that no face uses."""
+    s, t = sphere(60), tetrahedron()
+    vertices = np.concatenate([s.vertices, [[9.0, 9, 9]], t.vertices + 5])
+    return Surface(vertices, np.concatenate([s.faces, t.faces + 61]), "two pieces")
+
+
+def fin() -> Surface:
+    """Not manifold: three faces on one edge, and two fans that touch in one vertex (id 5)."""
+    x = [[0, 0, 0], [0, 0, 1], [1, 0, 0.5], [-1, 0.3, 0.5], [-0.2, 1, 0.5], [1, 1, 2], [2, 1, 2], [2, 2, 2]]
+    return Surface(x, [[0, 1, 2], [0, 1, 3], [0, 1, 4], [1, 2, 5], [5, 6, 7]], "fin")
+
+
+def slivers() -> Surface:
+    """A grid with a face of no area glued in (vertex in the middle of an edge) and one that is nearly so."""
+    g = grid(3, 3)
+    vertices = np.concatenate([g.vertices, [[0.5, 0, 0], [1.5, -1e-6, 0]]])
+    return Surface(vertices, np.concatenate([g.faces, [[0, 16, 1], [1, 17, 2]]]), "slivers")
+
+
+def components_apart(s: Surface) -> list[np.ndarray]:
+    """The vertex ids of each component."""
+    return [np.flatnonzero(s.component_of_vertex == k) for k in range(s.component_count)]
