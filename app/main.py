@@ -1,0 +1,348 @@
+"""The command line: `bihdist MESH` opens the viewer; `field`, `pairs`, `figure` and `info` need no window.
+
+The only place that wires everything.  What is heavy (numpy, VTK, Qt) is imported by the command that needs it.
+"""
+
+import argparse
+import os
+import sys
+import time
+from collections.abc import Callable, Sequence
+from contextlib import contextmanager
+from importlib import metadata
+
+COMMANDS = ("view", "field", "pairs", "figure", "info")
+WORDS = ("biharmonic", "truncated", "power", "commute-time", "diffusion", "geodesic")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit status: 0, 2 for what the user can mend, 130 when interrupted."""
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if not arguments or (arguments[0] not in COMMANDS and not arguments[0].startswith("-")):
+        arguments.insert(0, "view")
+    options = _parser().parse_args(arguments)
+    from bihdist_core.errors import BihdistError
+
+    try:
+        return options.run(options) or 0
+    except BihdistError as error:
+        print(f"bihdist: {error}", file=sys.stderr)
+        return 2
+    except MemoryError:
+        print("bihdist: there is not enough memory for this.", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("bihdist: interrupted.", file=sys.stderr)
+        return 130
+
+
+# ---------------------------------------------------------------------- the words
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="bihdist",
+        description="Biharmonic distance on triangle meshes, beside geodesic and diffusion distances.",
+        epilog="`bihdist MESH` is short for `bihdist view MESH`.",
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    view = _command(commands, "view", _view, "open the viewer")
+    view.add_argument("mesh", nargs="?", help="mesh file, or the name of a sample (default: figure)")
+    view.add_argument("--source", type=_vertex, metavar="V", help="vertex id the distances start from")
+    view.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
+    _add_distance(view, several=True)
+    _add_areas(view)
+
+    field = _command(commands, "field", _field, "distances of all vertices from one or more sources")
+    field.add_argument("mesh", help="mesh file, or the name of a sample")
+    field.add_argument("--source", type=_vertex, metavar="V", nargs="+", required=True, help="vertex ids")
+    field.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy, .csv, .ply or .vtp file")
+    _add_distance(field)
+    _add_areas(field)
+
+    pairs = _command(commands, "pairs", _pairs, "distances between chosen vertices")
+    pairs.add_argument("mesh", help="mesh file, or the name of a sample")
+    which = pairs.add_mutually_exclusive_group(required=True)
+    which.add_argument("--vertices", type=_vertices, metavar="I,J,K", help="all distances among these")
+    which.add_argument("--pairs", type=_pair, nargs="+", metavar="I,J", help="the distances of these pairs")
+    which.add_argument("--file", metavar="PAIRS.csv", help="the same from a file, a line `i,j` for each pair")
+    pairs.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy or .csv file")
+    _add_distance(pairs)
+    _add_areas(pairs)
+
+    figure = _command(commands, "figure", _figure, "the window's comparison as a picture, without a window")
+    figure.add_argument("mesh", help="mesh file, or the name of a sample")
+    figure.add_argument("--source", type=_vertex, metavar="V", help="vertex id (default: the highest vertex)")
+    figure.add_argument("-o", "--output", metavar="OUT.png", required=True)
+    figure.add_argument("--view", choices=_views(), default="home", help="where the camera stands (default: home)")
+    figure.add_argument("--isolines", type=_count, default=20, metavar="N", help="number of steps (default: 20)")
+    figure.add_argument("--scale", type=_positive, default=1.0, help="pixels per pixel, lines and text included")
+    _add_distance(figure, several=True)
+    _add_areas(figure)
+
+    info = _command(commands, "info", _info, "what a mesh file holds and what would be repaired")
+    info.add_argument("mesh", help="mesh file, or the name of a sample")
+    return parser
+
+
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        print(f"bihdist {version()}")
+        parser.exit()
+
+
+def version() -> str:
+    """The installed version, or the checkout's."""
+    try:
+        return metadata.version("bihdist")
+    except metadata.PackageNotFoundError:
+        return "(not installed)"
+
+
+def _command(commands, name: str, run: Callable, text: str) -> argparse.ArgumentParser:
+    parser = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def _add_distance(parser: argparse.ArgumentParser, several: bool = False) -> None:
+    if several:
+        parser.add_argument(
+            "--distance",
+            choices=WORDS,
+            action="append",
+            help="a panel; repeat for more (default: biharmonic, geodesic, diffusion)",
+        )
+    else:
+        parser.add_argument("--distance", choices=WORDS, default="biharmonic", help="(default: biharmonic)")
+    parser.add_argument("--t", type=_positive, default=1.0, help="diffusion time (default: 1)")
+    parser.add_argument("--k", type=_count, default=200, help="eigenpairs for truncated, power (default: 200)")
+    parser.add_argument("--alpha", type=_positive, default=1.5, help="exponent for power (default: 1.5)")
+    parser.add_argument(
+        "--method",
+        choices=("auto", "exact", "heat", "dijkstra"),
+        default="auto",
+        help="for geodesic (default: auto, exact up to 20,000 vertices, else heat)",
+    )
+
+
+def _add_areas(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--areas", choices=("voronoi", "barycentric"), default="voronoi", help="vertex areas")
+
+
+def _views() -> tuple[str, ...]:
+    return ("home", "front", "back", "left", "right", "top", "bottom")
+
+
+def _vertex(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a vertex id (a whole number)") from None
+
+
+def _vertices(text: str) -> list[int]:
+    return [_vertex(word) for word in text.split(",")]
+
+
+def _pair(text: str) -> list[int]:
+    pair = _vertices(text)
+    if len(pair) != 2:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a pair of vertex ids such as 1,2")
+    return pair
+
+
+def _count(text: str) -> int:
+    if not text.isdigit():
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 0")
+    return int(text)
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
+    return value
+
+
+# ---------------------------------------------------------------------- the commands
+def _view(options: argparse.Namespace) -> int:
+    from .samples import mesh_path
+
+    path = mesh_path(options.mesh or "figure")
+    if options.screenshot:
+        from bihdist_core.whole_file import check_output
+
+        check_output(options.screenshot, (".png",))
+    from .qt.start import run_viewer
+
+    return run_viewer(_viewer_state(options), path, options.source, options.screenshot)
+
+
+def _viewer_state(options: argparse.Namespace):
+    from .state import COMPARISON, ViewerState
+
+    words = options.distance or [panel.distance for panel in COMPARISON]
+    return ViewerState(panels=tuple(_panel(options, word) for word in words), areas=options.areas)
+
+
+def _panel(options: argparse.Namespace, word: str):
+    from .state import PanelState
+
+    return PanelState(word, t=options.t, k=options.k, alpha=options.alpha, method=options.method)
+
+
+def _field(options: argparse.Namespace) -> None:
+    from bihdist_core.field_output import FIELD_FORMATS, write_fields
+    from bihdist_core.whole_file import check_output
+
+    check_output(options.output, FIELD_FORMATS)
+    with _progress() as progress:
+        laplacian = _laplacian(options)
+        laplacian.surface.check_vertices(options.source)
+        distance = _panel(options, options.distance).build(laplacian, progress)
+        columns = distance.from_sources(options.source, progress)
+    names = [f"{options.distance}_from_{v}" for v in options.source]
+    write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
+    print(f"{options.output}: {distance.label}, {columns.shape[0]} vertices, {columns.shape[1]} sources")
+
+
+def _pairs(options: argparse.Namespace) -> None:
+    import numpy as np
+
+    from bihdist_core.field_output import ARRAY_FORMATS, write_array
+    from bihdist_core.whole_file import check_output
+
+    extension = check_output(options.output, ARRAY_FORMATS)
+    with _progress() as progress:
+        laplacian = _laplacian(options)
+        if options.vertices:
+            vertices = laplacian.surface.check_vertices(options.vertices)
+            pairs = np.array([(i, j) for k, i in enumerate(vertices) for j in vertices[k + 1 :]]).reshape(-1, 2)
+        else:
+            pairs = _pairs_in(options.file) if options.file else np.array(options.pairs)
+        among, place = np.unique(pairs, return_inverse=True)
+        laplacian.surface.check_vertices(among)
+        distance = _panel(options, options.distance).build(laplacian, progress)
+        i, j = place.reshape(-1, 2).T
+        values = distance.pairwise(among)[i, j]
+    if options.vertices and extension == ".npy":
+        matrix = distance.pairwise(vertices)
+        write_array(options.output, matrix)
+    else:
+        write_array(options.output, np.column_stack([pairs, values]), ["i", "j", "distance"])
+    print(f"{options.output}: {distance.label}, {len(pairs)} pairs")
+
+
+def _figure(options: argparse.Namespace) -> None:
+    from bihdist_core.whole_file import check_output, whole_file
+
+    check_output(options.output, (".png",))
+    from .figures import FigurePanel, check_offscreen, draw_comparison
+    from .session import first_source
+
+    check_offscreen()
+    state = _viewer_state(options)
+    with _progress() as progress:
+        laplacian = _laplacian(options)
+        surface = laplacian.surface
+        source = first_source(surface) if options.source is None else surface.check_vertex(options.source)
+        panels = []
+        for panel in state.panels:
+            distance = panel.build(laplacian, progress)
+            panels.append(FigurePanel(distance.from_source(source, progress), distance.label, panel.hint))
+    picture = draw_comparison(
+        surface, panels, source, isolines=options.isolines, scale=options.scale, view=options.view
+    )
+    from PIL import Image
+
+    with whole_file(options.output) as temporary:
+        Image.fromarray(picture).save(temporary)
+    print(f"{options.output}: {picture.shape[1]} x {picture.shape[0]} pixels, source vertex {source}")
+
+
+def _info(options: argparse.Namespace) -> None:
+    from bihdist_core import read_surface
+
+    from .samples import mesh_path
+
+    s = read_surface(mesh_path(options.mesh))
+    genus = s.genus
+    rows = [
+        ("vertices", len(s.vertices)),
+        ("faces", len(s.faces)),
+        ("components", s.component_count),
+        ("boundary loops", s.boundary_loop_count),
+        ("genus", "not defined (not manifold or not orientable)" if genus is None else genus),
+        ("non-manifold edges", s.nonmanifold_edge_count),
+        ("non-manifold vertices", s.nonmanifold_vertex_count),
+        ("vertices without a face", s.unreferenced_count),
+        ("faces of no area", len(s.flat_faces)),
+        ("mean edge length", f"{s.mean_edge_length:.6g}"),
+        ("area", f"{s.face_areas.sum():.6g}"),
+    ]
+    for name, value in rows:
+        print(f"{name:<26}{value}")
+    said = [*s.repairs]
+    if len(s.flat_faces):
+        said.append("faces of no area are made a millionth of an edge thick where the operators need it")
+    print(f"{'repairs':<26}{'; '.join(said) if said else 'none'}")
+
+
+def _laplacian(options: argparse.Namespace):
+    from bihdist_core import Laplacian, read_surface
+
+    from .samples import mesh_path
+
+    surface = read_surface(mesh_path(options.mesh))
+    for text in surface.repairs:
+        print(f"{surface.name}: {text}", file=sys.stderr)
+    return Laplacian(surface, options.areas)
+
+
+def _pairs_in(path: str):
+    """(m, 2) ids from a file with a line `i,j` for each pair; a first line of words is a header."""
+    import numpy as np
+
+    from bihdist_core.errors import ParameterError
+
+    pairs = []
+    try:
+        with open(path, encoding="utf-8-sig") as lines:
+            for number, line in enumerate(lines, 1):
+                words = [word.strip() for word in line.replace(";", ",").split(",")]
+                if not line.strip() or (number == 1 and not words[0].lstrip("-").isdigit()):
+                    continue
+                if len(words) < 2 or not all(word.lstrip("-").isdigit() for word in words[:2]):
+                    raise ParameterError(f"{path}, line {number}: {line.strip()!r} is not a pair of ids such as 1,2.")
+                pairs.append((int(words[0]), int(words[1])))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not a text file"
+        raise ParameterError(f"The pairs in {path} cannot be read: {reason}.") from None
+    if not pairs:
+        raise ParameterError(f"{path} holds no pairs; each line is two vertex ids such as 1,2.")
+    return np.array(pairs)
+
+
+@contextmanager
+def _progress():
+    """A line of progress on a terminal, nothing elsewhere."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    last = 0.0
+
+    def report(fraction: float, text: str) -> None:
+        nonlocal last
+        if time.monotonic() - last > 0.1:
+            last = time.monotonic()
+            width = os.get_terminal_size(sys.stderr.fileno()).columns
+            print(f"\r\x1b[K{fraction:4.0%} {text}"[: width + 3], end="", file=sys.stderr, flush=True)
+
+    try:
+        yield report
+    finally:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)

@@ -1,0 +1,324 @@
+"""The window: panels side by side with one camera, a status line, menus.  Shows a `Session`; decides nothing itself.
+
+It opens at once and imports what draws (VTK, pyvista) only then.
+"""
+
+import os
+from collections.abc import Callable
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import BihdistError, OutputError
+from bihdist_core.whole_file import check_output, whole_file
+
+from ..session import Session
+from ..state import ViewerState
+from .look import STYLE_SHEET
+
+MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
+HOVER_DELAY_MS = 25
+
+
+class MainWindow(QtWidgets.QMainWindow):
+    """`complete` is emitted whenever every panel has been painted with its final answer."""
+
+    complete = QtCore.Signal()
+    refused = QtCore.Signal(str)  # a message the user was shown
+    _posted = QtCore.Signal(object)
+
+    def __init__(self, state: ViewerState | None = None) -> None:
+        super().__init__()
+        self.setWindowTitle("Biharmonic distance")
+        self.setAcceptDrops(True)
+        self.resize(1320, 640)
+        self.setStyleSheet(STYLE_SHEET)
+        self._posted.connect(lambda function: function())
+        self.session = Session(self, self._posted.emit, state, prepare=_prepare)
+        self.panels: list = []
+        self._camera = None
+        self._hovered: int | None = None
+        self._waiting: list[Callable[[], None]] = []
+        self._announced = False
+        self.quiet = False
+        self._fill_status_bar()
+        self._fill_tool_bar()
+        self._fill_menus()
+        placeholder = QtWidgets.QLabel("Opening …", objectName="hint")
+        placeholder.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
+        self.setCentralWidget(placeholder)
+
+    # ------------------------------------------------------------------ start and end
+    def build_panels(self) -> None:
+        """Import what draws and make the panels; called once, after the window is on the screen."""
+        from vtkmodules.vtkRenderingCore import vtkCamera
+
+        from .panel import DistancePanel
+
+        self._camera = vtkCamera()
+        middle = QtWidgets.QWidget()
+        row = QtWidgets.QHBoxLayout(middle)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(1)
+        for index, state in enumerate(self.session.state.panels):
+            panel = DistancePanel(state, middle)
+            panel.clicked.connect(self.session.select_source)
+            panel.hovered.connect(self._hover)
+            panel.moved.connect(self._repaint)
+            panel.changed.connect(lambda chosen, index=index: self.session.set_panel(index, chosen))
+            panel.scene.show_isolines(self.session.state.isolines)
+            panel.renderer.SetActiveCamera(self._camera)
+            row.addWidget(panel, 1)
+            self.panels.append(panel)
+        self.setCentralWidget(middle)
+        self._repaint_soon = QtCore.QTimer(self, singleShot=True, interval=HOVER_DELAY_MS)
+        self._repaint_soon.timeout.connect(self._repaint)
+        waiting, self._waiting = self._waiting, []
+        for function in waiting:
+            function()
+
+    def open(self, path: str, source: int | None = None) -> None:
+        """Open a mesh; also before the panels are made."""
+        if self.panels:
+            self.session.open(path, source)
+        else:
+            self._waiting.append(lambda: self.session.open(path, source))
+
+    def closeEvent(self, event: QtGui.QCloseEvent) -> None:
+        self.session.close()
+        for panel in self.panels:
+            panel.interactor.close()
+        super().closeEvent(event)
+
+    # ------------------------------------------------------------------ what the session tells
+    def mesh_changed(self) -> None:
+        surface, (mesh, picker) = self.session.surface, self.session.prepared
+        self.setWindowTitle(f"{surface.name} - Biharmonic distance")
+        self._source_box.setRange(0, len(surface.vertices) - 1)
+        for panel in self.panels:
+            panel.show_surface(mesh, picker, self._camera)
+        self._hovered = None
+        self.reset_view()
+        self._say(_summary(surface))
+
+    def source_changed(self) -> None:
+        source = self.session.state.source
+        with QtCore.QSignalBlocker(self._source_box):
+            self._source_box.setValue(source)
+        for panel in self.panels:
+            panel.scene.mark_source(self.session.surface.vertices[source])
+        self._repaint()
+
+    def answer_changed(self, index: int) -> None:
+        panel, answer = self.panels[index], self.session.answers[index]
+        panel.show_answer(answer)
+        panel.show_value(self._hovered)
+        if answer.preview:
+            panel.show_note("exact on its way")
+        if self.session.is_complete:
+            # Once the repaints that are queued have been done.
+            QtCore.QTimer.singleShot(0, self._announce)
+
+    def progress_changed(self) -> None:
+        going = [self.session.progress[name] for name in sorted(self.session.progress)]
+        self._progress.setVisible(bool(going))
+        self._cancel.setVisible(bool(going))
+        self._doing.setText(going[0][1] if going else "")
+        if going:
+            self._progress.setValue(round(1000 * going[0][0]))
+
+    def failed(self, message: str) -> None:
+        self.refused.emit(message)
+        if not self.quiet:
+            box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=self)
+            box.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
+            box.open()
+
+    # ------------------------------------------------------------------ views
+    def reset_view(self, view: str = "home") -> None:
+        from ..camera import place_camera
+
+        surface = self.session.surface
+        if surface is None:
+            return
+        size = self.panels[0].interactor.size()
+        shown = surface.vertices[surface.component_of_vertex >= 0]
+        place_camera(self._camera, shown, size.width() / max(size.height(), 1), view)
+        self._repaint()
+
+    def _repaint(self) -> None:
+        for panel in self.panels:
+            panel.renderer.ResetCameraClippingRange()
+            panel.repaint_view()
+
+    def _announce(self) -> None:
+        if self.session.is_complete:
+            self.complete.emit()
+
+    def picture(self) -> QtGui.QImage:
+        """The whole window as it is on the screen."""
+        picture = self.grab().toImage()
+        painter = QtGui.QPainter(picture)
+        for panel in self.panels:
+            corner = panel.interactor.mapTo(self, QtCore.QPoint(0, 0))
+            painter.drawImage(QtCore.QRect(corner, panel.interactor.size()), panel.picture())
+        painter.end()
+        return picture
+
+    # ------------------------------------------------------------------ the pointer
+    def _hover(self, vertex: int | None) -> None:
+        if vertex == self._hovered or self.session.surface is None:
+            return
+        self._hovered = vertex
+        surface = self.session.surface
+        position = None if vertex is None else surface.vertices[vertex]
+        for panel in self.panels:
+            panel.scene.mark_pointer(position)
+            panel.show_value(vertex)
+        if vertex is None:
+            self._pointer.setText("")
+        else:
+            x, y, z = position
+            self._pointer.setText(f"vertex {vertex}   ({x:.4g}, {y:.4g}, {z:.4g})")
+        self._repaint_soon.start()
+
+    # ------------------------------------------------------------------ the user's commands
+    def choose_file(self) -> None:
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Open a mesh", "", MESH_FILES)
+        if path:
+            self.open(path)
+
+    def choose_screenshot(self) -> None:
+        path, _ = QtWidgets.QFileDialog.getSaveFileName(self, "Save a picture of the window", "bihdist.png", "*.png")
+        if path:
+            try:
+                self.save_screenshot(path)
+            except BihdistError as error:
+                self.failed(str(error))
+
+    def save_screenshot(self, path: str) -> None:
+        """The window as a PNG; OutputError if it cannot be written, and then what was there stays."""
+        check_output(path, (".png",))
+        with whole_file(path) as temporary:
+            if not self.picture().save(str(temporary), "PNG"):
+                raise OutputError(f"{path} could not be written.")
+        self._say(f"Saved {os.path.basename(path)}")
+
+    def _choose_source(self, vertex: int) -> None:
+        try:
+            self.session.select_source(vertex)
+        except BihdistError as error:
+            self.failed(str(error))
+            self.source_changed()
+
+    def _choose_isolines(self, count: int) -> None:
+        self.session.set_isolines(count)
+        for panel in self.panels:
+            panel.scene.show_isolines(count)
+        self._repaint()
+
+    def dragEnterEvent(self, event: QtGui.QDragEnterEvent) -> None:
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QtGui.QDropEvent) -> None:
+        self.open(event.mimeData().urls()[0].toLocalFile())
+
+    # ------------------------------------------------------------------ how it is made
+    def _fill_tool_bar(self) -> None:
+        bar = self.addToolBar("Main")
+        bar.setMovable(False)
+        bar.addAction("Open …", self.choose_file)
+        bar.addSeparator()
+        bar.addWidget(QtWidgets.QLabel(" Source vertex "))
+        self._source_box = QtWidgets.QSpinBox()
+        self._source_box.setKeyboardTracking(False)
+        self._source_box.setRange(0, 0)
+        self._source_box.setMinimumWidth(100)
+        self._source_box.setToolTip("Type a vertex id and press Enter")
+        self._source_box.valueChanged.connect(self._choose_source)
+        bar.addWidget(self._source_box)
+        bar.addSeparator()
+        bar.addWidget(QtWidgets.QLabel(" Isolines "))
+        self._isolines_box = QtWidgets.QSpinBox()
+        self._isolines_box.setRange(0, 200)
+        self._isolines_box.setValue(self.session.state.isolines)
+        self._isolines_box.setToolTip("Equal steps from 0 to each panel's maximum; 0 for no lines")
+        self._isolines_box.valueChanged.connect(self._choose_isolines)
+        bar.addWidget(self._isolines_box)
+        bar.addSeparator()
+        bar.addAction("Reset view", self.reset_view)
+        bar.addAction("Screenshot …", self.choose_screenshot)
+
+    def _fill_menus(self) -> None:
+        file = self.menuBar().addMenu("&File")
+        _action(file, "&Open …", self.choose_file, QtGui.QKeySequence.StandardKey.Open)
+        _action(file, "&Screenshot …", self.choose_screenshot, "Ctrl+P")
+        file.addSeparator()
+        _action(file, "&Quit", self.close, QtGui.QKeySequence.StandardKey.Quit)
+        view = self.menuBar().addMenu("&View")
+        _action(view, "&Reset", self.reset_view, "R")
+        for key, name in enumerate(("front", "back", "left", "right", "top", "bottom"), 1):
+            _action(view, f"&{name.capitalize()}", lambda *_, name=name: self.reset_view(name), str(key))
+        go = self.menuBar().addMenu("&Source")
+        _action(go, "&Type a vertex id", lambda *_: (self._source_box.setFocus(), self._source_box.selectAll()), "G")
+        _action(go, "&Cancel what is being computed", self.session.cancel, "Esc")
+        about = self.menuBar().addMenu("&Help")
+        _action(about, "&Mouse and keys", self._show_help, "F1")
+
+    def _fill_status_bar(self) -> None:
+        bar = self.statusBar()
+        self._pointer = QtWidgets.QLabel("")
+        self._message = QtWidgets.QLabel("")
+        self._doing = QtWidgets.QLabel("")
+        self._progress = QtWidgets.QProgressBar(maximum=1000, textVisible=False)
+        self._progress.setFixedWidth(180)
+        self._cancel = QtWidgets.QPushButton("Cancel")
+        self._cancel.clicked.connect(lambda: self.session.cancel())
+        bar.addWidget(self._message, 1)
+        bar.addWidget(self._pointer)
+        for widget in (self._doing, self._progress, self._cancel):
+            bar.addPermanentWidget(widget)
+        self._progress.hide()
+        self._cancel.hide()
+
+    def _say(self, text: str) -> None:
+        self._message.setText(text)
+
+    def _show_help(self) -> None:
+        QtWidgets.QMessageBox.information(self, "Mouse and keys", HELP)
+
+
+HELP = """\
+Click a point: distances are measured from the nearest vertex.
+Drag: rotate all panels.  Shift-drag or middle button: move.  Wheel: zoom.
+Point at the surface: its value in every panel.
+
+Ctrl+O  open a mesh (or drop it on the window)
+G  type the source's vertex id
+R  reset the view      1 … 6  front, back, left, right, top, bottom
+Ctrl+P  save a picture of the window
+Esc  cancel what is being computed"""
+
+
+def _prepare(surface):
+    """What the panels need of a surface, made in the background."""
+    from ..picking import Picker
+    from ..scene import drawable
+
+    mesh = drawable(surface)
+    return mesh, Picker(surface, mesh)
+
+
+def _summary(surface) -> str:
+    words = [f"{len(surface.vertices):,} vertices", f"{len(surface.faces):,} faces"]
+    if surface.component_count > 1:
+        words.append(f"{surface.component_count} components (grey: not connected to the source)")
+    if surface.unreferenced_count:
+        words.append(f"{surface.unreferenced_count:,} vertices without a face")
+    return "  ·  ".join([*words, *surface.repairs])
+
+
+def _action(menu: QtWidgets.QMenu, text: str, slot: Callable, key: object) -> None:
+    action = menu.addAction(text)
+    action.setShortcut(QtGui.QKeySequence(key))
+    action.triggered.connect(lambda *_: slot())

@@ -1,0 +1,56 @@
+"""Start Qt, show the window, open a mesh."""
+
+import os
+import sys
+import traceback
+
+os.environ.setdefault("QT_API", "pyqt5")  # qtpy would otherwise take whichever binding it finds first
+
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core import BihdistError
+
+from ..state import ViewerState
+from .main_window import MainWindow
+
+
+def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: str | None) -> int:
+    """Run the window until it is closed; with `screenshot`, until its picture is saved.  Returns the exit status."""
+    _check_screen()
+    QtWidgets.QApplication.setHighDpiScaleFactorRoundingPolicy(QtCore.Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)
+    application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(sys.argv[:1])
+    # PyQt5 ends the process on an exception in a slot unless there is a hook.
+    sys.excepthook = lambda *error: traceback.print_exception(*error)
+    window = MainWindow(state)
+    failures: list[str] = []
+    if screenshot:
+        window.quiet = True
+
+        def refuse(message: str) -> None:
+            failures.append(message)
+            window.close()
+
+        def save() -> None:
+            try:
+                window.save_screenshot(screenshot)
+            except BihdistError as error:
+                failures.append(str(error))
+            window.close()
+
+        window.refused.connect(refuse)
+        window.complete.connect(save)
+    window.show()
+    window.open(path, source)
+    QtCore.QTimer.singleShot(0, window.build_panels)
+    application.exec()
+    for message in failures:
+        print(f"bihdist: {message}", file=sys.stderr)
+    return 2 if failures else 0
+
+
+def _check_screen() -> None:
+    """BihdistError where there is no display: Qt would end the process."""
+    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise BihdistError(
+            "The viewer needs a display and there is none (DISPLAY is not set); `bihdist figure` draws without one."
+        )

@@ -1,0 +1,249 @@
+"""The session: what is open, what is asked, and the answers as they come.  Knows no Qt and draws nothing.
+
+Intents (`open`, `select_source`, `set_panel`, ...) are called on one thread, the window's.  Each panel has a lane of
+its own, so that a click is answered at once by the panels that are ready while another still computes.  Answers come
+back through `post`, which runs a function on the window's thread; an answer to a question no longer asked is dropped.
+"""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from bihdist_core import BihdistError, Distance, Laplacian, Surface, read_surface
+from bihdist_core.progress import Progress, part
+from bihdist_core.spectral import SpectralDistance
+
+from .lane import Lane
+from .state import PanelState, ViewerState
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """One panel's field (n,) from `source`, with NaN where undefined; `preview` if a better one is on its way."""
+
+    panel: PanelState
+    source: int
+    field: np.ndarray
+    label: str
+    preview: bool = False
+
+    @property
+    def maximum(self) -> float:
+        return float(np.nanmax(self.field))
+
+
+@dataclass(frozen=True, eq=False)
+class _Question:
+    """All that a lane needs to answer: nothing is read from the session while it works."""
+
+    laplacian: Laplacian
+    panel: PanelState
+    source: int | None
+
+
+class _Distances:
+    """The distance objects a panel has used on the mesh that is open."""
+
+    def __init__(self) -> None:
+        self._laplacian: Laplacian | None = None
+        self._known: dict[PanelState, Distance] = {}
+
+    def get(self, laplacian: Laplacian, panel: PanelState, progress: Progress) -> Distance:
+        if laplacian is not self._laplacian:
+            self._laplacian, self._known = laplacian, {}
+        if panel not in self._known:
+            distance = panel.build(laplacian, progress)
+            if isinstance(distance, SpectralDistance):
+                # A slider would leave one at every step; the eigenpairs themselves stay with the Laplacian.
+                self._known = {p: d for p, d in self._known.items() if p.distance != panel.distance}
+            self._known[panel] = distance
+        return self._known[panel]
+
+
+class View(Protocol):
+    """What the session tells whoever shows it."""
+
+    def mesh_changed(self) -> None: ...
+    def source_changed(self) -> None: ...
+    def answer_changed(self, index: int) -> None: ...
+    def progress_changed(self) -> None: ...
+    def failed(self, message: str) -> None: ...
+
+
+class Session:
+    """See the module.
+
+    `post(function)` must run the function on the thread of the view, in order.  `prepare(surface)` runs in the
+    background when a mesh is loaded, for what the view needs of it; its result is then in `prepared`.
+    """
+
+    def __init__(
+        self,
+        view: View,
+        post: Callable[[Callable[[], None]], None],
+        state: ViewerState | None = None,
+        prepare: Callable[[Surface], Any] = lambda surface: None,
+    ) -> None:
+        self.view = view
+        self.prepared: Any = None
+        self.state = state or ViewerState()
+        self.surface: Surface | None = None
+        self.laplacian: Laplacian | None = None
+        self.path: str | None = None
+        self.answers: list[Answer | None] = [None for _ in self.state.panels]
+        self.progress: dict[str, tuple[float, str]] = {}
+        self._post = post
+        self._prepare = prepare
+        self._source_after_opening: int | None = None
+        self._loader: Lane[str] = Lane("load", self._load, self._reporter("load"), self._loading_failed)
+        self._lanes: list[Lane[_Question]] = [
+            Lane(f"panel {i}", self._answerer(i), self._reporter(f"panel {i}"), self._answering_failed)
+            for i in range(len(self.state.panels))
+        ]
+
+    # ------------------------------------------------------------------ intents
+    def open(self, path: str, source: int | None = None) -> None:
+        """Load a mesh in the background; what is open stays until the new one has been read."""
+        self._source_after_opening = source
+        self._loader.submit(os.fspath(path))
+
+    def select_source(self, vertex: int) -> None:
+        """Ask every panel for the distances from a vertex; VertexError if there is none."""
+        if self.surface is None:
+            return
+        self.state = replace(self.state, source=self.surface.check_vertex(vertex))
+        self.view.source_changed()
+        self._ask_all()
+
+    def set_panel(self, index: int, panel: PanelState) -> None:
+        """Show another distance, or the same with other parameters."""
+        if panel != self.state.panels[index]:
+            self.state = self.state.with_panel(index, panel)
+            self._ask(index)
+
+    def set_isolines(self, count: int) -> None:
+        self.state = replace(self.state, isolines=count)
+
+    def cancel(self) -> None:
+        """Stop everything that is going on; the next click or change asks again."""
+        for lane in (self._loader, *self._lanes):
+            lane.submit(None)
+
+    def close(self) -> None:
+        for lane in (self._loader, *self._lanes):
+            lane.close()
+
+    # ------------------------------------------------------------------ what is known
+    @property
+    def is_complete(self) -> bool:
+        """Whether every panel shows the final answer to the present question."""
+        return self.surface is not None and all(
+            answer is not None and not answer.preview and (answer.panel, answer.source) == (panel, self.state.source)
+            for answer, panel in zip(self.answers, self.state.panels, strict=True)
+        )
+
+    # ------------------------------------------------------------------ loading
+    def _load(self, path: str, lane: Lane[str]) -> None:
+        report = lane.progress(lambda latest: latest is path)
+        report(0, f"reading {os.path.basename(path)}")
+        surface = read_surface(path)
+        laplacian = Laplacian(surface, self.state.areas)
+        report(0.5, f"assembling {surface.name}")
+        source = self._source_after_opening
+        if source is None:
+            source = first_source(surface)
+        source = surface.check_vertex(source)
+        prepared = self._prepare(surface)
+        report(1, "")
+        self._post(lambda: self._loaded(path, laplacian, source, prepared))
+
+    def _loaded(self, path: str, laplacian: Laplacian, source: int, prepared: Any) -> None:
+        self.prepared = prepared
+        self.path, self.laplacian, self.surface = path, laplacian, laplacian.surface
+        self.answers = [None for _ in self.state.panels]
+        self.state = replace(self.state, source=source)
+        self.view.mesh_changed()
+        self.view.source_changed()
+        self._ask_all()
+
+    def _loading_failed(self, path: str, error: Exception) -> None:
+        self._post(lambda: self.view.failed(_message(error)))
+
+    # ------------------------------------------------------------------ answering
+    def _ask_all(self) -> None:
+        for index in range(len(self._lanes)):
+            self._ask(index)
+
+    def _ask(self, index: int) -> None:
+        if self.laplacian is not None:
+            self._lanes[index].submit(_Question(self.laplacian, self.state.panels[index], self.state.source))
+
+    def _answerer(self, index: int) -> Callable[[_Question, Lane[_Question]], None]:
+        distances = _Distances()
+
+        def answer(question: _Question, lane: Lane[_Question]) -> None:
+            preparing = lane.progress(
+                lambda latest: latest.laplacian is question.laplacian and latest.panel == question.panel
+            )
+            asking = lane.progress(lambda latest: latest is question)
+            distance = distances.get(question.laplacian, question.panel, part(preparing, 0, 0.9))
+            # The source may have moved while the distance was made ready: then the next question has it.
+            asking(0.9, distance.label)
+            if distance.label == "geodesic, exact":
+                heat = distances.get(question.laplacian, replace(question.panel, method="heat"), preparing)
+                self._deliver(index, question, heat, asking, preview=True)
+            self._deliver(index, question, distance, asking)
+
+        return answer
+
+    def _deliver(
+        self, index: int, question: _Question, distance: Distance, progress: Progress, preview: bool = False
+    ) -> None:
+        field = distance.from_source(question.source, progress=progress)
+        field.flags.writeable = False
+        answer = Answer(question.panel, question.source, field, distance.label, preview)
+        self._post(lambda: self._answered(index, question, answer))
+
+    def _answered(self, index: int, question: _Question, answer: Answer) -> None:
+        asked = (self.laplacian, self.state.panels[index], self.state.source)
+        if asked == (question.laplacian, answer.panel, answer.source):
+            self.answers[index] = answer
+            self.view.answer_changed(index)
+
+    def _answering_failed(self, question: _Question, error: Exception) -> None:
+        def tell() -> None:
+            if question.laplacian is self.laplacian:
+                self.view.failed(_message(error))
+
+        self._post(tell)
+
+    # ------------------------------------------------------------------ progress
+    def _reporter(self, name: str) -> Callable[[float | None, str], None]:
+        def report(fraction: float | None, text: str) -> None:
+            def note() -> None:
+                if fraction is None:
+                    self.progress.pop(name, None)
+                else:
+                    self.progress[name] = (fraction, text)
+                self.view.progress_changed()
+
+            self._post(note)
+
+        return report
+
+
+def first_source(surface: Surface) -> int:
+    """Where to start: the highest vertex (along y) of the largest component."""
+    ids = np.flatnonzero(surface.component_of_vertex == 0)
+    return int(ids[surface.vertices[ids, 1].argmax()])
+
+
+def _message(error: Exception) -> str:
+    if isinstance(error, BihdistError):
+        return str(error)
+    if isinstance(error, MemoryError):
+        return "There is not enough memory for this mesh."
+    return f"Something went wrong that should not have: {type(error).__name__}: {error}"
