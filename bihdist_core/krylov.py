@@ -144,6 +144,11 @@ class _Space:
         self.h[:] = 0
         self.h[:keep, :keep] = np.diag(mu)
         self.couple, self.size = self.couple @ y, keep
+        short = keep + 2 * self.block.shape[1] - room
+        if short > 0:
+            # Only after several injections into a space at its limit of memory.
+            self.basis = np.asfortranarray(np.pad(self.basis, ((0, 0), (0, short))))
+            self.h = np.pad(self.h, (0, short))
         return True
 
     def _orthonormal(self, w: np.ndarray, smallest: float = 0.0) -> tuple[np.ndarray, np.ndarray]:

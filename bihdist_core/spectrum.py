@@ -50,7 +50,7 @@ def smallest_eigenpairs(
     solve: Solve,
     count: int,
     *,
-    tolerance: float = 1e-8,
+    tolerance: float = 1e-6,
     start: Spectrum | None = None,
     progress: Progress | None = None,
 ) -> Spectrum:
@@ -68,6 +68,8 @@ def smallest_eigenpairs(
     known = np.empty(0), np.empty((len(areas), 0))
     if start is not None and _accepted(start, stiffness, areas, tolerance):
         known = 1 / start.eigenvalues, start.eigenvectors
+        if len(start.eigenvalues) >= count:
+            return Spectrum(start.eigenvalues[:count], start.eigenvectors[:, :count], start.residuals[:count])
 
     def apply(x: np.ndarray) -> np.ndarray:
         return _centred(solve(areas[:, None] * x), areas)

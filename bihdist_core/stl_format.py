@@ -39,7 +39,6 @@ def read_stl(raw: bytes, name: str) -> Polygons:
 
 def merged(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(n, 3) the different points in order of first appearance, and (k,) where each of the (k, 3) points is there."""
-    points = points + 0.0  # -0.0 and 0.0 are one place
     order = np.lexsort(points.T)
     new = np.append(True, (points[order][1:] != points[order][:-1]).any(axis=1))[: len(points)]
     first = order[new]

@@ -41,6 +41,8 @@ def test_ply_polygons_of_different_size_and_other_properties(put, form, with_col
     surface = read_surface(put("a.ply", ply(form, QUAD_AND_TRIANGLE, with_colour=with_colour)))
     assert_same(surface)
     assert surface.repairs == ("1 polygon split into 2 triangles",)
+    smaller_first = read_surface(put("b.ply", ply(form, QUAD_AND_TRIANGLE[::-1], with_colour=with_colour)))
+    assert_same(smaller_first, faces=FACES[[2, 0, 1]])
 
 
 @pytest.mark.parametrize("mode", ["ascii", "binary"])

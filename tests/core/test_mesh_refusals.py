@@ -173,7 +173,11 @@ REFUSED = {
     ),
     "STL coordinates": ("a.stl", stl_text().replace(" 0.25", "", 1), "line 6: the vertex has 2 coordinates, not 3"),
     "STL nan": ("a.stl", stl_text().replace("0.25", "nan"), "triangle 0 has a corner at (1, 1, nan)"),
-    "STL signal": ("a.stl", stl_binary()[:96] + b"\1\0\x80\x7f" + stl_binary()[100:], "triangle 0 has a corner at (nan"),
+    "STL signal": (
+        "a.stl",
+        stl_binary()[:96] + b"\1\0\x80\x7f" + stl_binary()[100:],
+        "triangle 0 has a corner at (nan",
+    ),
     "STL no faces": ("a.stl", stl_binary(faces=FACES[:0]), "but no faces"),
     "VTK dataset": ("a.vtk", vtk_old().replace(b"POLYDATA", b"STRUCTURED_POINTS"), "only DATASET POLYDATA"),
     "VTK points": (

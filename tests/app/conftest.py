@@ -1,0 +1,81 @@
+"""A view without pictures, and a loop that runs what the session posts."""
+
+import queue
+import time
+
+import pytest
+
+from app.session import Session
+
+
+class RecordingView:
+    """Keeps what it is told."""
+
+    def __init__(self):
+        self.told = []
+
+    def mesh_changed(self):
+        self.told.append("mesh")
+
+    def source_changed(self):
+        self.told.append("source")
+
+    def answer_changed(self, index):
+        self.told.append(f"answer {index}")
+
+    def progress_changed(self):
+        pass
+
+    def failed(self, message):
+        self.told.append(message)
+
+
+class Desk:
+    """A session with its view; `until` runs posted functions on this thread, as a window's event loop would."""
+
+    def __init__(self, state=None, prepare=lambda surface: None):
+        self.view = RecordingView()
+        self.posted = queue.Queue()
+        self.session = Session(self.view, self.posted.put, state, prepare)
+
+    def until(self, condition, seconds=30):
+        end = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < end, f"waited in vain; told: {self.view.told}"
+            try:
+                self.posted.get(timeout=0.05)()
+            except queue.Empty:
+                continue
+
+    def opened(self, path, source=None):
+        self.session.open(path, source)
+        self.until(lambda: self.session.is_complete)
+        return self.session
+
+
+@pytest.fixture
+def desk():
+    desks = []
+
+    def make(*arguments, **options):
+        desks.append(Desk(*arguments, **options))
+        return desks[-1]
+
+    yield make
+    for each in desks:
+        each.session.close()
+
+
+@pytest.fixture
+def mesh_file(tmp_path):
+    """Writes a surface as an OFF file and gives its path."""
+
+    def write(surface, name="mesh.off"):
+        rows = ["OFF", f"{len(surface.vertices)} {len(surface.faces)} 0"]
+        rows += [" ".join(map(repr, map(float, v))) for v in surface.vertices]
+        rows += [" ".join(map(str, [3, *f])) for f in surface.faces]
+        path = tmp_path / name
+        path.write_text("\n".join(rows) + "\n")
+        return str(path)
+
+    return write

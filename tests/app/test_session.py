@@ -1,0 +1,243 @@
+"""The session without a window: what is asked is answered, what is old is dropped, what fails leaves things alone."""
+
+import threading
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from app.state import COMPARISON, PanelState, ViewerState
+from bihdist_core import BiharmonicDistance, Cancelled, Laplacian, ParameterError, VertexError
+from tests.shapes import bumpy, grid, two_pieces
+
+
+def test_opening_a_mesh_answers_every_panel(desk, mesh_file):
+    surface = bumpy(200)
+    session = desk().opened(mesh_file(surface), source=7)
+    assert [answer.label for answer in session.answers] == ["biharmonic, exact", "geodesic, exact", "diffusion, t = 1"]
+    expected = BiharmonicDistance(surface).from_source(7)
+    assert np.allclose(session.answers[0].field, expected, rtol=1e-9)
+    assert all(answer.source == 7 and answer.field[7] == 0 for answer in session.answers)
+
+
+def test_the_first_source_is_the_highest_vertex_of_the_largest_component(desk, mesh_file):
+    surface = two_pieces()
+    session = desk().opened(mesh_file(surface))
+    assert session.state.source == surface.vertices[:60, 1].argmax()
+
+
+def test_a_click_asks_every_panel_anew(desk, mesh_file):
+    d = desk()
+    session = d.opened(mesh_file(bumpy(200)))
+    session.select_source(3)
+    assert not session.is_complete
+    d.until(lambda: session.is_complete)
+    assert [answer.source for answer in session.answers] == [3, 3, 3]
+    # The heat method's answer comes before the exact one.
+    assert d.view.told.count("answer 1") == 4
+
+
+def test_a_bad_vertex_changes_nothing(desk, mesh_file):
+    d = desk()
+    session = d.opened(mesh_file(two_pieces()), source=3)
+    for vertex in (60, 1000, -1):
+        with pytest.raises(VertexError):
+            session.select_source(vertex)
+    assert session.state.source == 3
+    assert session.is_complete
+
+
+def test_a_file_that_cannot_be_read_leaves_the_session_as_it_was(desk, mesh_file, tmp_path):
+    d = desk()
+    session = d.opened(mesh_file(bumpy(200)), source=3)
+    before = (session.surface, session.state, session.path, list(session.answers))
+    bad = tmp_path / "bad.off"
+    bad.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
+    session.open(str(bad))
+    d.until(lambda: "bad.off" in d.view.told[-1])
+    assert (session.surface, session.state, session.path, session.answers) == before
+    session.open(mesh_file(grid(3, 3), "other.off"), source=99)
+    d.until(lambda: "has no vertex 99" in d.view.told[-1])
+    assert session.surface is before[0]
+
+
+def test_another_mesh_replaces_the_first(desk, mesh_file):
+    d = desk()
+    session = d.opened(mesh_file(bumpy(200)))
+    session.open(mesh_file(grid(5, 5), "grid.off"), source=0)
+    d.until(lambda: session.surface.name == "grid.off" and session.is_complete)
+    assert all(len(answer.field) == 36 for answer in session.answers)
+
+
+def test_a_panel_can_show_another_distance(desk, mesh_file):
+    d = desk()
+    session = d.opened(mesh_file(bumpy(200)))
+    first = session.answers[0]
+    session.set_panel(2, PanelState("diffusion", t=0.25))
+    session.set_panel(1, PanelState("geodesic", method="dijkstra"))
+    d.until(lambda: session.is_complete)
+    assert session.answers[0] is first
+    assert session.answers[1].label == "geodesic, Dijkstra along edges"
+    assert session.answers[2].label == "diffusion, t = 0.25"
+
+
+def test_what_a_panel_cannot_show_is_told(desk, mesh_file):
+    d = desk(ViewerState(panels=(PanelState("geodesic", method="exact"),)))
+    d.session.open(mesh_file(replace_last_face(grid(3, 3))))
+    d.until(lambda: any("manifold" in told for told in d.view.told))
+
+
+def replace_last_face(surface):
+    """Not manifold: a third face on the edge of the first."""
+    from bihdist_core import Surface
+
+    a, b, _ = surface.faces[0]
+    vertices = np.concatenate([surface.vertices, [[0.5, 0, 1], [0.5, 0.2, -1]]])
+    n = len(surface.vertices)
+    return Surface(vertices, np.concatenate([surface.faces, [[a, b, n], [a, b, n + 1]]]))
+
+
+# ---------------------------------------------------------------------- distances that take their time
+class Slow:
+    """Makes panels whose distance is built step by step, as the test allows."""
+
+    def __init__(self):
+        self.allowed = threading.Semaphore(0)
+        self.started = threading.Semaphore(0)
+        self.built = self.cancelled = 0
+
+    def panel(self, name="biharmonic"):
+        return SlowPanel(name, slow=self)
+
+    def build(self, laplacian, progress):
+        self.started.release()
+        try:
+            while not self.allowed.acquire(timeout=0.01):
+                progress(0.5, "slowly")
+        except Cancelled:
+            self.cancelled += 1
+            raise
+        self.built += 1
+        return BiharmonicDistance(laplacian)
+
+
+@dataclass(frozen=True)
+class SlowPanel(PanelState):
+    slow: Slow = None
+
+    def build(self, laplacian, progress=None):
+        return self.slow.build(laplacian, progress)
+
+
+@pytest.fixture
+def slow_desk(desk, mesh_file):
+    """A session whose middle panel is slow, open and with its quick panels answered."""
+    slow = Slow()
+    d = desk(ViewerState(panels=(PanelState("biharmonic"), slow.panel(), PanelState("commute-time"))))
+    d.session.open(mesh_file(bumpy(200)), 0)
+    d.until(lambda: slow.started.acquire(blocking=False))
+    d.until(lambda: d.session.answers[0] and d.session.answers[2])
+    return d, slow
+
+
+def test_quick_panels_do_not_wait_for_a_slow_one(slow_desk):
+    d, _ = slow_desk
+    d.session.select_source(9)
+    d.until(lambda: d.session.answers[0].source == 9 and d.session.answers[2].source == 9)
+    assert d.session.answers[1] is None
+
+
+def test_a_click_while_a_panel_computes_is_kept_and_the_old_one_dropped(slow_desk):
+    d, slow = slow_desk
+    for vertex in (4, 5, 6):
+        d.session.select_source(vertex)
+    slow.allowed.release()
+    d.until(lambda: d.session.is_complete)
+    assert d.session.answers[1].source == 6
+    assert d.view.told.count("answer 1") == 1
+    assert slow.built == 1  # the work in progress served the last click
+
+
+def test_choosing_another_distance_stops_the_work_for_the_old_one(slow_desk):
+    d, slow = slow_desk
+    d.session.set_panel(1, PanelState("commute-time"))
+    d.until(lambda: d.session.is_complete)
+    assert slow.cancelled == 1
+    assert slow.built == 0
+
+
+def test_progress_is_told_and_cancel_stops_within_a_second(slow_desk):
+    d, slow = slow_desk
+    d.until(lambda: d.session.progress.get("panel 1") == (0.45, "slowly"))
+    begun = time.monotonic()
+    d.session.cancel()
+    d.until(lambda: not d.session.progress)
+    assert time.monotonic() - begun < 1
+    assert slow.cancelled == 1
+    # The next click asks again.
+    d.session.select_source(8)
+    slow.allowed.release()
+    d.until(lambda: d.session.is_complete)
+
+
+def test_opening_another_mesh_stops_the_work_on_the_old_one(slow_desk, mesh_file):
+    d, slow = slow_desk
+    d.session.open(mesh_file(grid(4, 4), "grid.off"))
+    d.until(lambda: slow.cancelled == 1)
+    slow.allowed.release()
+    d.until(lambda: d.session.is_complete)
+    assert len(d.session.answers[1].field) == 25
+
+
+def test_closing_stops_everything(slow_desk):
+    d, slow = slow_desk
+    begun = time.monotonic()
+    d.session.close()
+    assert time.monotonic() - begun < 2
+    assert slow.cancelled == 1
+    assert not [t for t in threading.enumerate() if t.name.startswith("panel") and t.is_alive()]
+
+
+def test_an_answer_that_comes_late_is_dropped(desk, mesh_file):
+    d = desk(ViewerState(panels=(PanelState("biharmonic"),)))
+    session = d.opened(mesh_file(bumpy(200)), source=1)
+    session.select_source(2)
+    late = d.posted
+    time.sleep(0.5)  # the answer for 2 is posted, but not run
+    session.select_source(3)
+    d.until(lambda: session.is_complete)
+    assert session.answers[0].source == 3
+    assert d.view.told.count("answer 0") == 2  # for 1 and 3
+    assert late is d.posted
+
+
+def test_an_error_nobody_foresaw_is_told(desk, mesh_file, monkeypatch):
+    def broken(*_, **__):
+        raise ZeroDivisionError("division by zero")
+
+    monkeypatch.setattr(PanelState, "build", broken)
+    d = desk(ViewerState(panels=(PanelState("biharmonic"),)))
+    d.session.open(mesh_file(bumpy(200)))
+    d.until(lambda: any("ZeroDivisionError" in told for told in d.view.told))
+
+
+# ---------------------------------------------------------------------- state
+def test_unknown_distances_are_refused():
+    with pytest.raises(ParameterError, match="no distance 'euclidean'; choose one of biharmonic"):
+        PanelState("euclidean")
+
+
+def test_state_is_replaced_not_changed():
+    state = ViewerState()
+    other = state.with_panel(1, PanelState("commute-time"))
+    assert state.panels == COMPARISON
+    assert [panel.distance for panel in other.panels] == ["biharmonic", "commute-time", "diffusion"]
+    assert replace(other, source=3).panels is other.panels
+
+
+@pytest.mark.parametrize("word", ["biharmonic", "truncated", "power", "commute-time", "diffusion", "geodesic"])
+def test_every_word_builds_its_distance_and_has_a_hint(word):
+    panel = PanelState(word, k=20)
+    assert panel.build(Laplacian(bumpy(100))).from_source(0)[0] == 0
+    assert panel.hint
