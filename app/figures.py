@@ -25,6 +25,7 @@ class FigurePanel:
     field: np.ndarray
     heading: str
     hint: str = ""
+    unit: str = ""
 
 
 def draw_comparison(
@@ -44,6 +45,9 @@ def draw_comparison(
     Raises BihdistError where nothing can be drawn off screen.
     """
     check_offscreen()
+    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+        # VTK would otherwise try an X server first, and complain that there is none.
+        os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
     import pyvista
 
     width, height = (round(side * scale) for side in panel_size)
@@ -59,7 +63,7 @@ def draw_comparison(
         for renderer, panel in zip(plotter.renderers, panels, strict=True):
             scene = PanelScene(renderer, style, scale)
             scene.show_surface(mesh)
-            scene.show_field(panel.field)
+            scene.show_field(panel.field, panel.unit)
             scene.show_isolines(isolines)
             scene.mark_source(surface.vertices[source])
             scene.write_heading(panel.heading, panel.hint)

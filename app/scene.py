@@ -75,10 +75,15 @@ class PanelScene:
         self._pointer = _mark(renderer, style.pointer, 0.7 * style.marker_size * scale)
         self._bar = _colour_bar(self._table, style, scale)
         self._bar.VisibilityOff()
+        self._unit = _text(style.quiet_text, 12 * scale)
+        self._unit.GetTextProperty().SetVerticalJustificationToBottom()
+        place = self._unit.GetPositionCoordinate()
+        place.SetCoordinateSystemToNormalizedViewport()
+        place.SetValue(0.5, 0.008)
         self.heading = _text(style.text, 17 * scale, bold=True)
         self.hint = _text(style.quiet_text, 13 * scale)
         renderer.SetBackground(*style.background)
-        for actor in (self._actor, self._bar, self.heading, self.hint):
+        for actor in (self._actor, self._bar, self._unit, self.heading, self.hint):
             renderer.AddActor(actor)
         _light(renderer)
 
@@ -97,10 +102,11 @@ class PanelScene:
         )
         self._actor.VisibilityOn()
         self._bar.VisibilityOff()
+        self._unit.SetInput("")
         self.mark_source(None)
         self.mark_pointer(None)
 
-    def show_field(self, field: np.ndarray, maximum: float | None = None) -> None:
+    def show_field(self, field: np.ndarray, unit: str = "", maximum: float | None = None) -> None:
         """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey."""
         top = float(np.nanmax(field)) if maximum is None else maximum
         self._values[:] = np.where(np.isnan(field), UNDEFINED, field / top if top > 0 else 0)
@@ -108,6 +114,7 @@ class PanelScene:
         self._range = (0.0, top)
         self._bar.VisibilityOn()
         self._label_bar()
+        self._unit.SetInput(unit)
 
     def show_isolines(self, count: int) -> None:
         """So many equal steps from 0 to the maximum; 0 for no lines."""
@@ -146,7 +153,7 @@ class PanelScene:
         actor.SetMapper(mapper)
         surface = actor.GetProperty()
         surface.SetInterpolationToGouraud()
-        surface.SetAmbient(0.22)
+        surface.SetAmbient(0.26)
         surface.SetDiffuse(0.80)
         surface.SetSpecular(0.06)
         surface.SetSpecularPower(20)
@@ -217,7 +224,7 @@ def _colour_bar(table: vtkLookupTable, style: Style, scale: float) -> vtkScalarB
     bar.SetMaximumNumberOfColors(256)
     bar.UnconstrainedFontSizeOn()
     bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    bar.SetPosition(0.2, 0.02)
+    bar.SetPosition(0.2, 0.04)
     bar.SetWidth(0.6)
     bar.SetHeight(0.075)
     bar.SetBarRatio(0.3)
@@ -247,7 +254,7 @@ def _light(renderer: vtkRenderer) -> None:
     """A key light from the upper left of the camera and a weak fill, so that form reads without dark sides."""
     renderer.RemoveAllLights()
     renderer.AutomaticLightCreationOff()
-    for position, intensity in [((-0.5, 0.6, 1.0), 0.85), ((0.8, -0.3, 0.8), 0.28)]:
+    for position, intensity in [((-0.5, 0.6, 1.0), 0.85), ((0.8, -0.2, 0.7), 0.42)]:
         light = vtkLight()
         light.SetLightTypeToCameraLight()
         light.SetPosition(*position)

@@ -28,6 +28,7 @@ class Answer:
     source: int
     field: np.ndarray
     label: str
+    unit: str
     preview: bool = False
 
     @property
@@ -204,7 +205,7 @@ class Session:
     ) -> None:
         field = distance.from_source(question.source, progress=progress)
         field.flags.writeable = False
-        answer = Answer(question.panel, question.source, field, distance.label, preview)
+        answer = Answer(question.panel, question.source, field, distance.label, distance.unit, preview)
         self._post(lambda: self._answered(index, question, answer))
 
     def _answered(self, index: int, question: _Question, answer: Answer) -> None:

@@ -30,7 +30,7 @@ class MainWindow(QtWidgets.QMainWindow):
         super().__init__()
         self.setWindowTitle("Biharmonic distance")
         self.setAcceptDrops(True)
-        self.resize(1320, 640)
+        self.resize(1322, 660)
         self.setStyleSheet(STYLE_SHEET)
         self._posted.connect(lambda function: function())
         self.session = Session(self, self._posted.emit, state, prepare=_prepare)

@@ -32,7 +32,8 @@ class DistancePanel(QtWidgets.QWidget):
         for label in (self.title, self.hint, self.value):
             label.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
             label.setMinimumWidth(1)
-        # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets.
+        # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
+        # the picture afterwards (FXAA, below) is nearly free.
         self.interactor = QtInteractor(self, auto_update=False, multi_samples=0)
         self.interactor.setMinimumSize(160, 160)
         # VTK's own keys would close the view or turn it to wireframe.
@@ -45,6 +46,7 @@ class DistancePanel(QtWidgets.QWidget):
             layout.addWidget(widget)
         layout.addWidget(self.interactor, 1)
         layout.addWidget(self.value)
+        self.renderer.UseFXAAOn()
         self.scene = PanelScene(self.renderer, scale=self.interactor.devicePixelRatioF())
         self._picker: Picker | None = None
         self._press: QtCore.QPoint | None = None
@@ -69,7 +71,7 @@ class DistancePanel(QtWidgets.QWidget):
 
     def show_answer(self, answer: Answer) -> None:
         self.answer = answer
-        self.scene.show_field(answer.field)
+        self.scene.show_field(answer.field, answer.unit)
         self.hint.setText(answer.panel.hint)
         self.title.setText(answer.label)
         self.repaint_view()

@@ -76,7 +76,7 @@ def needle() -> Surface:
 
 
 def with_tiny_faces() -> Surface:
-    """A bumpy sphere shrunk towards one of its vertices: edges there are 10,000 times shorter than elsewhere."""
+    """A bumpy sphere shrunk towards one of its vertices: edges there are some 1,000 times shorter than elsewhere."""
     s = bumpy(SIZE)
     offset = s.vertices - s.vertices[0]
     distance = np.linalg.norm(offset, axis=1)
@@ -84,29 +84,10 @@ def with_tiny_faces() -> Surface:
     return Surface(s.vertices[0] + offset * shrink[:, None], s.faces, "tiny faces")
 
 
-def brush() -> Surface:
-    """A sphere with 45 equal long spikes: its lowest 45 eigenvalues lie close together."""
-    ball = sphere(600)
-    faces, vertices, used = [list(f) for f in ball.faces], [ball.vertices], np.zeros(600, bool)
-    rooms, k, n = 0, -1, 600
-    while rooms < 45:
-        k += 1
-        if used[ball.faces[k]].any():
-            continue
-        used[ball.faces[np.isin(ball.faces, ball.faces[k]).any(axis=1)]] = True
-        rooms += 1
-        ring, centre = list(ball.faces[k]), ball.vertices[ball.faces[k]].mean(axis=0)
-        corner = ball.vertices[ball.faces[0]] - ball.vertices[ball.faces[0]].mean(axis=0)
-        for j in range(1, 13):
-            new = [n, n + 1, n + 2]
-            n += 3
-            vertices.append(centre * (1 + 0.3 * j) + 0.3 * corner)
-            for q in range(3):
-                a, b, c, d = ring[q], ring[(q + 1) % 3], new[(q + 1) % 3], new[q]
-                faces += [[a, b, c], [a, c, d]]
-            ring = new
-        faces.append(ring)
-    return Surface(np.concatenate(vertices), np.array(faces), "brush")
+@pytest.fixture(autouse=True)
+def block_method(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The dense method would do for most of the small shapes here: it is used for a few vertices and where said."""
+    monkeypatch.setattr(spectrum, "dense_is_faster", lambda n, count: n < 100)
 
 
 # A dense reference matrix loses eps * largest / smallest eigenvalue: 1e-16 * 1e4 on the plain shapes.
@@ -151,31 +132,27 @@ def test_sphere_has_the_eigenvalues_l_times_l_plus_1() -> None:
     assert (values[3:] / values[:-3] < 1.01).sum() > 30  # clusters stay together
 
 
-@pytest.mark.parametrize("count", [8, 44, 60])
-def test_no_copy_of_a_crowd_of_eigenvalues_is_missed(count: int) -> None:
-    surface = brush()
-    values = full_spectrum(surface)[0]
-    assert values[44] / values[2] < 1.2
-    # Spikes thin enough to be slow to couple cost the dense reference digits.
-    np.testing.assert_allclose(problem(surface).pairs(count).eigenvalues, values[:count], rtol=1e-9)
-
-
-def test_exactly_equal_eigenvalues_beyond_the_width_of_a_block() -> None:
-    # A star of 60 equal arms: 59 vectors share each eigenvalue that has a node at the hub.
+@pytest.mark.parametrize("count", [8, 60, 100])
+@pytest.mark.parametrize("uneven", [0.0, 1e-9, 1e-3])
+def test_no_copy_of_a_crowd_of_equal_eigenvalues_is_missed(count: int, uneven: float) -> None:
+    # A star of 60 (nearly) equal arms: 59 vectors share each eigenvalue that has a node at the hub, many more than a
+    # block has columns.
     arms, length = 60, 10
     n = arms * length + 1
     inner = np.arange(arms * length)
     before = np.where(inner % length == 0, n - 1, inner - 1)
-    edges = sp.coo_matrix((np.ones(len(inner)), (inner, before)), shape=(n, n))
-    weights = (edges + edges.T).tocsr()
-    matrix = (sp.diags_array(weights.sum(axis=1)) - weights).tocsr()
+    weight = 1 + uneven * np.random.default_rng(0).random(arms)[inner // length]
+    half = sp.coo_matrix((weight, (inner, before)), shape=(n, n))
+    whole = (half + half.T).tocsr()
+    matrix = (sp.diags_array(np.asarray(whole.sum(axis=1)).ravel()) - whole).tocsr()
     factor = splu(matrix[:-1, :-1].tocsc())
 
     def solve(b: np.ndarray) -> np.ndarray:
         return np.concatenate([factor.solve(np.ascontiguousarray(b[:-1])), np.zeros((1, b.shape[1]))])
 
-    s = smallest_eigenpairs(matrix, np.ones(n), solve, 100)
-    np.testing.assert_allclose(s.eigenvalues, np.linalg.eigvalsh(matrix.toarray())[1:101], rtol=1e-10)
+    s = smallest_eigenpairs(matrix, np.ones(n), solve, count)
+    # Pairs that differ by 1e-9 may be mixed; a missed copy would show as an eigenvalue 9 times as large.
+    np.testing.assert_allclose(s.eigenvalues, np.linalg.eigvalsh(matrix.toarray())[1 : count + 1], rtol=2e-9)
 
 
 def test_needle() -> None:
@@ -200,7 +177,7 @@ def test_flat_square() -> None:
 def test_tiny_faces_beside_large_ones() -> None:
     surface = with_tiny_faces()
     p = problem(surface)
-    assert p.areas.max() / p.areas.min() > 1e7
+    assert p.areas.max() / p.areas.min() > 1e5
     s = p.pairs(60)
     # The dense reference loses eps * largest / smallest eigenvalue, and the largest is about 1 / smallest area.
     np.testing.assert_allclose(s.eigenvalues, full_spectrum(surface)[0][:60], rtol=1e-6)
@@ -228,13 +205,22 @@ def test_all_pairs_of_a_few_vertices(surface: Surface) -> None:
 def test_block_method_agrees_with_the_dense_one(monkeypatch: pytest.MonkeyPatch) -> None:
     p = bumpy_problem()
     block = p.pairs(30, tolerance=1e-8)
-    monkeypatch.setattr(spectrum, "SMALL", SIZE)
+    monkeypatch.setattr(spectrum, "dense_is_faster", lambda n, count: True)
     dense = p.pairs(30)
     np.testing.assert_allclose(block.eigenvalues, dense.eigenvalues, rtol=EQUAL)
     # Equal up to sign; the vectors are off by the residual over the relative gap, which is 1e-3 or more here.
     np.testing.assert_allclose(
         abs(np.diag(dense.eigenvectors.T @ (p.areas[:, None] * block.eigenvectors))), 1, atol=1e-9
     )
+
+
+@pytest.mark.parametrize(
+    ("n", "count", "dense"),
+    [(400, 1, True), (401, 1, False), (1500, 300, True), (1501, 300, False), (9000, 3000, True)],
+)
+def test_which_method(monkeypatch: pytest.MonkeyPatch, n: int, count: int, dense: bool) -> None:
+    monkeypatch.undo()
+    assert spectrum.dense_is_faster(n, count) == dense
 
 
 def test_growing_from_fewer_pairs_gives_the_same() -> None:
@@ -297,6 +283,12 @@ def test_progress_rises_to_one_and_may_cancel() -> None:
     with pytest.raises(Cancelled):
         bumpy_problem().pairs(60, progress=stop)
     assert calls == 5
+
+
+def test_block_method_that_does_not_arrive_gives_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(krylov, "PATIENCE", 0)
+    # The second method makes up for it.
+    assert bumpy_problem().pairs(10).residuals.max() < 1e-10
 
 
 def test_second_method_takes_over(monkeypatch: pytest.MonkeyPatch) -> None:

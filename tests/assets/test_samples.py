@@ -1,0 +1,158 @@
+"""The committed sample meshes are what assets/README.md says they are."""
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from scipy.spatial import cKDTree
+
+from bihdist_core import Surface, read_surface
+from tests.assets.crossings import crossing_faces
+
+ASSETS = Path(__file__).resolve().parents[2] / "assets"
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Limits of the vertex count, and the topology."""
+
+    fewest: int
+    most: int
+    genus: int = 0
+    loops: int = 0
+
+
+TABLE = {
+    "figure": Wanted(9_000, 15_000),
+    "figure_pose2": Wanted(9_000, 15_000),
+    "animal": Wanted(8_000, 12_000),
+    "hand": Wanted(6_000, 10_000, loops=1),
+    "genus3": Wanted(5_000, 8_000, genus=3),
+    "domain": Wanted(5_000, 8_000, loops=2),
+    "scan": Wanted(8_000, 12_000, loops=26),
+}
+CLOSED = ["figure", "figure_pose2", "animal", "genus3"]
+
+SMALLEST_ANGLE = 25
+LARGEST_FILE = 400_000
+
+
+@cache
+def sample(name: str) -> Surface:
+    return read_surface(ASSETS / f"{name}.ply")
+
+
+def corner_angles(surface: Surface) -> np.ndarray:
+    """(m, 3) degrees, by the law of cosines."""
+    x = surface.vertices[surface.faces]
+    a, b, c = (np.linalg.norm(x[:, (k + 1) % 3] - x[:, (k + 2) % 3], axis=1) for k in range(3))
+    sides = [(a, b, c), (b, c, a), (c, a, b)]
+    return np.degrees(np.stack([np.arccos((q**2 + r**2 - p**2) / (2 * q * r)) for p, q, r in sides], 1))
+
+
+def edge_lengths(surface: Surface) -> np.ndarray:
+    i, j = surface.edges.T
+    return np.linalg.norm(surface.vertices[i] - surface.vertices[j], axis=1)
+
+
+def volume(surface: Surface) -> float:
+    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+
+
+def test_no_sample_is_missing_or_unlisted() -> None:
+    assert {path.stem for path in ASSETS.glob("*.ply")} == set(TABLE)
+    assert {path.stem for path in (ASSETS / "thumbnails").glob("*.png")} == set(TABLE)
+
+
+@pytest.mark.parametrize("name", TABLE)
+def test_size(name: str) -> None:
+    assert TABLE[name].fewest <= len(sample(name).vertices) <= TABLE[name].most
+    assert (ASSETS / f"{name}.ply").stat().st_size < LARGEST_FILE
+    assert (ASSETS / "thumbnails" / f"{name}.png").stat().st_size < 30_000
+
+
+@pytest.mark.parametrize("name", TABLE)
+def test_topology(name: str) -> None:
+    surface = sample(name)
+    assert surface.is_manifold
+    assert surface.component_count == 1
+    assert surface.unreferenced_count == 0
+    assert not surface.repairs
+    assert surface.genus == TABLE[name].genus
+    assert surface.boundary_loop_count == TABLE[name].loops
+
+
+@pytest.mark.parametrize("name", TABLE)
+def test_triangles_are_well_shaped(name: str) -> None:
+    assert corner_angles(sample(name)).min() > SMALLEST_ANGLE
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_closed_samples_face_outwards(name: str) -> None:
+    assert volume(sample(name)) > 0
+
+
+@pytest.mark.parametrize("name", [name for name in TABLE if name != "domain"])
+def test_no_self_intersections(name: str) -> None:
+    assert len(crossing_faces(sample(name))) == 0
+
+
+def test_crossing_faces_are_found() -> None:
+    flat, upright = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], [(0.3, 0.3, -1), (0.3, 0.3, 1), (0.9, 0.4, 1)]
+    surface = Surface(np.array([*flat, *upright], float), np.arange(6).reshape(2, 3))
+    assert crossing_faces(surface).tolist() == [[0, 1]]
+
+
+def test_poses_share_triangles_and_nearly_lengths_and_volume() -> None:
+    standing, posed = sample("figure"), sample("figure_pose2")
+    assert np.array_equal(standing.faces, posed.faces)
+    change = np.abs(edge_lengths(posed) / edge_lengths(standing) - 1)
+    assert np.median(change) < 0.03
+    assert abs(volume(posed) / volume(standing) - 1) < 0.02
+    assert np.abs(posed.vertices - standing.vertices).max() > 0.5  # it is another pose
+
+
+def test_domain_is_flat_and_not_folded() -> None:
+    surface = sample("domain")
+    assert np.all(surface.vertices[:, 2] == 0)
+    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
+    assert np.cross(b - a, c - a)[:, 2].min() > 0
+
+
+def test_interior_of_the_domain_shows_no_lattice() -> None:
+    surface = sample("domain")
+    i, j = surface.edges[surface.faces_per_edge == 2].T
+    direction = surface.vertices[j] - surface.vertices[i]
+    # On a triangular lattice the sixfold mean is 1; of evenly spread directions it is 0.
+    sixfold = np.exp(6j * np.arctan2(direction[:, 1], direction[:, 0]))
+    assert abs(sixfold.mean()) < 0.25
+
+
+FINGERS = {
+    "figure": lambda x: (np.abs(x[:, 0]) > 0.50) & (x[:, 1] < 0.93),
+    "figure_pose2": lambda x: (x[:, 0] > 0.4) & (x[:, 1] > 1.55),
+    "hand": lambda x: x[:, 1] > 0.4,
+}
+
+
+@pytest.mark.parametrize("name", FINGERS)
+def test_fingers_are_more_than_two_edges_apart(name: str) -> None:
+    """What is within two edges in space is near along the surface too: it is not on another finger."""
+    surface = sample(name)
+    region = np.flatnonzero(FINGERS[name](surface.vertices))
+    assert len(region) > 500
+    n = len(surface.vertices)
+    i, j = surface.edges.T
+    steps = sp.coo_matrix((np.ones(2 * len(i)), (np.r_[i, j], np.r_[j, i])), (n, n)).tocsr() + sp.eye_array(n)
+    steps = steps.tocsr()[region][:, region]
+    near = steps @ steps
+    near = near @ near @ steps
+    inside = np.isin(surface.edges, region).all(axis=1)
+    two_edges = 2 * edge_lengths(surface)[inside].mean()
+    pairs = cKDTree(surface.vertices[region]).query_pairs(two_edges, output_type="ndarray")
+    joined = np.asarray(near[pairs[:, 0], pairs[:, 1]]).ravel() > 0
+    assert joined.all(), f"{(~joined).sum()} pairs, one at {surface.vertices[region[pairs[~joined][0, 0]]]}"

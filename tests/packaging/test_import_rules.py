@@ -1,0 +1,53 @@
+"""Who may import whom: the contracts in pyproject.toml, and what really is loaded in a fresh interpreter."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+QT = {"qtpy", "PyQt5", "PyQt6", "PySide2", "PySide6", "pyvistaqt"}
+DRAWING = {"pyvista", "vtk", "vtkmodules", "matplotlib", "PIL"}
+
+
+def run(code: str, **options) -> subprocess.CompletedProcess:
+    """The code in a fresh interpreter, in the checkout."""
+    return subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options
+    )
+
+
+def loaded(*modules: str) -> set[str]:
+    """Names of all modules in a fresh interpreter that has imported these."""
+    said = run(f"import sys, {', '.join(modules)}; print(*sys.modules)", check=True)
+    return set(said.stdout.split())
+
+
+def test_contracts_are_kept():
+    said = run("from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))")
+    assert said.returncode == 0, said.stdout
+    assert "0 broken" in said.stdout
+
+
+def test_the_core_loads_nothing_that_draws():
+    assert not loaded("bihdist_core") & (DRAWING | QT | {"app"})
+
+
+def test_the_core_loads_no_part_of_scipy_it_rarely_needs():
+    heavy = {f"scipy.{part}" for part in ("stats", "signal", "optimize", "interpolate", "integrate", "ndimage")}
+    assert not loaded("bihdist_core") & (heavy | {"pygeodesic", "multiprocessing"})
+
+
+def test_the_session_loads_nothing_that_draws():
+    assert not loaded("app.session", "app.state", "app.lane") & (DRAWING | QT)
+
+
+def test_figures_load_no_qt():
+    assert not loaded("app.figures", "app.scene", "app.camera", "app.picking") & QT
+
+
+@pytest.mark.parametrize("module", ["app.main", "app.samples"])
+def test_the_command_line_answers_before_numpy_is_loaded(module):
+    assert not loaded(module) & (DRAWING | QT | {"numpy", "scipy"})

@@ -1,0 +1,130 @@
+"""The wheel: what is in it, and that it works under its installed name, away from the checkout."""
+
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+PACKAGES = {"bihdist_core": "bihdist_core", "bihdist_app": "app"}
+"""Installed name: folder of the checkout."""
+
+
+def run(*command: str | Path, **options) -> str:
+    """What the command prints; the test fails with it if the command does."""
+    said = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+    assert said.returncode == 0, said.stdout
+    return said.stdout
+
+
+def pip(*arguments: str | Path) -> None:
+    run(sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", *arguments)
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory) -> Path:
+    """A copy of the checkout to build in: setuptools leaves folders behind."""
+    copy = tmp_path_factory.mktemp("source") / "tree"
+    skipped = shutil.ignore_patterns(".*", "__pycache__", "build", "dist", "*.egg-info")
+    shutil.copytree(ROOT, copy, ignore=skipped)
+    return copy
+
+
+@pytest.fixture(scope="module")
+def wheel(source, tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("wheel")
+    pip("wheel", "--no-deps", "--no-build-isolation", "--no-index", "--wheel-dir", folder, source)
+    (path,) = folder.glob("*.whl")
+    return path
+
+
+@pytest.fixture(scope="module")
+def names(wheel) -> set[str]:
+    with zipfile.ZipFile(wheel) as archive:
+        return set(archive.namelist())
+
+
+@pytest.fixture(scope="module")
+def installed(wheel, tmp_path_factory) -> Path:
+    target = tmp_path_factory.mktemp("installed")
+    pip("install", "--no-deps", "--no-index", "--no-compile", "--target", target, wheel)
+    return target
+
+
+@pytest.fixture
+def environment(installed) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": str(installed), "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+def test_holds_its_packages_and_nothing_else(names):
+    tops = {name.split("/")[0] for name in names}
+    (information,) = {top for top in tops if top.endswith(".dist-info")}
+    assert tops - {information} == {*PACKAGES, "bihdist_assets"}
+    assert f"{information}/licenses/LICENSE" in names
+
+
+def test_is_for_every_platform(wheel):
+    assert wheel.name.endswith("-py3-none-any.whl")
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_holds_every_file_of_a_package(names, package):
+    folder = ROOT / PACKAGES[package]
+    files = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+    wanted = {f"{package}/{name}" for name in files if "__pycache__" not in name}
+    assert {name for name in names if name.startswith(f"{package}/")} == wanted
+
+
+def test_holds_the_sample_meshes_and_not_how_they_were_made(names):
+    meshes = {f"bihdist_assets/{path.name}" for path in (ROOT / "assets").glob("*.ply")}
+    assert meshes
+    samples = {name for name in names if name.startswith("bihdist_assets/")}
+    assert meshes <= samples
+    assert {Path(name).suffix for name in samples} <= {".ply", ".png"}
+
+
+def test_is_imported_from_where_it_was_installed(installed, environment, tmp_path):
+    code = "import bihdist_app, bihdist_core; print(bihdist_app.__file__, bihdist_core.__file__, sep='\\n')"
+    said = run(sys.executable, "-c", code, cwd=tmp_path, env=environment)
+    assert [Path(line).parent for line in said.splitlines()] == [installed / package for package in PACKAGES][::-1]
+
+
+def test_runs_under_its_installed_name(wheel, environment, tmp_path):
+    said = run(sys.executable, "-m", "bihdist_app", "--version", cwd=tmp_path, env=environment)
+    assert said == f"bihdist {wheel.name.split('-')[1]}\n"
+
+
+def test_installs_the_command(installed, environment, tmp_path):
+    command = shutil.which("bihdist", path=installed / ("Scripts" if os.name == "nt" else "bin"))
+    assert command, "there is no command"
+    assert "field" in run(command, "--help", cwd=tmp_path, env=environment)
+
+
+def test_opens_a_sample_by_its_name(environment, tmp_path):
+    said = run(sys.executable, "-m", "bihdist_app", "info", "figure", cwd=tmp_path, env=environment)
+    rows = dict(line.rsplit(maxsplit=1) for line in said.splitlines())
+    assert rows["components"] == "1"
+    assert int(rows["vertices"]) > 1000
+
+
+def test_writes_a_field(environment, tmp_path):
+    command = [sys.executable, "-m", "bihdist_app", "field", "figure", "--source", "0", "-o", "field.csv"]
+    run(*command, cwd=tmp_path, env=environment)
+    assert (tmp_path / "field.csv").stat().st_size > 10_000
+
+
+def test_a_source_distribution_builds_the_same_wheel(source, names, tmp_path):
+    backend = "from setuptools import build_meta; build_meta."
+    run(sys.executable, "-c", f"{backend}build_sdist({str(tmp_path)!r})", cwd=source)
+    (archive,) = tmp_path.glob("bihdist-*.tar.gz")
+    shutil.unpack_archive(archive, tmp_path)
+    unpacked = tmp_path / archive.name.removesuffix(".tar.gz")
+    run(sys.executable, "-c", f"{backend}build_wheel({str(tmp_path)!r})", cwd=unpacked)
+    (again,) = tmp_path.glob("*.whl")
+    with zipfile.ZipFile(again) as contents:
+        assert set(contents.namelist()) == names

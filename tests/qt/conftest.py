@@ -1,0 +1,82 @@
+"""The real window on a real (virtual) screen."""
+
+import os
+import time
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def application():
+    if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        pytest.skip("there is no display; `make test` brings one")
+    from app.qt.start import QtWidgets
+
+    return QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bihdist"])
+
+
+class Screen:
+    """A window with the event loop in the test's hands."""
+
+    def __init__(self, application, state=None):
+        from app.qt.main_window import MainWindow
+
+        self.application = application
+        self.window = MainWindow(state)
+        self.window.quiet = True
+        self.refusals, self.completions = [], []
+        self.window.refused.connect(self.refusals.append)
+        self.window.complete.connect(lambda: self.completions.append(self.window.session.state))
+        self.window.show()
+        self.window.build_panels()
+        self.session = self.window.session
+
+    @property
+    def panels(self):
+        return self.window.panels
+
+    def until(self, condition, seconds=60):
+        end = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < end, f"waited in vain; refused: {self.refusals}"
+            self.application.processEvents()
+            time.sleep(0.005)
+
+    def settle(self, seconds=0.3):
+        """Let queued repaints happen."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.application.processEvents()
+            time.sleep(0.005)
+
+    def open(self, path, source=None):
+        self.window.open(str(path), source)
+        self.until(lambda: self.session.is_complete)
+        self.settle()
+
+    def pictures(self):
+        return [panel.interactor.screenshot(return_img=True).copy() for panel in self.panels]
+
+    def point_of(self, panel, vertex):
+        """Where a vertex is seen in a panel, in its own coordinates."""
+        from qtpy.QtCore import QPoint
+
+        renderer, ratio = panel.renderer, panel.interactor.devicePixelRatioF()
+        renderer.SetWorldPoint(*self.session.surface.vertices[vertex], 1)
+        renderer.WorldToDisplay()
+        x, y, _ = renderer.GetDisplayPoint()
+        return QPoint(round(x / ratio - 0.5), round(panel.interactor.height() - y / ratio - 0.5))
+
+
+@pytest.fixture
+def screen(application):
+    screens = []
+
+    def make(state=None):
+        screens.append(Screen(application, state))
+        return screens[-1]
+
+    yield make
+    for each in screens:
+        each.window.close()
+        each.settle(0.05)

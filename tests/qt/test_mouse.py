@@ -1,0 +1,128 @@
+"""A real pointer moved by xdotool over the real program."""
+
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.shapes import bumpy
+
+ROOT = Path(__file__).parents[2]
+
+pytestmark = pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed")
+
+
+def run(*words):
+    return subprocess.run(["xdotool", *map(str, words)], check=True, capture_output=True, text=True).stdout
+
+
+def drag(x, y, by):
+    run("mousemove", x, y)
+    run("mousedown", 1)
+    for step in range(1, 9):
+        run("mousemove", x + by * step // 8, y + step)
+        time.sleep(0.02)
+    run("mouseup", 1)
+
+
+def corner(panel):
+    from qtpy.QtCore import QPoint
+
+    point = panel.interactor.mapToGlobal(QPoint(0, 0))
+    return point.x(), point.y()
+
+
+@pytest.fixture
+def opened(screen, mesh_file):
+    s = screen()
+    s.window.move(20, 40)
+    s.open(mesh_file(bumpy(800)), 5)
+    s.settle(0.5)
+    return s
+
+
+def test_click_selects_and_drag_only_rotates_all_panels(opened):
+    s, panel = opened, opened.panels[0]
+    x0, y0 = corner(panel)
+    target = int(s.session.surface.vertices[:, 2].argmax())
+    point = s.point_of(panel, target)
+    run("mousemove", x0 + point.x(), y0 + point.y())
+    run("click", 1)
+    s.until(lambda: s.session.is_complete and s.session.state.source == target)
+    s.settle()
+
+    for panel in s.panels:
+        before, camera = s.pictures(), np.array(panel.renderer.GetActiveCamera().GetPosition())
+        x0, y0 = corner(panel)
+        middle = x0 + panel.interactor.width() // 2, y0 + panel.interactor.height() // 2
+        drag(*middle, 90)
+        s.settle(0.5)
+        assert s.session.state.source == target
+        assert np.linalg.norm(np.array(panel.renderer.GetActiveCamera().GetPosition()) - camera) > 0.1
+        assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
+
+
+def test_a_hand_that_trembles_still_clicks(opened):
+    s, panel = opened, opened.panels[1]
+    x0, y0 = corner(panel)
+    target = int(s.session.surface.vertices[:, 2].argmax())
+    point = s.point_of(panel, target)
+    camera = panel.renderer.GetActiveCamera().GetPosition()
+    run("mousemove", x0 + point.x(), y0 + point.y())
+    run("mousedown", 1)
+    run("mousemove_relative", 2, 1)
+    run("mouseup", 1)
+    s.until(lambda: s.session.is_complete and s.session.state.source == target)
+    assert panel.renderer.GetActiveCamera().GetPosition() == camera
+
+
+def test_the_wheel_zooms_all_panels(opened):
+    s = opened
+    x0, y0 = corner(s.panels[2])
+    before, camera = s.pictures(), s.panels[2].renderer.GetActiveCamera()
+    distance = camera.GetDistance()
+    run("mousemove", x0 + 150, y0 + 200)
+    run("click", "--repeat", 3, "--delay", 50, 4)
+    s.until(lambda: camera.GetDistance() < 0.8 * distance, seconds=10)
+    s.settle(0.5)
+    assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
+
+
+def view(*arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "app", "view", *map(str, arguments)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+
+
+def test_view_saves_a_picture_of_the_finished_window_and_exits(mesh_file, tmp_path):
+    from PIL import Image
+
+    picture = tmp_path / "window.png"
+    done = view(mesh_file(bumpy(800)), "--source", 12, "--screenshot", picture)
+    assert done.returncode == 0, done.stderr
+    assert np.asarray(Image.open(picture).convert("RGB")).std() > 20
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["no-such-mesh.off", "--screenshot", "out.png"], r"no-such-mesh\.off"),
+        (["figure", "--source", "9999999", "--screenshot", "out.png"], "no vertex 9999999"),
+        (["figure", "--screenshot", "missing-folder/out.png"], "missing-folder"),
+    ],
+)
+def test_view_refuses_with_a_sentence(arguments, words):
+    done = view(*arguments)
+    assert done.returncode == 2
+    assert re.search(words, done.stderr)
+    assert "Traceback" not in done.stderr
+    assert not (ROOT / "out.png").exists()
