@@ -253,7 +253,9 @@ def _figure(options: argparse.Namespace) -> None:
         panels = []
         for panel in state.panels:
             distance = panel.build(laplacian, progress)
-            panels.append(FigurePanel(distance.from_source(source, progress), distance.label, panel.hint, distance.unit))
+            panels.append(
+                FigurePanel(distance.from_source(source, progress), distance.label, panel.hint, distance.unit)
+            )
     picture = draw_comparison(
         surface, panels, source, isolines=options.isolines, scale=options.scale, view=options.view
     )

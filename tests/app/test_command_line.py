@@ -1,0 +1,215 @@
+"""The command line without a window: what it writes, and what it says when it cannot."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.main import main
+from bihdist_core import (
+    BiharmonicDistance,
+    CommuteTimeDistance,
+    DiffusionDistance,
+    GeodesicDistance,
+    Laplacian,
+    PowerDistance,
+    TruncatedBiharmonicDistance,
+    read_surface,
+)
+from tests.shapes import bumpy, two_pieces
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def mesh(mesh_file):
+    return mesh_file(bumpy(200))
+
+
+def refused(capsys, *arguments):
+    """The sentence a refused command prints."""
+    assert main([str(a) for a in arguments]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("bihdist: ")
+    assert "Traceback" not in said
+    return said
+
+
+# ---------------------------------------------------------------------- field
+def test_field_writes_one_column_per_source(mesh, tmp_path, capsys):
+    out = tmp_path / "d.npy"
+    assert main(["field", mesh, "--source", "3", "7", "-o", str(out)]) == 0
+    expected = BiharmonicDistance(read_surface(mesh)).from_sources([3, 7])
+    assert np.allclose(np.load(out), expected, rtol=1e-12)
+    assert "biharmonic, exact, 200 vertices, 2 sources" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "make"),
+    [
+        (["biharmonic", "--areas", "barycentric"], lambda s: BiharmonicDistance(Laplacian(s, "barycentric"))),
+        (["truncated", "--k", "20"], lambda s: TruncatedBiharmonicDistance(s, k=20)),
+        (["power", "--k", "20", "--alpha", "3"], lambda s: PowerDistance(s, alpha=3, k=20)),
+        (["commute-time"], CommuteTimeDistance),
+        (["diffusion", "--t", "0.25"], lambda s: DiffusionDistance(s, t=0.25)),
+        (["geodesic"], lambda s: GeodesicDistance(s, "exact")),
+        (["geodesic", "--method", "heat"], lambda s: GeodesicDistance(s, "heat")),
+    ],
+)
+def test_every_distance_has_its_word(mesh, tmp_path, words, make):
+    out = tmp_path / "d.npy"
+    assert main(["field", mesh, "--source", "3", "--distance", *words, "-o", str(out)]) == 0
+    assert np.allclose(np.load(out), make(read_surface(mesh)).from_source(3), rtol=1e-9)
+
+
+def test_field_names_its_columns_in_csv(mesh_file, tmp_path):
+    out = tmp_path / "d.csv"
+    assert main(["field", mesh_file(two_pieces()), "--source", "3", "61", "-o", str(out)]) == 0
+    lines = out.read_text().splitlines()
+    assert lines[0] == "vertex,biharmonic_from_3,biharmonic_from_61"
+    assert len(lines) == 66
+    assert lines[1 + 3].startswith("3,0")
+    assert lines[1 + 62].split(",")[1] == "nan"
+
+
+@pytest.mark.parametrize("name", ["d.ply", "d.vtp"])
+def test_field_writes_meshes_that_open_again(mesh, tmp_path, name):
+    out = tmp_path / name
+    assert main(["field", mesh, "--source", "3", "-o", str(out)]) == 0
+    again = read_surface(out)
+    assert np.array_equal(again.faces, read_surface(mesh).faces)
+
+
+# ---------------------------------------------------------------------- pairs
+def test_pairs_of_a_set_as_a_matrix_and_as_rows(mesh, tmp_path):
+    expected = BiharmonicDistance(read_surface(mesh)).pairwise([5, 1, 9])
+    out = tmp_path / "p.npy"
+    assert main(["pairs", mesh, "--vertices", "5,1,9", "-o", str(out)]) == 0
+    assert np.allclose(np.load(out), expected, rtol=1e-12)
+    rows = tmp_path / "p.csv"
+    assert main(["pairs", mesh, "--vertices", "5,1,9", "-o", str(rows)]) == 0
+    assert rows.read_text().splitlines()[0] == "i,j,distance"
+    table = np.loadtxt(rows, delimiter=",", skiprows=1)
+    assert table[:, :2].tolist() == [[5, 1], [5, 9], [1, 9]]
+    assert table[:, 2] == pytest.approx([expected[0, 1], expected[0, 2], expected[1, 2]])
+
+
+def test_listed_pairs_from_words_and_from_a_file(mesh, tmp_path):
+    distance = BiharmonicDistance(read_surface(mesh))
+    expected = [distance.between(1, 2), distance.between(3, 4), distance.between(2, 1)]
+    file = tmp_path / "pairs.csv"
+    file.write_text("i,j\n1,2\n3, 4\n\n2;1\n")
+    for words in (["--pairs", "1,2", "3,4", "2,1"], ["--file", str(file)]):
+        out = tmp_path / "p.npy"
+        assert main(["pairs", mesh, *words, "-o", str(out)]) == 0
+        assert np.load(out)[:, 2] == pytest.approx(expected)
+
+
+# ---------------------------------------------------------------------- info and version
+def test_info_counts_what_is_there(mesh_file, capsys):
+    assert main(["info", mesh_file(two_pieces())]) == 0
+    said = dict(line.split("  ", 1) for line in capsys.readouterr().out.splitlines())
+    facts = {name.strip(): value.strip() for name, value in said.items()}
+    assert facts["vertices"] == "65"
+    assert facts["components"] == "2"
+    assert facts["boundary loops"] == "0"
+    assert facts["genus"] == "0"
+    assert facts["vertices without a face"] == "1"
+    assert facts["repairs"] == "none"
+
+
+def test_samples_open_by_name(capsys):
+    assert main(["info", "figure"]) == 0
+    assert "components                1" in capsys.readouterr().out
+
+
+def test_version_and_help(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["--version"])
+    assert stop.value.code == 0
+    assert capsys.readouterr().out.startswith("bihdist ")
+    with pytest.raises(SystemExit):
+        main(["field", "--help"])
+    assert "--source" in capsys.readouterr().out
+
+
+# ---------------------------------------------------------------------- what is refused
+def test_bad_input_gets_a_sentence_and_leaves_no_file(mesh, mesh_file, tmp_path, capsys):
+    out = tmp_path / "d.npy"
+    pieces = mesh_file(two_pieces(), "pieces.off")
+    bad_pairs = tmp_path / "bad.csv"
+    bad_pairs.write_text("1,2\n3,x\n")
+    empty = tmp_path / "empty.off"
+    empty.write_text("")
+    for arguments, words in [
+        (["field", tmp_path / "none.off", "--source", 0, "-o", out], "none.off"),
+        (["field", tmp_path, "--source", 0, "-o", out], "folder"),
+        (["field", empty, "--source", 0, "-o", out], "empty.off"),
+        (["field", mesh, "--source", 200, "-o", out], "no vertex 200; ids run from 0 to 199"),
+        (["field", pieces, "--source", 60, "-o", out], "vertex 60 belongs to no face"),
+        (["field", mesh, "--source", 0, "-o", tmp_path / "d.xyz"], ".xyz"),
+        (["field", mesh, "--source", 0, "-o", tmp_path / "no" / "d.npy"], "no folder"),
+        (["field", mesh, "--source", 0, "--distance", "power", "--alpha", 0.5, "-o", out], "alpha"),
+        (["pairs", mesh, "--vertices", "1,900", "-o", out], "no vertex 900"),
+        (["pairs", mesh, "--file", bad_pairs, "-o", out], "line 2: '3,x'"),
+        (["pairs", mesh, "--file", tmp_path / "none.csv", "-o", out], "none.csv"),
+        (["figure", mesh, "-o", tmp_path / "f.jpg"], ".jpg"),
+        (["info", empty], "empty.off"),
+    ]:
+        assert words in refused(capsys, *arguments)
+        assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["field", "figure", "-o", "x.npy"],
+        ["field", "figure", "--source", "a", "-o", "x.npy"],
+        ["field", "figure", "--source", "1", "--distance", "euclidean", "-o", "x.npy"],
+        ["field", "figure", "--source", "1", "--t", "-1", "-o", "x.npy"],
+        ["pairs", "figure", "--pairs", "1", "-o", "x.npy"],
+        ["pairs", "figure", "-o", "x.npy"],
+        ["--nonsense"],
+    ],
+)
+def test_words_that_make_no_sense_exit_with_2(arguments, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(arguments)
+    assert stop.value.code == 2
+    assert "usage: bihdist" in capsys.readouterr().err
+
+
+def test_an_old_file_survives_a_failure(mesh, tmp_path, capsys, monkeypatch):
+    out = tmp_path / "d.npy"
+    out.write_text("old")
+    refused(capsys, "field", mesh, "--source", 999, "-o", out)
+
+    def disk_full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(np, "save", disk_full)
+    assert "No space left" in refused(capsys, "field", mesh, "--source", 3, "-o", out)
+    assert out.read_text() == "old"
+    assert set(os.listdir(tmp_path)) == {"d.npy", Path(mesh).name}
+
+
+def test_no_display_is_a_sentence():
+    without = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    done = subprocess.run([sys.executable, "-m", "app", "view"], cwd=ROOT, env=without, capture_output=True, text=True)
+    if sys.platform.startswith("linux"):
+        assert done.returncode == 2
+        assert "needs a display" in done.stderr
+
+
+def test_light_commands_import_nothing_heavy():
+    code = (
+        "import sys; from app.main import main\n"
+        "try: main(['--version'])\nexcept SystemExit: pass\n"
+        "main(['info', 'figure'])\n"
+        "print([m for m in sys.modules if m.split('.')[0] in ('pyvista', 'vtkmodules', 'PyQt5', 'qtpy')])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
