@@ -32,6 +32,12 @@ class Distance(ABC):
         self.laplacian = as_laplacian(laplacian)
         self.surface = self.laplacian.surface
 
+    @property
+    def unit(self) -> str:
+        """The unit of the values, in words: how they scale with the surface."""
+        known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units"}
+        return known.get(self.length_power, f"mesh units^{self.length_power:g}")
+
     def from_source(self, vertex: int, progress: Progress | None = None) -> np.ndarray:
         """(n,) distance of every vertex from one; 0 at the source."""
         component = self.laplacian.component_of(vertex)

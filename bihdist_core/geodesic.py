@@ -16,6 +16,12 @@ METHODS = ("auto", "exact", "heat", "dijkstra")
 EXACT_UP_TO = 20_000
 """Vertices up to which `auto` takes the exact method, which is then below a second."""
 
+TIME_FACTORS = (1.0, 4.0, 16.0, 64.0)
+PROBES = 4
+MOST_NEGATIVE = 1e-3
+"""The heat method's times that are tried, in squared mean edge lengths; from how many vertices; the share of negative
+values that is harmless."""
+
 LABELS = {"exact": "geodesic, exact", "heat": "geodesic, heat method", "dijkstra": "geodesic, Dijkstra along edges"}
 
 
@@ -61,8 +67,20 @@ class GeodesicDistance(Distance):
 
 
 def _heat(component: Component, progress: Progress | None) -> HeatGeodesic:
-    """The heat method, with one elimination order for both of its matrices."""
+    """The heat method, with one elimination order for all its matrices.
+
+    Heat is positive, but on badly shaped triangles a short flow comes out negative here and there, and where it does
+    directions are wrong (on one real mesh by 40 % of the largest distance).  A longer flow is blurred instead, by a
+    few percent: so the time grows until what comes out is positive.
+    """
     component.factor(part(progress, 0, 0.7))
-    matrix = heat_matrix(component.stiffness, component.areas, heat_time(component.surface))
-    flow = Factor(component.tree(), matrix, progress=part(progress, 0.7, 1))
+    n = len(component.vertices)
+    probes = np.unique(np.linspace(0, n - 1, PROBES).astype(int))
+    heat = np.zeros((n, len(probes)))
+    heat[probes, np.arange(len(probes))] = 1
+    for factor in TIME_FACTORS:
+        matrix = heat_matrix(component.stiffness, component.areas, heat_time(component.surface, factor))
+        flow = Factor(component.tree(), matrix, progress=part(progress, 0.7, 1))
+        if (flow.solve(heat) < 0).mean() <= MOST_NEGATIVE:
+            break
     return HeatGeodesic(component.surface, matrix, flow.solve, component.solve)

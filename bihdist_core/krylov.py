@@ -15,7 +15,7 @@ import numpy as np
 import scipy.linalg
 
 from .progress import Progress
-from .tall import gram, multiply, recombine, subtract
+from .tall import centre, gram, multiply, put, recombine, subtract
 
 WIDTHS = 8, 32
 """Fewest and most columns of a block.  Wide blocks are cheaper per column; narrow ones need fewer columns."""
@@ -25,6 +25,8 @@ CHECK = 1.07
 """By how much the basis grows until the errors, which take a dense eigenproblem, are looked at again."""
 MEMORY = 2e9
 """Bytes the basis may fill before it is restarted, unless the pairs asked for need more."""
+PATIENCE = 8
+"""Stop, whatever the errors are, after this many times the columns usually needed; the caller checks the result."""
 CROWD = 1.01
 """Eigenvalues within this ratio may hide further ones: a block sees at most as many equal ones as it has columns."""
 
@@ -39,9 +41,9 @@ def largest_eigenpairs(
 ) -> np.ndarray:
     """(n, count) vectors that span the eigenvectors of the `count` largest eigenvalues mu.
 
-    apply(x): T x for x (n, k); it and x are A-orthogonal to constants.  weights: (n,) the diagonal of A.  tolerance:
-    for ||T x - mu x||_A / mu.  known: eigenvalues (j,) and eigenvectors (n, j) to begin with.  `count` must be well
-    below n.  progress is called before and after each use of `apply`.
+    apply(x): T x for x (n, k); it and x are A-orthogonal to constants.  weights: (n,) the diagonal of A.
+    tolerance: for ||T x - mu x||_A / mu, not promised.  known: eigenvalues (j,) and eigenvectors (n, j) to begin with.
+    `count` must be well below n.  progress is called before and after each use of `apply`.
     """
     n = len(weights)
     width = int(np.clip(count // PAIRS_PER_COLUMN, *WIDTHS))
@@ -56,17 +58,20 @@ def largest_eigenpairs(
         progress(share, "eigenpairs: orthogonalizing")
         applied += image.shape[1]
         space.grow(image)
-        if space.size >= check or not space.block.shape[1]:
+        exhausted = not space.block.shape[1]
+        if space.size >= check or (exhausted and space.size >= count):
             check = CHECK * space.size
             mu, y = space.ritz(count)
             missed = space.couple @ y / mu
+            if applied > PATIENCE * expected:
+                break
             if np.linalg.norm(missed, axis=0).max() <= tolerance:
                 crowd = width * families
                 if count <= crowd or (mu[: 1 - crowd] > CROWD * mu[crowd - 1 :]).all():
                     break
                 space.inject(random.standard_normal((n, width)))
                 families += 1
-        if not space.block.shape[1]:
+        if exhausted:
             # The space is invariant: only a new direction can find more.
             space.inject(random.standard_normal((n, width)))
         if space.make_room(count):
@@ -95,7 +100,7 @@ class _Space:
 
     def inject(self, columns: np.ndarray) -> None:
         """Widen the block by columns (n, k) that need have nothing to do with V."""
-        columns -= self.weights @ columns / self.weights.sum()
+        centre(columns, self.weights)
         for _ in range(2):
             for old in (self.basis[:, : self.size], self.block):
                 subtract(columns, old, gram(old, columns, self.weights))
@@ -107,7 +112,7 @@ class _Space:
         """Take the block into the basis and make the next one of its image T Q (n, k), which is overwritten."""
         old, new = self.size, self.size + self.block.shape[1]
         v = self.basis[:, :new]
-        v[:, old:] = self.block
+        put(v, old, self.block)
         # First what is known to be in the image, which is large.  What rounding left is removed by one pass over all
         # columns, from the normalized rest: the pass must not be followed by a division by something small.
         touched = np.flatnonzero(self.couple.any(axis=0))
@@ -118,7 +123,7 @@ class _Space:
         q, r = self._orthonormal(image, smallest=1e-14 * max(self.h.max(), inside.max()))
         rest = gram(v, q, self.weights)
         subtract(q, v, rest)
-        q -= self.weights @ q / self.weights.sum()
+        centre(q, self.weights)
         self.h[old:new, :old] = self.couple
         self.h[:old, old:new] = self.couple.T
         self.h[old:new, old:new] = inside

@@ -37,6 +37,25 @@ def subtract(y: np.ndarray, x: np.ndarray, c: np.ndarray) -> None:
     over_rows(one, len(x))
 
 
+def centre(x: np.ndarray, weights: np.ndarray) -> None:
+    """Make the mean, weighted by weights (n,), of each column of x (n, k) zero, in place."""
+    mean = sum(over_rows(lambda rows: weights[rows] @ x[rows], len(x))) / weights.sum()
+
+    def one(rows: slice) -> None:
+        x[rows] -= mean
+
+    over_rows(one, len(x))
+
+
+def put(x: np.ndarray, first: int, y: np.ndarray) -> None:
+    """Overwrite columns of x, from `first` on, by y (n, k)."""
+
+    def one(rows: slice) -> None:
+        x[rows, first : first + y.shape[1]] = y[rows]
+
+    over_rows(one, len(x))
+
+
 def recombine(x: np.ndarray, c: np.ndarray) -> None:
     """Overwrite the first k columns of x (n, j) by x c, c (j, k), k <= j."""
 
