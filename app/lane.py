@@ -11,6 +11,8 @@ from bihdist_core.progress import Progress
 Request = TypeVar("Request")
 
 REPORTS_PER_SECOND = 20
+QUIET_SECONDS = 0.15
+"""Work shorter than this is not reported: it would only flicker."""
 
 
 class Lane(Generic[Request]):
@@ -45,7 +47,7 @@ class Lane(Generic[Request]):
 
     def progress(self, is_wanted: Callable[[Request], bool]) -> Progress:
         """A progress callback for the work on this lane (see the class)."""
-        last = 0.0
+        last = time.monotonic() + QUIET_SECONDS
 
         def report(fraction: float, text: str) -> None:
             nonlocal last

@@ -96,6 +96,7 @@ class Session:
         self.path: str | None = None
         self.answers: list[Answer | None] = [None for _ in self.state.panels]
         self.progress: dict[str, tuple[float, str]] = {}
+        self.is_stopped = False
         self._post = post
         self._prepare = prepare
         self._source_after_opening: int | None = None
@@ -130,6 +131,7 @@ class Session:
 
     def cancel(self) -> None:
         """Stop everything that is going on; the next click or change asks again."""
+        self.is_stopped = True
         for lane in (self._loader, *self._lanes):
             lane.submit(None)
 
@@ -138,13 +140,15 @@ class Session:
             lane.close()
 
     # ------------------------------------------------------------------ what is known
+    def is_answered(self, index: int) -> bool:
+        """Whether a panel shows the final answer to the present question."""
+        answer, asked = self.answers[index], (self.state.panels[index], self.state.source)
+        return answer is not None and not answer.preview and (answer.panel, answer.source) == asked
+
     @property
     def is_complete(self) -> bool:
-        """Whether every panel shows the final answer to the present question."""
-        return self.surface is not None and all(
-            answer is not None and not answer.preview and (answer.panel, answer.source) == (panel, self.state.source)
-            for answer, panel in zip(self.answers, self.state.panels, strict=True)
-        )
+        """Whether every panel does."""
+        return self.surface is not None and all(self.is_answered(index) for index in range(len(self.answers)))
 
     # ------------------------------------------------------------------ loading
     def _load(self, path: str, lane: Lane[str]) -> None:
@@ -180,6 +184,7 @@ class Session:
 
     def _ask(self, index: int) -> None:
         if self.laplacian is not None:
+            self.is_stopped = False
             self._lanes[index].submit(_Question(self.laplacian, self.state.panels[index], self.state.source))
 
     def _answerer(self, index: int) -> Callable[[_Question, Lane[_Question]], None]:

@@ -112,8 +112,7 @@ class MainWindow(QtWidgets.QMainWindow):
         panel, answer = self.panels[index], self.session.answers[index]
         panel.show_answer(answer)
         panel.show_value(self._hovered)
-        if answer.preview:
-            panel.show_note("exact on its way")
+        self._note(index)
         if self.session.is_complete:
             # Once the repaints that are queued have been done.
             QtCore.QTimer.singleShot(0, self._announce)
@@ -125,6 +124,17 @@ class MainWindow(QtWidgets.QMainWindow):
         self._doing.setText(going[0][1] if going else "")
         if going:
             self._progress.setValue(round(1000 * going[0][0]))
+        for index in range(len(self.panels)):
+            self._note(index)
+
+    def _note(self, index: int) -> None:
+        """Say in a panel what it is waiting for."""
+        fraction, text = self.session.progress.get(f"panel {index}", (0, ""))
+        if text:
+            text = f"{text}: {fraction:.0%}"
+        elif self.session.is_stopped and not self.session.is_answered(index):
+            text = "stopped; click a point to ask again"
+        self.panels[index].show_note(text)
 
     def failed(self, message: str) -> None:
         self.refused.emit(message)

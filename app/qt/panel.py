@@ -65,21 +65,20 @@ class DistancePanel(QtWidgets.QWidget):
         self.renderer.SetActiveCamera(camera)
         self.renderer.camera_set = True
         self.title.setText("")
-        self.hint.setText("")
         self.value.setText("")
         self.repaint_view()
 
     def show_answer(self, answer: Answer) -> None:
         self.answer = answer
         self.scene.show_field(answer.field, answer.unit)
-        self.hint.setText(answer.panel.hint)
         self.title.setText(answer.label)
         self.repaint_view()
 
     def show_note(self, text: str) -> None:
-        """A word beside the title while the panel still computes."""
-        label = self.answer.label if self.answer else ""
-        self.title.setText(f"{label}  ·  {text}" if label and text else label or text)
+        """What is being computed, in place of the hint; an empty text brings the hint back."""
+        if self.answer is not None and self.answer.preview:
+            text = text or "a better one is on its way"
+        self.hint.setText(text or self.controls.state.hint)
 
     def show_value(self, vertex: int | None) -> None:
         """The field's value at a vertex, raw and as a share of the maximum."""

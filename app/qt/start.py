@@ -13,6 +13,8 @@ from bihdist_core import BihdistError
 from ..state import ViewerState
 from .main_window import MainWindow
 
+PAINTED_MS = 50
+
 
 def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: str | None) -> int:
     """Run the window until it is closed; with `screenshot`, until its picture is saved.  Returns the exit status."""
@@ -41,7 +43,8 @@ def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: st
         window.complete.connect(save)
     window.show()
     window.open(path, source)
-    QtCore.QTimer.singleShot(0, window.build_panels)
+    # Once the window has been painted: the imports take a second.
+    QtCore.QTimer.singleShot(PAINTED_MS, window.build_panels)
     application.exec()
     for message in failures:
         print(f"bihdist: {message}", file=sys.stderr)

@@ -215,6 +215,7 @@ def test_progress_and_cancel_are_shown_while_something_is_computed(screen, mesh_
     assert s.window._cancel.isVisible()
     s.window._cancel.click()
     s.until(lambda: not s.window._progress.isVisible(), seconds=5)
+    assert s.panels[0].hint.text() == "stopped; click a point to ask again"
 
 
 def test_closing_while_computing_ends_the_threads(screen, mesh_file):
