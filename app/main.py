@@ -24,13 +24,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from bihdist_core.errors import BihdistError
 
     try:
-        return options.run(options) or 0
+        status = options.run(options) or 0
+        sys.stdout.flush()
+        return status
     except BihdistError as error:
         print(f"bihdist: {error}", file=sys.stderr)
         return 2
     except MemoryError:
         print("bihdist: there is not enough memory for this.", file=sys.stderr)
         return 2
+    except BrokenPipeError:
+        # Whoever read the output has seen enough; Python would complain again when it closes the pipe.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except KeyboardInterrupt:
         print("bihdist: interrupted.", file=sys.stderr)
         return 130

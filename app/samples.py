@@ -3,14 +3,18 @@
 import os
 from pathlib import Path
 
-SAMPLES = Path(__file__).resolve().parent.parent / "assets"
-if not SAMPLES.is_dir():
-    # Installed: the folder is the package bihdist_assets beside this one.
-    SAMPLES = Path(__file__).resolve().parent.parent / "bihdist_assets"
+_ROOT = Path(__file__).resolve().parent.parent
+# Installed, the folder is the package bihdist_assets beside this one; in a checkout it is assets.
+SAMPLES = next((_ROOT / name for name in ("bihdist_assets", "assets") if (_ROOT / name).is_dir()), _ROOT / "assets")
 
 
 def sample_names() -> list[str]:
     return sorted(path.stem for path in SAMPLES.glob("*.ply"))
+
+
+def thumbnail(name: str) -> Path:
+    """A small picture of a sample."""
+    return SAMPLES / "thumbnails" / f"{name}.png"
 
 
 def mesh_path(mesh: str) -> str:

@@ -11,6 +11,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import BihdistError, OutputError
 from bihdist_core.whole_file import check_output, whole_file
 
+from ..samples import mesh_path, sample_names, thumbnail
 from ..session import Session
 from ..state import ViewerState
 from .look import STYLE_SHEET
@@ -113,9 +114,6 @@ class MainWindow(QtWidgets.QMainWindow):
         panel.show_answer(answer)
         panel.show_value(self._hovered)
         self._note(index)
-        if self.session.is_complete:
-            # Once the repaints that are queued have been done.
-            QtCore.QTimer.singleShot(0, self._announce)
 
     def progress_changed(self) -> None:
         going = [self.session.progress[name] for name in sorted(self.session.progress)]
@@ -126,6 +124,9 @@ class MainWindow(QtWidgets.QMainWindow):
             self._progress.setValue(round(1000 * going[0][0]))
         for index in range(len(self.panels)):
             self._note(index)
+        if self.session.is_complete and not going:
+            # Once the repaints that are queued have been done.
+            QtCore.QTimer.singleShot(0, self._announce)
 
     def _note(self, index: int) -> None:
         """Say in a panel what it is waiting for."""
@@ -161,7 +162,7 @@ class MainWindow(QtWidgets.QMainWindow):
             panel.repaint_view()
 
     def _announce(self) -> None:
-        if self.session.is_complete:
+        if self.session.is_complete and not self.session.progress:
             self.complete.emit()
 
     def picture(self) -> QtGui.QImage:
@@ -262,7 +263,11 @@ class MainWindow(QtWidgets.QMainWindow):
     def _fill_menus(self) -> None:
         file = self.menuBar().addMenu("&File")
         _action(file, "&Open …", self.choose_file, QtGui.QKeySequence.StandardKey.Open)
-        _action(file, "&Screenshot …", self.choose_screenshot, "Ctrl+P")
+        samples = file.addMenu("&Samples")
+        for name in sample_names():
+            action = samples.addAction(QtGui.QIcon(str(thumbnail(name))), name.replace("_", " "))
+            action.triggered.connect(lambda *_, name=name: self.open(mesh_path(name)))
+        _action(file, "S&creenshot …", self.choose_screenshot, "Ctrl+P")
         file.addSeparator()
         _action(file, "&Quit", self.close, QtGui.QKeySequence.StandardKey.Quit)
         view = self.menuBar().addMenu("&View")

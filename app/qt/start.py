@@ -19,6 +19,8 @@ PAINTED_MS = 50
 def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: str | None) -> int:
     """Run the window until it is closed; with `screenshot`, until its picture is saved.  Returns the exit status."""
     _check_screen()
+    if os.environ.get("DISPLAY") and os.environ.get("WAYLAND_DISPLAY"):
+        os.environ.setdefault("QT_QPA_PLATFORM", "xcb")  # VTK draws through X only
     QtWidgets.QApplication.setHighDpiScaleFactorRoundingPolicy(QtCore.Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)
     application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(sys.argv[:1])
     # PyQt5 ends the process on an exception in a slot unless there is a hook.

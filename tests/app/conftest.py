@@ -12,7 +12,8 @@ class RecordingView:
     """Keeps what it is told."""
 
     def __init__(self):
-        self.told = []
+        self.told, self.unexpected = [], []
+        self.failures_are_expected = False
 
     def mesh_changed(self):
         self.told.append("mesh")
@@ -28,6 +29,8 @@ class RecordingView:
 
     def failed(self, message):
         self.told.append(message)
+        if not self.failures_are_expected:
+            self.unexpected.append(message)
 
 
 class Desk:
@@ -38,10 +41,16 @@ class Desk:
         self.posted = queue.Queue()
         self.session = Session(self.view, self.posted.put, state, prepare)
 
+    def until_told(self, words):
+        """Wait until the view is told of a failure with these words."""
+        self.view.failures_are_expected = True
+        self.until(lambda: any(words in told for told in self.view.told))
+
     def until(self, condition, seconds=30):
         end = time.monotonic() + seconds
         while not condition():
             assert time.monotonic() < end, f"waited in vain; told: {self.view.told}"
+            assert not (failing := self.view.unexpected), f"refused: {failing}"
             try:
                 self.posted.get(timeout=0.05)()
             except queue.Empty:

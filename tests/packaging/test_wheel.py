@@ -65,7 +65,7 @@ def test_holds_its_packages_and_nothing_else(names):
     tops = {name.split("/")[0] for name in names}
     (information,) = {top for top in tops if top.endswith(".dist-info")}
     assert tops - {information} == {*PACKAGES, "bihdist_assets"}
-    assert f"{information}/licenses/LICENSE" in names
+    assert {f"{information}/licenses/{name}" for name in ("LICENSE", "assets/LICENSE")} <= names
 
 
 def test_is_for_every_platform(wheel):
@@ -77,7 +77,8 @@ def test_holds_every_file_of_a_package(names, package):
     folder = ROOT / PACKAGES[package]
     files = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
     wanted = {f"{package}/{name}" for name in files if "__pycache__" not in name}
-    assert {name for name in names if name.startswith(f"{package}/")} == wanted
+    held = {name for name in names if name.startswith(f"{package}/")}
+    assert held == wanted, "a new folder belongs into `packages` in pyproject.toml"
 
 
 def test_holds_the_sample_meshes_and_not_how_they_were_made(names):

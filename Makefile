@@ -1,0 +1,51 @@
+# Everything by one command each; `make` alone lists them.  ARGS is passed on: make run ARGS="mesh.off --source 12"
+# .ci/set-up makes the environment .venv and says what else it does (PYTHON=..., YES=1: see there).
+
+ARGS ?=
+PICTURE = bihdist-comparison.png
+PYTHON_HERE = $(if $(filter Windows_NT,$(OS)),.venv/Scripts/python,.venv/bin/python)
+
+.PHONY: help run test check bench
+.NOTPARALLEL:
+
+help:
+	@echo 'make run     install what is missing, then open the viewer (without a display: draw a picture)'
+	@echo 'make test    the checks and all tests, the window included'
+	@echo 'make check   ruff, mypy, codespell and the import rules'
+	@echo 'make bench   the speed of the solver beside potpourri3d'
+
+NO_DISPLAY = $(if $(filter Linux,$(shell uname -s)),$(if $(DISPLAY)$(WAYLAND_DISPLAY),,yes))
+NO_WINDOW = $(filter field pairs figure info,$(firstword $(ARGS)))
+run:
+	@.ci/set-up
+ifeq ($(if $(NO_WINDOW),,$(NO_DISPLAY)),yes)
+	@echo 'There is no display (DISPLAY is not set): drawing the same comparison as a picture, $(PICTURE)'
+	@$(PYTHON_HERE) -m app figure $(or $(filter-out view,$(ARGS)),figure) -o $(PICTURE)
+else
+	@$(PYTHON_HERE) -m app $(ARGS)
+endif
+
+define checks
+	$(PYTHON_HERE) -m ruff check .
+	$(PYTHON_HERE) -m ruff format --check .
+	$(PYTHON_HERE) -m mypy
+	$(PYTHON_HERE) -m codespell_lib
+endef
+
+check:
+	@.ci/set-up dev
+	$(checks)
+	$(PYTHON_HERE) -m pytest tests/packaging/test_import_rules.py
+
+# The tests get a screen of their own, so that they neither need nor disturb the user's.
+test:
+	@.ci/set-up dev
+	$(checks)
+	@if command -v xvfb-run >/dev/null; then \
+	    set -- env -u WAYLAND_DISPLAY xvfb-run -a -s '-screen 0 1600x1000x24'; \
+	fi; \
+	echo "$$* $(PYTHON_HERE) -m pytest $(ARGS)"; "$$@" $(PYTHON_HERE) -m pytest $(ARGS)
+
+bench:
+	@.ci/set-up bench
+	$(PYTHON_HERE) -m tests.bench $(ARGS)
