@@ -1,0 +1,40 @@
+import numpy as np
+import pytest
+
+from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, VertexError, farthest_points
+from tests.shapes import bumpy, grid, two_pieces
+
+
+def test_each_point_is_the_farthest_from_those_before():
+    distance = BiharmonicDistance(bumpy(200))
+    points = farthest_points(distance, start=7, count=12)
+    assert points[0] == 7
+    fields = distance.from_sources(points)
+    for k in range(1, 12):
+        nearest = fields[:, :k].min(axis=1)
+        assert nearest[points[k]] == nearest.max()
+
+
+def test_corners_of_a_square_come_first():
+    points = farthest_points(GeodesicDistance(grid(6, 6), "dijkstra"), start=0, count=4)
+    assert set(points) == {0, 6, 42, 48}
+
+
+def test_stays_on_the_component_of_the_start():
+    distance = BiharmonicDistance(two_pieces())
+    assert set(farthest_points(distance, start=62, count=4)) == {61, 62, 63, 64}
+    with pytest.raises(ParameterError, match="5 points asked for; the component of vertex 62 has 4"):
+        farthest_points(distance, start=62, count=5)
+
+
+def test_bad_starts_and_counts_are_refused():
+    distance = BiharmonicDistance(two_pieces())
+    with pytest.raises(VertexError, match="vertex 60"):
+        farthest_points(distance, start=60)
+    with pytest.raises(ParameterError, match="count is 0"):
+        farthest_points(distance, count=0)
+
+
+def test_is_the_same_every_time():
+    first, second = (farthest_points(BiharmonicDistance(bumpy(200)), count=8) for _ in range(2))
+    assert np.array_equal(first, second)
