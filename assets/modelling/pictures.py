@@ -1,0 +1,51 @@
+"""Pictures of a surface from chosen sides, drawn off screen as the viewer draws them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pyvista
+
+from app.camera import Margins, aim
+from app.field_actor import FieldActor, drawable, light
+from app.style import PAPER
+from bihdist_core import Surface
+
+MARGINS = Margins(side=0.04, top=0.04, bottom=0.04)
+
+
+def row(
+    surface: Surface,
+    sides: Sequence[tuple[float, float, float]],
+    field: np.ndarray | None = None,
+    size: tuple[int, int] = (400, 440),
+    isolines: int = 24,
+    scale: float = 1.0,
+) -> np.ndarray:
+    """(height, width, 3) uint8: the surface from each of the sides, which are directions to the camera.
+
+    `field` (n,) colours it and gives the isolines; without one it is plain clay.  `size` is one picture's, in pixels.
+    """
+    width, height = size
+    plotter = pyvista.Plotter(
+        off_screen=True, shape=(1, len(sides)), border=False, window_size=(width * len(sides), height)
+    )
+    try:
+        plotter.render_window.SetMultiSamples(8)
+        mesh = drawable(surface)
+        for renderer, side in zip(plotter.renderers, sides, strict=True):
+            painted = FieldActor(PAPER, scale)
+            painted.show_surface(mesh)
+            painted.show_isolines(isolines if field is not None else 0)
+            if field is not None:
+                painted.show_field(field)
+            renderer.AddActor(painted.actor)
+            renderer.SetBackground(*PAPER.background)
+            light(renderer)
+            up = (0, 1, 0) if abs(side[1]) < 0.9 * np.linalg.norm(side) else (0, 0, -1)
+            camera = renderer.GetActiveCamera()
+            aim(camera, surface.vertices, width / height, np.array(side, float), np.array(up, float), MARGINS)
+            renderer.camera_set = True
+        plotter.show(auto_close=False, interactive=False)
+        return np.array(plotter.screenshot(return_img=True))[..., :3]
+    finally:
+        plotter.close()
