@@ -31,13 +31,23 @@ def isotropy_ratio(surface: Surface, field: npt.ArrayLike, geodesic: npt.ArrayLi
 class GradientJumps:
     """Jumps of the gradient of a field, linear on each face, across the inner edges; unit of the field per length.
 
-    edges: (k, 2) vertex ids.  jumps: (k,), at least 0.  slope: median length of the gradient over the surface, by
-    area, against which a jump is large or small.  A smooth field's jumps shrink with the edges, a kink's do not.
+    edges: (k, 2) vertex ids.  jumps: (k,), at least 0.  lengths: (k,) mean length of the gradient on both sides.
+    slope: median length of the gradient over the surface, by area.
     """
 
     edges: np.ndarray
     jumps: np.ndarray
+    lengths: np.ndarray
     slope: float
+
+    @property
+    def relative(self) -> np.ndarray:
+        """(k,) jumps over the gradient's length there, or over a quarter of its median if that is more; no unit.
+
+        A smooth field's shrink with the edges, away from boundary corners; across a ridge the gradient turns round,
+        and they stay near 2.
+        """
+        return self.jumps / np.maximum(self.lengths, self.slope / 4)
 
 
 def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
@@ -54,7 +64,7 @@ def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
     proper = np.ones(len(faces), bool)
     proper[surface.flat_faces] = False
     faces, area = faces[proper], surface.face_areas[proper]
-    sides, slopes, squares = [], [], np.zeros(len(faces))
+    sides, slopes, lengths = [], [], np.zeros(len(faces))
     for k in range(3):
         a, b, c = (faces[:, (k + s) % 3] for s in range(3))
         side, arm = x[b] - x[a], x[c] - x[a]
@@ -64,14 +74,14 @@ def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
         sides.append(np.sort(np.stack([a, b], 1), axis=1))
         slopes.append(outward)
         if k == 0:
-            squares = outward**2 + (f[b] - f[a]) ** 2 / length_square
-    side, slope = np.concatenate(sides), np.concatenate(slopes)
+            lengths = np.sqrt(outward**2 + (f[b] - f[a]) ** 2 / length_square)
+    side, slope, length = np.concatenate(sides), np.concatenate(slopes), np.tile(lengths, 3)
     order = np.lexsort((side[:, 1], side[:, 0]))
-    side, slope = side[order], slope[order]
+    side, slope, length = side[order], slope[order], length[order]
     first = np.flatnonzero(np.append(True, (side[1:] != side[:-1]).any(axis=1)))
     pairs = first[np.diff(np.append(first, len(side))) == 2]
     jumps = np.abs(slope[pairs] + slope[pairs + 1])
-    return GradientJumps(side[pairs], jumps, _median(np.sqrt(squares), area))
+    return GradientJumps(side[pairs], jumps, (length[pairs] + length[pairs + 1]) / 2, _median(lengths, area))
 
 
 def _median(values: np.ndarray, weights: np.ndarray) -> float:

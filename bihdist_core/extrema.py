@@ -34,8 +34,11 @@ class Extrema:
 def extrema(surface: Surface, field: npt.ArrayLike, share: float = 1e-3) -> Extrema:
     """The local extrema of a field (n,) whose persistence is at least `share` of the field's range.
 
-    Vertices whose value is not finite are left out.  Equal values are told apart by the smaller id, so a plateau
-    has one extremum.  Raises ParameterError for a field of another shape, or a share outside 0 to 1.
+    Vertices whose value is not finite are left out.  Equal values are told apart by the smaller id; what that alone
+    makes has no persistence and is left out, so a plateau has one extremum, and a constant field has none.  (The raw
+    counts may count a plateau several times.)
+
+    Raises ParameterError for a field of another shape, or a share outside 0 to 1.
     """
     f = np.asarray(field, np.float64)
     n = len(surface.vertices)
@@ -49,7 +52,7 @@ def extrema(surface: Surface, field: npt.ArrayLike, share: float = 1e-3) -> Extr
     least = share * np.ptp(f[ids]) if len(ids) else 0.0
     low, depth = _minima(f, edges, ids)
     high, height = _minima(-f, edges, ids)
-    deep, tall = depth >= least, height >= least
+    deep, tall = (depth >= least) & (depth > 0), (height >= least) & (height > 0)
     return Extrema(low[deep], depth[deep], high[tall], height[tall], len(low), len(high))
 
 

@@ -18,7 +18,7 @@ EXACT_UP_TO = 20_000
 
 TIME_FACTORS = (1.0, 4.0, 16.0, 64.0)
 PROBES = 4
-MOST_NEGATIVE = 1e-3
+MOST_NEGATIVE = 1e-2
 """The heat method's times that are tried, in squared mean edge lengths; from how many vertices; the share of negative
 values that is harmless."""
 

@@ -1,5 +1,7 @@
 """What can go wrong with a mesh, done on purpose: noise, holes, welded parts, a thin handle."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from ..errors import ParameterError
@@ -15,12 +17,12 @@ def noisy(surface: Surface, share: float, seed: int = 0) -> Surface:
     return Surface(surface.vertices + share * surface.mean_edge_length * shift, surface.faces, surface.name)
 
 
-def punched(surface: Surface, centres: np.ndarray, distances: np.ndarray, radius: float) -> Surface:
-    """Holes: the faces all of whose corners are nearer than `radius` to one of the centres (k,) are taken out.
+def punched(surface: Surface, distances: np.ndarray, radius: float) -> Surface:
+    """Holes: the faces all of whose corners are nearer than `radius` to a centre are taken out.
 
-    distances: (n, k) from the centres.  Vertex ids stay; what falls apart from the largest piece goes as well.
+    distances: (n, k) from each of k centres.  Vertex ids stay; what falls apart from the largest piece goes as well.
     """
-    near = (distances < radius).any(axis=1)
+    near = np.asarray(distances).min(axis=1) < radius
     rest = Surface(surface.vertices, surface.faces[~near[surface.faces].all(axis=1)], surface.name)
     largest = rest.component_of_vertex[rest.faces[:, 0]] == 0
     return Surface(rest.vertices, rest.faces[largest], surface.name)
@@ -54,12 +56,12 @@ def with_handle(surface: Surface, face_a: int, face_b: int) -> Surface:
         mouths.append(middle + WIDTH * (corners - middle))
     gap = float(np.linalg.norm(mouths[0].mean(axis=0) - mouths[1].mean(axis=0)))
     side = float(np.mean([np.linalg.norm(m - np.roll(m, 1, axis=0), axis=1).mean() for m in mouths]))
-    rings = max(2, int(round(gap / side)) + 1)
+    rings = max(2, round(gap / side) + 1)
     t = np.linspace(0, 1, rings)[:, None, None]
     tube = ((1 - t) * mouths[0] + t * mouths[1]).reshape(-1, 3)
     loops = [a, *(n + 3 * np.arange(rings)[:, None] + np.arange(3)), b]
     faces = [np.delete(surface.faces, [face_a, face_b], axis=0)]
-    for one, two in zip(loops[:-1], loops[1:], strict=True):
+    for one, two in pairwise(loops):
         for k in range(3):
             p, q, r, s = one[k], one[(k + 1) % 3], two[(k + 1) % 3], two[k]
             faces.append(np.array([[p, q, r], [p, r, s]]))

@@ -1,0 +1,84 @@
+"""The paper's figures and tables as experiments: each computes a `Result`, and draws nothing.
+
+shapes = Shapes.from_folder("assets")
+result = EXPERIMENTS["fig4"].compute(shapes, quick=True)
+result.save("out")
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from importlib import import_module
+from time import perf_counter
+
+from ..progress import Progress, silent
+from .result import Chart, Claim, Mark, Panel, Result, Series, Table
+from .shapes import NAMES, SEEDS, Shapes
+
+__all__ = [
+    "EXPERIMENTS",
+    "NAMES",
+    "SEEDS",
+    "Chart",
+    "Claim",
+    "Experiment",
+    "Mark",
+    "Panel",
+    "Result",
+    "Series",
+    "Shapes",
+    "Table",
+]
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """One figure or table of the paper; its module is imported when first needed.
+
+    any_mesh: whether it makes sense on a reader's own mesh.
+    """
+
+    id: str
+    any_mesh: bool = True
+
+    @property
+    def title(self) -> str:
+        """What the figure shows."""
+        return str(import_module(f".{self.id}", __name__).TITLE)
+
+    @property
+    def shows(self) -> str:
+        """What the paper shows and claims there, in sentences."""
+        return str(import_module(f".{self.id}", __name__).__doc__).strip()
+
+    def compute(self, shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
+        """Run it; quick: smaller sizes and fewer sources, for a first look.
+
+        Raises ParameterError if a surface it needs is missing, and whatever `progress` raises.
+        """
+        run: Callable[..., Result] = import_module(f".{self.id}", __name__).compute
+        start = perf_counter()
+        result = run(shapes, quick, progress)
+        (progress or silent)(1.0, self.id)
+        return replace(result, seconds=perf_counter() - start)
+
+
+EXPERIMENTS = {
+    experiment.id: experiment
+    for experiment in (
+        Experiment("fig1"),
+        Experiment("fig2", any_mesh=False),
+        Experiment("fig3"),
+        Experiment("fig4"),
+        Experiment("fig5", any_mesh=False),
+        Experiment("fig6"),
+        Experiment("fig7", any_mesh=False),
+        Experiment("fig8"),
+        Experiment("fig9", any_mesh=False),
+        Experiment("fig10", any_mesh=False),
+        Experiment("table1"),
+        Experiment("table2"),
+        Experiment("alpha"),
+        Experiment("claims"),
+    )
+}
+"""In the paper's order."""

@@ -1,0 +1,47 @@
+"""The claims of sections 1, 2 and 4 that belong to no figure: metric, growth, refinement, conformal maps, topology.
+
+The paper: biharmonic distance is a metric, smooth because eigenvalues grow like k, computed in O(N) a column,
+insensitive to small changes of topology; commute-time distance diverges and depends on the conformal structure only.
+"""
+
+from ..progress import Progress, part
+from ._claims_growth import conformal, cost, eigenvalues, refinement
+from ._claims_metric import metric
+from ._claims_topology import tessellation, topology
+from .result import Result
+from .shapes import Shapes
+
+TITLE = "Claims in words"
+
+
+def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
+    """Everything; quick: smaller meshes, fewer triples and sources."""
+    (figure,), (hand,) = shapes.names("figure"), shapes.names("hand")
+    metric_tables, metric_claims = metric(shapes, figure, quick, part(progress, 0, 0.3))
+    cost_tables, cost_charts, cost_claims = cost(shapes, figure, quick, part(progress, 0.3, 0.5))
+    value_charts, value_claims = eigenvalues(shapes, figure, quick, part(progress, 0.5, 0.6))
+    fine_tables, fine_charts, fine_claims = refinement(quick, part(progress, 0.6, 0.7))
+    moebius_tables, moebius_claims = conformal(quick, part(progress, 0.7, 0.75))
+    surfaces, panels, edit_tables, edit_claims = topology(shapes, hand, quick, part(progress, 0.75, 0.9))
+    coarse_tables, coarse_claims = tessellation(shapes, figure, quick, part(progress, 0.9, 1))
+    return Result(
+        "claims",
+        TITLE,
+        "Triples and points at random with seed 0; sources: vertex 0, four random vertices and the join. The weld "
+        "joins two faces that are close in space and far along the surface; the thin handle is a three-sided tube "
+        "between the two most pronounced ends, a quarter of an edge wide. Metric axioms are checked on a smaller mesh, "
+        "the smallest distance over all its pairs.",
+        surfaces,
+        tuple(panels),
+        (*cost_charts, *value_charts, *fine_charts),
+        (*metric_tables, *cost_tables, *fine_tables, *moebius_tables, *edit_tables, *coarse_tables),
+        (
+            *metric_claims,
+            *cost_claims,
+            *value_claims,
+            *fine_claims,
+            *moebius_claims,
+            *edit_claims,
+            *coarse_claims,
+        ),
+    )

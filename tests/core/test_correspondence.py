@@ -1,0 +1,86 @@
+"""The prediction function of section 5.2."""
+
+import numpy as np
+import pytest
+
+from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, Surface, VertexError
+from bihdist_core import correspondence_prediction as prediction
+from tests.shapes import bumpy, components_apart, two_pieces
+
+PAIRS = np.array([[3, 3], [77, 77], [140, 140]])
+
+
+def test_equals_the_formula_written_out():
+    m, n = BiharmonicDistance(bumpy(150)), BiharmonicDistance(bumpy(120, seed=1))
+    pairs, weights, x = [[3, 5], [77, 90], [140, 11]], [1.0, 0.25, 3.0], 20
+    c = prediction(m, n, pairs, x, weights)
+    from_x = np.array([m.between(x, i) for i, _ in pairs])
+    for y in (0, 5, 60):
+        from_y = np.array([n.between(y, j) for _, j in pairs])
+        terms = weights * (from_x / from_x.max() - from_y / from_y.max()) ** 2
+        assert c[y] == pytest.approx(terms.sum() ** 0.5, rel=1e-6)
+
+
+def test_finds_the_same_point_on_a_moved_and_scaled_copy():
+    s = bumpy(150)
+    turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
+    order = np.random.default_rng(2).permutation(150)
+    copy = Surface(40 * s.vertices[order] @ turn, np.argsort(order)[s.faces])
+    image = np.argsort(order)
+    pairs = np.stack([PAIRS[:, 0], image[PAIRS[:, 0]]], 1)
+    c = prediction(BiharmonicDistance(s), BiharmonicDistance(copy), pairs, np.arange(150))
+    assert c.shape == (150, 150)
+    assert (c.argmin(axis=0) == image).all()
+    assert c[image, np.arange(150)].max() < 1e-7
+
+
+def test_many_points_equal_single_ones():
+    m, n = BiharmonicDistance(bumpy(150)), GeodesicDistance(bumpy(120), "dijkstra")
+    pairs = [[3, 5], [77, 90]]
+    many = prediction(m, n, pairs, [9, 3, 9])
+    assert many.shape == (120, 3)
+    for k, x in enumerate([9, 3, 9]):
+        assert np.array_equal(many[:, k], prediction(m, n, pairs, x))
+
+
+def test_a_vector_whose_maximum_is_0_is_0():
+    m, n = BiharmonicDistance(bumpy(150)), BiharmonicDistance(bumpy(120))
+    # With one known point every other vector is (1), and that of the known point itself (0).
+    c = prediction(m, n, [[3, 5]], [3, 20])
+    assert c[5].tolist() == [0, 1]
+    assert (np.delete(c, 5, axis=0) == [1, 0]).all()
+
+
+def test_weights_of_0_leave_pairs_out():
+    d = BiharmonicDistance(bumpy(150))
+    c = prediction(d, d, PAIRS, 20, [1, 0, 0])
+    assert c[20] == 0
+    assert (prediction(d, d, PAIRS, 20, [0, 0, 0]) == 0).all()
+
+
+def test_other_components_have_no_prediction():
+    s = two_pieces()
+    large, small = components_apart(s)
+    d = BiharmonicDistance(s)
+    pairs = np.stack([large[:3], large[:3]], 1)
+    c = prediction(d, d, pairs, [large[9], small[0]])
+    assert np.isfinite(c[large, 0]).all()
+    assert np.isnan(c[small, 0]).all()
+    assert np.isnan(c[:, 1]).all()
+
+
+@pytest.mark.parametrize(
+    ("pairs", "x", "weights", "error", "words"),
+    [
+        ([3, 77], 1, None, ParameterError, r"shape \(k, 2\), k at least 1, not \(2,\)"),
+        (np.empty((0, 2), int), 1, None, ParameterError, r"not \(0, 2\)"),
+        (PAIRS, 1, [1, 2], ParameterError, "3 correspondences need as many finite weights"),
+        (PAIRS, 1, [1, 2, -1], ParameterError, "at least 0"),
+        (PAIRS, 150, None, VertexError, "no vertex 150"),
+        ([[3, 150]], 1, None, VertexError, "no vertex 150"),
+    ],
+)
+def test_refused(pairs, x, weights, error, words):
+    d = BiharmonicDistance(bumpy(150))
+    with pytest.raises(error, match=words):
+        prediction(d, d, pairs, x, weights)

@@ -1,0 +1,195 @@
+"""Simplified, refined and damaged surfaces: what the experiments rely on."""
+
+import numpy as np
+import pytest
+
+from bihdist_core import BiharmonicDistance, Cancelled, GeodesicDistance, ParameterError, Surface
+from bihdist_core.edge_geodesic import EdgeGeodesic
+from bihdist_core.experiments.damage import noisy, punched, welded, with_handle
+from bihdist_core.experiments.resizing import KEEP_SHAPE, _harmless, refined, resized, simplified
+from bihdist_core.experiments.spheres import icosphere, moebius
+from tests.shapes import bumpy, fin, grid, sphere, torus
+
+
+def quality(s):
+    """(m,) 1 for an equilateral triangle, 0 for a flat one."""
+    x = s.vertices[s.faces]
+    return 4 * np.sqrt(3) * s.face_areas / ((x - np.roll(x, 1, axis=1)) ** 2).sum(axis=(1, 2))
+
+
+@pytest.mark.parametrize("surface", [bumpy(800), torus(40, 20), grid(24, 24)], ids=lambda s: s.name)
+def test_simplified_keeps_vertices_topology_and_shape(surface):
+    small, ids = simplified(surface, 250)
+    assert len(small.vertices) == len(ids) == 250
+    np.testing.assert_array_equal(small.vertices, surface.vertices[ids])
+    assert (np.diff(ids) > 0).all()
+    assert small.is_manifold
+    assert (small.genus, small.boundary_loop_count) == (surface.genus, surface.boundary_loop_count)
+    # A tenth of an edge of the coarse mesh, of length about 0.2 on the bumpy sphere, changes the area by percents.
+    assert small.face_areas.sum() == pytest.approx(surface.face_areas.sum(), rel=0.03)
+    assert quality(small).min() >= min(KEEP_SHAPE, quality(surface).min()) - 1e-12
+
+
+def test_simplified_keeps_the_orientation_and_the_outline():
+    s = grid(24, 24)
+    small, _ = simplified(s, 200)
+    a, b, c = (small.vertices[small.faces[:, k]] for k in range(3))
+    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+    assert small.face_areas.sum() == pytest.approx(24 * 24)
+
+
+def test_a_collapse_that_turns_a_face_over_is_seen():
+    # A ring around vertex 0 with a dent beside vertex 1: from there the face behind the dent is seen from below.
+    ring = [[3, 0, 0], [0.5, 0.5, 0], [1, 2, 0], [-1, 2, 0], [-2, 0, 0], [-1, -2, 0], [1, -2, 0], [0.5, -0.5, 0]]
+    x = np.array([[0.0, 0, 0], *ring])
+    faces = np.array([[0, 1 + k, 1 + (k + 1) % 8] for k in range(8)])
+    assert not _harmless(x, faces, np.array([0]), np.array([1]))[0]
+    # The fan of a hexagon may be drawn onto any corner.
+    turn = np.arange(6) * np.pi / 3
+    x = np.array([[0, 0, 0], *np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1)])
+    faces = np.array([[0, 1 + k, 1 + (k + 1) % 6] for k in range(6)])
+    assert _harmless(x, faces, np.zeros(6, int), np.arange(1, 7)).all()
+
+
+def test_simplified_fields_stay():
+    s = bumpy(1500)
+    small, ids = simplified(s, 500)
+    fine, coarse = BiharmonicDistance(s).from_source(int(ids[7])), BiharmonicDistance(small).from_source(7)
+    # Linear elements: the error goes with the square of the edge, here 2 % of the size of the shape.
+    assert np.abs(coarse - fine[ids]).max() < 0.02 * fine.max()
+
+
+def test_simplified_is_the_same_every_time_and_reports():
+    said = []
+    one, ids = simplified(bumpy(400), 200, lambda share, text: said.append(share))
+    other, again = simplified(bumpy(400), 200)
+    np.testing.assert_array_equal(ids, again)
+    np.testing.assert_array_equal(one.faces, other.faces)
+    assert said == sorted(said)
+    assert said[-1] == 1
+
+    def stop(share, text):
+        raise Cancelled("enough")
+
+    with pytest.raises(Cancelled):
+        simplified(bumpy(400), 200, stop)
+
+
+def test_simplified_refuses_what_it_cannot_do():
+    with pytest.raises(ParameterError, match="has 400 vertices and cannot be simplified to 401"):
+        simplified(bumpy(400), 401)
+    with pytest.raises(ParameterError, match="cannot be simplified to 3"):
+        simplified(bumpy(400), 3)
+    # No torus has fewer than seven vertices.
+    with pytest.raises(ParameterError, match=r"torus cannot be simplified below \d+ vertices without damage"):
+        simplified(torus(12, 8), 6)
+
+
+def test_refined_halves_the_edges_and_keeps_the_surface():
+    for s in (bumpy(150), grid(5, 4), fin()):
+        fine = refined(s)
+        assert len(fine.vertices) == len(s.vertices) + len(s.edges)
+        assert len(fine.faces) == 4 * len(s.faces)
+        np.testing.assert_array_equal(fine.vertices[: len(s.vertices)], s.vertices)
+        assert fine.face_areas.sum() == pytest.approx(s.face_areas.sum())
+        assert (fine.genus, fine.boundary_loop_count) == (s.genus, s.boundary_loop_count)
+        assert fine.nonmanifold_edge_count == 2 * s.nonmanifold_edge_count
+
+
+@pytest.mark.parametrize("count", [120, 150, 200, 400, 1000, 5000])
+@pytest.mark.parametrize("surface", [bumpy(150), grid(12, 10)], ids=lambda s: s.name)
+def test_resized_has_the_count_asked_for(surface, count):
+    s = resized(surface, count)
+    assert len(s.vertices) == count
+    assert s.is_manifold
+    assert s.boundary_loop_count == surface.boundary_loop_count
+    assert s.face_areas.sum() == pytest.approx(surface.face_areas.sum(), rel=0.1)
+
+
+def test_noise_has_the_size_it_says_and_is_the_same_every_time():
+    s = sphere(2000)
+    shift = noisy(s, 0.4).vertices - s.vertices
+    assert shift.std() == pytest.approx(0.4 * s.mean_edge_length, rel=0.03)
+    np.testing.assert_array_equal(noisy(s, 0.4).vertices, s.vertices + shift)
+    assert noisy(s, 0.4, seed=1).vertices[0, 0] != noisy(s, 0.4).vertices[0, 0]
+
+
+def test_punched_holes_are_where_they_should_be():
+    s = grid(20, 20)
+    centres = [5 * 21 + 5, 14 * 21 + 14]
+    lengths = EdgeGeodesic(s).distances(centres)
+    holed = punched(s, lengths, 2.5)
+    assert holed.boundary_loop_count == 3
+    np.testing.assert_array_equal(holed.vertices, s.vertices)
+    assert (holed.component_of_vertex[centres] < 0).all()
+    # Cut off along a row, the smaller part goes too.
+    row = np.where(s.vertices[:, 1] // 1 % 20 == 5, 0.0, 9.0)
+    below = punched(s, np.minimum(row, np.roll(row, 21))[:, None], 1)
+    assert below.component_count == 1
+    assert below.vertices[below.faces].min(axis=(0, 1))[1] >= 6
+
+
+@pytest.mark.parametrize("edit", [welded, with_handle])
+def test_joining_two_parts_adds_a_handle(edit):
+    s = bumpy(600)
+    a = int(np.argmax(s.vertices[s.faces, 2].mean(axis=1)))
+    b = int(np.argmin(s.vertices[s.faces, 2].mean(axis=1)))
+    joined = edit(s, a, b)
+    assert joined.is_manifold
+    assert (joined.genus, joined.component_count, joined.boundary_loop_count) == (1, 1, 0)
+    # Oriented as a whole: every edge is run once in each direction.
+    f = joined.faces
+    sides = np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]])
+    assert len(np.unique(sides, axis=0)) == len(sides)
+    # A shortcut from end to end.
+    start = int(s.faces[a, 0])
+    before, after = (GeodesicDistance(t, "dijkstra").from_source(start)[s.faces[b]] for t in (s, joined))
+    if edit is welded:
+        assert np.isnan(after).all()
+    else:
+        assert np.nanmax(after) < 0.85 * before.min()
+        assert quality(joined).min() > 0.05
+
+
+def test_a_weld_makes_one_of_two_triangles_halfway():
+    s = bumpy(600)
+    a, b = int(np.argmax(s.vertices[s.faces, 2].mean(axis=1))), int(np.argmin(s.vertices[s.faces, 2].mean(axis=1)))
+    w = welded(s, a, b)
+    assert len(w.faces) == len(s.faces) - 2
+    middle = (s.vertices[s.faces[a]].mean(axis=0) + s.vertices[s.faces[b]].mean(axis=0)) / 2
+    assert w.vertices[s.faces[a]].mean(axis=0) == pytest.approx(middle)
+
+
+@pytest.mark.parametrize("edit", [welded, with_handle])
+def test_faces_that_touch_cannot_be_joined(edit):
+    s = bumpy(600)
+    beside = int(np.flatnonzero((s.faces == s.faces[0, 0]).any(axis=1))[1])
+    with pytest.raises(ParameterError, match="too close to each other"):
+        edit(s, 0, beside)
+
+
+def test_icospheres():
+    for times in (0, 1, 3):
+        s = icosphere(times)
+        assert len(s.vertices) == 10 * 4**times + 2
+        assert np.linalg.norm(s.vertices, axis=1) == pytest.approx(1)
+        a, b, c = (s.vertices[s.faces[:, k]] for k in range(3))
+        assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a) > 0).all()
+        assert s.genus == 0
+
+
+def test_moebius_transformations_keep_the_sphere_and_its_angles():
+    s = icosphere(5)
+    image = moebius(s, 3.0)
+    assert np.linalg.norm(image.vertices, axis=1) == pytest.approx(1)
+    assert moebius(image, 1 / 3.0).vertices == pytest.approx(s.vertices)
+
+    def angles(t):
+        x = t.vertices[t.faces]
+        one, two = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
+        cosine = np.einsum("ij,ij->i", one, two) / np.linalg.norm(one, axis=1) / np.linalg.norm(two, axis=1)
+        return np.degrees(np.arccos(cosine))
+
+    # Angles of chords, not of arcs: equal up to the edges' length, at most 0.1 in the image.
+    assert np.abs(angles(s) - angles(image)).max() < 6
+    assert Surface(image.vertices, image.faces).face_areas.max() > 4 * s.face_areas.max()
