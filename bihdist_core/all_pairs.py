@@ -9,6 +9,7 @@ much of it.
 import hashlib
 import os
 import shutil
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -83,26 +84,28 @@ def _rows(distance: Distance, ids: np.ndarray, dtype: np.dtype) -> np.ndarray:
 
 
 def _header(n: int, dtype: np.dtype) -> bytes:
-    from io import BytesIO
-
+    """What an .npy file begins with."""
     file = BytesIO()
-    np.lib.format.write_array_header_1_0(
-        file, {"descr": np.lib.format.dtype_to_descr(dtype), "fortran_order": False, "shape": (n, n)}
-    )
+    facts = {"descr": np.lib.format.dtype_to_descr(dtype), "fortran_order": False, "shape": (n, n)}
+    np.lib.format.write_array_header_1_0(file, facts)
     return file.getvalue()
 
 
 def _partial_path(distance: Distance, target: Path, dtype: np.dtype) -> Path:
+    """Where the rows stand until all are there."""
     digest = hashlib.sha256()
     laplacian, surface = distance.laplacian, distance.surface
-    for text in (distance.label, laplacian.areas_kind, dtype.str, target.name):
+    # A label rounds its numbers; the distance's own plain attributes do not.
+    own = sorted((key, value) for key, value in vars(distance).items() if isinstance(value, (int, float, str)))
+    for text in (distance.label, repr(own), laplacian.areas_kind, dtype.str, target.name):
         digest.update(text.encode() + b"\0")
     for array in (surface.vertices, surface.faces):
-        digest.update(np.ascontiguousarray(array))
+        digest.update(array.tobytes())
     return target.with_name(f".{target.stem[:60]}-{digest.hexdigest()[:16]}.npy.part")
 
 
 def _rows_done(partial: Path, header: bytes, row_bytes: int) -> int:
+    """How many whole rows an earlier call has left."""
     if not partial.exists():
         return 0
     with partial.open("rb") as file:
@@ -115,5 +118,6 @@ def _check_space(target: Path, needed: int, present: int) -> None:
     free = shutil.disk_usage(target.parent).free
     if needed - present > free:
         raise OutputError(
-            f"{target} needs {(needed - present) / 1e9:.2f} GB, and its disk has {free / 1e9:.2f} GB left."
+            f"{target} cannot be written: it needs {(needed - present) / 1e9:.2f} GB more, "
+            f"and its disk has {free / 1e9:.2f} GB left."
         )

@@ -1,12 +1,12 @@
 """The biharmonic distance, exact (paper, Eqs. 4 and 9)."""
 
 import numpy as np
-from scipy.spatial.distance import cdist
 
 from .distance import Distance, root
 from .laplacian import Component, Laplacian
 from .progress import Progress
 from .surface import Surface
+from .tall import point_distances
 
 SMALL_SET = 64
 
@@ -30,18 +30,23 @@ class BiharmonicDistance(Distance):
 
     def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
         diagonal = component.biharmonic_diagonal()
-        squares = component.biharmonic_columns(index)
-        squares *= -2
-        squares += diagonal[:, None]
-        squares += diagonal[index]
-        return root(squares, diagonal.max())
+        distances, largest = np.empty((len(diagonal), len(index))), diagonal.max()
+
+        def finish(rows: np.ndarray, columns: slice, values: np.ndarray) -> None:
+            values *= -2
+            values += diagonal[rows, None]
+            values += diagonal[index[columns]]
+            distances[rows, columns] = root(values, largest)
+
+        component.each_biharmonic_piece(index, finish)
+        return distances
 
     def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
         b = np.zeros((len(component.vertices), len(index)))
         b[index, np.arange(len(index))] = 1
         half = component.centred(component.solve(b)) * np.sqrt(component.areas)[:, None]
         if len(index) <= SMALL_SET:
-            return cdist(half.T, half.T)
+            return point_distances(half.T, half.T)
         green = half.T @ half
         squares = np.diag(green) + np.diag(green)[:, None] - 2 * green
         return root(squares, green.max())

@@ -50,11 +50,16 @@ class Distance(ABC):
 
     def from_sources(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> np.ndarray:
         """(n, k) distances of every vertex from each of k."""
-        ids = self.surface.check_vertices(vertices)
-        fields = np.full((len(self.surface.vertices), len(ids)), np.nan)
+        ids, n = self.surface.check_vertices(vertices), len(self.surface.vertices)
+        fields = np.empty((n, 0))
         for component, mine in self._by_component(ids):
             self.prepare(component, progress)
             columns = self._columns(component, component.local(ids[mine]), progress)
+            if len(columns) == n:
+                fields = columns
+                break
+            if not fields.size:
+                fields = np.full((n, len(ids)), np.nan)
             fields[np.ix_(component.vertices, mine)] = columns
         fields[ids, np.arange(len(ids))] = 0
         return fields
@@ -98,7 +103,8 @@ def root(squares: np.ndarray, terms: np.ndarray | float) -> np.ndarray:
 
     Values below zero by rounding become 0; SolverError if one is further below, or not a number.
     """
-    if not (squares >= -ROUNDING * np.max(terms)).all():
+    if squares.size and not squares.min() >= -ROUNDING * np.max(terms):
         worst = float(np.nanmin(squares)) if not np.isnan(squares).all() else float("nan")
         raise SolverError(f"A squared distance came out as {worst:g}: the mesh is too badly shaped for its operator.")
-    return np.sqrt(np.maximum(squares, 0))
+    distances = np.maximum(squares, 0)
+    return np.sqrt(distances, out=distances)

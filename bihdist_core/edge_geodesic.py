@@ -3,7 +3,6 @@
 import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
-from scipy.sparse.csgraph import dijkstra
 
 from .surface import Surface
 
@@ -16,7 +15,7 @@ class EdgeGeodesic:
 
     def __init__(self, surface: Surface) -> None:
         self.surface = surface
-        i, j = surface.edges.T
+        i, j = surface.edges.T.astype(np.int32)  # older csgraph takes no other indices
         lengths = np.linalg.norm(surface.vertices[i] - surface.vertices[j], axis=1)
         n = len(surface.vertices)
         # csgraph takes a stored zero in a sparse graph for an edge of length 0, so nothing is dropped here.
@@ -30,6 +29,9 @@ class EdgeGeodesic:
 
         Raises VertexError for an id that does not exist or belongs to no face.
         """
+        # Not at the top: it is half of what `import bihdist_core` would take.
+        from scipy.sparse.csgraph import dijkstra
+
         if np.ndim(sources) == 0:
             return dijkstra(self._graph, indices=self.surface.check_vertices(sources)[0])
         ids = self.surface.check_vertices(sources)

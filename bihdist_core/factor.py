@@ -18,8 +18,11 @@ from .elimination_tree import EliminationTree
 from .errors import ParameterError, SolverError
 from .progress import Progress
 from .selected_inversion import invert_branch
-from .substitution import Run, sandwich_into, solve_into
+from .substitution import Run, sandwich_columns, solve_into
 from .worker_threads import Job, side_by_side
+
+ReceivePiece = Callable[[np.ndarray, slice, np.ndarray], None]
+"""Takes some rows (r,), a slice of the columns asked for, and the values (r, k) there, which it may overwrite."""
 
 WIDE = 32
 """How many columns are solved for together: more would not stay in the cache."""
@@ -107,20 +110,31 @@ class Factor:
 
     def sandwich_columns(self, index: npt.ArrayLike) -> np.ndarray:
         """(n, k): the columns `index` (k,) of matrix^-1 A matrix^-1, in one sweep down; SolverError without areas."""
+        result = np.empty((self.tree.n, np.size(index)))
+
+        def keep(rows: np.ndarray, columns: slice, values: np.ndarray) -> None:
+            result[rows, columns] = values
+
+        self.each_sandwich_piece(index, keep)
+        return result
+
+    def each_sandwich_piece(self, index: npt.ArrayLike, receive: ReceivePiece) -> None:
+        """The same without an array for all of it: `receive` gets every piece once, from several threads."""
         self._dual()
         index, n = np.asarray(index), self.tree.n
         if index.ndim != 1 or (index.size and (index.dtype.kind not in "iu" or index.min() < 0 or index.max() >= n)):
             raise ParameterError(f"Columns are chosen by a list of whole numbers from 0 to {n - 1}, not {index!r}.")
-        result = np.empty((n, len(index)))
 
         def sweep(some: slice, run: Run) -> None:
-            sandwich_into(result[:, some], self.tree, self._blocks, index[some], run)
+            def checked(rows: np.ndarray, values: np.ndarray) -> None:
+                _check_result(values)
+                receive(rows, some, values)
+
+            sandwich_columns(self.tree, self._blocks, index[some], run, checked)
 
         with one_blas_thread():
             # Each column brings its derivative along.
             _in_slices(len(index), WIDE // 2, sweep)
-        _check_result(result)
-        return result
 
     def _dual(self) -> tuple[np.ndarray, np.ndarray]:
         if self._diagonals is None:
@@ -130,6 +144,8 @@ class Factor:
 
 def _in_slices(count: int, width: int, work: Callable[[slice, Run], None]) -> None:
     """work(columns, run) for all columns: a few with the branches side by side, many in slices side by side."""
+    if not count:
+        return
     if count <= width:
         work(slice(0, count), side_by_side)
     else:

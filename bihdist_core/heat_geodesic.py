@@ -21,7 +21,7 @@ import scipy.sparse as sp
 
 from .errors import ParameterError, SolverError
 from .progress import Progress, silent
-from .surface import Surface
+from .surface import Surface, dots
 
 Solve = Callable[[np.ndarray], np.ndarray]
 
@@ -150,18 +150,10 @@ class _FaceFlow:
             d2 /= size
             c = d1 * e2[part]
             c -= d2 * e1[part]
-            length = np.sqrt(_dot(c, c))
+            length = np.sqrt(dots(c, c))
             half = np.divide(0.5, length, out=np.zeros_like(length), where=length > 0)
-            b[1, start : start + BLOCK] = -half * _dot(e2[part], c)
-            b[2, start : start + BLOCK] = half * _dot(e1[part], c)
+            b[1, start : start + BLOCK] = -half * dots(e2[part], c)
+            b[2, start : start + BLOCK] = half * dots(e1[part], c)
         np.add(b[1], b[2], out=b[0])
         np.negative(b[0], out=b[0])
         return np.bincount(corners.ravel(), b.ravel(), self._n)
-
-
-def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """(m,) inner products of (3, m) columns; faster than einsum along the short axis."""
-    product = a[0] * b[0]
-    product += a[1] * b[1]
-    product += a[2] * b[2]
-    return product

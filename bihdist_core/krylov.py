@@ -12,7 +12,7 @@ so that a restart, or a start from eigenvectors known already, is only another V
 from collections.abc import Callable
 
 import numpy as np
-import scipy.linalg
+import scipy
 
 from .progress import Progress
 from .tall import centre, gram, multiply, put, recombine, subtract

@@ -17,7 +17,7 @@ import scipy.sparse as sp
 
 from .elimination_tree import EliminationTree
 from .errors import ParameterError
-from .factor import Factor
+from .factor import Factor, ReceivePiece
 from .operators import AREAS, stiffness, vertex_areas
 from .progress import Progress, part
 from .spectrum import Spectrum, smallest_eigenpairs
@@ -158,12 +158,16 @@ class Component:
         """(m,) u = G A 1."""
         return self.solve(self.areas)
 
-    def biharmonic_columns(self, index: np.ndarray) -> np.ndarray:
-        """(m, k) columns `index` (k,) of C; unit length squared."""
-        index = np.asarray(index)
-        columns = self.factor(diagonals=True).sandwich_columns(index)
-        columns -= self._u[:, None] * (self._u[index] / self.areas.sum())
-        return columns
+    def each_biharmonic_piece(self, index: np.ndarray, receive: ReceivePiece) -> None:
+        """The columns `index` (k,) of C in pieces (see `Factor.each_sandwich_piece`); unit length squared."""
+        index, u = np.asarray(index), self._u
+        scaled = u[index] / self.areas.sum()
+
+        def centred(rows: np.ndarray, columns: slice, values: np.ndarray) -> None:
+            values -= u[rows, None] * scaled[columns]
+            receive(rows, columns, values)
+
+        self.factor(diagonals=True).each_sandwich_piece(index, centred)
 
     # ------------------------------------------------------------------ the spectrum
     def spectrum(self, count: int, progress: Progress | None = None) -> Spectrum:

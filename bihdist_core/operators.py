@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from .errors import ParameterError
-from .surface import Surface
+from .surface import Surface, dots
 
 AREAS = ("voronoi", "barycentric")
 THICKEN = 1e-6
@@ -51,10 +51,9 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
 
 def _corners(surface: Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(3, m) cotangent of each corner, (3, m) squared length of the side opposite to it, (m,) face areas."""
-    x = [surface.vertices[surface.faces[:, k]] for k in range(3)]
-    side = [x[(k + 2) % 3] - x[(k + 1) % 3] for k in range(3)]
-    squares = np.stack([np.einsum("ij,ij->i", s, s) for s in side])
-    dots = np.stack([-np.einsum("ij,ij->i", side[(k + 1) % 3], side[(k + 2) % 3]) for k in range(3)])
+    side = surface.sides()
+    squares = np.stack([dots(s, s) for s in side])
+    products = np.stack([-dots(side[(k + 1) % 3], side[(k + 2) % 3]) for k in range(3)])
     area = surface.face_areas.copy()
     flat = surface.flat_faces
     if len(flat):
@@ -65,5 +64,5 @@ def _corners(surface: Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         # Kahan's form of Heron's formula keeps its digits on thin triangles.
         area[flat] = np.sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))) / 4
         squares[:, flat] = lengths**2
-        dots[:, flat] = squares[:, flat].sum(axis=0) / 2 - squares[:, flat]
-    return dots / (2 * area), squares, area
+        products[:, flat] = squares[:, flat].sum(axis=0) / 2 - squares[:, flat]
+    return products / (2 * area), squares, area

@@ -12,14 +12,16 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.csgraph import breadth_first_order, connected_components, maximum_bipartite_matching
 
 from .progress import Progress, part
+from .separators import separate
 from .worker_threads import Job
 
 LANDMARKS = 4
 LEAST_SHARE = 0.4
 """The smaller half of a cut region has at least this share of it."""
+LARGE = 3000
+"""From so many vertices on, separators of regions are made as small as can be."""
 SAMPLE = 200
 """How many vertices of a region are enough to find its principal axes."""
 
@@ -71,14 +73,15 @@ def _unit_box(x: np.ndarray) -> list[np.ndarray]:
 def _hop_coordinates(i: np.ndarray, j: np.ndarray, n: int, progress: Progress) -> list[np.ndarray]:
     """List of (n,) edge counts to far-apart landmarks, the connected components laid out one beside the other."""
     graph = sp.csr_matrix((np.ones(2 * len(i)), (np.r_[i, j], np.r_[j, i])), shape=(n, n))
-    count, component = connected_components(graph, directed=False)
+    component, last = _components(graph)
+    count = len(last)
     far = np.zeros(n, np.int64)
     axes = []
     # The first sweep only finds a far end to start from.
     for sweep in range(LANDMARKS + 1):
-        if count == 1:
+        if sweep and count == 1:
             last = np.array([far.argmax()])
-        else:
+        elif sweep:
             order = np.lexsort((far, component))
             last = order[np.r_[np.diff(component[order]) > 0, True]]
         hops = _hops(graph, last)
@@ -93,8 +96,23 @@ def _hop_coordinates(i: np.ndarray, j: np.ndarray, n: int, progress: Progress) -
     return [(hops + start).astype(np.float64) for hops in axes]
 
 
+def _components(graph: sp.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
+    """(n,) the connected component of each vertex, and (k,) a vertex of each."""
+    # Here and below not at the top: it is half of what `import bihdist_core` would take.
+    from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+    n = graph.shape[0]
+    # A search is several times faster than finding components, during which other Python threads would stand still.
+    if len(breadth_first_order(graph, 0, return_predecessors=False)) == n:
+        return np.zeros(n, np.int64), np.zeros(1, np.int64)
+    component = connected_components(graph, directed=False)[1]
+    return component, np.unique(component, return_index=True)[1]
+
+
 def _hops(graph: sp.csr_matrix, sources: np.ndarray) -> np.ndarray:
     """(n,) number of edges to the nearest source; each component has one."""
+    from scipy.sparse.csgraph import breadth_first_order
+
     n = graph.shape[0]
     # One more vertex, with an edge to each source, makes it a search from a single vertex.
     indices, indptr = np.r_[graph.indices, sources], np.r_[graph.indptr, graph.nnz + len(sources)]
@@ -129,10 +147,8 @@ class _Cutter:
             m = len(live)
             region = self.node[live] - (root << level)
             side = self._halves(live, i, j, region, 1 << level)
-            across = side[i] != side[j]
-            low = np.where(side[i] < side[j], i, j)[across]
-            high = np.where(side[i] < side[j], j, i)[across]
-            side[_vertex_cover(low, high)] = 2
+            # Moving separators pays where they are long.
+            separate(side, i, j, region, move=m > LARGE << level)
             kept = np.flatnonzero(side < 2)
             region = self.node[live[kept]] * 2 + side[kept]
             self.node[live[kept]] = region
@@ -140,9 +156,8 @@ class _Cutter:
             live = live[kept]
             new = np.full(m, -1)
             new[kept] = np.arange(len(kept))
-            i, j = new[i], new[j]
-            stay = (i >= 0) & (j >= 0) & ~across
-            i, j = i[stay], j[stay]
+            stay = (side[i] == side[j]) & (side[i] < 2)
+            i, j = new[i[stay]], new[j[stay]]
             self.job.advance(m)
         return live, i, j
 
@@ -216,21 +231,3 @@ def _order_in_regions(key: np.ndarray, region: np.ndarray, start: np.ndarray, fu
 def _stable_order(label: np.ndarray, count: int) -> np.ndarray:
     """Stable argsort of labels 0 to count - 1."""
     return np.argsort(label.astype(np.uint16) if count <= 1 << 16 else label, kind="stable")
-
-
-def _vertex_cover(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """A least set of vertices that touches all edges a - b of a bipartite graph (Koenig's theorem)."""
-    if not len(a):
-        return a
-    left, a = np.unique(a, return_inverse=True)
-    right, b = np.unique(b, return_inverse=True)
-    m, n = len(left), len(left) + len(right)
-    bipartite = sp.csr_matrix((np.ones(len(a), np.int8), (a, b)), shape=(m, n - m))
-    mate = maximum_bipartite_matching(bipartite, perm_type="column")
-    free, bound = np.flatnonzero(mate < 0), np.flatnonzero(mate >= 0)
-    # Reached from an unmatched left vertex (from vertex n) by edges rightwards and matched edges leftwards.
-    tail, head = np.r_[a, m + mate[bound], np.full(len(free), n)], np.r_[m + b, bound, free]
-    walk = sp.csr_matrix((np.ones(len(tail), np.int8), (tail, head)), shape=(n + 1, n + 1))
-    seen = np.zeros(n + 1, bool)
-    seen[breadth_first_order(walk, n, return_predecessors=False)] = True
-    return np.r_[left[~seen[:m]], right[seen[m:n]]]

@@ -3,7 +3,6 @@
 from abc import abstractmethod
 
 import numpy as np
-from scipy.spatial.distance import cdist
 
 from .distance import Distance
 from .errors import ParameterError
@@ -11,6 +10,7 @@ from .laplacian import Component, Laplacian
 from .progress import Progress
 from .spectrum import Spectrum
 from .surface import Surface
+from .tall import point_distances
 
 
 class SpectralDistance(Distance):
@@ -36,11 +36,11 @@ class SpectralDistance(Distance):
 
     def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
         points = self.points(component)
-        return cdist(points, points[index])
+        return point_distances(points, points[index])
 
     def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
         points = self.points(component)[index]
-        return cdist(points, points)
+        return point_distances(points, points)
 
 
 class PowerDistance(SpectralDistance):

@@ -10,9 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-import scipy.linalg
+import scipy
 import scipy.sparse as sp
-from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from .blas import one_blas_thread
 from .errors import ParameterError, SolverError
@@ -132,6 +131,8 @@ def _arnoldi(
     areas: np.ndarray, apply: Callable[[np.ndarray], np.ndarray], count: int, progress: Progress
 ) -> np.ndarray:
     """(n, count) eigenvectors by ARPACK: slower by far, and independent of our own iteration."""
+    from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
+
     n = len(areas)
     root = np.sqrt(areas)
     unroot = np.divide(1, root, out=np.zeros(n), where=root > 0)

@@ -7,7 +7,8 @@ with G = L^-1 it turns a unit vector into a column of G and one of G A G at once
 `run` says how to treat the branches: one after the other, or side by side.
 """
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -17,6 +18,15 @@ from .elimination_tree import Branch, EliminationTree
 
 NARROW = 4
 """Up to this many columns, one matrix-vector product each is faster than a matrix product."""
+
+FEW = 3
+"""So many entries of a right-hand side that are not 0 are eliminated one by one."""
+PIECE = 1 << 16
+"""How many numbers are worked on at a time where they should stay in the cache."""
+
+Receive = Callable[[np.ndarray, np.ndarray], None]
+Started = dict[int, list[tuple[int, int, np.ndarray]]]
+"""By stack: which of its fronts, which column, and (c, 2) what its pivots start from."""
 
 
 class Run(Protocol):
@@ -32,7 +42,11 @@ def solve_into(result: np.ndarray, tree: EliminationTree, blocks: Sequence[Block
     def up(branch: Branch) -> np.ndarray:
         x = np.zeros((branch.end + 1, k))
         x[branch.places] = b[branch.vertices]
-        _sweep_up(branch, blocks, x)
+        filled = branch.vertices[np.flatnonzero(b[branch.vertices].any(axis=1))]
+        if len(filled) <= FEW:
+            _sweep_up_paths(tree, branch, blocks, filled, x)
+        else:
+            _sweep_up(branch, blocks, x)
         return x
 
     def down(branch: Branch, x: np.ndarray) -> None:
@@ -50,51 +64,53 @@ def solve_into(result: np.ndarray, tree: EliminationTree, blocks: Sequence[Block
     run(lambda p: down(tree.branches[p], vectors[p]), range(len(vectors)))
 
 
-def sandwich_into(
-    result: np.ndarray, tree: EliminationTree, blocks: Sequence[Block], index: np.ndarray, run: Run
+def sandwich_columns(
+    tree: EliminationTree, blocks: Sequence[Block], index: np.ndarray, run: Run, receive: Receive
 ) -> None:
-    """result (n, k) = the columns `index` (k,) of L^-1 A L^-1."""
+    """The columns `index` (k,) of L^-1 A L^-1, in pieces: receive(vertices (r,), values (r, k)) gets to keep them.
+
+    A piece is small, so that what the receiver makes of it is made in the cache; it may be called from two threads.
+    """
     k = len(index)
-    vectors = [np.zeros((part.end + 1, 2 * k)) for part in tree.parts]
+    started: Started = defaultdict(list)
     for column, vertex in enumerate(index):
-        _sweep_up_unit(tree, blocks, int(vertex), [x[:, column::k] for x in vectors])
+        _sweep_up_unit(tree, blocks, int(vertex), column, started)
+    whole = np.empty((tree.top.end + 1, 2 * k))
 
-    def down(p: int) -> None:
-        part, x = tree.parts[p], vectors[p]
-        x[: part.above] = vectors[0][: part.above]
-        _sweep_down_dual(part, blocks, x)
-        result[part.vertices] = x[part.places, k:]
+    def down(part: Branch, x: np.ndarray) -> None:
+        x[: part.above] = whole[: part.above]
+        x[-1] = 0
+        _sweep_down_dual(part, blocks, started, x)
+        # Each row as two: the derivatives are the odd ones.
+        halves, rows = x.reshape(-1, k), max(1, PIECE // k)
+        for start in range(0, len(part.vertices), rows):
+            some = slice(start, start + rows)
+            receive(part.vertices[some], halves.take(2 * part.places[some] + 1, axis=0, mode="clip"))
 
-    down(0)
-    run(down, range(1, len(vectors)))
+    down(tree.top, whole)
+    run(lambda branch: down(branch, np.empty((branch.end + 1, 2 * k))), tree.branches)
 
 
-def _sweep_up_unit(tree: EliminationTree, blocks: Sequence[Block], vertex: int, vectors: list[np.ndarray]) -> None:
+def _sweep_up_unit(tree: EliminationTree, blocks: Sequence[Block], vertex: int, column: int, started: Started) -> None:
     """Eliminate a one at `vertex`, and its derivative, and apply K and K1: only from its front to the root is there
-    anything to do.  vectors: 2 columns for each part of the tree."""
-    path = []
+    anything to do.  What the pivots there start from on the way down is noted in `started`."""
     front = int(tree.node[vertex])
-    home = tree.part_of(front)
-    vectors[home][tree.place[vertex], 0] = 1
+    # The places of the top come first in every part's vectors, so this one reaches up to the root.
+    x = np.zeros((tree.parts[tree.part_of(front)].end + 1, 2))
+    x[tree.place[vertex], 0] = 1
     while front:
-        if home and not tree.part_of(front):
-            above = tree.parts[home].above
-            vectors[0][:above] += vectors[home][:above]
-            home = 0
         stack, k = tree.stacks[tree.stack_of[front]], tree.member[front]
         block = blocks[stack.index]
         start = tree.corner[front]
-        pivots = vectors[home][start : start + stack.pivots]
-        path.append((pivots, block.K[k], block.K1[k]))
+        pivots = x[start : start + stack.pivots]
+        applied = block.K[k] @ pivots
+        applied[:, 1] += block.K1[k] @ pivots[:, 0]
+        started[stack.index].append((k, column, applied))
         sent = block.N[k].T @ pivots
         sent[:, 1] += block.N1[k].T @ pivots[:, 0]
         # Several padded rows share the dummy's place, but all of them send zeros.
-        vectors[home][stack.bound[k]] += sent
+        x[stack.bound[k]] += sent
         front >>= 1
-    for pivots, K, K1 in path:
-        applied = K @ pivots
-        applied[:, 1] += K1 @ pivots[:, 0]
-        pivots[:] = applied
 
 
 def _sweep_up(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
@@ -110,6 +126,18 @@ def _sweep_up(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
         x[level.touched] += level.gather @ sent
 
 
+def _sweep_up_paths(
+    tree: EliminationTree, branch: Branch, blocks: Sequence[Block], vertices: np.ndarray, x: np.ndarray
+) -> None:
+    """The same where x is 0 but at a few vertices: their fronts and those above have all there is to do."""
+    fronts = {front >> up for front in tree.node[vertices].tolist() for up in range(front.bit_length() - branch.first)}
+    for front in sorted(fronts, reverse=True):
+        stack, k = tree.stacks[tree.stack_of[front]], tree.member[front]
+        pivots = x[tree.corner[front] : tree.corner[front] + stack.pivots]
+        # Several padded rows share the dummy's place, but all of them send zeros.
+        x[stack.bound[k]] += blocks[stack.index].N[k].T @ pivots
+
+
 def _sweep_down(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
     k = x.shape[1]
     for stack in branch.stacks:
@@ -121,15 +149,20 @@ def _sweep_down(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
         pivots[:] = result
 
 
-def _sweep_down_dual(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
-    k = x.shape[1] // 2
+def _sweep_down_dual(branch: Branch, blocks: Sequence[Block], started: Started, x: np.ndarray) -> None:
+    columns = x.shape[1] // 2
     for stack in branch.stacks:
-        b, c, _ = stack.shape
-        block = blocks[stack.index]
-        above = x.take(stack.bound, axis=0, mode="clip")
-        pivots = x[stack.span].reshape(b, c, 2 * k)
-        pivots += _multiply(block.N, above)
-        pivots[:, :, k:] += _multiply(block.N1, above[:, :, :k])
+        b, c, m = stack.shape
+        N, N1 = blocks[stack.index].N, blocks[stack.index].N1
+        pivots = x[stack.span].reshape(b, c, 2 * columns)
+        some = max(1, PIECE // (2 * columns * m))
+        for start in range(0, b, some):
+            part = slice(start, start + some)
+            above = x.take(stack.bound[part], axis=0, mode="clip")
+            _multiply(N[part], above, pivots[part])
+            pivots[part, :, columns:] += _multiply(N1[part], above[:, :, :columns])
+        for k, column, first in started.get(stack.index, ()):
+            pivots[k, :, column::columns] += first
 
 
 def _multiply(N: np.ndarray, x: np.ndarray, out: np.ndarray | None = None) -> np.ndarray:

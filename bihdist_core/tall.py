@@ -65,6 +65,19 @@ def recombine(x: np.ndarray, c: np.ndarray) -> None:
     over_rows(one, len(x))
 
 
+def point_distances(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """(n, j) Euclidean distances of points x (n, k) from points y (j, k), of their differences: nothing cancels."""
+    out = np.empty((len(x), len(y)))
+
+    def one(rows: slice) -> None:
+        for column, point in enumerate(y):
+            apart = x[rows] - point
+            np.sqrt(np.einsum("ij,ij->i", apart, apart), out=out[rows, column])
+
+    over_rows(one, len(x))
+    return out
+
+
 def sparse_rows(matrix: sp.csr_matrix, rows: slice) -> sp.csr_matrix:
     """Some rows of a sparse matrix, sharing its memory."""
     first, last = matrix.indptr[rows.start], matrix.indptr[rows.stop]

@@ -20,7 +20,9 @@ def bumpy_sphere(n: int) -> Arrays:
     split = random.random(len(faces)) < 0.25
     a, b, c = faces[split].T
     new = len(x) + np.arange(len(a))
-    faces = np.concatenate([faces[~split], *(np.stack(corners, 1) for corners in [(a, b, new), (b, c, new), (c, a, new)])])
+    faces = np.concatenate(
+        [faces[~split], *(np.stack(corners, 1) for corners in [(a, b, new), (b, c, new), (c, a, new)])]
+    )
     x = np.concatenate([x, x[a] + x[b] + x[c]])
     x /= np.linalg.norm(x, axis=1)[:, None]
     for _ in range(10):
@@ -52,9 +54,7 @@ def genus_two(n: int) -> Arrays:
     bottom = top.copy()
     bottom[inner] = used.sum() + np.arange(inner.sum())
     height = 0.15 * np.sqrt(depth)
-    x = np.concatenate(
-        [np.c_[flat[used], height[used]], np.c_[flat[inner], -height[inner]]]
-    )
+    x = np.concatenate([np.c_[flat[used], height[used]], np.c_[flat[inner], -height[inner]]])
     r, q = np.nonzero(solid)
     # Other diagonals below than above, or a corner would have the same face on both sides.
     faces = np.concatenate([_cells(top, r, q), _cells(bottom, r, q, parity=1)[:, ::-1]])
@@ -142,10 +142,12 @@ def _icosphere(frequency: int) -> Arrays:
     place = np.zeros((f + 2, f + 2), np.int64)
     place[i, j] = np.arange(len(i))
     up, down = i + j < f, i + j < f - 1
-    patch = np.concatenate([
-        np.stack([place[i, j], place[i + 1, j], place[i, j + 1]], 1)[up],
-        np.stack([place[i + 1, j], place[i + 1, j + 1], place[i, j + 1]], 1)[down],
-    ])
+    patch = np.concatenate(
+        [
+            np.stack([place[i, j], place[i + 1, j], place[i, j + 1]], 1)[up],
+            np.stack([place[i + 1, j], place[i + 1, j + 1], place[i, j + 1]], 1)[down],
+        ]
+    )
     points, faces = [], []
     for t, (a, b, c) in enumerate(triples):
         outward = np.linalg.det(corners[[a, b, c]]) > 0

@@ -141,6 +141,21 @@ def test_all_equal_the_dense_inverse(shape):
         assert close(factor.sandwich_columns(index), sandwich[:, index])
 
 
+def test_right_hand_sides_of_few_entries(shape):
+    """They take a way of their own up the tree."""
+    matrix, x, _ = shape
+    n = len(x)
+    if n < 2:
+        return
+    factor = Factor(EliminationTree(matrix, x), matrix)
+    inverse = np.linalg.inv(matrix.toarray())
+    for rows in ([0], [n - 1, n // 2], np.arange(0, n, max(1, n // 5))):
+        b = np.zeros((n, 2))
+        b[rows] = np.random.default_rng(0).normal(size=(len(rows), 2))
+        b[rows[0], 1] = 0
+        assert close(factor.solve(b), inverse @ b)
+
+
 def test_a_block_equals_its_columns():
     matrix, x = grid(30, 40)
     factor = Factor(EliminationTree(matrix, x), matrix, np.ones(1200))

@@ -1,0 +1,79 @@
+"""`python -m tests.bench [--quick] [--only 1,2] [--json FILE] [--mesh FILE]`: the speed of everything, in one table.
+
+What is judged are ratios of times measured in turn in the same run; the times themselves are only told.
+"""
+
+import argparse
+import json
+import sys
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from datetime import date
+
+from . import machine, peers, rows, window_rows
+from .size import FULL, QUICK, Size
+from .table import Line, as_json, render
+
+ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
+    1: rows.set_up,
+    2: rows.one_field,
+    3: rows.many_sources,
+    4: rows.all_pairs,
+    5: rows.eigenpairs,
+    6: rows.heat_geodesic,
+    7: rows.growth,
+    8: rows.largest,
+    9: rows.shapes,
+    10: window_rows.click,
+    11: rows.column,
+    12: window_rows.start,
+    13: window_rows.drawing,
+    14: window_rows.stalls,
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    options = _parser().parse_args(arguments)
+    size = QUICK if options.quick else FULL
+    if options.mesh:
+        size = replace(size, file=options.mesh)
+    lines: list[Line] = []
+    for row in options.only or ROWS:
+        for line in ROWS[row](size):
+            lines.append(line)
+            print(render([line]).splitlines()[-1], file=sys.stderr, flush=True)
+    copied, multiplied = rows.limits()
+    facts = {
+        "date": date.today().isoformat(),
+        "machine": machine.describe(),
+        "versions": peers.versions(),
+        "limits": f"copy {copied / 1e9:.1f} GB/s, matrix products {multiplied / 1e9:.1f} GFlop/s, on two threads",
+    }
+    print("\n".join([*(f"{name}: {fact}" for name, fact in facts.items()), "", render(lines)]))
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(facts | {"quick": options.quick, "lines": as_json(lines)}, file, indent=1, default=float)
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__.split("\n\n")[1])
+    parser.add_argument("--quick", action="store_true", help="small meshes and one round: checks the form, not times")
+    parser.add_argument("--only", type=_numbers, metavar="1,2", help="these rows only")
+    parser.add_argument("--json", metavar="FILE", help="write the table there as well")
+    parser.add_argument("--mesh", metavar="FILE", help="a mesh in place of the generated sphere in rows 1 to 6, 10, 11")
+    return parser
+
+
+def _numbers(text: str) -> list[int]:
+    numbers = [int(word) for word in text.split(",")]
+    unknown = [str(number) for number in numbers if number not in ROWS]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"there is no row {', '.join(unknown)}")
+    return numbers
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore", ResourceWarning)
+    sys.exit(main())

@@ -1,0 +1,86 @@
+"""The programs we are measured against, and slow, independent ways to the same numbers."""
+
+from importlib import metadata
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
+
+from bihdist_core import Surface
+from bihdist_core.laplacian import Component
+
+
+def versions() -> str:
+    """Names and versions of everything that takes part."""
+    return ", ".join(f"{name} {metadata.version(name)}" for name in ("potpourri3d", "scipy", "numpy", "pyvista", "vtk"))
+
+
+def heat_solver(vertices: np.ndarray, faces: np.ndarray):
+    """potpourri3d's heat-method solver as its documentation makes it."""
+    import potpourri3d
+
+    return potpourri3d.MeshHeatMethodDistanceSolver(vertices, faces)
+
+
+def edge_graph(surface: Surface) -> sp.csr_matrix:
+    """(n, n) edge lengths, both directions."""
+    i, j = surface.edges.T
+    lengths = np.linalg.norm(surface.vertices[i] - surface.vertices[j], axis=1)
+    n = len(surface.vertices)
+    return sp.csr_matrix((np.tile(lengths, 2), (np.r_[i, j], np.r_[j, i])), shape=(n, n))
+
+
+def edge_distances(graph: sp.csr_matrix, sources: np.ndarray) -> np.ndarray:
+    """(k, n) Dijkstra's."""
+    return dijkstra(graph, indices=sources)
+
+
+def edge_distances_to_file(graph: sp.csr_matrix, path: str, rows: int = 256) -> None:
+    """All of them as an (n, n) float32 .npy file."""
+    n = graph.shape[0]
+    out = np.lib.format.open_memmap(path, "w+", np.float32, (n, n))
+    for start in range(0, n, rows):
+        out[start : start + rows] = dijkstra(graph, indices=np.arange(start, min(start + rows, n)))
+    out.flush()
+
+
+def arpack_eigenvalues(component: Component, count: int, tolerance: float) -> np.ndarray:
+    """(count,) smallest eigenvalues, by scipy's eigsh on our factor's solves, the constant projected out."""
+    root = np.sqrt(component.areas)
+    unit = root / np.linalg.norm(root)
+
+    def centred(x: np.ndarray) -> np.ndarray:
+        return x - unit * (unit @ x)
+
+    def apply(x: np.ndarray) -> np.ndarray:
+        return centred(root * component.solve(root * centred(x)))
+
+    n = len(root)
+    start = centred(np.random.default_rng(0).standard_normal(n))
+    inverse, _ = eigsh(LinearOperator((n, n), matvec=apply, dtype=float), count, v0=start, tol=tolerance)
+    return np.sort(1 / inverse)
+
+
+class Reference:
+    """Exact distances by SuperLU: no nested dissection, no fronts, no dual numbers; pairs in the half-order form."""
+
+    def __init__(self, component: Component) -> None:
+        self.areas, n = component.areas, len(component.areas)
+        keep = np.arange(n) != component.pin
+        self._keep, self._lu = keep, splu(component.stiffness[keep][:, keep].tocsc())
+
+    def solve(self, b: np.ndarray) -> np.ndarray:
+        """G b; b (n, k)."""
+        x = np.zeros_like(b)
+        x[self._keep] = self._lu.solve(b[self._keep])
+        return x
+
+    def biharmonic(self, source: int, targets: np.ndarray) -> np.ndarray:
+        """(k,) distances: solve L y = e_i - e_j, centre y by area, d = |y|_A."""
+        b = np.zeros((len(self.areas), len(targets)))
+        b[source] += 1
+        b[targets, np.arange(len(targets))] -= 1
+        y = self.solve(b)
+        y -= self.areas @ y / self.areas.sum()
+        return np.sqrt(self.areas @ y**2)

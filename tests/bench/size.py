@@ -1,0 +1,48 @@
+"""How large the benchmark is: in full, and quick enough for the test suite."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .meshes import bumpy_sphere
+
+
+@dataclass(frozen=True)
+class Size:
+    """main: vertices of rows 1 to 6, 9 to 11; pairs: of row 4; growth: of row 7, row 8 takes the last; window: of
+    rows 13 and 14; file: a mesh that takes the place of the bumpy sphere of `main` vertices."""
+
+    main: int = 112_000
+    pairs: int = 16_000
+    growth: tuple[int, ...] = (16_000, 56_000, 112_000, 500_000, 1_000_000)
+    sources: int = 400
+    eigenpairs: tuple[int, ...] = (50, 200)
+    window: tuple[int, int] = (100_000, 500_000)
+    rounds: int = 3
+    repeat: int = 5
+    sample: str = "figure"
+    file: str | None = None
+
+    def main_mesh(self) -> tuple[np.ndarray, np.ndarray]:
+        """(n, 3) vertices and (m, 3) faces."""
+        if self.file is None:
+            return bumpy_sphere(self.main)
+        from bihdist_core import read_surface
+
+        surface = read_surface(self.file)
+        if surface.component_count > 1:
+            surface, _ = surface.component(0)
+        return np.array(surface.vertices), np.array(surface.faces)
+
+
+FULL = Size()
+QUICK = Size(
+    main=4000,
+    pairs=1000,
+    growth=(1000, 2000, 4000),
+    sources=40,
+    eigenpairs=(10, 20),
+    window=(4000, 8000),
+    rounds=1,
+    repeat=2,
+)

@@ -1,0 +1,86 @@
+"""The benchmark runs, prints a table of the right form, and its numbers are accurate.  Times are not checked here."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bihdist_core import Surface
+from tests.bench import machine
+from tests.bench.__main__ import ROWS
+from tests.bench.meshes import MAKERS
+from tests.bench.table import COLUMNS, Line, render
+from tests.bench.timing import alternate
+
+pytest.importorskip("potpourri3d", reason="the benchmark's peer, of the extra `bench`, is not here")
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory):
+    """What a quick run prints, and what it writes."""
+    path = tmp_path_factory.mktemp("bench") / "table.json"
+    command = [sys.executable, "-m", "tests.bench", "--quick", "--json", str(path)]
+    said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+    assert said.returncode == 0, said.stderr
+    return said.stdout, json.loads(path.read_text())
+
+
+def test_every_row_is_there_with_its_bound(quick):
+    printed, written = quick
+    lines = written["lines"]
+    assert {line["row"] for line in lines} == set(ROWS) == set(range(1, 15))
+    assert all(line["bound"] for line in lines if "folded" not in line["work"] and "needle" not in line["work"])
+    assert all(line["value"] > 0 for line in lines if "skipped" not in line["note"])
+    table = [row for row in printed.splitlines() if row.startswith("|")]
+    assert len(table) == len(lines) + 2
+    assert {row.count("|") for row in table} == {len(COLUMNS) + 1}
+    assert "potpourri3d 1." in printed
+
+
+def test_what_is_fast_is_also_right(quick):
+    lines = quick[1]["lines"]
+    measured = [line for line in lines if line["error"] is not None]
+    assert {line["row"] for line in measured} >= {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}
+    wrong = [(line["work"], line["error"]) for line in measured if not line["is_accurate"]]
+    assert not wrong
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_meshes_are_what_they_are_called(name):
+    vertices, faces = MAKERS[name](6000)
+    surface = Surface(vertices, faces)
+    assert 0.85 < len(vertices) / 6000 < 1.15
+    assert surface.is_manifold
+    assert surface.component_count == 1
+    assert not surface.repairs
+    assert not surface.unreferenced_count
+    assert surface.genus == (2 if name == "genus 2" else 0)
+    assert surface.boundary_loop_count == {"folded sheet": 1, "needle": 2}.get(name, 0)
+    assert all(np.array_equal(a, b) for a, b in zip(MAKERS[name](6000), (vertices, faces), strict=True))
+
+
+def test_ratios_are_taken_round_by_round():
+    result = alternate(lambda: sum(range(1000)), lambda: "other", rounds=3, repeat=2)
+    assert len(result.ours) == len(result.peer) == 3
+    assert result.answer == 499500
+    assert result.peer_answer == "other"
+    assert result.ratio == sorted(a / b for a, b in zip(result.ours, result.peer, strict=True))[1]
+
+
+def test_a_line_says_whether_it_holds():
+    line = Line(1, "work", value=0.5, bound=0.4, error=1.0, tolerance=0.1)
+    assert line.holds is False
+    assert line.is_accurate is False
+    assert "NO" in render([line])
+    assert "BAD" in render([line])
+    assert Line(1, "work", value=0.3, bound=0.4).holds is True
+    assert Line(1, "work").holds is None
+
+
+def test_the_machine_has_limits():
+    assert machine.bandwidth(megabytes=4) > 1e8
+    assert machine.matmul_rate(size=64) > 1e8

@@ -1,0 +1,108 @@
+"""All distances in a file: the array that memory would hold, whole or to be continued."""
+
+import shutil
+from collections import namedtuple
+
+import numpy as np
+import pytest
+
+from bihdist_core import BiharmonicDistance, DiffusionDistance, GeodesicDistance
+from bihdist_core.all_pairs import write_all_pairs
+from bihdist_core.errors import Cancelled, OutputError, ParameterError
+from tests.shapes import bumpy, two_pieces
+
+
+@pytest.fixture
+def distance():
+    return BiharmonicDistance(bumpy(150))
+
+
+@pytest.mark.parametrize(("dtype", "rounding"), [(np.float32, 1e-7), (np.float64, 1e-12)])
+def test_is_the_array_of_all_fields(distance, tmp_path, dtype, rounding):
+    path = tmp_path / "D.npy"
+    write_all_pairs(distance, path, dtype, memory=7 * 150 * 40)  # blocks of 7 rows, and a rest
+    result, fields = np.load(path), distance.from_sources(np.arange(150))
+    assert result.dtype == dtype
+    assert np.abs(result - fields.T).max() <= rounding * fields.max()
+    assert [p.name for p in tmp_path.iterdir()] == ["D.npy"]
+
+
+def test_other_distances_and_vertices_without_one(tmp_path):
+    surface = two_pieces()
+    path = tmp_path / "D.npy"
+    write_all_pairs(GeodesicDistance(surface, "dijkstra"), path, "float64")
+    result = np.load(path)
+    assert np.isnan(result[60]).all()
+    assert np.isnan(result[:, 60]).all()
+    assert np.isnan(result[0, 61:]).all()
+    assert np.isfinite(result[:60, :60]).all()
+    assert np.isfinite(result[61:, 61:]).all()
+
+
+def stop_after(fraction):
+    def progress(done, _text):
+        if done >= fraction:
+            raise Cancelled("enough")
+
+    return progress
+
+
+def counted(distance, monkeypatch):
+    """The ids that are asked for from now on."""
+    asked = []
+    ask = distance.from_sources
+    monkeypatch.setattr(distance, "from_sources", lambda ids: (asked.extend(ids.tolist()), ask(ids))[1])
+    return asked
+
+
+def test_goes_on_where_it_was_stopped(distance, tmp_path, monkeypatch):
+    path, memory = tmp_path / "D.npy", 10 * 150 * 40
+    with pytest.raises(Cancelled):
+        write_all_pairs(distance, path, memory=memory, progress=stop_after(0.6))
+    assert not path.exists()
+    (partial,) = tmp_path.iterdir()
+    with partial.open("r+b") as file:
+        file.truncate(partial.stat().st_size - 5)  # the last row did not get to the disk
+    asked = counted(distance, monkeypatch)
+    write_all_pairs(distance, path, memory=memory)
+    assert asked == list(range(89, 150))
+    assert np.array_equal(np.load(path), distance.from_sources(np.arange(150)).T.astype(np.float32))
+    assert [p.name for p in tmp_path.iterdir()] == ["D.npy"]
+
+
+def test_takes_up_nothing_that_is_not_the_same(distance, tmp_path, monkeypatch):
+    path = tmp_path / "D.npy"
+    with pytest.raises(Cancelled):
+        write_all_pairs(distance, path, memory=10 * 150 * 40, progress=stop_after(0.5))
+    others = [
+        (BiharmonicDistance(bumpy(150, seed=1)), np.float32),
+        (distance, np.float64),
+        (DiffusionDistance(distance.laplacian, t=1.0), np.float32),
+        (DiffusionDistance(distance.laplacian, t=1.0 + 1e-9), np.float32),
+    ]
+    for other, dtype in others:
+        asked = counted(other, monkeypatch)
+        write_all_pairs(other, path, dtype)
+        assert asked == list(range(150))
+        monkeypatch.undo()
+
+
+def test_a_disk_too_small_is_refused_before_the_work(distance, tmp_path, monkeypatch):
+    usage = namedtuple("usage", "free")
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage(80_000))
+    asked = counted(distance, monkeypatch)
+    with pytest.raises(OutputError, match=r"D\.npy cannot be written: it needs 0\.00 GB more"):
+        write_all_pairs(distance, tmp_path / "D.npy")
+    assert not asked
+    assert not list(tmp_path.iterdir())
+
+
+def test_refusals(distance, tmp_path):
+    with pytest.raises(ParameterError, match="int32"):
+        write_all_pairs(distance, tmp_path / "D.npy", np.int32)
+    with pytest.raises(ParameterError, match="memory"):
+        write_all_pairs(distance, tmp_path / "D.npy", memory=0)
+    with pytest.raises(OutputError, match=r"\.csv"):
+        write_all_pairs(distance, tmp_path / "D.csv")
+    with pytest.raises(OutputError, match="no folder"):
+        write_all_pairs(distance, tmp_path / "nowhere" / "D.npy")
