@@ -1,92 +1,69 @@
-"""Headless figures: the window's comparison as a picture, with no Qt and no screen."""
+"""Figures: fields on surfaces in rows and columns of panels, drawn with no window, to pixels or to PDF and SVG.
 
-import ctypes
+A `Figure` says everything that can be seen; `draw_figure` and `save_figure` are all that draws one.
+"""
+
 import os
-import sys
-from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from bihdist_core import BihdistError, Surface
+from bihdist_core import OutputError
+from bihdist_core.progress import Progress, part
+from bihdist_core.whole_file import check_output, whole_file
 
-from .camera import Margins, place_camera
-from .scene import PanelScene, drawable
-from .style import PAPER, Style
+from .figure_description import Figure, FigurePanel, Mark, Zoom
+from .figure_drawing import Page
+from .figure_layout import lay_out
+from .figure_page import crop, page_pixels, write_vector
+from .figure_raster import check_offscreen
+from .figure_shots import take_shots
 
-PANEL_SIZE = (560, 640)
-MARGINS = Margins(top=0.12, bottom=0.13)
+__all__ = ["FIGURE_FORMATS", "Figure", "FigurePanel", "Mark", "Zoom", "check_offscreen", "draw_figure", "save_figure"]
 
+FIGURE_FORMATS = (".png", ".pdf", ".svg")
 
-@dataclass(frozen=True, eq=False)
-class FigurePanel:
-    """One panel of a figure: a field (n,) with NaN where undefined, and the words above it."""
-
-    field: np.ndarray
-    heading: str
-    hint: str = ""
-    unit: str = ""
+VECTOR_DPI = 300
+"""The least resolution of the shading in PDF and SVG."""
 
 
-def draw_comparison(
-    surface: Surface,
-    panels: Sequence[FigurePanel],
-    source: int,
-    *,
-    isolines: int = 20,
-    panel_size: tuple[int, int] = PANEL_SIZE,
-    scale: float = 1.0,
-    view: str = "home",
-    style: Style = PAPER,
-) -> np.ndarray:
-    """(height, width, 3) uint8 picture: the panels side by side, from the same camera.
+def draw_figure(figure: Figure, progress: Progress | None = None) -> np.ndarray:
+    """(height, width, 3) uint8 picture, or (height, width, 4) with alpha if it is transparent.
 
-    panel_size: pixels of each panel at scale 1; `scale` multiplies it, lines and text included.
     Raises BihdistError where nothing can be drawn off screen.
     """
-    check_offscreen()
-    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
-        # VTK would otherwise try an X server first, and complain that there is none.
-        os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
-    import pyvista
-
-    width, height = (round(side * scale) for side in panel_size)
-    plotter = pyvista.Plotter(
-        off_screen=True, shape=(1, len(panels)), border=False, window_size=(width * len(panels), height)
-    )
-    try:
-        plotter.render_window.SetMultiSamples(8)
-        mesh = drawable(surface)
-        camera = plotter.renderers[0].GetActiveCamera()
-        shown = surface.vertices[surface.component_of_vertex >= 0]
-        place_camera(camera, shown, width / height, view, MARGINS)
-        for renderer, panel in zip(plotter.renderers, panels, strict=True):
-            scene = PanelScene(renderer, style, scale)
-            scene.show_surface(mesh)
-            scene.show_field(panel.field, panel.unit)
-            scene.show_isolines(isolines)
-            scene.mark_source(surface.vertices[source])
-            scene.write_heading(panel.heading, panel.hint)
-            renderer.SetActiveCamera(camera)
-            renderer.camera_set = True
-        # One picture of all renderers; pyvista would otherwise reset cameras at the first render.
-        plotter.show(auto_close=False, interactive=False)
-        return np.array(plotter.screenshot(return_img=True))[..., :3]
-    finally:
-        plotter.close()
+    page = _page(figure, False, progress)
+    pixels = page_pixels(page)
+    return crop(page, pixels) if figure.crop else pixels
 
 
-def check_offscreen() -> None:
-    """BihdistError, with what to install, where the libraries that draw without a screen are missing.
+def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
+    """Draw a figure into a .png, .pdf or .svg file, whole or not at all.
 
-    Without them VTK does not raise but ends the process.
+    Raises OutputError if it cannot be written; what was at `path` before then stays.
     """
-    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
-        for library in ("libEGL.so.1", "libGL.so.1"):
+    extension = check_output(path, FIGURE_FORMATS)
+    with whole_file(path) as temporary:
+        if extension == ".png":
+            from PIL import Image
+
+            picture = draw_figure(figure, progress)
+            dpi = 96 * lay_out(figure).scale
+            Image.fromarray(picture).save(temporary, dpi=(dpi, dpi))
+        else:
+            page = _page(figure, True, progress)
             try:
-                ctypes.CDLL(library)
-            except OSError:
-                raise BihdistError(
-                    f"Drawing needs {library}, which is not installed; on Debian or Ubuntu: "
-                    "apt-get install libegl1 libgl1"
-                ) from None
+                write_vector(page, temporary)
+            except ValueError as error:  # matplotlib's word for a page it cannot make
+                raise OutputError(f"{path} could not be written: {error}.") from error
+
+
+def described(figure: Figure) -> str:
+    """How many panels, and how large a page."""
+    width, height = lay_out(figure).page
+    count = len(figure.panels)
+    return f"{count} {'panel' if count == 1 else 'panels'} on {width} x {height} pixels"
+
+
+def _page(figure: Figure, vector: bool, progress: Progress | None) -> Page:
+    layout = lay_out(figure, VECTOR_DPI / 96 if vector else 0.0)
+    return Page(figure, layout, take_shots(figure, layout, vector, part(progress, 0.0, 0.95)))

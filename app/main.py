@@ -1,4 +1,5 @@
-"""The command line: `bihdist MESH` opens the viewer; `field`, `pairs`, `figure` and `info` need no window.
+"""The command line: `bihdist MESH` opens the viewer; `field`, `pairs`, `figure`, `info` and `paper` need
+no window.
 
 The only place that wires everything.  What is heavy (numpy, VTK, Qt) is imported by the command that needs it.
 """
@@ -9,9 +10,11 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from contextlib import contextmanager
-from importlib import metadata
 
-COMMANDS = ("view", "field", "pairs", "figure", "info")
+from .figure_command import add_figure_options, add_movie_options, chosen_movie, chosen_recipe
+from .version import version
+
+COMMANDS = ("view", "field", "pairs", "figure", "movie", "info", "paper")
 WORDS = ("biharmonic", "truncated", "power", "commute-time", "diffusion", "geodesic")
 
 
@@ -77,17 +80,26 @@ def _parser() -> argparse.ArgumentParser:
     _add_areas(pairs)
 
     figure = _command(commands, "figure", _figure, "the window's comparison as a picture, without a window")
-    figure.add_argument("mesh", help="mesh file, or the name of a sample")
-    figure.add_argument("--source", type=_vertex, metavar="V", help="vertex id (default: the highest vertex)")
-    figure.add_argument("-o", "--output", metavar="OUT.png", required=True)
-    figure.add_argument("--view", choices=_views(), default="home", help="where the camera stands (default: home)")
-    figure.add_argument("--isolines", type=_count, default=20, metavar="N", help="number of steps (default: 20)")
-    figure.add_argument("--scale", type=_positive, default=1.0, help="pixels per pixel, lines and text included")
+    add_figure_options(figure)
     _add_distance(figure, several=True)
     _add_areas(figure)
 
+    movie = _command(commands, "movie", _movie, "a figure that turns, or whose source wanders, as MP4 or GIF")
+    add_figure_options(movie, "a .mp4 or .gif file")
+    add_movie_options(movie)
+    _add_distance(movie, several=True)
+    _add_areas(movie)
+
     info = _command(commands, "info", _info, "what a mesh file holds and what would be repaired")
     info.add_argument("mesh", help="mesh file, or the name of a sample")
+
+    paper = _command(commands, "paper", _paper, "every figure and table of the paper, computed anew, as one page")
+    paper.add_argument("--out", metavar="DIR", required=True, help="folder for index.html, pictures and numbers")
+    paper.add_argument("--only", metavar="IDS", default="", help="a choice, such as fig4,table2")
+    paper.add_argument(
+        "--mesh", metavar="PATH", help="your own mesh, or a folder of meshes (claims and a picture each)"
+    )
+    paper.add_argument("--quick", action="store_true", help="smaller meshes and fewer samples, for a first look")
     return parser
 
 
@@ -95,14 +107,6 @@ class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         print(f"bihdist {version()}")
         parser.exit()
-
-
-def version() -> str:
-    """The installed version, or the checkout's."""
-    try:
-        return metadata.version("bihdist")
-    except metadata.PackageNotFoundError:
-        return "(not installed)"
 
 
 def _command(commands, name: str, run: Callable, text: str) -> argparse.ArgumentParser:
@@ -134,10 +138,6 @@ def _add_distance(parser: argparse.ArgumentParser, several: bool = False) -> Non
 
 def _add_areas(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--areas", choices=("voronoi", "barycentric"), default="voronoi", help="vertex areas")
-
-
-def _views() -> tuple[str, ...]:
-    return ("home", "front", "back", "left", "right", "top", "bottom")
 
 
 def _vertex(text: str) -> int:
@@ -244,32 +244,29 @@ def _pairs(options: argparse.Namespace) -> None:
 
 
 def _figure(options: argparse.Namespace) -> None:
-    from bihdist_core.whole_file import check_output, whole_file
+    from .figure_export import check_export, export
+    from .figures import described
 
-    check_output(options.output, (".png",))
-    from .figures import FigurePanel, check_offscreen, draw_comparison
-    from .session import first_source
-
-    check_offscreen()
-    state = _viewer_state(options)
+    check_export(options.output)
+    recipe = chosen_recipe(options, _panel)
     with _progress() as progress:
-        laplacian = _laplacian(options)
-        surface = laplacian.surface
-        source = first_source(surface) if options.source is None else surface.check_vertex(options.source)
-        panels = []
-        for panel in state.panels:
-            distance = panel.build(laplacian, progress)
-            panels.append(
-                FigurePanel(distance.from_source(source, progress), distance.label, panel.hint, distance.unit)
-            )
-    picture = draw_comparison(
-        surface, panels, source, isolines=options.isolines, scale=options.scale, view=options.view
-    )
-    from PIL import Image
+        figure, recipe = export(recipe, options.output, version(), progress)
+    for text in figure.panels[0].surface.repairs:
+        print(f"{figure.panels[0].surface.name}: {text}", file=sys.stderr)
+    sources = ", ".join(str(v) for v in dict.fromkeys(panel.source for panel in recipe.panels))
+    print(f"{options.output}: {described(figure)}, source vertex {sources}")
 
-    with whole_file(options.output) as temporary:
-        Image.fromarray(picture).save(temporary)
-    print(f"{options.output}: {picture.shape[1]} x {picture.shape[0]} pixels, source vertex {source}")
+
+def _movie(options: argparse.Namespace) -> None:
+    from .figure_raster import check_offscreen
+    from .movie import check_movie, write_movie
+
+    check_movie(options.output)
+    check_offscreen()
+    movie = chosen_movie(options, _panel)
+    with _progress() as progress:
+        write_movie(movie, options.output, progress)
+    print(f"{options.output}: {movie.frames} frames, {movie.frames / movie.fps:.3g} s")
 
 
 def _info(options: argparse.Namespace) -> None:
@@ -298,6 +295,17 @@ def _info(options: argparse.Namespace) -> None:
     if len(s.flat_faces):
         said.append("faces of no area are made a millionth of an edge thick where the operators need it")
     print(f"{'repairs':<26}{'; '.join(said) if said else 'none'}")
+
+
+def _paper(options: argparse.Namespace) -> None:
+    from .paper.reproduce import reproduce
+    from .samples import mesh_path
+
+    only = [word for word in options.only.split(",") if word]
+    mesh = mesh_path(options.mesh) if options.mesh else None
+    with _progress() as progress:
+        page = reproduce(options.out, only, mesh, options.quick, progress, say=lambda line: print(line, flush=True))
+    print(f"{page}: open it in a browser")
 
 
 def _laplacian(options: argparse.Namespace):

@@ -9,7 +9,11 @@ Colour = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Style:
-    """Colours are RGB from 0 to 1; widths are in pixels at scale 1."""
+    """Colours are RGB from 0 to 1; widths are in pixels at scale 1, which are 1/96 of an inch.
+
+    outline: width of the line around the shape and along its folds; 0 for none.  Without `shading` the colours are
+    drawn as they are, and without `coloured` isolines alone tell the field.
+    """
 
     stops: tuple[tuple[float, Colour], ...]
     background: Colour = (1, 1, 1)
@@ -17,17 +21,30 @@ class Style:
     quiet_text: Colour = (0.45, 0.47, 0.5)
     isoline: Colour = (1, 1, 1)
     isoline_width: float = 1.5
+    outline: float = 0.0
+    outline_colour: Colour = (0, 0, 0)
+    shading: bool = True
+    coloured: bool = True
     undefined: Colour = (0.72, 0.72, 0.7)
     source: Colour = (1.0, 0.86, 0.1)
     pointer: Colour = (1, 1, 1)
     marker_size: float = 15.0
+    mark_edge: Colour = (0.1, 0.1, 0.12)
 
     def colours(self, count: int = 512) -> np.ndarray:
         """(count, 3) the colour map from the source to the farthest point."""
+        return self.colours_at(np.linspace(0, 1, count))
+
+    def colours_at(self, shares: np.ndarray) -> np.ndarray:
+        """(k, 3) colours of values given as shares (k,) of the maximum."""
         at = np.array([s for s, _ in self.stops])
         colours = np.array([c for _, c in self.stops])
-        x = np.linspace(0, 1, count)
-        return np.stack([np.interp(x, at, colours[:, k]) for k in range(3)], 1)
+        return np.stack([np.interp(shares, at, colours[:, k]) for k in range(3)], 1)
+
+
+def _even(*colours: Colour) -> tuple[tuple[float, Colour], ...]:
+    """Stops at equal distances."""
+    return tuple((k / (len(colours) - 1), colour) for k, colour in enumerate(colours))
 
 
 PAPER = Style(
@@ -42,3 +59,63 @@ PAPER = Style(
     )
 )
 """The paper's look: dark blue near, through cyan, grey and pink, to dark red far; white isolines."""
+
+UNIFORM = Style(
+    # viridis (Smith and van der Walt, CC0) from 0 to 0.82: beyond, white lines would no longer stand out.
+    stops=_even(
+        (0.267, 0.005, 0.329),
+        (0.281, 0.079, 0.402),
+        (0.282, 0.151, 0.465),
+        (0.269, 0.219, 0.510),
+        (0.247, 0.283, 0.536),
+        (0.220, 0.343, 0.549),
+        (0.194, 0.399, 0.556),
+        (0.171, 0.453, 0.558),
+        (0.150, 0.504, 0.557),
+        (0.131, 0.556, 0.552),
+        (0.120, 0.607, 0.540),
+        (0.135, 0.659, 0.518),
+        (0.191, 0.708, 0.482),
+        (0.281, 0.755, 0.433),
+        (0.395, 0.797, 0.368),
+        (0.526, 0.833, 0.288),
+    )
+)
+"""Equal steps of distance look equally large, also with colour-vision deficiencies and printed in grey."""
+
+LINES = Style(
+    stops=_even((1, 1, 1), (1, 1, 1)),
+    isoline=(0, 0, 0),
+    isoline_width=1.1,
+    outline=1.6,
+    shading=False,
+    coloured=False,
+    text=(0, 0, 0),
+    quiet_text=(0.25, 0.25, 0.25),
+    undefined=(0.86, 0.86, 0.86),
+    source=(0, 0, 0),
+    mark_edge=(0, 0, 0),
+    marker_size=9.0,
+)
+"""Isolines and outlines only, for black-and-white print."""
+
+DARK = Style(
+    stops=(
+        (0.0, (0.16, 0.28, 0.80)),
+        (0.17, (0.16, 0.46, 0.90)),
+        (0.34, (0.36, 0.76, 0.93)),
+        (0.50, (0.80, 0.82, 0.83)),
+        (0.66, (0.96, 0.64, 0.67)),
+        (0.84, (0.92, 0.33, 0.33)),
+        (1.0, (0.70, 0.10, 0.14)),
+    ),
+    background=(0.07, 0.08, 0.10),
+    text=(0.93, 0.94, 0.95),
+    quiet_text=(0.66, 0.68, 0.71),
+    undefined=(0.45, 0.45, 0.45),
+    mark_edge=(0.05, 0.05, 0.06),
+)
+"""For slides: the paper's colours with lighter ends, which stay visible on a dark background."""
+
+STYLES = {"paper": PAPER, "uniform": UNIFORM, "lines": LINES, "dark": DARK}
+"""The words of the command line and of recipes."""

@@ -37,6 +37,8 @@ class MainWindow(QtWidgets.QMainWindow):
         self.session = Session(self, self._posted.emit, state, prepare=_prepare)
         self.panels: list = []
         self._camera = None
+        self.recipe = None  # the one opened last
+        self.first_view: Callable[[], None] | None = None  # of the next mesh, where it is not the usual one
         self._hovered: int | None = None
         self._waiting: list[Callable[[], None]] = []
         self._announced = False
@@ -94,11 +96,16 @@ class MainWindow(QtWidgets.QMainWindow):
     def mesh_changed(self) -> None:
         surface, (mesh, picker) = self.session.surface, self.session.prepared
         self.setWindowTitle(f"{surface.name} - Biharmonic distance")
-        self._source_box.setRange(0, len(surface.vertices) - 1)
+        with QtCore.QSignalBlocker(self._source_box):  # a smaller mesh would otherwise choose its last vertex
+            self._source_box.setRange(0, len(surface.vertices) - 1)
         for panel in self.panels:
             panel.show_surface(mesh, picker, self._camera)
         self._hovered = None
         self.reset_view()
+        if self.first_view:
+            self.first_view()
+            self.first_view = None
+            self._repaint()
         self._say(_summary(surface))
 
     def source_changed(self) -> None:
@@ -145,6 +152,15 @@ class MainWindow(QtWidgets.QMainWindow):
             box.open()
 
     # ------------------------------------------------------------------ views
+    @property
+    def camera(self):
+        """The camera of all panels."""
+        return self._camera
+
+    def show_isolines(self, count: int) -> None:
+        """Choose a number of isolines, as the box in the tool bar does."""
+        self._isolines_box.setValue(count)
+
     def reset_view(self, view: str = "home") -> None:
         from ..camera import place_camera
 
@@ -214,6 +230,16 @@ class MainWindow(QtWidgets.QMainWindow):
                 raise OutputError(f"{path} could not be written.")
         self._say(f"Saved {os.path.basename(path)}")
 
+    def export_figure(self) -> None:
+        from .figure_actions import export_figure
+
+        export_figure(self)
+
+    def choose_recipe(self) -> None:
+        from .figure_actions import choose_recipe
+
+        choose_recipe(self)
+
     def _choose_source(self, vertex: int) -> None:
         try:
             self.session.select_source(vertex)
@@ -268,6 +294,8 @@ class MainWindow(QtWidgets.QMainWindow):
             action = samples.addAction(QtGui.QIcon(str(thumbnail(name))), name.replace("_", " "))
             action.triggered.connect(lambda *_, name=name: self.open(mesh_path(name)))
         _action(file, "S&creenshot …", self.choose_screenshot, "Ctrl+P")
+        _action(file, "&Export figure …", self.export_figure, "Ctrl+E")
+        _action(file, "Open &recipe …", self.choose_recipe, "Ctrl+R")
         file.addSeparator()
         _action(file, "&Quit", self.close, QtGui.QKeySequence.StandardKey.Quit)
         view = self.menuBar().addMenu("&View")
@@ -311,7 +339,8 @@ Point at the surface: its value in every panel.
 Ctrl+O  open a mesh (or drop it on the window)
 G  type the source's vertex id
 R  reset the view      1 … 6  front, back, left, right, top, bottom
-Ctrl+P  save a picture of the window
+Ctrl+P  save a picture of the window      Ctrl+E  export a figure
+Ctrl+R  open a figure's recipe
 Esc  cancel what is being computed"""
 
 

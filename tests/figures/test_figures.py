@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.figures import FigurePanel, check_offscreen, draw_comparison
+from app.figure_size import Size
+from app.figures import Figure, FigurePanel, Mark, check_offscreen, draw_figure
 from app.style import PAPER
 from bihdist_core import BihdistError
 from tests.shapes import bumpy, grid, two_pieces
 
 ROOT = Path(__file__).parents[2]
-SIZE = (400, 400)
+SIZE = Size(400, 400, dpi=96)
 
 
 def rows_of_lines(picture):
@@ -26,11 +27,16 @@ def rows_of_lines(picture):
     return find_peaks(darkest[inside[0] : inside[-1] + 1], prominence=25, distance=5)[0]
 
 
+def one(surface, field, **options):
+    """A picture of one panel."""
+    return draw_figure(Figure((FigurePanel(surface, field, **options),), size=SIZE))
+
+
 def test_isolines_are_equally_spaced_where_the_field_is_linear():
     flat = grid(20, 20)
     height = flat.vertices[:, 1]
-    picture = draw_comparison(flat, [FigurePanel(height, "")], 0, isolines=10, panel_size=SIZE)
-    lines = rows_of_lines(picture[20:355])
+    picture = one(flat, height, isolines=10)
+    lines = rows_of_lines(picture[:340])
     assert len(lines) == 9
     spacing = np.diff(lines)
     assert np.ptp(spacing) <= 2  # a pixel of rounding at each end
@@ -38,7 +44,7 @@ def test_isolines_are_equally_spaced_where_the_field_is_linear():
 
 def test_colours_run_from_the_source_to_the_farthest_point():
     flat = grid(20, 20)
-    picture = draw_comparison(flat, [FigurePanel(flat.vertices[:, 1], "")], 210, isolines=0, panel_size=SIZE)
+    picture = one(flat, flat.vertices[:, 1], isolines=0)
     column = picture[:, 200 + 9].astype(float)
     inside = np.flatnonzero((column < 240).any(axis=1))
     inside = inside[inside < 340]
@@ -53,13 +59,13 @@ def test_what_is_undefined_is_grey_and_has_no_lines():
     field = np.where(surface.component_of_vertex == 0, np.arange(65) / 65, np.nan)
     everything = np.full(65, np.nan)
     everything[0] = 0
-    with_colour = draw_comparison(surface, [FigurePanel(field, "")], 0, panel_size=SIZE)
-    all_grey = draw_comparison(surface, [FigurePanel(everything, "")], 0, panel_size=SIZE)
+    with_colour = one(surface, field)
+    all_grey = one(surface, everything)
     assert np.ptp(with_colour.astype(int), axis=2).max() > 100
 
     def saturated(picture):
-        # Above the colour bar; the source's mark is yellow, so it is left out.
-        part = picture[:330].astype(int)
+        # Above the colour bar.
+        part = picture[:340].astype(int)
         return ((np.ptp(part, axis=2) > 60) & (part[..., 2] > part[..., 0])).sum()
 
     assert saturated(all_grey) < 0.02 * saturated(with_colour)
@@ -68,9 +74,12 @@ def test_what_is_undefined_is_grey_and_has_no_lines():
 def test_panels_stand_side_by_side_and_scale_makes_all_larger():
     surface = bumpy(300)
     field = (surface.vertices[:, 0] + 2) / 4
-    panels = [FigurePanel(field, "one"), FigurePanel(1 - field, "two", "a hint", "mesh units")]
-    small = draw_comparison(surface, panels, 0, panel_size=SIZE)
-    large = draw_comparison(surface, panels, 0, panel_size=SIZE, scale=2)
+    mark = (Mark(0),)
+    panels = (
+        FigurePanel(surface, field, "one", marks=mark),
+        FigurePanel(surface, 1 - field, "two", "a hint", "a distance", "mesh units", marks=mark),
+    )
+    small, large = (draw_figure(Figure(panels, size=Size(800 * k, 400 * k, dpi=96 * k))) for k in (1, 2))
     assert small.shape == (400, 800, 3)
     assert large.shape == (800, 1600, 3)
     assert (small[:, :400] != small[:, 400:]).mean() > 0.05
@@ -80,14 +89,12 @@ def test_panels_stand_side_by_side_and_scale_makes_all_larger():
 
 def test_views_show_other_sides():
     surface, field = bumpy(300), np.linspace(0, 1, 300)
-    front, back = (
-        draw_comparison(surface, [FigurePanel(field, "")], 0, view=v, panel_size=SIZE) for v in ("front", "back")
-    )
+    front, back = (one(surface, field, views=(view,)) for view in ("front", "back"))
     assert (front != back).mean() > 0.05
 
 
 def test_missing_libraries_are_named(monkeypatch):
-    import app.figures as figures
+    import app.figure_raster as figures
 
     def missing(name):
         raise OSError(name)

@@ -1,0 +1,173 @@
+"""A surface coloured by a field, with isolines painted by the fragment shader.
+
+The field crosses the surface as a vertex attribute, and a fragment is painted where it is within half a line's width
+of a multiple of the step, measured in pixels.  Lines so drawn have the same width everywhere and cost no geometry.
+"""
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+
+from bihdist_core import Surface
+
+from .style import Style
+
+UNDEFINED = -1.0
+"""Stands for NaN in the scalars: distances are never negative, and the shader needs a number."""
+
+_DECLARE = "//VTK::PositionVC::Dec"
+_PASS_ON = "//VTK::PositionVC::Impl"
+_LIT = "//VTK::Light::Impl"
+_PAINT = """//VTK::Light::Impl
+  float steps = isolineValue / isolineStep;
+  float perPixel = length(vec2(dFdx(steps), dFdy(steps)));
+  float fromLine = abs(fract(steps - 0.5) - 0.5) / max(perPixel, 1e-12);
+  float paint = 1.0 - smoothstep(isolineHalfWidth - 0.6, isolineHalfWidth + 0.6, fromLine);
+  paint *= 1.0 - smoothstep(0.25, 0.5, perPixel);  // fade where lines would merge
+  paint *= step(0.5, steps);                       // none at the source itself, none where undefined
+  paint *= step(steps, isolineLast + 0.5);         // none at the farthest point itself
+  fragOutput0.rgb = mix(fragOutput0.rgb, isolineColour, paint);
+"""
+
+
+def drawable(surface: Surface) -> vtkPolyData:
+    """The surface with point normals, in the surface's vertex ids.  Safe to call on a background thread."""
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(surface.vertices, deep=True))
+    sides = np.empty((len(surface.faces), 4), np.int64)
+    sides[:, 0], sides[:, 1:] = 3, surface.faces
+    cells = vtkCellArray()
+    cells.ImportLegacyFormat(numpy_to_vtkIdTypeArray(sides.ravel(), deep=True))
+    mesh = vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(cells)
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(mesh)
+    normals.SplittingOff()
+    normals.ConsistencyOff()
+    normals.NonManifoldTraversalOff()
+    normals.Update()
+    mesh.GetPointData().SetNormals(normals.GetOutput().GetPointData().GetNormals())
+    mesh.ComputeBounds()
+    return mesh
+
+
+def isoline_values(field: np.ndarray, maximum: float, count: int) -> np.ndarray:
+    """(k,) the values that get a line: multiples of maximum / count, above 0 and below the field's own maximum."""
+    own = float(np.nanmax(field, initial=0.0))
+    if not count or maximum <= 0 or own <= 0:
+        return np.empty(0)
+    step = maximum / count
+    # A millionth of a step: at the farthest point itself a line would be a blot.
+    return step * np.arange(1, int(np.ceil(own / step - 1e-6)))
+
+
+class FieldActor:
+    """One surface with one field, for any VTK renderer.  `scale`: device pixels per pixel of the style's widths."""
+
+    def __init__(self, style: Style, scale: float = 1.0) -> None:
+        self.style = style
+        self.table = lookup_table(style)
+        self.actor = vtkActor()
+        self.maximum = 1.0
+        self._mapper = vtkPolyDataMapper()
+        self._count = 20
+        self._own_maximum = 1.0
+        self._make()
+        self.show_isolines(self._count)
+        self.set_scale(scale)
+        self.actor.VisibilityOff()
+
+    def show_surface(self, mesh: vtkPolyData) -> None:
+        """Show a surface made by `drawable`, without a field yet."""
+        own = vtkPolyData()
+        own.ShallowCopy(mesh)
+        self._values = np.full(mesh.GetNumberOfPoints(), UNDEFINED, np.float32)
+        self._array = numpy_to_vtk(self._values)
+        self._array.SetName("distance")
+        own.GetPointData().AddArray(self._array)
+        self._mapper.SetInputData(own)
+        self._mapper.MapDataArrayToVertexAttribute(
+            "isolineAttribute", "distance", vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
+        )
+        self.actor.VisibilityOn()
+
+    def show_field(self, field: np.ndarray, maximum: float | None = None) -> None:
+        """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey."""
+        own = float(np.nanmax(field))
+        top = own if maximum is None else maximum
+        self._values[:] = np.where(np.isnan(field), UNDEFINED, field / top if top > 0 else 0)
+        self._array.Modified()
+        self.maximum, self._own_maximum = top, own
+        self.show_isolines(self._count)
+
+    def show_isolines(self, count: int) -> None:
+        """So many equal steps from 0 to the maximum; 0 for no lines."""
+        self._count = count
+        share = self._own_maximum / self.maximum if self.maximum > 0 else 0.0
+        lines = isoline_values(np.array([share]), 1.0, count)
+        self._uniforms.SetUniformf("isolineStep", 1 / count if count else 1e9)
+        self._uniforms.SetUniformf("isolineLast", float(len(lines)))
+
+    def set_scale(self, scale: float) -> None:
+        """Device pixels per pixel have changed."""
+        self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale)
+
+    def _make(self) -> None:
+        mapper, actor = self._mapper, self.actor
+        mapper.SetLookupTable(self.table)
+        mapper.UseLookupTableScalarRangeOn()
+        mapper.SetScalarModeToUsePointFieldData()
+        mapper.SelectColorArray("distance")
+        # Colours are looked up per pixel, not blended between the vertices' colours.
+        mapper.InterpolateScalarsBeforeMappingOn()
+        actor.SetMapper(mapper)
+        surface = actor.GetProperty()
+        surface.SetInterpolationToGouraud()
+        if self.style.shading:
+            surface.SetAmbient(0.26)
+            surface.SetDiffuse(0.80)
+            surface.SetSpecular(0.06)
+            surface.SetSpecularPower(20)
+        else:
+            surface.SetAmbient(1.0)
+            surface.SetDiffuse(0.0)
+            surface.SetSpecular(0.0)
+        shader = actor.GetShaderProperty()
+        shader.AddVertexShaderReplacement(
+            _DECLARE, True, f"{_DECLARE}\nin float isolineAttribute;\nout float isolineValue;\n", False
+        )
+        shader.AddVertexShaderReplacement(_PASS_ON, True, f"{_PASS_ON}\nisolineValue = isolineAttribute;\n", False)
+        shader.AddFragmentShaderReplacement(_DECLARE, True, f"{_DECLARE}\nin float isolineValue;\n", False)
+        shader.AddFragmentShaderReplacement(_LIT, False, _PAINT, False)
+        self._uniforms = shader.GetFragmentCustomUniforms()
+        self._uniforms.SetUniform3f("isolineColour", self.style.isoline)
+
+
+def lookup_table(style: Style) -> vtkLookupTable:
+    """The style's colours from 0 to 1, and what is undefined below."""
+    colours = style.colours()
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(len(colours))
+    for k, colour in enumerate(colours):
+        table.SetTableValue(k, *colour, 1)
+    table.SetRange(0, 1)
+    table.SetBelowRangeColor(*style.undefined, 1)
+    table.UseBelowRangeColorOn()
+    return table
+
+
+def light(renderer: vtkRenderer) -> None:
+    """A key light from the upper left of the camera and a weak fill, so that form reads without dark sides."""
+    renderer.RemoveAllLights()
+    renderer.AutomaticLightCreationOff()
+    for position, intensity in [((-0.5, 0.6, 1.0), 0.85), ((0.8, -0.2, 0.7), 0.42)]:
+        source = vtkLight()
+        source.SetLightTypeToCameraLight()
+        source.SetPosition(*position)
+        source.SetFocalPoint(0, 0, 0)
+        source.SetIntensity(intensity)
+        renderer.AddLight(source)

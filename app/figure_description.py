@@ -1,0 +1,130 @@
+"""What a figure shows, as frozen data: panels in rows and columns, and how they look."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bihdist_core import ParameterError, Surface
+
+from .camera import VIEWS, Camera, is_flat
+from .figure_size import Size
+from .style import PAPER, Style
+
+CORNERS = ("auto", "top right", "top left", "bottom right", "bottom left")
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A marked vertex: a source, or an anchor, which has a value and is filled with that value's colour."""
+
+    vertex: int
+    value: float | None = None
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Zoom:
+    """A part of a panel's first picture around a vertex, enlarged in a corner of it.
+
+    corner: "auto" (where the least is hidden), "top left", "top right", "bottom left" or "bottom right".
+    """
+
+    vertex: int
+    factor: float = 3.0
+    corner: str = "auto"
+
+    def __post_init__(self) -> None:
+        if not 1 < self.factor <= 100:
+            raise ParameterError(f"A zoom enlarges by more than 1 and at most 100 times, not {self.factor:g}.")
+        if self.corner not in CORNERS:
+            raise ParameterError(f"There is no corner {self.corner!r}; choose one of {', '.join(CORNERS)}.")
+
+
+@dataclass(frozen=True, eq=False)
+class FigurePanel:
+    """One panel: a surface, a field (n,) on it with NaN where undefined, or None for the bare shape, and its words.
+
+    label and unit stand at the colour bar, heading and hint above.  maximum: the end of the colour bar, the field's
+    own if None.  isolines: equal steps from 0 to the maximum.  views: pictures of the same side by side, each a name
+    from `camera.VIEWS` or a camera.  height: a flat surface becomes a relief, raised by the field so that its maximum
+    is this share of the surface's extent.
+    """
+
+    surface: Surface
+    field: np.ndarray | None = None
+    heading: str = ""
+    hint: str = ""
+    label: str = ""
+    unit: str = ""
+    maximum: float | None = None
+    isolines: int = 20
+    views: tuple[str | Camera, ...] = ("home",)
+    marks: tuple[Mark, ...] = ()
+    zooms: tuple[Zoom, ...] = ()
+    height: float = 0.0
+
+    def __post_init__(self) -> None:
+        count = len(self.surface.vertices)
+        if self.field is not None and np.shape(self.field) != (count,):
+            raise ParameterError(f"The field has the shape {np.shape(self.field)}; the surface has {count} vertices.")
+        if self.maximum is not None and not 0 < self.maximum < np.inf:
+            raise ParameterError(f"A colour bar ends at a positive number, not at {self.maximum!r}.")
+        if not self.views:
+            raise ParameterError("A panel needs at least one view.")
+        for view in self.views:
+            if isinstance(view, str) and view not in VIEWS:
+                raise ParameterError(f"There is no view {view!r}; choose one of {', '.join(VIEWS)}.")
+        if self.height and not is_flat(self.surface.vertices[self.surface.component_of_vertex >= 0]):
+            raise ParameterError("A relief needs a flat surface, with the same z everywhere.")
+        if not 0 <= self.height <= 10:
+            raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
+        if not 0 <= self.isolines <= 1000:
+            raise ParameterError(f"There are 0 to 1000 steps between isolines, not {self.isolines}.")
+        self.surface.check_vertices([m.vertex for m in (*self.marks, *self.zooms)])
+
+    @property
+    def top(self) -> float:
+        """The end of the colour bar; 0 if there is no field, or none that is more than 0 anywhere."""
+        if self.maximum is not None:
+            return self.maximum
+        return 0.0 if self.field is None else float(np.nanmax(self.field, initial=0.0))
+
+
+USUAL = Size()
+"""As the panels want it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Figure:
+    """Panels row by row, in as many columns as given (all in one row if None).
+
+    shared_range: one colour bar for all, to the largest maximum.  crop: to what is drawn, with a narrow margin.
+    """
+
+    panels: tuple[FigurePanel, ...]
+    columns: int | None = None
+    size: Size = USUAL
+    style: Style = PAPER
+    shared_range: bool = False
+    transparent: bool = False
+    crop: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.panels:
+            raise ParameterError("A figure needs at least one panel.")
+        if self.columns is not None and self.columns < 1:
+            raise ParameterError(f"A figure has at least one column, not {self.columns}.")
+        units = {p.unit for p in self.panels if p.field is not None}
+        if self.shared_range and len(units) > 1:
+            raise ParameterError(f"Panels in different units ({', '.join(sorted(units))}) cannot share a range.")
+
+    @property
+    def grid(self) -> tuple[int, int]:
+        """Rows and columns."""
+        columns = min(self.columns or len(self.panels), len(self.panels))
+        return -(-len(self.panels) // columns), columns
+
+    def tops(self) -> list[float]:
+        """The end of each panel's colour bar."""
+        own = [p.top for p in self.panels]
+        return [max(own)] * len(own) if self.shared_range else own

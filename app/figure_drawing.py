@@ -1,0 +1,295 @@
+"""What matplotlib draws of a page: words, colour bars, marks and frames over pixels, or the whole page as vectors.
+
+Both come from the same commands, in units of the page.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .figure_description import Figure
+from .figure_layout import FONT, Box, Layout, bar_words
+from .figure_shots import Line, Shot
+from .vector_crossings import simplified
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Canvas
+    from matplotlib.path import Path
+
+
+POINT = 0.75
+"""Points in a unit."""
+
+FINENESS = 0.03
+"""Units by which a curve may differ from its exact course to need fewer points."""
+
+EDGE_FINENESS = 0.1
+"""The same for the edge of the shape, which is found from pixels."""
+
+BAR_STEPS = 256
+
+
+@dataclass(frozen=True, eq=False)
+class Page:
+    """A figure, where everything stands, and its pictures in the order in which they lie on each other."""
+
+    figure: Figure
+    layout: Layout
+    shots: list[Shot]
+
+
+@contextmanager
+def matplotlib_settings() -> Iterator[None]:
+    """matplotlib as it is delivered, whatever the user's settings, and files that are equal when drawn again."""
+    import matplotlib
+
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(
+            {
+                "font.family": FONT,
+                "text.parse_math": False,
+                "svg.fonttype": "none",
+                "svg.hashsalt": "bihdist",
+                "pdf.fonttype": 42,
+                "path.simplify": False,
+                "image.composite_image": False,
+            }
+        )
+        yield
+
+
+def drawn(page: Page, vector: bool) -> Canvas:
+    """The page in matplotlib; not `vector`: without what is there as pixels already."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure as Canvas
+
+    layout = page.layout
+    # matplotlib cuts fractions of pixels off: a page half a pixel larger keeps its last row and column.
+    more = 0.0 if vector else 0.5 / layout.scale
+    width, height = (layout.width, layout.height) if vector else (side / layout.scale + more for side in layout.page)
+    canvas = Canvas(figsize=(width / 96, height / 96), dpi=96 * layout.scale, facecolor="none")
+    FigureCanvasAgg(canvas)
+    axes = canvas.add_axes((0, 0, 1, 1))
+    axes.set_xlim(0, width)
+    axes.set_ylim(height, 0)
+    axes.axis("off")
+    for number, shot in enumerate(page.shots):
+        _draw_shot(axes, page, number, shot, vector)
+    _draw_words(axes, page)
+    return canvas
+
+
+# ---------------------------------------------------------------------- pictures
+def _draw_shot(axes: Axes, page: Page, number: int, shot: Shot, vector: bool) -> None:
+    from matplotlib.patches import Rectangle
+    from matplotlib.transforms import TransformedPath
+
+    style, order, stroke = page.figure.style, 10 * number, page.layout.stroke
+    frame = Rectangle((shot.box.x, shot.box.y), shot.box.width, shot.box.height, linewidth=0, zorder=order)
+    frame.set_facecolor(style.background if vector and shot.source is not None else "none")
+    axes.add_artist(frame)
+    shape = None
+    if vector:
+        _draw_image(axes, shot, order + 1)
+        edge = _silhouette(shot, page.layout.scale)
+        # One object for all curves: it is then written once.
+        shape = edge and TransformedPath(edge, axes.transData)
+    for k, (_, lines) in enumerate(shot.isolines if vector else ()):
+        curve = _curve(lines, style.isoline, style.isoline_width * stroke, "butt", order + 2, f"isoline-{number}-{k}")
+        axes.add_artist(curve)
+        # The stroke is cut where the shape ends, which its middle line does already.
+        curve.set_clip_path(shape)
+    if shot.outlines:
+        curve = _curve(
+            shot.outlines, style.outline_colour, style.outline * stroke, "round", order + 3, f"outline-{number}"
+        )
+        axes.add_artist(curve)
+        if shot.source is not None:
+            curve.set_clip_path(frame)
+    _draw_marks(axes, page, shot, order + 4, frame)
+    if shot.source is not None:
+        _draw_frames(axes, shot, style.quiet_text, order + 5)
+
+
+def _draw_image(axes: Axes, shot: Shot, order: int) -> None:
+    """The shaded pixels, without the empty rows and columns around them."""
+    from matplotlib.image import AxesImage
+
+    alpha = shot.image[..., 3:].astype(np.uint16)
+    rows, columns = np.flatnonzero(alpha.any(axis=(1, 2))), np.flatnonzero(alpha.any(axis=(0, 2)))
+    if not len(rows):
+        return
+    part = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    colours = np.minimum((shot.image[part][..., :3] * np.uint16(255)) // np.maximum(alpha[part], 1), 255)
+    per_x, per_y = shot.box.width / alpha.shape[1], shot.box.height / alpha.shape[0]
+    left, right = shot.box.x + columns[0] * per_x, shot.box.x + (columns[-1] + 1) * per_x
+    top, bottom = shot.box.y + rows[0] * per_y, shot.box.y + (rows[-1] + 1) * per_y
+    image = AxesImage(axes, origin="upper", interpolation="none", extent=(left, right, bottom, top), zorder=order)
+    image.set_data(np.concatenate([colours, alpha[part]], axis=2).astype(np.uint8))
+    axes.add_artist(image)
+
+
+def _curve(lines: list[Line], colour, width: float, cap: str, order: int, name: str):
+    """Parts of one curve as one path."""
+    from matplotlib.patches import PathPatch
+
+    rings = [(simplified(np.concatenate([p, p[:1]]) if closed else p, FINENESS), closed) for p, closed in lines]
+    return PathPatch(
+        _path(rings),
+        fill=False,
+        edgecolor=colour,
+        linewidth=width * POINT,
+        capstyle=cap,
+        joinstyle="round",
+        zorder=order,
+        gid=name,
+    )
+
+
+def _path(rings: list[Line]) -> Path:
+    """Lines (k, 2) as one path; a closed one ends with its first point."""
+    from matplotlib.path import Path
+
+    codes = [[Path.MOVETO, *[Path.LINETO] * (len(p) - 2), Path.CLOSEPOLY if c else Path.LINETO] for p, c in rings]
+    return Path(np.concatenate([p for p, _ in rings]), np.concatenate(codes))
+
+
+def _silhouette(shot: Shot, scale: float) -> Path | None:
+    """The edge of the shape in the picture, between its pixels."""
+    from contourpy import contour_generator
+
+    alpha = np.pad(shot.image[..., 3].astype(np.float32), 1)
+    if not alpha.any():
+        return None
+    at = [(np.arange(-1, side + 1) + 0.5) / scale for side in shot.image.shape[1::-1]]
+    loops = contour_generator(at[0] + shot.box.x, at[1] + shot.box.y, alpha).lines(127.5)
+    return _path([(simplified(loop, EDGE_FINENESS), True) for loop in loops if len(loop) > 3])
+
+
+def _draw_marks(axes: Axes, page: Page, shot: Shot, order: int, frame) -> None:
+    from matplotlib.patches import Circle
+
+    style, panel = page.figure.style, page.figure.panels[shot.panel]
+    top = page.figure.tops()[shot.panel]
+    radius = style.marker_size / 2 * page.layout.stroke
+    for k, x, y in shot.marks:
+        mark = panel.marks[k]
+        colour = style.source
+        if mark.value is not None:
+            share = np.clip(mark.value / top, 0, 1) if top > 0 else 0.0
+            colour = style.colours_at(np.array([share]))[0]
+        circle = Circle(
+            (x, y),
+            radius,
+            facecolor=colour,
+            edgecolor=style.mark_edge,
+            linewidth=1.1 * page.layout.stroke * POINT,
+            zorder=order,
+        )
+        axes.add_artist(circle)
+        if shot.source is not None:
+            circle.set_clip_path(frame)
+        if mark.text:
+            size = page.layout.label
+            _write(axes, mark.text, x + radius + 3, y + 0.35 * size, size, style.text, "left", order + 1)
+
+
+def _draw_frames(axes: Axes, shot: Shot, colour, order: int) -> None:
+    """Around what an inset enlarges, around the inset, and two lines that join them."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Rectangle
+
+    boxes = (shot.source, shot.box)
+    for box in boxes:
+        axes.add_artist(
+            Rectangle(
+                (box.x, box.y), box.width, box.height, fill=False, edgecolor=colour, linewidth=POINT, zorder=order
+            )
+        )
+    for a, b in zip(*([(x, y) for x in (b.x, b.right) for y in (b.y, b.bottom)] for b in boxes), strict=True):
+        way = [(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) for t in np.linspace(0.01, 0.99, 60)]
+        if not any(box.x < x < box.right and box.y < y < box.bottom for x, y in way for box in boxes):
+            axes.add_artist(Line2D(*zip(a, b, strict=True), color=colour, linewidth=0.6 * POINT, zorder=order))
+
+
+# ---------------------------------------------------------------------- words and bars
+def _draw_words(axes: Axes, page: Page) -> None:
+    layout, style = page.layout, page.figure.style
+    tops = page.figure.tops()
+    for panel, cell, top in zip(page.figure.panels, layout.cells, tops, strict=True):
+        middle = cell.box.x + cell.box.width / 2
+        _write(axes, panel.heading, middle, cell.heading_at, layout.heading, style.text, bold=True)
+        for k, line in enumerate(cell.hint):
+            _write(axes, line, middle, cell.hint_at + k * 1.32 * layout.hint, layout.hint, style.quiet_text)
+        if cell.bar:
+            _draw_bar(axes, page, cell.bar, top, bar_words(panel.label, panel.unit), panel.isolines)
+    if layout.shared_bar:
+        shown = [p for p in page.figure.panels if p.field is not None]
+        labels = {p.label for p in shown}
+        label = labels.pop() if len(labels) == 1 else "distance"
+        _draw_bar(axes, page, layout.shared_bar, max(tops), bar_words(label, shown[0].unit), shown[0].isolines)
+
+
+def _draw_bar(axes: Axes, page: Page, bar: Box, top: float, words: str, isolines: int) -> None:
+    from matplotlib.patches import Rectangle
+
+    style, size = page.figure.style, page.layout.label
+    if style.coloured:
+        edges = np.linspace(bar.x, bar.right, BAR_STEPS + 1)
+        for left, colour in zip(edges[:-1], style.colours(BAR_STEPS), strict=True):
+            # Each runs to the end of the bar, under the next ones: side by side they would show seams.
+            axes.add_artist(Rectangle((left, bar.y), bar.right - left, bar.height, facecolor=colour, linewidth=0))
+    step = bar.width / isolines if isolines else 0.0
+    if step >= 4:
+        for k in range(1, isolines):
+            width = min(style.isoline_width * page.layout.stroke, step / 4)
+            _stroke(axes, bar.x + k * step, bar.y, bar.y + bar.height, style.isoline, width)
+    if not style.coloured:
+        axes.add_artist(
+            Rectangle((bar.x, bar.y), bar.width, bar.height, fill=False, edgecolor=style.text, linewidth=0.8 * POINT)
+        )
+    for value in ticks(top):
+        x = bar.x + bar.width * value / top
+        _stroke(axes, x, bar.bottom, bar.bottom + 3, style.quiet_text, 0.8)
+        _write(axes, f"{value:.6g}", x, bar.bottom + 4 + size, size, style.text)
+    middle = bar.x + bar.width / 2
+    words = f"{words}, maximum {top:.4g}" if words else f"maximum {top:.4g}"
+    _write(axes, words, middle, bar.bottom + 5 + 2.25 * size, size, style.quiet_text)
+
+
+def ticks(top: float) -> list[float]:
+    """Round numbers from 0 to `top`, for a colour bar."""
+    from matplotlib.ticker import MaxNLocator
+
+    values = MaxNLocator(nbins=5, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, top)
+    return [float(v) for v in values if 0 <= v <= top * (1 + 1e-9)]
+
+
+def _stroke(axes: Axes, x: float, top: float, bottom: float, colour, width: float) -> None:
+    from matplotlib.lines import Line2D
+
+    axes.add_artist(Line2D([x, x], [top, bottom], color=colour, linewidth=width * POINT, solid_capstyle="butt"))
+
+
+def _write(
+    axes: Axes,
+    text: str,
+    x: float,
+    y: float,
+    size: float,
+    colour,
+    side: str = "center",
+    order: int = 1000,
+    bold: bool = False,
+) -> None:
+    """A line of text standing on y."""
+    if text:
+        weight = "bold" if bold else "normal"
+        axes.text(x, y, text, ha=side, va="baseline", size=size * POINT, color=colour, weight=weight, zorder=order)

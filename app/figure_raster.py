@@ -1,0 +1,143 @@
+"""Shaded pictures of any size without a window: drawn in tiles, with finer pixels that are averaged afterwards."""
+
+import ctypes
+import os
+import sys
+
+import numpy as np
+
+from bihdist_core import BihdistError
+from bihdist_core.progress import Progress, silent
+
+from .camera import Projection
+from .style import Style
+
+FINER = 2
+"""Pixels drawn for each pixel of the picture, along each side; each of them is multisampled besides."""
+
+TILE = 1024
+"""Pixels of the picture, along each side, that are drawn at once: OpenGL limits a picture's size, and memory does."""
+
+Rectangle = tuple[float, float, float, float]
+"""left, right, bottom, top: part of a picture, in coordinates that run from -1 to 1 across the whole."""
+
+WHOLE: Rectangle = (-1.0, 1.0, -1.0, 1.0)
+
+
+class Studio:
+    """An off-screen window with one surface in it.  Use it as a context; only one thread may use it."""
+
+    def __init__(self, style: Style) -> None:
+        check_offscreen()
+        if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+            # VTK would otherwise try an X server first, and complain that there is none.
+            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+        import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the classes below are abstract without it)
+        from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
+
+        from .field_actor import FieldActor, light
+
+        self.shown = FieldActor(style)
+        self._renderer = vtkRenderer()
+        self._renderer.SetBackground(0, 0, 0)
+        self._renderer.SetBackgroundAlpha(0)
+        self._renderer.AddActor(self.shown.actor)
+        light(self._renderer)
+        self._window = vtkRenderWindow()
+        self._window.SetOffScreenRendering(True)
+        self._window.SetAlphaBitPlanes(True)
+        self._window.SetMultiSamples(8)
+        self._window.AddRenderer(self._renderer)
+
+    def __enter__(self) -> "Studio":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._window.Finalize()
+
+    def shade(
+        self,
+        projection: Projection,
+        size: tuple[int, int],
+        scale: float,
+        part: Rectangle = WHOLE,
+        progress: Progress | None = None,
+    ) -> np.ndarray:
+        """(height, width, 4) uint8 picture of what is shown, on nothing: the colours are multiplied by alpha.
+
+        size: its width and height in pixels; scale: pixels per pixel of the style's line widths; part: of the view.
+        """
+        report = progress or silent
+        width, height = size
+        self.shown.set_scale(scale * FINER)
+        # Of equal size, so that the window keeps its own.
+        tile = tuple(_even_tile(side) for side in size)
+        across, down = (-(-side // step) for side, step in zip(size, tile, strict=True))
+        picture = np.zeros((down * tile[1], across * tile[0], 4), np.uint8)
+        self._window.SetSize(tile[0] * FINER, tile[1] * FINER)
+        left, right, bottom, top = part
+        per_x, per_y = (right - left) / width, (top - bottom) / height
+        for row in range(down):
+            for column in range(across):
+                report((row * across + column) / (across * down), "drawing")
+                x, y = column * tile[0], row * tile[1]
+                seen = (
+                    left + x * per_x,
+                    left + (x + tile[0]) * per_x,
+                    top - (y + tile[1]) * per_y,
+                    top - y * per_y,
+                )
+                if projection.meets(seen):
+                    picture[y : y + tile[1], x : x + tile[0]] = self._draw(projection, seen)
+        report(1.0, "drawing")
+        return picture[:height, :width]
+
+    def _draw(self, projection: Projection, part: Rectangle) -> np.ndarray:
+        """One tile, upright, averaged down to the picture's pixels."""
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+        from vtkmodules.vtkCommonMath import vtkMatrix4x4
+
+        left, right, bottom, top = part
+        enlarge = np.eye(4)
+        enlarge[0, 0], enlarge[1, 1] = 2 / (right - left), 2 / (top - bottom)
+        enlarge[0, 3], enlarge[1, 3] = -(right + left) / (right - left), -(top + bottom) / (top - bottom)
+        matrix = vtkMatrix4x4()
+        matrix.DeepCopy((enlarge @ projection.matrix).ravel())
+        camera = self._renderer.GetActiveCamera()
+        camera.SetPosition(*projection.position)
+        camera.SetFocalPoint(*(projection.position - projection.view[2, :3]))
+        camera.SetViewUp(*projection.view[1, :3])
+        camera.UseExplicitProjectionTransformMatrixOn()
+        camera.SetExplicitProjectionTransformMatrix(matrix)
+        self._window.Render()
+        width, height = self._window.GetSize()
+        read = vtkUnsignedCharArray()
+        self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, read)
+        fine = vtk_to_numpy(read).reshape(height, width, 4)
+        total = np.full((height // FINER, width // FINER, 4), FINER**2 // 2, np.uint16)
+        for row in range(FINER):
+            for column in range(FINER):
+                total += fine[row::FINER, column::FINER]
+        return (total // FINER**2).astype(np.uint8)[::-1]
+
+
+def _even_tile(side: int) -> int:
+    """The size of tiles for a side of a picture."""
+    return -(-side // -(-side // TILE))
+
+
+def check_offscreen() -> None:
+    """BihdistError, with what to install, where the libraries that draw without a screen are missing.
+
+    Without them VTK does not raise but ends the process.
+    """
+    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+        for library in ("libEGL.so.1", "libGL.so.1"):
+            try:
+                ctypes.CDLL(library)
+            except OSError:
+                raise BihdistError(
+                    f"Drawing needs {library}, which is not installed; on Debian or Ubuntu: "
+                    "apt-get install libegl1 libgl1"
+                ) from None

@@ -1,0 +1,228 @@
+"""The pictures of a figure's panels: shaded pixels and, in the same coordinates, isolines, outlines, marks, insets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from bihdist_core import Surface
+from bihdist_core.isolines import isolines
+from bihdist_core.progress import Progress, part
+
+from .camera import Camera, Margins, Projection, standard_camera
+from .field_actor import drawable, isoline_values
+from .figure_description import Figure, FigurePanel, Zoom
+from .figure_layout import Box, Layout
+from .figure_raster import Rectangle, Studio
+from .vector_sight import Curve, Sight
+
+FREE = 0.03
+"""The share of a view left free along each side."""
+
+NO_MARGINS = Margins(side=0.0, top=0.0, bottom=0.0)
+
+INSET = 0.40
+"""The side of an inset, as a share of the shorter side of its view."""
+
+Line = tuple[np.ndarray, bool]
+"""Points (k, 2) on the page, and whether the last joins the first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """A rectangle of the page with a picture in it.
+
+    image: (h, w, 4) uint8, colours multiplied by alpha; isolines: a list of visible parts for each curve, with its
+    value; marks: their index in the panel, and where (x, y) on the page; source: for an inset, what it enlarges.
+    """
+
+    panel: int
+    box: Box
+    image: np.ndarray
+    isolines: list[tuple[float, list[Line]]]
+    outlines: list[Line]
+    marks: list[tuple[int, float, float]]
+    source: Box | None = None
+
+
+def take_shots(figure: Figure, layout: Layout, vector: bool, progress: Progress) -> list[Shot]:
+    """All pictures, in the order in which they lie on each other.  vector: with isolines as curves, not as pixels."""
+    shots: list[Shot] = []
+    tops = figure.tops()
+    count = sum(len(p.views) + len(p.zooms) for p in figure.panels)
+    meshes: dict[int, vtkPolyData] = {}
+    with Studio(figure.style) as studio:
+        for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
+            surface = lifted(panel, tops[index]) if panel.height else panel.surface
+            key = id(panel) if panel.height else id(surface)
+            mesh = meshes.get(key) or drawable(surface)
+            meshes[key] = mesh
+            studio.shown.show_surface(mesh)
+            if panel.field is not None:
+                studio.shown.show_field(panel.field, tops[index])
+            studio.shown.show_isolines(0 if vector or panel.field is None else panel.isolines)
+            for number, (view, box) in enumerate(zip(panel.views, cell.views, strict=True)):
+                step = part(progress, len(shots) / count, (len(shots) + 1) / count)
+                camera = _camera(view, panel, surface, box)
+                taker = _Taker(figure, index, surface, mesh, tops[index], camera, box, layout, studio)
+                main = taker.take(box, vector, step)
+                shots.append(main)
+                for zoom in panel.zooms if number == 0 else ():
+                    step = part(progress, len(shots) / count, (len(shots) + 1) / count)
+                    inset, source = taker.places(zoom, main, [s for s in shots if s.panel == index and s.source])
+                    shots.append(taker.take(inset, vector, step, source))
+    return shots
+
+
+def lifted(panel: FigurePanel, top: float) -> Surface:
+    """A flat surface as a relief of the panel's field."""
+    x = panel.surface.vertices
+    used = x[panel.surface.component_of_vertex >= 0]
+    share = np.nan_to_num(panel.field / top) if panel.field is not None and top > 0 else np.zeros(len(x))
+    extent = float(np.ptp(used, axis=0).max())
+    return Surface(np.column_stack([x[:, :2], x[:, 2] + panel.height * extent * share]), panel.surface.faces)
+
+
+def _camera(view: str | Camera, panel: FigurePanel, surface: Surface, box: Box) -> Camera:
+    if isinstance(view, Camera):
+        return view
+    name = "relief" if panel.height and view == "home" else view
+    shown = surface.vertices[surface.component_of_vertex >= 0]
+    return standard_camera(shown, box.width / box.height, name, NO_MARGINS)
+
+
+class _Taker:
+    """Takes the pictures of one view: the whole of it, and insets."""
+
+    def __init__(
+        self,
+        figure: Figure,
+        index: int,
+        surface: Surface,
+        mesh: vtkPolyData,
+        top: float,
+        camera: Camera,
+        box: Box,
+        layout: Layout,
+        studio: Studio,
+    ) -> None:
+        self._style, self._panel, self._index = figure.style, figure.panels[index], index
+        self._surface, self._top, self._box, self._studio = surface, top, box, studio
+        self._scale, self._stroke = layout.scale, layout.stroke
+        self._projection = Projection(camera, box.width / box.height, surface.vertices, FREE)
+        self._sight = Sight(surface, mesh, self._projection, (box.width, box.height))
+        self._isolines: list[tuple[float, list[Line]]] | None = None
+        self._outlines: list[Line] | None = None
+        self._marks = self._visible_marks()
+
+    def take(self, box: Box, vector: bool, progress: Progress, source: Box | None = None) -> Shot:
+        """The picture of a part of the view (all of it if None), in a box of the page."""
+        _, _, width, height = box.pixels(self._scale)
+        image = self._studio.shade(
+            self._projection, (width, height), self._scale * self._stroke, self._part(source), part(progress, 0, 0.7)
+        )
+        progress(0.7, "finding what is hidden")
+        if vector and self._isolines is None:
+            self._isolines = self._visible_isolines()
+        if self._style.outline and self._outlines is None:
+            self._outlines = self._sight.outlines()
+        move = _Move(source or self._box, box)
+        return Shot(
+            self._index,
+            box,
+            image,
+            [(value, [(move(p + self._corner), c) for p, c in parts]) for value, parts in self._isolines or []],
+            [(move(p + self._corner), c) for p, c in self._outlines or []],
+            [(k, *move(np.array([[x, y]]) + self._corner)[0]) for k, x, y in self._marks],
+            source,
+        )
+
+    def places(self, zoom: Zoom, main: Shot, others: list[Shot]) -> tuple[Box, Box]:
+        """Where the inset of a zoom goes, and what part of the view it shows."""
+        side = INSET * min(self._box.width, self._box.height)
+        x, y, _ = self._sight.pixels(self._surface.vertices[[zoom.vertex]])[0]
+        x, y = x + self._box.x, y + self._box.y
+        shown = side / zoom.factor
+        source = Box(x - shown / 2, y - shown / 2, shown, shown)
+        gap = 4.0
+        left, top = self._box.x + gap, self._box.y + gap
+        right, bottom = self._box.right - side - gap, self._box.bottom - side - gap
+        corners = {
+            "top right": Box(right, top, side, side),
+            "top left": Box(left, top, side, side),
+            "bottom right": Box(right, bottom, side, side),
+            "bottom left": Box(left, bottom, side, side),
+        }
+        name = zoom.corner
+        if name == "auto":
+            taken = [source, *(s.box for s in others)]
+
+            def hidden(box: Box) -> float:
+                return self._covered(box, main) + sum(_overlap(box, other) > 0 for other in taken)
+
+            name = min(corners, key=lambda corner: hidden(corners[corner]))
+        return corners[name].snapped(self._scale), source
+
+    # ------------------------------------------------------------------ what is seen
+    @property
+    def _corner(self) -> np.ndarray:
+        return np.array([self._box.x, self._box.y])
+
+    def _part(self, source: Box | None) -> Rectangle:
+        if source is None:
+            return (-1.0, 1.0, -1.0, 1.0)
+        whole = self._box
+        x = [2 * (side - whole.x) / whole.width - 1 for side in (source.x, source.right)]
+        y = [1 - 2 * (side - whole.y) / whole.height for side in (source.bottom, source.y)]
+        return (*x, *y)
+
+    def _visible_isolines(self) -> list[tuple[float, list[Line]]]:
+        panel = self._panel
+        if panel.field is None:
+            return []
+        found = isolines(self._surface, panel.field, isoline_values(panel.field, self._top, panel.isolines))
+        parts = self._sight.visible(Curve(line.points, line.edges, line.closed) for line in found)
+        return [(line.value, p) for line, p in zip(found, parts, strict=True) if p]
+
+    def _visible_marks(self) -> list[tuple[int, float, float]]:
+        found = []
+        for k, mark in enumerate(self._panel.marks):
+            point = self._surface.vertices[mark.vertex]
+            x, y, depth = self._sight.pixels(point[None])[0]
+            # A mark stands out of the surface: at a silhouette it is seen a little longer than its vertex.
+            per_unit = depth / (self._projection.matrix[0, 0] * self._box.width / 2)
+            nearer = point + self._normal(mark.vertex) * per_unit * self._style.marker_size * self._stroke / 3
+            if np.isfinite(depth) and (self._sight.sees(point) or self._sight.sees(nearer)):
+                found.append((k, float(x), float(y)))
+        return found
+
+    def _normal(self, vertex: int) -> np.ndarray:
+        corners = self._surface.vertices[self._surface.faces[(self._surface.faces == vertex).any(axis=1)]]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
+        return normal / max(float(np.linalg.norm(normal)), 1e-300)
+
+    def _covered(self, box: Box, main: Shot) -> float:
+        """The share of a box of the page that the shape covers."""
+        x, y, width, height = replace(box, x=box.x - main.box.x, y=box.y - main.box.y).pixels(self._scale)
+        alpha = main.image[max(y, 0) : y + height, max(x, 0) : x + width, 3]
+        return float(alpha.mean()) / 255 if alpha.size else 0.0
+
+
+class _Move:
+    """From one rectangle of the page to another."""
+
+    def __init__(self, start: Box, stop: Box) -> None:
+        self._from, self._to = start, stop
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        a, b = self._from, self._to
+        share = (points - [a.x, a.y]) / [a.width, a.height]
+        return share * [b.width, b.height] + [b.x, b.y]
+
+
+def _overlap(a: Box, b: Box) -> float:
+    width = min(a.right, b.right) - max(a.x, b.x)
+    height = min(a.bottom, b.bottom) - max(a.y, b.y)
+    return max(width, 0) * max(height, 0)

@@ -1,0 +1,71 @@
+"""The size of a figure, as one writes it: 1680x640, 8000px, 160mm@300dpi, 160x80mm."""
+
+import re
+from dataclasses import dataclass
+
+from bihdist_core import ParameterError
+
+MM_PER_INCH = 25.4
+UNITS_PER_INCH = 96
+"""Lengths in a figure are in pixels of a page at 96 dpi, which is what a pixel is in SVG and on the web."""
+
+PRINT_DPI = 300.0
+"""Where a size is in millimetres and no resolution is given."""
+
+LARGEST = 32_000
+"""Pixels along a side."""
+
+_WRITTEN = re.compile(
+    r"(?P<width>\d+(?:\.\d+)?)(?:x(?P<height>\d+(?:\.\d+)?))?(?P<unit>px|mm)?(?:@(?P<dpi>\d+(?:\.\d+)?)(?:dpi)?)?"
+)
+
+
+@dataclass(frozen=True)
+class Size:
+    """Width and height in `unit`, "px" or "mm"; what is None follows from the panels.
+
+    With dpi, text and lines have their printed size.  Without, pixels enlarge the whole: a figure of twice the width
+    is the same figure, drawn finer.
+    """
+
+    width: float | None = None
+    height: float | None = None
+    unit: str = "px"
+    dpi: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.unit not in ("px", "mm"):
+            raise ParameterError(f"A size is in px or mm, not in {self.unit!r}.")
+        for number in (self.width, self.height, self.dpi):
+            if number is not None and not 0 < number < 1e6:
+                raise ParameterError(f"A size and its resolution are positive numbers, not {number!r}.")
+        if self.dpi is not None and not 10 <= self.dpi <= 2400:
+            raise ParameterError(f"A resolution is from 10 to 2400 dpi, not {self.dpi:g}.")
+
+    @classmethod
+    def parse(cls, text: str) -> "Size":
+        """The size written as `text`; ParameterError if it is not one."""
+        found = _WRITTEN.fullmatch(text.strip().replace("×", "x"))
+        if not found:
+            raise ParameterError(f"{text!r} is not a size such as 1680x640, 8000px, 160mm@300dpi or 160x80mm.")
+        width, height, dpi = (None if found[k] is None else float(found[k]) for k in ("width", "height", "dpi"))
+        return cls(width, height, found["unit"] or "px", dpi)
+
+    def pixels(self, usual: tuple[float, float]) -> tuple[int, int, float]:
+        """Width, height and pixels per unit, for panels that would usually take this many units."""
+        dpi = self.dpi or (PRINT_DPI if self.unit == "mm" else None)
+        per = (dpi or 0) / MM_PER_INCH if self.unit == "mm" else 1.0
+        if self.width is not None:
+            width = self.width * per
+            height = width * usual[1] / usual[0] if self.height is None else self.height * per
+        elif self.height is not None:
+            height = self.height * per
+            width = height * usual[0] / usual[1]
+        else:
+            width, height = (side * (dpi or UNITS_PER_INCH) / UNITS_PER_INCH for side in usual)
+        if not (16 <= width <= LARGEST and 16 <= height <= LARGEST):
+            raise ParameterError(
+                f"A picture has 16 to {LARGEST} pixels along a side; this would have {width:.0f} x {height:.0f}."
+            )
+        scale = dpi / UNITS_PER_INCH if dpi else min(width / usual[0], height / usual[1])
+        return round(width), round(height), scale

@@ -1,0 +1,159 @@
+"""Run experiments, draw them, and write the page."""
+
+import io
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from bihdist_core import BihdistError, Cancelled, OutputError, ParameterError, read_surface
+from bihdist_core.experiments import EXPERIMENTS, Experiment, Shapes
+from bihdist_core.mesh_io import MESH_FORMATS
+from bihdist_core.progress import Progress, part
+from bihdist_core.whole_file import whole_file
+
+from ..figures import check_offscreen, draw_figure
+from ..samples import SAMPLES
+from .charts import chart_svg
+from .page import Section, page
+from .pictures import figures
+
+FOLDER_EXPERIMENTS = ("fig1", "claims")
+"""What is done for each mesh of a folder: a picture and the numbers."""
+
+
+def reproduce(
+    out: str,
+    only: Sequence[str] = (),
+    mesh: str | None = None,
+    quick: bool = False,
+    progress: Progress | None = None,
+    say: Callable[[str], None] = print,
+) -> Path:
+    """Write results, pictures and index.html into the folder `out`; returns the page's path.
+
+    only: ids of experiments, all if empty.  mesh: the reader's own mesh, or a folder of meshes, instead of the
+    bundled ones.  An experiment that cannot be done is on the page with the reason.  `say` gets a line for each.
+    Raises ParameterError for an unknown id, OutputError if something cannot be written.
+    """
+    check_offscreen()
+    chosen = _chosen(only, mesh)
+    folder = Path(out)
+    _make(folder)
+    if mesh is not None and Path(mesh).is_dir():
+        return _each_mesh(folder, Path(mesh), only, quick, progress, say)
+    shapes = Shapes(own=read_surface(mesh)) if mesh is not None else Shapes.from_folder(SAMPLES)
+    sections = _sections(folder, chosen, shapes, quick, progress, say)
+    about = "the bundled meshes" if mesh is None else Path(mesh).name
+    return _write_page(folder, sections, about, quick)
+
+
+def _chosen(only: Sequence[str], mesh: str | None) -> list[Experiment]:
+    unknown = [name for name in only if name not in EXPERIMENTS]
+    if unknown:
+        raise ParameterError(f"There is no experiment {unknown[0]!r}; choose among {', '.join(EXPERIMENTS)}.")
+    chosen = [e for name, e in EXPERIMENTS.items() if not only or name in only]
+    if mesh is None:
+        return chosen
+    possible = [experiment for experiment in chosen if experiment.any_mesh]
+    if not possible:
+        raise ParameterError(f"{', '.join(only)} makes sense on the bundled meshes only.")
+    return possible
+
+
+def _sections(
+    folder: Path,
+    chosen: Sequence[Experiment],
+    shapes: Shapes,
+    quick: bool,
+    progress: Progress | None,
+    say: Callable[[str], None],
+) -> list[Section]:
+    sections = []
+    for k, experiment in enumerate(chosen):
+        mine = part(progress, k / len(chosen), (k + 1) / len(chosen))
+        section = _section(folder, experiment, shapes, quick, mine)
+        sections.append(section)
+        if section.result is None:
+            say(f"{experiment.id}: not done: {section.failure}")
+        else:
+            claims = section.result.claims
+            held = sum(claim.holds is True for claim in claims)
+            say(f"{experiment.id}: {held} of {len(claims)} statements hold, {section.result.seconds:.1f} s")
+    return sections
+
+
+def _section(folder: Path, experiment: Experiment, shapes: Shapes, quick: bool, progress: Progress) -> Section:
+    try:
+        result = experiment.compute(shapes, quick, part(progress, 0, 0.9))
+        result.save(folder)
+        pictures = tuple((caption, _picture(folder, name, figure)) for name, caption, figure in figures(result))
+        charts = tuple(chart_svg(chart) for chart in result.charts)
+        return Section(experiment, result, pictures, charts)
+    except (Cancelled, OutputError):
+        raise
+    except (BihdistError, MemoryError) as error:
+        return Section(experiment, None, failure=str(error) or "there was not enough memory")
+
+
+def _picture(folder: Path, name: str, figure) -> bytes:
+    """Draw a figure, keep it as NAME.png, and give the file's content for the page."""
+    from PIL import Image
+
+    buffer = io.BytesIO()
+    Image.fromarray(draw_figure(figure)).save(buffer, "PNG", optimize=True)
+    with whole_file(folder / f"{name}.png") as temporary:
+        temporary.write_bytes(buffer.getvalue())
+    return buffer.getvalue()
+
+
+def _each_mesh(
+    folder: Path, meshes: Path, only: Sequence[str], quick: bool, progress: Progress | None, say: Callable[[str], None]
+) -> Path:
+    """The claims and a picture of each mesh of a folder; one that fails is named and the others go on."""
+    paths = sorted(path for path in meshes.iterdir() if path.suffix.lower() in MESH_FORMATS)
+    if not paths:
+        raise ParameterError(f"{meshes} holds no meshes ({', '.join(MESH_FORMATS)}).")
+    chosen = [EXPERIMENTS[name] for name in only or FOLDER_EXPERIMENTS]
+    sections: list[Section] = []
+    for k, path in enumerate(paths):
+        say(path.name)
+        mine = part(progress, k / len(paths), (k + 1) / len(paths))
+        try:
+            shapes = Shapes(own=read_surface(path))
+        except BihdistError as error:
+            say(f"not done: {error}")
+            sections.append(Section(_named(chosen[0], path), None, failure=str(error)))
+            continue
+        place = folder / path.stem
+        _make(place)
+        for section in _sections(place, chosen, shapes, quick, mine, say):
+            named = _named(section.experiment, path)
+            sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
+    return _write_page(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
+
+
+class _named:
+    """An experiment under the name of the mesh it was done on."""
+
+    def __init__(self, experiment: Experiment, path: Path) -> None:
+        self.id, self.title, self.shows = f"{path.stem}-{experiment.id}", f"{path.name}: {experiment.title}", ""
+
+
+def _write_page(folder: Path, sections: Sequence[Section], about: str, quick: bool) -> Path:
+    introduction = (
+        "The figures and tables of Lipman, Rustamov and Funkhouser, Biharmonic Distance (ACM Transactions on Graphics "
+        f"29(3), 2010), computed anew on {about}. Numbers stand as measured, also where a statement does not hold. "
+        "The data of every picture is beside this page, as .npz and .csv files."
+    )
+    if quick:
+        introduction += " This is the quick version, with smaller meshes and fewer samples."
+    path = folder / "index.html"
+    with whole_file(path) as temporary:
+        temporary.write_text(page("Biharmonic Distance, reproduced", introduction, sections), encoding="utf-8")
+    return path
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"The folder {folder} cannot be made: {error.strerror or error}.") from None

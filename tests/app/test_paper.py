@@ -1,0 +1,100 @@
+"""`bihdist paper`: pictures, numbers and one page that opens by itself."""
+
+import re
+import shutil
+
+import numpy as np
+import pytest
+
+from app.paper.charts import chart_svg
+from app.paper.page import Section, page
+from app.paper.pictures import figures
+from app.paper.reproduce import reproduce
+from bihdist_core import OutputError, ParameterError
+from bihdist_core.experiments import EXPERIMENTS, Chart, Claim, Mark, Panel, Result, Series, Table
+from tests.shapes import bumpy, grid
+
+
+def result(**changes):
+    surface, flat = bumpy(150), grid(5, 5)
+    field = np.linspace(0, 1, 150)
+    made = {
+        "surfaces": {"bumpy": surface, "flat": flat},
+        "panels": (
+            Panel("one", "bumpy", field, "first", (Mark(3, "source"),), ("front", "back")),
+            Panel("two", "bumpy", field, "first", views=("front", "zoom"), zoom_vertex=4, zoom_radius=0.2),
+            Panel("three", "flat", flat.vertices[:, 1], "second row", (Mark(0, "maximum"),), style="height"),
+            Panel("bare", "flat", None, "second row"),
+        ),
+        "charts": (Chart("a chart", "x", "y", (Series("s", np.array([1.0, 2]), np.array([1.0, 4])),), log_y=True),),
+        "tables": (Table("numbers", ("what", "value"), (("a < b", 1.5), ("n", 1000), ("none", None))),),
+        "claims": (Claim("It holds.", "measured <1>", True), Claim("It does not.", "5 %", False)),
+    }
+    return Result("fig1", "A title", "The protocol.", **(made | changes))
+
+
+def test_each_row_of_panels_is_a_figure():
+    drawn = {name: figure for name, _, figure in figures(result())}
+    assert list(drawn) == ["fig1-first", "fig1-second-row"]
+    first, second = drawn["fig1-first"].panels, drawn["fig1-second-row"].panels
+    assert first[0].views == ("front", "back")
+    assert first[1].zooms[0].vertex == 4
+    assert second[0].height > 0
+    assert second[1].field is None
+
+
+def test_charts_are_svg_with_their_words():
+    svg = chart_svg(result().charts[0])
+    assert svg.startswith("<svg")
+    assert "a chart" in svg
+
+
+def test_the_page_says_what_holds_and_needs_nothing_else():
+    section = Section(EXPERIMENTS["fig1"], result(), (("row", b"png"),), ("<svg></svg>",))
+    failed = Section(EXPERIMENTS["fig2"], None, failure="no domain <here>")
+    text = page("Title & more", "Introduction.", [section, failed])
+    assert "Of 2 statements that a number can judge, 1 hold here." in text
+    assert "measured &lt;1&gt;" in text
+    assert "<td class='no'>no</td>" in text
+    assert "a &lt; b" in text
+    assert "1,000" in text
+    assert "Not done: no domain &lt;here&gt;" in text
+    assert not re.findall(r'(?:src|href)="(?!data:|#)', text)
+
+
+def test_an_experiment_on_the_readers_mesh(mesh_file, tmp_path):
+    said = []
+    path = reproduce(str(tmp_path / "out"), ["fig1"], mesh_file(bumpy(400)), quick=True, say=said.append)
+    assert path.read_text(encoding="utf-8").count("data:image/png;base64") >= 1
+    names = {p.name for p in path.parent.iterdir()}
+    assert {"index.html", "fig1.npz"} <= names
+    assert any(name.endswith(".png") for name in names)
+    assert said[0].startswith("fig1: ")
+
+
+def test_one_bad_mesh_of_a_folder_does_not_stop_the_others(mesh_file, tmp_path):
+    folder = tmp_path / "meshes"
+    folder.mkdir()
+    for name in ("a.off", "c.off"):
+        shutil.copy(mesh_file(bumpy(400)), folder / name)
+    (folder / "b.off").write_text("OFF\n1 1 0\n")
+    said = []
+    path = reproduce(str(tmp_path / "out"), ["fig1"], str(folder), quick=True, say=said.append)
+    text = path.read_text(encoding="utf-8")
+    assert text.count("Not done") == 1
+    assert "b.off" in text
+    assert (path.parent / "a" / "fig1.npz").exists()
+    assert (path.parent / "c" / "fig1.npz").exists()
+
+
+def test_what_cannot_be_is_refused(mesh_file, tmp_path):
+    with pytest.raises(ParameterError, match="no experiment 'fig99'; choose among fig1"):
+        reproduce(str(tmp_path), ["fig99"])
+    with pytest.raises(ParameterError, match="bundled meshes only"):
+        reproduce(str(tmp_path), ["fig2"], mesh_file(bumpy(100)))
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(ParameterError, match="holds no meshes"):
+        reproduce(str(tmp_path / "out"), [], str(tmp_path / "empty"))
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(OutputError, match="cannot be made"):
+        reproduce(str(tmp_path / "file" / "out"), ["fig1"])

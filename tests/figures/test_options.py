@@ -1,0 +1,180 @@
+"""What figures can do: sizes, tiles, transparency, cropping, zooms, reliefs, views, ranges, marks."""
+
+import numpy as np
+import pytest
+
+from app import figure_raster
+from app.camera import Camera
+from app.figure_size import Size
+from app.figures import Figure, FigurePanel, Mark, Zoom, draw_figure
+from app.style import DARK, STYLES
+from bihdist_core import ParameterError
+from tests.shapes import bumpy, grid
+
+SIZE = Size(400, 400, dpi=96)
+
+
+def one(surface, field, size=SIZE, figure=None, **options):
+    return draw_figure(Figure((FigurePanel(surface, field, **options),), size=size, **(figure or {})))
+
+
+@pytest.fixture(scope="module")
+def ball():
+    return bumpy(600)
+
+
+def test_a_picture_drawn_in_tiles_has_no_seams(ball, monkeypatch):
+    field = ball.vertices[:, 1] + 2
+    whole = one(ball, field, Size(500, 500, dpi=96)).astype(int)
+    monkeypatch.setattr(figure_raster, "TILE", 97)
+    tiled = one(ball, field, Size(500, 500, dpi=96)).astype(int)
+    # A sample at an edge may fall to its other side; a seam would be whole rows of them.
+    different = np.abs(whole - tiled).max(axis=2) > 16
+    assert different.sum() < 50
+    assert max(different.sum(axis=0).max(), different.sum(axis=1).max()) < 4
+
+
+def test_lines_keep_their_printed_width(ball):
+    flat = grid(20, 20)
+    widths = []
+    for dpi in (96, 384):
+        picture = one(flat, flat.vertices[:, 1], Size(100, 100, "mm", dpi), isolines=8, figure={"style": DARK})
+        column = picture[:, round(picture.shape[1] * 0.4)].astype(float)
+        inside = column[: round(0.8 * len(column))].min(axis=1)
+        # The area of a line's profile over its ground, as a width in millimetres.
+        line = np.clip((inside - 170) / (255 - 170), 0, 1)
+        widths.append(line.sum() / dpi * 25.4)
+    assert widths[0] == pytest.approx(widths[1], rel=0.2)
+
+
+def test_eight_thousand_pixels_are_the_same_figure_finer(ball):
+    panels = (FigurePanel(ball, ball.vertices[:, 1] + 2, "a heading", "a hint", "d", "mesh units"),)
+    small = draw_figure(Figure(panels, size=Size(800, 100)))
+    large = draw_figure(Figure(panels, size=Size(8000, 1000)))
+    assert large.shape == (1000, 8000, 3)
+    shrunk = large.reshape(100, 10, 800, 10, 3).mean(axis=(1, 3))
+    assert np.abs(shrunk - small).mean() < 1.5
+
+
+def test_transparent_pictures_are_the_opaque_ones_on_their_background(ball):
+    field = ball.vertices[:, 1] + 2
+    opaque = one(ball, field, label="d").astype(float)
+    clear = one(ball, field, label="d", figure={"transparent": True}).astype(float)
+    assert clear.shape[2] == 4
+    assert (clear[0, 0] == 0).all()
+    alpha = clear[..., 3:] / 255
+    assert np.abs(clear[..., :3] * alpha + 255 * (1 - alpha) - opaque).max() <= 3
+
+
+def test_cropping_takes_only_what_is_empty(ball):
+    field = ball.vertices[:, 1] + 2
+    whole = one(ball, field, Size(700, 400, dpi=96))
+    cropped = one(ball, field, Size(700, 400, dpi=96), figure={"crop": True})
+    assert cropped.shape[1] < 500
+    assert (cropped == 255).all(axis=(0, 2))[:4].all()
+    ink = (whole != 255).any(axis=2).sum()
+    assert (cropped != 255).any(axis=2).sum() == ink
+
+
+def test_a_zoom_shows_its_vertex_enlarged(ball):
+    field = ball.vertices[:, 1] + 2
+    vertex = int(ball.vertices[:, 2].argmax())
+    plain = one(ball, field, views=("front",), isolines=8)
+    zoomed = one(ball, field, views=("front",), isolines=8, zooms=(Zoom(vertex, 3, "top right"),))
+    changed = (plain != zoomed).any(axis=2)
+    assert changed[:200, 250:].mean() > 0.2
+    inset = zoomed[10:120, 260:380].astype(float)
+    assert inset.std() > 20
+    with pytest.raises(ParameterError, match="not 1"):
+        Zoom(vertex, 1)
+    with pytest.raises(ParameterError, match="corner 'middle'"):
+        Zoom(vertex, 2, "middle")
+
+
+def test_a_relief_rises_where_the_field_does():
+    flat = grid(20, 20)
+    field = np.linalg.norm(flat.vertices[:, :2] - 10, axis=1)
+    plain, raised = (one(flat, field, height=h, views=("relief",)) for h in (0.0, 0.5))
+    assert (plain != raised).any(axis=2).mean() > 0.1
+    with pytest.raises(ParameterError, match="flat surface"):
+        FigurePanel(bumpy(100), None, height=0.3)
+
+
+def test_two_views_show_two_sides_of_one_field(ball):
+    field = ball.vertices[:, 0] + 2
+    picture = one(ball, field, Size(800, 400, dpi=96), views=("left", "right"), isolines=0)
+    left, right = (picture[100:300, a : a + 200].reshape(-1, 3).astype(int) for a in (100, 500))
+    assert left[:, 2].sum() > left[:, 0].sum()  # near, blue
+    assert right[:, 0].sum() > right[:, 2].sum()  # far, red
+
+
+def test_a_shared_range_ends_at_the_largest_maximum(ball):
+    field = ball.vertices[:, 1] + 2
+    panels = tuple(FigurePanel(ball, k * field, unit="mesh units", isolines=0) for k in (1, 2))
+    own = draw_figure(Figure(panels, size=Size(800, 400, dpi=96)))
+    shared = draw_figure(Figure(panels, size=Size(800, 400, dpi=96), shared_range=True))
+    part = np.s_[100:250]
+    assert np.abs(own[part, :400].astype(int) - own[part, 400:]).mean() < 2
+    assert np.abs(shared[part, :400].astype(int) - shared[part, 400:]).mean() > 10
+    with pytest.raises(ParameterError, match="cannot share a range"):
+        Figure((FigurePanel(ball, field, unit="a"), FigurePanel(ball, field, unit="b")), shared_range=True)
+
+
+def test_marks_are_seen_from_the_front_only(ball):
+    vertex = int(ball.vertices[:, 2].argmax())
+    field = ball.vertices[:, 1] + 2
+    for view, there in (("front", True), ("back", False)):
+        without = one(ball, field, views=(view,))
+        marked = one(ball, field, views=(view,), marks=(Mark(vertex), Mark(vertex, 0.5, "an anchor")))
+        assert (without != marked).any() == there
+
+
+def test_rows_and_columns(ball):
+    panels = tuple(FigurePanel(ball, None, f"panel {k}") for k in range(5))
+    assert Figure(panels, columns=2).grid == (3, 2)
+    assert draw_figure(Figure(panels, columns=2, size=Size(400))).shape == (round(400 * 3 * 640 / 2 / 560), 400, 3)
+    for wrong in ({"panels": ()}, {"panels": panels, "columns": 0}):
+        with pytest.raises(ParameterError):
+            Figure(**wrong)
+
+
+@pytest.mark.parametrize(
+    ("text", "pixels"),
+    [
+        ("1680x640", (1680, 640, 1.0)),
+        ("3360", (3360, 1280, 2.0)),
+        ("160mm", (1890, 720, 300 / 96)),
+        ("160x80mm@600dpi", (3780, 1890, 600 / 96)),
+        ("1000px@192dpi", (1000, 381, 2.0)),
+    ],
+)
+def test_sizes_as_one_writes_them(text, pixels):
+    assert Size.parse(text).pixels((1680, 640)) == pytest.approx(pixels)
+
+
+@pytest.mark.parametrize("text", ["", "wide", "0x10", "10mm@3dpi", "-5", "1e3px", "160 cm", "99999"])
+def test_sizes_that_are_none(text):
+    with pytest.raises(ParameterError):
+        Size.parse(text).pixels((1680, 640))
+
+
+def test_a_bad_panel_is_refused(ball):
+    for wrong, words in [
+        ({"field": np.zeros(3)}, "600 vertices"),
+        ({"maximum": 0.0}, "positive"),
+        ({"views": ()}, "at least one view"),
+        ({"views": ("inside",)}, "no view 'inside'"),
+        ({"isolines": -1}, "not -1"),
+        ({"marks": (Mark(600),)}, "no vertex 600"),
+    ]:
+        with pytest.raises((ParameterError, ValueError), match=words):
+            FigurePanel(ball, **wrong)
+    with pytest.raises(ParameterError, match="A camera needs"):
+        Camera((0, 0, 1), (0, 0, 0), (0, 0, 1), (1, 1))
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_every_style_draws(ball, style):
+    picture = one(ball, ball.vertices[:, 1] + 2, figure={"style": STYLES[style]}, marks=(Mark(0),))
+    assert np.abs(picture[0, 0] / 255 - STYLES[style].background).max() < 0.01
+    assert picture.std() > 10

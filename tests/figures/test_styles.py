@@ -1,0 +1,64 @@
+"""Colours do what their styles promise, also for people with colour-vision deficiencies and in grey."""
+
+import numpy as np
+import pytest
+
+from app.style import DARK, LINES, PAPER, STYLES, UNIFORM
+from tests.figures.colour_vision import DEFICIENCIES, lab, seen_with, steps, variants
+
+
+def test_the_measure_knows_black_white_and_red():
+    # CIELAB of sRGB red, as tables have it.
+    assert lab(np.array([[0.0, 0, 0], [1, 1, 1], [1, 0, 0]])) == pytest.approx(
+        np.array([[0, 0, 0], [100, 0, 0], [53.24, 80.09, 67.20]]), abs=0.05
+    )
+    # People without green cones see greys as everybody does.
+    grey = np.full((1, 3), 0.5)
+    for name in DEFICIENCIES:
+        assert seen_with(name, grey) == pytest.approx(grey, abs=0.002)
+
+
+def test_the_papers_colours_run_from_dark_blue_over_grey_to_dark_red():
+    first, middle, last = PAPER.colours_at(np.array([0.0, 0.5, 1.0]))
+    assert first[2] > 3 * max(first[:2])
+    assert np.ptp(middle) < 0.1
+    assert last[0] > 3 * max(last[1:])
+    assert lab(PAPER.colours(3))[[0, 2], 0].max() < 30
+
+
+def test_equal_steps_look_equal_in_the_uniform_style_to_everybody():
+    for name, colours in variants(UNIFORM).items():
+        size = steps(colours[::16])
+        assert size.max() < (1.25 if name == "as it is" else 2) * size.min(), name
+
+
+def test_the_uniform_style_gets_lighter_all_the_way_for_everybody():
+    for name, colours in variants(UNIFORM).items():
+        light = lab(colours)[:, 0]
+        assert (np.diff(light[::4]) > 0).all(), name
+        assert np.ptp(light) > 50, name
+        # Straight within a few units: a share of the range is that share of the lightness.
+        straight = np.linspace(light[0], light[-1], len(light))
+        assert np.abs(light - straight).max() < 8, name
+
+
+@pytest.mark.parametrize("style", [PAPER, UNIFORM, DARK])
+def test_isolines_stand_out_from_every_colour(style):
+    line = lab(np.array([style.isoline]))
+    assert np.linalg.norm(lab(style.colours()) - line, axis=1).min() > 12
+
+
+@pytest.mark.parametrize("name", STYLES)
+def test_text_and_shape_stand_out_from_the_background(name):
+    style = STYLES[name]
+    ground = lab(np.array([style.background]))[0]
+    assert abs(lab(np.array([style.text]))[0, 0] - ground[0]) > 70
+    assert abs(lab(np.array([style.quiet_text]))[0, 0] - ground[0]) > 45
+    if style.coloured:
+        assert np.linalg.norm(lab(style.colours()) - ground, axis=1).min() > 12
+
+
+def test_isolines_alone_need_no_colour():
+    assert np.ptp(LINES.colours(), axis=1).max() == 0
+    assert LINES.isoline == (0, 0, 0)
+    assert LINES.outline > 0

@@ -1,0 +1,110 @@
+"""Figures from the window: the same pixels as the command line's, cancelled without a trace, recipes opened."""
+
+import os
+
+import numpy as np
+import pytest
+
+from app.recipe import read_recipe
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+
+
+def exported(s, path, **choices):
+    """The dialog's figure at a path, once it is there."""
+    from app.qt.figure_actions import export_figure
+
+    dialog = export_figure(s.window)
+    for name, text in choices.items():
+        getattr(dialog, name).setText(text)
+    ended = []
+    dialog.saved.connect(ended.append)
+    dialog.failed.connect(ended.append)
+    dialog.export(str(path))
+    s.until(lambda: ended)
+    assert ended == [str(path)]
+
+
+def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tmp_path):
+    from app.main import main
+
+    s = screen()
+    s.open(mesh_file(bumpy(800)), 5)
+    s.window.camera.Azimuth(40)
+    exported(s, tmp_path / "window.png", size_text="600x300")
+    assert main(["figure", "--recipe", str(tmp_path / "window.json"), "-o", str(tmp_path / "again.png")]) == 0
+    window, again = ((tmp_path / name).read_bytes() for name in ("window.png", "again.png"))
+    assert window == again
+    recipe = read_recipe(tmp_path / "window.json")
+    numbers = [*recipe.views[0].position, *recipe.views[0].focal_point, *recipe.views[0].up, *recipe.views[0].extent]
+    words = ["figure", recipe.mesh, "--source", "5", "--camera=" + ",".join(map(repr, numbers)), "--size", "600x300"]
+    assert main([*words, "-o", str(tmp_path / "options.png")]) == 0
+    assert (tmp_path / "options.png").read_bytes() == window
+
+
+def test_an_export_that_is_cancelled_leaves_nothing(screen, mesh_file, tmp_path):
+    from app.qt.figure_actions import export_figure
+
+    s = screen()
+    s.open(mesh_file(bumpy(800)), 5)
+    dialog = export_figure(s.window)
+    dialog.size_text.setText("12000px")
+    out = tmp_path / "out"
+    out.mkdir()
+    told = []
+    dialog._progress.connect(lambda fraction, text: told.append(fraction))
+    dialog.export(str(out / "large.png"))
+    s.until(lambda: told)
+    dialog.reject()
+    s.until(lambda: dialog._job is None)
+    assert os.listdir(out) == []
+    assert dialog.isVisible()
+    dialog.reject()
+    assert not dialog.isVisible()
+
+
+def test_what_cannot_be_exported_is_said_at_once(screen, mesh_file, tmp_path):
+    from app.qt.figure_actions import export_figure
+
+    s = screen()
+    assert export_figure(s.window) is None
+    assert "not complete" in s.refusals[-1]
+    s.open(mesh_file(bumpy(300)), 5)
+    dialog = export_figure(s.window)
+    dialog.size_text.setText("wide")
+    dialog.export(str(tmp_path / "f.png"))
+    assert "'wide' is not a size" in s.refusals[-1]
+    dialog.size_text.setText("")
+    dialog.export(str(tmp_path / "no" / "f.png"))
+    assert "no folder" in s.refusals[-1]
+    dialog.close()
+
+
+def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
+    from app.main import main
+    from app.qt.figure_actions import open_recipe
+
+    mesh = mesh_file(bumpy(300))
+    words = ["--distance", "diffusion", "--t", "0.25", "--distance", "commute-time", "--distance", "geodesic"]
+    out = tmp_path / "f.png"
+    camera = "--camera=3,1,2,0,0,0,0,1,0,0.4,0.3"
+    assert (
+        main(["figure", mesh, *words, "--source", "7", camera, "--isolines", "12", "--style", "dark", "-o", str(out)])
+        == 0
+    )
+    s = screen()
+    s.open(mesh_file(bumpy(400), "other.off"))
+    open_recipe(s.window, str(tmp_path / "f.json"))
+    s.until(lambda: s.session.path == mesh and s.session.is_complete)
+    assert [p.title.text() for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
+    assert s.session.state.source == 7
+    assert s.session.state.isolines == 12
+    assert np.allclose(s.window.camera.GetPosition(), (3, 1, 2))
+    exported(s, tmp_path / "again.png")
+    again = read_recipe(tmp_path / "again.json")
+    assert again.style == "dark"
+    assert np.allclose(again.views[0].position, (3, 1, 2))
+    assert np.all(np.array(again.views[0].extent) >= np.array([0.4, 0.3]) - 1e-9)
+    open_recipe(s.window, str(tmp_path / "none.json"))
+    assert "cannot be read" in s.refusals[-1]
