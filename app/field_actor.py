@@ -97,7 +97,7 @@ class FieldActor:
 
     def show_field(self, field: np.ndarray, maximum: float | None = None) -> None:
         """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey."""
-        own = float(np.nanmax(field))
+        own = float(np.nanmax(field, initial=0.0))
         top = own if maximum is None else maximum
         self._values[:] = np.where(np.isnan(field), UNDEFINED, field / top if top > 0 else 0)
         self._array.Modified()

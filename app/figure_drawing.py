@@ -15,6 +15,7 @@ import numpy as np
 from .figure_description import Figure
 from .figure_layout import FONT, Box, Layout, bar_words
 from .figure_shots import Line, Shot
+from .style import Colour
 from .vector_crossings import simplified
 
 if TYPE_CHECKING:
@@ -97,7 +98,7 @@ def _draw_shot(axes: Axes, page: Page, number: int, shot: Shot, vector: bool) ->
     axes.add_artist(frame)
     shape = None
     if vector:
-        _draw_image(axes, shot, order + 1)
+        _draw_image(axes, shot, order + 1, None if page.figure.transparent else style.background)
         edge = _silhouette(shot, page.layout.scale)
         # One object for all curves: it is then written once.
         shape = edge and TransformedPath(edge, axes.transData)
@@ -111,15 +112,14 @@ def _draw_shot(axes: Axes, page: Page, number: int, shot: Shot, vector: bool) ->
             shot.outlines, style.outline_colour, style.outline * stroke, "round", order + 3, f"outline-{number}"
         )
         axes.add_artist(curve)
-        if shot.source is not None:
-            curve.set_clip_path(frame)
+        curve.set_clip_path(frame)
     _draw_marks(axes, page, shot, order + 4, frame)
     if shot.source is not None:
         _draw_frames(axes, shot, style.quiet_text, order + 5)
 
 
-def _draw_image(axes: Axes, shot: Shot, order: int) -> None:
-    """The shaded pixels, without the empty rows and columns around them."""
+def _draw_image(axes: Axes, shot: Shot, order: int, background: Colour | None) -> None:
+    """The shaded pixels on their background, without the empty rows and columns around them."""
     from matplotlib.image import AxesImage
 
     alpha = shot.image[..., 3:].astype(np.uint16)
@@ -127,16 +127,23 @@ def _draw_image(axes: Axes, shot: Shot, order: int) -> None:
     if not len(rows):
         return
     part = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    colours = np.minimum((shot.image[part][..., :3] * np.uint16(255)) // np.maximum(alpha[part], 1), 255)
+    colours, alpha_here = shot.image[part][..., :3].astype(np.uint16), alpha[part]
+    if background is None:
+        straight = np.minimum(colours * 255 // np.maximum(alpha_here, 1), 255)
+        pixels = np.concatenate([straight, alpha_here], axis=2)
+    else:
+        # Without transparency: some readers blend the edge of the shape with what lies unseen beside it.
+        paper = np.round(255 * np.array(background)).astype(np.uint16)
+        pixels = colours + (paper * (255 - alpha_here) + 127) // 255
     per_x, per_y = shot.box.width / alpha.shape[1], shot.box.height / alpha.shape[0]
     left, right = shot.box.x + columns[0] * per_x, shot.box.x + (columns[-1] + 1) * per_x
     top, bottom = shot.box.y + rows[0] * per_y, shot.box.y + (rows[-1] + 1) * per_y
     image = AxesImage(axes, origin="upper", interpolation="none", extent=(left, right, bottom, top), zorder=order)
-    image.set_data(np.concatenate([colours, alpha[part]], axis=2).astype(np.uint8))
+    image.set_data(np.minimum(pixels, 255).astype(np.uint8))
     axes.add_artist(image)
 
 
-def _curve(lines: list[Line], colour, width: float, cap: str, order: int, name: str):
+def _curve(lines: list[Line], colour: Colour, width: float, cap: str, order: int, name: str):
     """Parts of one curve as one path."""
     from matplotlib.patches import PathPatch
 

@@ -1,4 +1,4 @@
-"""A figure drawn by a process of its own, so that a window neither waits nor shares its OpenGL with the drawing."""
+"""Drawing in a process of its own, so that a window neither waits nor shares its OpenGL with the drawing."""
 
 import os
 import pickle
@@ -12,19 +12,17 @@ from typing import BinaryIO
 from bihdist_core import BihdistError, Cancelled
 from bihdist_core.progress import Progress
 
-from .figure_description import Figure
-from .recipe import Recipe
-
 Ended = Callable[[str | None], None]
-"""Called with nothing when the figure is there, otherwise with the sentence why not; "" if it was cancelled."""
+"""Called with nothing when the file is there, otherwise with the sentence why not; "" if it was cancelled."""
 
 
 class FigureJob:
-    """Draws a figure to `path`, with its recipe beside it.  Both functions are called on a thread of the job's."""
+    """Runs `work(progress=...)`, a function that can be pickled, in another process.
 
-    def __init__(
-        self, figure: Figure, recipe: Recipe, path: str, version: str, progress: Progress, ended: Ended
-    ) -> None:
+    Both functions are called on a thread of the job's.
+    """
+
+    def __init__(self, work: Callable[..., None], progress: Progress, ended: Ended) -> None:
         self._progress, self._ended = progress, ended
         self._cancelled = False
         # The package is called app in a checkout and otherwise when installed; it is found where this one was.
@@ -37,7 +35,7 @@ class FigureJob:
             env={**os.environ, "PYTHONPATH": paths},
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
-        self._work = pickle.dumps((figure, recipe, path, version))
+        self._work = pickle.dumps(work)
         self._thread = threading.Thread(target=self._follow, name="figure", daemon=True)
         self._thread.start()
 
@@ -51,7 +49,7 @@ class FigureJob:
         self._thread.join(timeout)
 
     def _follow(self) -> None:
-        message: str | None = "The figure was not drawn: its process ended without a word."
+        message: str | None = "The picture was not drawn: its process ended without a word."
         try:
             self._process.stdin.write(len(self._work).to_bytes(8, "little") + self._work)
             self._process.stdin.flush()
@@ -74,7 +72,7 @@ class FigureJob:
 
 
 def main() -> None:
-    """The process: a figure comes in, lines of progress go out; it stops when its input is closed."""
+    """The process: the work comes in, lines of progress go out; it stops when its input is closed."""
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
     # What a library prints must not be taken for progress.
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -83,26 +81,24 @@ def main() -> None:
     content = incoming.read(size)
     if not size or len(content) < size:
         return
-    figure, recipe, path, version = pickle.loads(content)
     closed = threading.Event()
     threading.Thread(target=_wait_for_end, args=(incoming, closed), daemon=True).start()
 
     def progress(fraction: float, text: str) -> None:
         if closed.is_set():
-            raise Cancelled("The figure was cancelled.")
+            raise Cancelled("The drawing was cancelled.")
         out.write(f"progress {fraction:.4f} {text}\n".encode())
 
-    from .figure_export import write_figure
-
     try:
-        write_figure(figure, recipe, path, version, progress)
+        work: Callable[..., None] = pickle.loads(content)
+        work(progress=progress)
         out.write(b"done\n")
     except BihdistError as error:
         out.write(f"failed {' '.join(str(error).split())}\n".encode())
     except MemoryError:
         out.write(b"failed There is not enough memory for a picture of this size.\n")
     except Exception as error:
-        out.write(f"failed The figure could not be drawn ({type(error).__name__}).\n".encode())
+        out.write(f"failed The picture could not be drawn ({type(error).__name__}).\n".encode())
 
 
 def _wait_for_end(incoming: BinaryIO, closed: threading.Event) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from bihdist_core import Surface
+from bihdist_core import ParameterError, Surface
 from bihdist_core.isolines import isolines
 from bihdist_core.progress import Progress, part
 
@@ -129,13 +129,14 @@ class _Taker:
         if self._style.outline and self._outlines is None:
             self._outlines = self._sight.outlines()
         move = _Move(source or self._box, box)
+        marks = [(k, *move(np.array([[x, y]]) + self._corner)[0]) for k, x, y in self._marks]
         return Shot(
             self._index,
             box,
             image,
             [(value, [(move(p + self._corner), c) for p, c in parts]) for value, parts in self._isolines or []],
             [(move(p + self._corner), c) for p, c in self._outlines or []],
-            [(k, *move(np.array([[x, y]]) + self._corner)[0]) for k, x, y in self._marks],
+            [(k, x, y) for k, x, y in marks if box.x <= x <= box.right and box.y <= y <= box.bottom],
             source,
         )
 
@@ -143,6 +144,8 @@ class _Taker:
         """Where the inset of a zoom goes, and what part of the view it shows."""
         side = INSET * min(self._box.width, self._box.height)
         x, y, _ = self._sight.pixels(self._surface.vertices[[zoom.vertex]])[0]
+        if not (0 <= x <= self._box.width and 0 <= y <= self._box.height):
+            raise ParameterError(f"Vertex {zoom.vertex} is outside the picture, so it cannot be enlarged.")
         x, y = x + self._box.x, y + self._box.y
         shown = side / zoom.factor
         source = Box(x - shown / 2, y - shown / 2, shown, shown)

@@ -75,6 +75,9 @@ def _parser() -> argparse.ArgumentParser:
     which.add_argument("--vertices", type=_vertices, metavar="I,J,K", help="all distances among these")
     which.add_argument("--pairs", type=_pair, nargs="+", metavar="I,J", help="the distances of these pairs")
     which.add_argument("--file", metavar="PAIRS.csv", help="the same from a file, a line `i,j` for each pair")
+    which.add_argument("--all", action="store_true", help="all pairs of the mesh, to a .npy; goes on if interrupted")
+    pairs.add_argument("--dtype", choices=("float32", "float64"), default="float32", help="for --all")
+    pairs.add_argument("--memory", type=_positive, default=500, metavar="MB", help="for --all (default: 500)")
     pairs.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy or .csv file")
     _add_distance(pairs)
     _add_areas(pairs)
@@ -219,12 +222,18 @@ def _field(options: argparse.Namespace) -> None:
 def _pairs(options: argparse.Namespace) -> None:
     import numpy as np
 
+    from bihdist_core.all_pairs import write_all_pairs
     from bihdist_core.field_output import ARRAY_FORMATS, write_array
     from bihdist_core.whole_file import check_output
 
-    extension = check_output(options.output, ARRAY_FORMATS)
+    extension = check_output(options.output, (".npy",) if options.all else ARRAY_FORMATS)
     with _progress() as progress:
         laplacian = _laplacian(options)
+        if options.all:
+            distance = _panel(options, options.distance).build(laplacian, progress)
+            write_all_pairs(distance, options.output, options.dtype, 1e6 * options.memory, progress)
+            print(f"{options.output}: {distance.label}, all pairs of {len(laplacian.surface.vertices)} vertices")
+            return
         if options.vertices:
             vertices = laplacian.surface.check_vertices(options.vertices)
             pairs = np.array([(i, j) for k, i in enumerate(vertices) for j in vertices[k + 1 :]]).reshape(-1, 2)

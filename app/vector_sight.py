@@ -75,9 +75,12 @@ class Sight:
 
         slack: what stands before a point by less does not hide it.
         """
-        curves = list(curves)
-        if not curves:
-            return []
+        whole = list(curves)
+        kept = [(k, part) for k, curve in enumerate(whole) for part in self._before_the_camera(curve)]
+        result: list[list[tuple[np.ndarray, bool]]] = [[] for _ in whole]
+        if not kept:
+            return result
+        curves = [part for _, part in kept]
         rings = [np.append(np.arange(len(c.points)), [0] if c.closed else []).astype(int) for c in curves]
         points = np.concatenate([c.points[r] for c, r in zip(curves, rings, strict=True)])
         edges = np.concatenate([c.edges[r] for c, r in zip(curves, rings, strict=True)])
@@ -89,12 +92,11 @@ class Sight:
         place = np.searchsorted(self._fold_keys, keys).clip(max=max(len(self._fold_keys) - 1, 0))
         on_fold = np.flatnonzero(self._fold_keys[place] == keys) if len(self._fold_keys) else np.empty(0, int)
         splits = np.sort(np.concatenate([segment + share, on_fold]))
-        result = []
-        for curve, stop in zip(curves, stops, strict=True):
+        for (k, curve), stop in zip(kept, stops, strict=True):
             start = stop - len(curve.points) - curve.closed
             inside = splits[np.searchsorted(splits, start, "right") : np.searchsorted(splits, stop - 1)]
             line = _Line(points[start:stop], at[start:stop], self, slack)
-            result.append(line.visible(inside - start, curve.closed))
+            result[k] += line.visible(inside - start, curve.closed)
         return result
 
     def outlines(self) -> list[tuple[np.ndarray, bool]]:
@@ -125,6 +127,14 @@ class Sight:
         fold = ~two
         fold[two] = turns
         return edges[fold]
+
+    def _before_the_camera(self, curve: Curve) -> list[Curve]:
+        """The curve, or what is left of it without the points behind the camera."""
+        before = self.pixels(curve.points)[:, 2] > 0
+        if before.all():
+            return [curve]
+        ends = np.flatnonzero(np.diff(np.concatenate([[0], before.astype(int), [0]])))
+        return [Curve(curve.points[a:b], curve.edges[a:b]) for a, b in ends.reshape(-1, 2) if b - a >= 2]
 
     def _hidden_from(self, at: np.ndarray, segments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(k,) segments that pass behind a fold, and the share (k,) of the segment in space at which they do."""

@@ -1,18 +1,21 @@
-"""The dialog of File > Export figure: how the figure shall be, and how far it is."""
+"""The dialogs of File > Export figure and File > Export movie: how it shall be, and how far it is."""
 
 import os
 from dataclasses import replace
+from functools import partial
 
-from qtpy import QtCore, QtGui, QtWidgets
+from qtpy import QtWidgets
 
-from bihdist_core import BihdistError
+from bihdist_core import BihdistError, ParameterError, Surface
 
-from ..figure_export import check_export, figure_of
-from ..figure_job import FigureJob
+from ..figure_export import check_export, figure_of, write_figure
+from ..movie import Movie, check_movie, write_movie
 from ..recipe import Recipe
 from ..style import STYLES
+from .job_dialog import JobDialog
 
-FILES = "PNG picture (*.png);;PDF with vector isolines (*.pdf);;SVG with vector isolines (*.svg)"
+FIGURE_FILES = "PNG picture (*.png);;PDF with vector isolines (*.pdf);;SVG with vector isolines (*.svg)"
+MOVIE_FILES = "MP4 movie (*.mp4);;GIF (*.gif)"
 STYLE_NAMES = {
     "paper": "The paper's colours",
     "uniform": "Perceptually uniform",
@@ -22,34 +25,37 @@ STYLE_NAMES = {
 VIEWS = {"As in the window": None, "Front and back": ("front", "back"), "Front": ("front",), "Home": ("home",)}
 
 
-class ExportDialog(QtWidgets.QDialog):
-    """Asks, draws in the background, and closes when the figure is there.
-
-    recipe: what the window shows; answers: for each panel its field (n,), label and unit.  `saved` is emitted with
-    the path, `failed` with a sentence.
-    """
-
-    saved = QtCore.Signal(str)
-    failed = QtCore.Signal(str)
-    _progress = QtCore.Signal(float, str)
-    _ended = QtCore.Signal(object)
+class _Looks(JobDialog):
+    """What figures and movies have in common: recipe is what the window shows."""
 
     def __init__(
-        self, recipe: Recipe, surface, answers: list, version: str, parent: QtWidgets.QWidget | None = None
+        self, recipe: Recipe, title: str, extension: str, files: str, parent: QtWidgets.QWidget | None
     ) -> None:
-        super().__init__(parent)
-        self.setWindowTitle("Export figure")
-        self._recipe, self._surface, self._answers, self._version = recipe, surface, answers, version
-        self._job: FigureJob | None = None
-        self._path = ""
-        self.recipe: Recipe | None = None  # of the last export
-        self._fill()
-        self._progress.connect(self._show_progress)
-        self._ended.connect(self._finish)
+        name = os.path.splitext(os.path.basename(recipe.mesh))[0] or "figure"
+        super().__init__(title, name + extension, files, parent)
+        self._recipe = recipe
+        self.size_text = QtWidgets.QLineEdit(recipe.size)
+        self.size_text.setPlaceholderText("8000px, 160mm@300dpi; empty: usual")
+        self.size_text.setMinimumWidth(330)
+        self.style_box = QtWidgets.QComboBox()
+        for word in STYLES:
+            self.style_box.addItem(STYLE_NAMES.get(word, word), word)
+        self.style_box.setCurrentIndex(max(self.style_box.findData(recipe.style), 0))
+        self.columns = QtWidgets.QSpinBox(maximum=12, specialValueText="all in one row")
+        self.columns.setValue(recipe.columns or 0)
+        self.shared = QtWidgets.QCheckBox("One colour bar for all panels", checked=recipe.shared_range)
+        self.hints = QtWidgets.QCheckBox("What to look for, under the headings", checked=recipe.hints)
+        for label, widget in [
+            ("Size", self.size_text),
+            ("Style", self.style_box),
+            ("Columns", self.columns),
+            ("", self.shared),
+            ("", self.hints),
+        ]:
+            self.rows.addRow(label, widget)
 
     def chosen(self) -> Recipe:
         """The recipe as the dialog stands."""
-        views = VIEWS[self.view.currentText()]
         return replace(
             self._recipe,
             size=self.size_text.text().strip(),
@@ -57,10 +63,33 @@ class ExportDialog(QtWidgets.QDialog):
             columns=self.columns.value() or None,
             shared_range=self.shared.isChecked(),
             hints=self.hints.isChecked(),
-            transparent=self.transparent.isChecked(),
-            crop=self.crop.isChecked(),
-            **({} if views is None else {"views": views}),
         )
+
+
+class ExportDialog(_Looks):
+    """A figure of what the window shows; answers: for each panel its field (n,), label and unit."""
+
+    def __init__(
+        self,
+        recipe: Recipe,
+        surface: Surface,
+        answers: list,
+        version: str,
+        parent: QtWidgets.QWidget | None = None,
+    ) -> None:
+        super().__init__(recipe, "Export figure", ".png", FIGURE_FILES, parent)
+        self._surface, self._answers, self._version = surface, answers, version
+        self.view = QtWidgets.QComboBox()
+        self.view.addItems(list(VIEWS))
+        self.transparent = QtWidgets.QCheckBox("Transparent background", checked=recipe.transparent)
+        self.crop = QtWidgets.QCheckBox("Without the empty margins", checked=recipe.crop)
+        for label, widget in [("View", self.view), ("", self.transparent), ("", self.crop)]:
+            self.rows.addRow(label, widget)
+
+    def chosen(self) -> Recipe:
+        views = VIEWS[self.view.currentText()]
+        recipe = replace(super().chosen(), transparent=self.transparent.isChecked(), crop=self.crop.isChecked())
+        return recipe if views is None else replace(recipe, views=views)
 
     def export(self, path: str) -> None:
         """Start drawing to a path; a size that is none, or a path that cannot be written, is refused at once."""
@@ -71,94 +100,41 @@ class ExportDialog(QtWidgets.QDialog):
         except BihdistError as error:
             self.failed.emit(str(error))
             return
-        self._path, self.recipe = path, recipe
-        self._set_busy(True)
-        self._job = FigureJob(figure, recipe, path, self._version, self._progress.emit, self._ended.emit)
+        self.start(partial(write_figure, figure, recipe, path, self._version), path)
 
-    def reject(self) -> None:
-        """Close; while a figure is drawn, stop that first."""
-        if self._job:
-            self._job.cancel()
-        else:
-            super().reject()
 
-    def closeEvent(self, event: QtGui.QCloseEvent) -> None:
-        if self._job:
-            self._job.cancel()
-            self._job.wait(10)
-        super().closeEvent(event)
+class MovieDialog(_Looks):
+    """A movie of what the window shows."""
 
-    # ------------------------------------------------------------------ how it goes
-    def _show_progress(self, fraction: float, text: str) -> None:
-        self.bar.setValue(round(1000 * fraction))
-        self.doing.setText(text)
-
-    def _finish(self, message: str | None) -> None:
-        self._job = None
-        self._set_busy(False)
-        if message is None:
-            self.saved.emit(self._path)
-            self.accept()
-        elif message:
-            self.failed.emit(message)
-
-    def _set_busy(self, busy: bool) -> None:
-        self.form.setEnabled(not busy)
-        self.save.setEnabled(not busy)
-        self.bar.setVisible(busy)
-        self.doing.setVisible(busy)
-
-    def _choose_path(self) -> None:
-        name = os.path.splitext(os.path.basename(self._recipe.mesh))[0] or "figure"
-        path, chosen = QtWidgets.QFileDialog.getSaveFileName(self, "Export figure", f"{name}.png", FILES)
-        if path:
-            extension = chosen[chosen.find("*") + 1 : chosen.find(")")]
-            self.export(path if os.path.splitext(path)[1] else path + extension)
-
-    # ------------------------------------------------------------------ how it is made
-    def _fill(self) -> None:
-        recipe = self._recipe
-        self.form = QtWidgets.QWidget()
-        rows = QtWidgets.QFormLayout(self.form)
-        rows.setContentsMargins(0, 0, 0, 0)
-        self.size_text = QtWidgets.QLineEdit(recipe.size)
-        self.size_text.setPlaceholderText("1680x640, 8000px, 160mm@300dpi; empty: the usual")
-        self.size_text.setMinimumWidth(330)
-        self.style_box = QtWidgets.QComboBox()
-        for word in STYLES:
-            self.style_box.addItem(STYLE_NAMES.get(word, word), word)
-        self.style_box.setCurrentIndex(max(self.style_box.findData(recipe.style), 0))
-        self.view = QtWidgets.QComboBox()
-        self.view.addItems(list(VIEWS))
-        self.columns = QtWidgets.QSpinBox(maximum=12, specialValueText="all in one row")
-        self.columns.setValue(recipe.columns or 0)
-        self.shared = QtWidgets.QCheckBox("One colour bar for all panels", checked=recipe.shared_range)
-        self.hints = QtWidgets.QCheckBox("What to look for, under the headings", checked=recipe.hints)
-        self.transparent = QtWidgets.QCheckBox("Transparent background", checked=recipe.transparent)
-        self.crop = QtWidgets.QCheckBox("Without the empty margins", checked=recipe.crop)
-        for name, widget in [
-            ("Size", self.size_text),
-            ("Style", self.style_box),
-            ("View", self.view),
-            ("Columns", self.columns),
-            ("", self.shared),
-            ("", self.hints),
-            ("", self.transparent),
-            ("", self.crop),
+    def __init__(self, recipe: Recipe, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(recipe, "Export movie", ".mp4", MOVIE_FILES, parent)
+        self.size_text.setPlaceholderText("840x320, 1280px; empty: the usual")
+        self.turn = QtWidgets.QSpinBox(minimum=-3600, maximum=3600, value=360, suffix="°")
+        self.path_text = QtWidgets.QLineEdit()
+        self.path_text.setPlaceholderText("ids such as 12,900; empty: it stays")
+        self.frames = QtWidgets.QSpinBox(minimum=2, maximum=10_000, value=120)
+        self.fps = QtWidgets.QSpinBox(minimum=1, maximum=50, value=25)
+        for label, widget in [
+            ("Turn by", self.turn),
+            ("Source goes through", self.path_text),
+            ("Frames", self.frames),
+            ("Frames a second", self.fps),
         ]:
-            rows.addRow(name, widget)
-        self.bar = QtWidgets.QProgressBar(maximum=1000, textVisible=False, visible=False)
-        self.doing = QtWidgets.QLabel("", visible=False)
-        self.save = QtWidgets.QPushButton("Export …", default=True)
-        self.save.clicked.connect(self._choose_path)
-        cancel = QtWidgets.QPushButton("Cancel")
-        cancel.clicked.connect(self.reject)
-        buttons = QtWidgets.QHBoxLayout()
-        buttons.addWidget(self.bar, 1)
-        buttons.addWidget(self.doing)
-        buttons.addStretch(0)
-        buttons.addWidget(self.save)
-        buttons.addWidget(cancel)
-        layout = QtWidgets.QVBoxLayout(self)
-        layout.addWidget(self.form)
-        layout.addLayout(buttons)
+            self.rows.addRow(label, widget)
+
+    def export(self, path: str) -> None:
+        """Start drawing to a path; what makes no sense is refused at once."""
+        try:
+            check_movie(path)
+            movie = Movie(self.chosen(), self.turn.value(), self._stops(), self.frames.value(), self.fps.value())
+        except BihdistError as error:
+            self.failed.emit(str(error))
+            return
+        self.start(partial(write_movie, movie, path), path)
+
+    def _stops(self) -> tuple[int, ...]:
+        text = self.path_text.text().strip()
+        try:
+            return tuple(int(word) for word in text.split(",")) if text else ()
+        except ValueError:
+            raise ParameterError(f"{text!r} is not vertex ids with commas between them.") from None

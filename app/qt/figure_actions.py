@@ -1,4 +1,4 @@
-"""The window's figures: File > Export figure and File > Open recipe.  `window` is the main window."""
+"""The window's figures: File > Export figure, Export movie, Open recipe.  `window` is the main window."""
 
 from dataclasses import replace
 
@@ -10,24 +10,39 @@ from ..camera import Camera, camera_seen, show_camera
 from ..recipe import Recipe, RecipeCamera, RecipePanel, checksum, read_recipe
 from ..samples import mesh_path
 from ..version import version
-from .export_dialog import ExportDialog
+from .export_dialog import ExportDialog, MovieDialog
+from .job_dialog import JobDialog
 
 RECIPES = "Recipes (*.json);;All files (*)"
 
 
 def export_figure(window) -> ExportDialog | None:
     """Open the dialog for what the window shows; None, with a word to the user, while it is not complete."""
-    session = window.session
-    if not session.is_complete:
+    recipe = _complete_recipe(window)
+    if recipe is None:
+        return None
+    answers = [(a.field, a.label, a.unit) for a in window.session.answers]
+    return _opened(ExportDialog(recipe, window.session.surface, answers, version(), window), window)
+
+
+def export_movie(window) -> MovieDialog | None:
+    """The same for a movie."""
+    recipe = _complete_recipe(window)
+    return None if recipe is None else _opened(MovieDialog(recipe, window), window)
+
+
+def _complete_recipe(window) -> Recipe | None:
+    if not window.session.is_complete:
         window.failed("The panels are not complete yet; a figure can be exported once they are.")
         return None
     try:
-        recipe = shown_recipe(window)
+        return shown_recipe(window)
     except BihdistError as error:
         window.failed(str(error))
         return None
-    answers = [(a.field, a.label, a.unit) for a in session.answers]
-    dialog = ExportDialog(recipe, session.surface, answers, version(), window)
+
+
+def _opened(dialog: JobDialog, window) -> JobDialog:
     dialog.saved.connect(lambda path: window.statusBar().showMessage(f"Saved {path}", 8000))
     dialog.failed.connect(window.failed)
     dialog.open()

@@ -18,6 +18,8 @@ from .look import STYLE_SHEET
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 HOVER_DELAY_MS = 25
+FITTED = 20_000
+"""How many points the camera is fitted to."""
 
 
 class MainWindow(QtWidgets.QMainWindow):
@@ -94,7 +96,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
     # ------------------------------------------------------------------ what the session tells
     def mesh_changed(self) -> None:
-        surface, (mesh, picker) = self.session.surface, self.session.prepared
+        surface, (mesh, picker, _) = self.session.surface, self.session.prepared
         self.setWindowTitle(f"{surface.name} - Biharmonic distance")
         with QtCore.QSignalBlocker(self._source_box):  # a smaller mesh would otherwise choose its last vertex
             self._source_box.setRange(0, len(surface.vertices) - 1)
@@ -168,7 +170,7 @@ class MainWindow(QtWidgets.QMainWindow):
         if surface is None:
             return
         size = self.panels[0].interactor.size()
-        shown = surface.vertices[surface.component_of_vertex >= 0]
+        *_, shown = self.session.prepared
         place_camera(self._camera, shown, size.width() / max(size.height(), 1), view)
         self._repaint()
 
@@ -235,6 +237,11 @@ class MainWindow(QtWidgets.QMainWindow):
 
         export_figure(self)
 
+    def export_movie(self) -> None:
+        from .figure_actions import export_movie
+
+        export_movie(self)
+
     def choose_recipe(self) -> None:
         from .figure_actions import choose_recipe
 
@@ -295,6 +302,7 @@ class MainWindow(QtWidgets.QMainWindow):
             action.triggered.connect(lambda *_, name=name: self.open(mesh_path(name)))
         _action(file, "S&creenshot …", self.choose_screenshot, "Ctrl+P")
         _action(file, "&Export figure …", self.export_figure, "Ctrl+E")
+        _action(file, "Export &movie …", self.export_movie, "Ctrl+M")
         _action(file, "Open &recipe …", self.choose_recipe, "Ctrl+R")
         file.addSeparator()
         _action(file, "&Quit", self.close, QtGui.QKeySequence.StandardKey.Quit)
@@ -339,7 +347,7 @@ Point at the surface: its value in every panel.
 Ctrl+O  open a mesh (or drop it on the window)
 G  type the source's vertex id
 R  reset the view      1 … 6  front, back, left, right, top, bottom
-Ctrl+P  save a picture of the window      Ctrl+E  export a figure
+Ctrl+P  save a picture of the window      Ctrl+E  export a figure      Ctrl+M  a movie
 Ctrl+R  open a figure's recipe
 Esc  cancel what is being computed"""
 
@@ -350,7 +358,9 @@ def _prepare(surface):
     from ..scene import drawable
 
     mesh = drawable(surface)
-    return mesh, Picker(surface, mesh)
+    shown = surface.vertices[surface.component_of_vertex >= 0]
+    # The camera is fitted on the window's thread: some of the points of a large mesh do as well.
+    return mesh, Picker(surface, mesh), shown[:: max(1, len(shown) // FITTED)]
 
 
 def _summary(surface) -> str:

@@ -108,6 +108,16 @@ def test_listed_pairs_from_words_and_from_a_file(mesh, tmp_path):
         assert np.load(out)[:, 2] == pytest.approx(expected)
 
 
+def test_all_pairs_go_to_disk(mesh, tmp_path, capsys):
+    out = tmp_path / "all.npy"
+    assert main(["pairs", mesh, "--all", "--memory", "1", "-o", str(out)]) == 0
+    expected = BiharmonicDistance(read_surface(mesh)).from_sources(np.arange(200))
+    written = np.load(out)
+    assert written.dtype == np.float32
+    assert np.abs(written - expected).max() <= 1e-6 * expected.max()  # rounded to single precision
+    assert ".csv" in refused(capsys, "pairs", mesh, "--all", "-o", tmp_path / "all.csv")
+
+
 # ---------------------------------------------------------------------- info and version
 def test_info_counts_what_is_there(mesh_file, capsys):
     assert main(["info", mesh_file(two_pieces())]) == 0

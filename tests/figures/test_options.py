@@ -6,10 +6,10 @@ import pytest
 from app import figure_raster
 from app.camera import Camera
 from app.figure_size import Size
-from app.figures import Figure, FigurePanel, Mark, Zoom, draw_figure
+from app.figures import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
 from app.style import DARK, STYLES
 from bihdist_core import ParameterError
-from tests.shapes import bumpy, grid
+from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces
 
 SIZE = Size(400, 400, dpi=96)
 
@@ -85,6 +85,9 @@ def test_a_zoom_shows_its_vertex_enlarged(ball):
     assert changed[:200, 250:].mean() > 0.2
     inset = zoomed[10:120, 260:380].astype(float)
     assert inset.std() > 20
+    away = Camera((0, 0, 5), (9, 0, 0), (0, 1, 0), (0.1, 0.1))
+    with pytest.raises(ParameterError, match="outside the picture"):
+        one(ball, field, views=(away,), zooms=(Zoom(vertex),))
     with pytest.raises(ParameterError, match="not 1"):
         Zoom(vertex, 1)
     with pytest.raises(ParameterError, match="corner 'middle'"):
@@ -178,3 +181,24 @@ def test_every_style_draws(ball, style):
     picture = one(ball, ball.vertices[:, 1] + 2, figure={"style": STYLES[style]}, marks=(Mark(0),))
     assert np.abs(picture[0, 0] / 255 - STYLES[style].background).max() < 0.01
     assert picture.std() > 10
+
+
+def test_odd_surfaces_and_fields_are_drawn(tmp_path):
+    for surface in (fin(), slivers(), two_pieces(), tetrahedron()):
+        count = len(surface.vertices)
+        vertex = int(surface.faces[0, 0])
+        inside = Camera(tuple(surface.vertices[vertex] + 0.1), tuple(surface.vertices.mean(axis=0)), (0, 1, 0), (1, 1))
+        field = np.where(surface.component_of_vertex == 0, np.arange(count) / 3.0, np.nan)
+        panels = (
+            FigurePanel(
+                surface, field, "a heading far too long for its panel " * 3, "words " * 60, marks=(Mark(vertex),)
+            ),
+            FigurePanel(surface, np.zeros(count)),
+            FigurePanel(surface, np.full(count, np.nan)),
+            FigurePanel(surface, None),
+            FigurePanel(surface, field, views=(inside,)),
+        )
+        figure = Figure(panels, columns=3, size=Size(240, 200, dpi=96), style=STYLES["lines"], crop=True)
+        assert draw_figure(figure).std() > 1
+        save_figure(figure, tmp_path / "odd.svg")
+        assert (tmp_path / "odd.svg").read_text().count("<image") == 5

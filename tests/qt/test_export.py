@@ -57,7 +57,7 @@ def test_an_export_that_is_cancelled_leaves_nothing(screen, mesh_file, tmp_path)
     dialog.export(str(out / "large.png"))
     s.until(lambda: told)
     dialog.reject()
-    s.until(lambda: dialog._job is None)
+    s.until(lambda: dialog.job is None)
     assert os.listdir(out) == []
     assert dialog.isVisible()
     dialog.reject()
@@ -79,6 +79,30 @@ def test_what_cannot_be_exported_is_said_at_once(screen, mesh_file, tmp_path):
     dialog.export(str(tmp_path / "no" / "f.png"))
     assert "no folder" in s.refusals[-1]
     dialog.close()
+
+
+def test_a_movie_is_made_and_its_mistakes_are_said(screen, mesh_file, tmp_path):
+    from PIL import Image
+
+    from app.qt.figure_actions import export_movie
+
+    s = screen()
+    s.open(mesh_file(bumpy(200)), 5)
+    dialog = export_movie(s.window)
+    dialog.size_text.setText("300x120")
+    dialog.path_text.setText("5,here")
+    out = tmp_path / "m.gif"
+    dialog.export(str(out))
+    assert "'5,here' is not vertex ids" in s.refusals[-1]
+    dialog.path_text.setText("5,90")
+    dialog.turn.setValue(0)
+    dialog.frames.setValue(2)
+    ended = []
+    dialog.saved.connect(ended.append)
+    dialog.export(str(out))
+    s.until(lambda: ended)
+    with Image.open(out) as film:
+        assert film.n_frames == 2
 
 
 def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
