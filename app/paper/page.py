@@ -13,10 +13,19 @@ LONGEST_TABLE = 24
 
 
 @dataclass(frozen=True)
-class Section:
-    """One experiment on the page: its result, pictures (caption, PNG) and charts (SVG), or why there is none."""
+class Named:
+    """What stands over a section that is not, or not only, an experiment."""
 
-    experiment: Experiment
+    id: str
+    title: str
+    shows: str = ""
+
+
+@dataclass(frozen=True)
+class Section:
+    """One experiment on the page: its result, pictures (caption, PNG) and charts (SVG), or why there are none."""
+
+    experiment: "Experiment | Named"
     result: Result | None
     pictures: tuple[tuple[str, bytes], ...] = ()
     charts: tuple[str, ...] = ()
@@ -44,7 +53,7 @@ def _section(section: Section) -> str:
     experiment, result = section.experiment, section.result
     parts = [f'<section id="{experiment.id}"><h2><span>{experiment.id}</span> {escape(experiment.title)}</h2>']
     parts += [f"<p>{escape(text)}</p>" for text in experiment.shows.split("\n\n")]
-    if result is None:
+    if section.failure:
         return "\n".join([*parts, f'<p class="no">Not done: {escape(section.failure)}</p></section>'])
     for caption, picture in section.pictures:
         code = base64.b64encode(picture).decode()
@@ -52,6 +61,8 @@ def _section(section: Section) -> str:
         parts.append(f'<figure>{said}<img alt="{escape(caption)}" src="data:image/png;base64,{code}"></figure>')
     if section.charts:
         parts.append('<div class="charts">' + "".join(section.charts) + "</div>")
+    if result is None:
+        return "\n".join([*parts, "</section>"])
     if result.claims:
         parts.append("<table class=claims><tr><th>the paper</th><th>measured here</th><th>holds</th></tr>")
         parts += [_claim(claim) for claim in result.claims]

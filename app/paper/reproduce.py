@@ -4,20 +4,33 @@ import io
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bihdist_core import BihdistError, Cancelled, OutputError, ParameterError, read_surface
+from bihdist_core import (
+    BiharmonicDistance,
+    BihdistError,
+    Cancelled,
+    OutputError,
+    ParameterError,
+    Surface,
+    read_surface,
+)
 from bihdist_core.experiments import EXPERIMENTS, Experiment, Shapes
 from bihdist_core.mesh_io import MESH_FORMATS
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import whole_file
 
-from ..figures import check_offscreen, draw_figure
+from ..figure_size import Size
+from ..figures import Figure, FigurePanel, Mark, check_offscreen, draw_figure
 from ..samples import SAMPLES
+from ..session import first_source
 from .charts import chart_svg
-from .page import Section, page
+from .page import Named, Section, page
 from .pictures import figures
 
 FOLDER_EXPERIMENTS = ("fig1", "claims")
 """What is done for each mesh of a folder: a picture and the numbers."""
+
+SHEET, SHEET_COLUMNS = 40, 5
+"""Meshes on a contact sheet, and side by side on it."""
 
 
 def reproduce(
@@ -114,6 +127,7 @@ def _each_mesh(
         raise ParameterError(f"{meshes} holds no meshes ({', '.join(MESH_FORMATS)}).")
     chosen = [EXPERIMENTS[name] for name in only or FOLDER_EXPERIMENTS]
     sections: list[Section] = []
+    surfaces: list[Surface] = []
     for k, path in enumerate(paths):
         say(path.name)
         mine = part(progress, k / len(paths), (k + 1) / len(paths))
@@ -128,14 +142,34 @@ def _each_mesh(
         for section in _sections(place, chosen, shapes, quick, mine, say):
             named = _named(section.experiment, path)
             sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
+        surfaces.append(shapes.own)
+    if surfaces:
+        sections.insert(0, _contact_sheets(folder, surfaces))
     return _write_page(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
 
 
-class _named:
-    """An experiment under the name of the mesh it was done on."""
+def _named(experiment: Experiment, path: Path) -> Named:
+    return Named(f"{path.stem}-{experiment.id}", f"{path.name}: {experiment.title}")
 
-    def __init__(self, experiment: Experiment, path: Path) -> None:
-        self.id, self.title, self.shows = f"{path.stem}-{experiment.id}", f"{path.name}: {experiment.title}", ""
+
+def _contact_sheets(folder: Path, surfaces: Sequence[Surface]) -> Section:
+    """Biharmonic distance on every mesh, from its highest vertex, many to a picture."""
+    pictures = []
+    for start in range(0, len(surfaces), SHEET):
+        panels = []
+        for surface in surfaces[start : start + SHEET]:
+            source = first_source(surface)
+            try:
+                field = BiharmonicDistance(surface).from_source(source)
+            except BihdistError:
+                field = None  # its own section says why
+            panels.append(FigurePanel(surface, field, surface.name, marks=(Mark(source),)))
+        columns = min(SHEET_COLUMNS, len(panels))
+        sheet = Figure(tuple(panels), columns=columns, size=Size(width=260 * columns))
+        pictures.append(("", _picture(folder, f"contact-sheet-{start // SHEET + 1}", sheet)))
+    return Section(
+        Named("all", "All meshes", "Biharmonic distance from each mesh's highest vertex."), None, tuple(pictures)
+    )
 
 
 def _write_page(folder: Path, sections: Sequence[Section], about: str, quick: bool) -> Path:

@@ -83,6 +83,7 @@ def test_one_bad_mesh_of_a_folder_does_not_stop_the_others(mesh_file, tmp_path):
     text = path.read_text(encoding="utf-8")
     assert text.count("Not done") == 1
     assert "b.off" in text
+    assert (path.parent / "contact-sheet-1.png").exists()
     assert (path.parent / "a" / "fig1.npz").exists()
     assert (path.parent / "c" / "fig1.npz").exists()
 
