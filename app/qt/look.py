@@ -1,5 +1,19 @@
 """The window's own colours: white, so that only the surfaces have colour."""
 
+from qtpy import QtWidgets
+
+THUMBNAIL = 56
+
+
+class LargeIcons(QtWidgets.QProxyStyle):
+    """For menus whose icons are pictures."""
+
+    def pixelMetric(self, metric, option=None, widget=None) -> int:
+        if metric == QtWidgets.QStyle.PixelMetric.PM_SmallIconSize:
+            return THUMBNAIL
+        return super().pixelMetric(metric, option, widget)
+
+
 STYLE_SHEET = """
 QMainWindow, QToolBar, QStatusBar, QMenuBar { background: #f6f7f8; }
 QToolBar { border: none; border-bottom: 1px solid #dcdfe3; padding: 4px 6px; spacing: 6px; }

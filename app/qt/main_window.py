@@ -14,7 +14,7 @@ from bihdist_core.whole_file import check_output, whole_file
 from ..samples import mesh_path, sample_names, thumbnail
 from ..session import Session
 from ..state import ViewerState
-from .look import STYLE_SHEET
+from .look import STYLE_SHEET, LargeIcons
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 HOVER_DELAY_MS = 25
@@ -297,6 +297,8 @@ class MainWindow(QtWidgets.QMainWindow):
         file = self.menuBar().addMenu("&File")
         _action(file, "&Open …", self.choose_file, QtGui.QKeySequence.StandardKey.Open)
         samples = file.addMenu("&Samples")
+        self._large_icons = LargeIcons()
+        samples.setStyle(self._large_icons)
         for name in sample_names():
             action = samples.addAction(QtGui.QIcon(str(thumbnail(name))), name.replace("_", " "))
             action.triggered.connect(lambda *_, name=name: self.open(mesh_path(name)))

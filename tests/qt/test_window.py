@@ -230,3 +230,17 @@ def test_closing_while_computing_ends_the_threads(screen, mesh_file):
     s.until(lambda: s.session.progress)
     s.window.close()
     assert not [t for t in threading.enumerate() if t.name.startswith(("panel", "load")) and t.is_alive()]
+
+
+def test_samples_are_listed_with_their_pictures_and_open(screen):
+    from app.samples import sample_names
+
+    s = screen()
+    file = s.window.menuBar().actions()[0].menu()
+    samples = next(action.menu() for action in file.actions() if action.menu())
+    actions = {action.text(): action for action in samples.actions()}
+    assert list(actions) == [name.replace("_", " ") for name in sample_names()]
+    assert not any(action.icon().isNull() for action in actions.values())
+    actions["genus3"].trigger()
+    s.until(lambda: s.session.is_complete)
+    assert s.window.windowTitle().startswith("genus3.ply")
