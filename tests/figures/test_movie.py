@@ -58,6 +58,8 @@ def test_the_source_wanders_along_edges(recipe, tmp_path):
     assert (np.abs(frames[0] - frames[-1]).max(axis=2) > 40).mean() > 0.02
 
 
+# The library leaves the pipes of its ffmpeg to the garbage collector, which complains.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning", "ignore::ResourceWarning")
 def test_mp4_has_the_frames(mesh_file, tmp_path):
     ffmpeg = pytest.importorskip("imageio_ffmpeg")
     out = tmp_path / "turn.mp4"
