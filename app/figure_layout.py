@@ -13,6 +13,9 @@ PANEL = (560.0, 640.0)
 VIEW_WIDTH = 400.0
 """The usual width of each view where a panel has several."""
 
+WORDS = 128.0
+"""What heading, hint and colour bar take of a panel's height."""
+
 FONT = "DejaVu Sans"
 HEADING, HINT, LABEL = 17.0, 13.0, 12.0
 SMALLEST = 0.55
@@ -86,7 +89,7 @@ def lay_out(figure: Figure, least_scale: float = 0.0) -> Layout:
     """The figure's layout, at its own resolution or at least at `least_scale`."""
     rows, columns = figure.grid
     views = max(len(p.views) for p in figure.panels)
-    usual = (columns * (PANEL[0] if views == 1 else VIEW_WIDTH * views), rows * PANEL[1])
+    usual = _usual_size(figure.size.printed_width, rows, columns, views)
     across, down, own_scale = figure.size.pixels(usual)
     width, height = across / own_scale, down / own_scale
     scale = max(own_scale, least_scale)
@@ -120,6 +123,17 @@ def lay_out(figure: Figure, least_scale: float = 0.0) -> Layout:
     page = (across, down) if scale == own_scale else (round(width * scale), round(height * scale))
     shared_bar = _bar(Box(0, 0, width, height), height - foot + 8, bar_height) if shared else None
     return Layout(width, height, scale, page, tuple(cells), heading, hint, label, shared_bar, stroke)
+
+
+def _usual_size(printed_width: float | None, rows: int, columns: int, views: int) -> tuple[float, float]:
+    """The size of a page; where its width is given as printed, words keep their size and only the views shrink."""
+    view_width = PANEL[0] if views == 1 else VIEW_WIDTH
+    if printed_width is None:
+        return columns * views * view_width, rows * PANEL[1]
+    # Hints take a second line in narrow panels.
+    words = WORDS * (0.85 if printed_width / columns < 350 else 1.0)
+    view_height = printed_width / (columns * views) * (PANEL[1] - WORDS) / view_width
+    return printed_width, rows * (words + view_height)
 
 
 def bar_words(label: str, unit: str) -> str:

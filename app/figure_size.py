@@ -51,6 +51,15 @@ class Size:
         width, height, dpi = (None if found[k] is None else float(found[k]) for k in ("width", "height", "dpi"))
         return cls(width, height, found["unit"] or "px", dpi)
 
+    @property
+    def printed_width(self) -> float | None:
+        """The width in units where it is printed at a known size, and the height is left open."""
+        if self.width is None or self.height is not None:
+            return None
+        if self.unit == "mm":
+            return self.width / MM_PER_INCH * UNITS_PER_INCH
+        return None if self.dpi is None else self.width * UNITS_PER_INCH / self.dpi
+
     def pixels(self, usual: tuple[float, float]) -> tuple[int, int, float]:
         """Width, height and pixels per unit, for panels that would usually take this many units."""
         dpi = self.dpi or (PRINT_DPI if self.unit == "mm" else None)
