@@ -5,6 +5,7 @@ import pytest
 
 from app import figure_raster
 from app.camera import Camera
+from app.figure_layout import lay_out
 from app.figure_size import Size
 from app.figures import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
 from app.style import DARK, STYLES
@@ -202,3 +203,15 @@ def test_odd_surfaces_and_fields_are_drawn(tmp_path):
         assert draw_figure(figure).std() > 1
         save_figure(figure, tmp_path / "odd.svg")
         assert (tmp_path / "odd.svg").read_text().count("<image") == 5
+
+
+def test_in_a_narrow_column_of_print_the_pictures_still_have_most_of_the_room():
+    surface = bumpy(100)
+    field = np.linspace(0, 1, 100)
+    for width, count, views in [("85mm", 1, 1), ("160mm@300dpi", 3, 2), ("174mm", 3, 1)]:
+        panels = tuple(
+            FigurePanel(surface, field, "heading", "a hint", views=("front", "back")[:views]) for _ in range(count)
+        )
+        layout = lay_out(Figure(panels, size=Size.parse(width)))
+        assert layout.cells[0].views[0].height > 0.5 * layout.height
+        assert layout.heading > 9  # units of 1/96 inch: words stay readable
