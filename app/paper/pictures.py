@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from bihdist_core.experiments import Mark as ExperimentMark
 from bihdist_core.experiments import Panel, Result
 
 from ..figure_size import Size
@@ -55,10 +56,16 @@ def _panel(result: Result, panel: Panel) -> FigurePanel:
         label=label,
         isolines=panel.isoline_count,
         views=("relief",) if relief and field is not None else views,
-        marks=tuple(Mark(mark.vertex, text=WORDS.get(mark.kind, "")) for mark in panel.marks),
+        marks=tuple(_mark(mark, field) for mark in panel.marks),
         zooms=zooms,
         height=RELIEF if relief and field is not None else 0.0,
     )
+
+
+def _mark(mark: ExperimentMark, field: np.ndarray | None) -> Mark:
+    """Extrema in the colour of their value, so that they are not taken for sources."""
+    coloured = field is not None and mark.kind in ("minimum", "maximum")
+    return Mark(mark.vertex, float(field[mark.vertex]) if coloured else None, WORDS.get(mark.kind, ""))
 
 
 def _plain(text: str) -> str:
