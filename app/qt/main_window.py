@@ -43,7 +43,6 @@ class MainWindow(QtWidgets.QMainWindow):
         self.first_view: Callable[[], None] | None = None  # of the next mesh, where it is not the usual one
         self._hovered: int | None = None
         self._waiting: list[Callable[[], None]] = []
-        self._announced = False
         self.quiet = False
         self._fill_status_bar()
         self._fill_tool_bar()
