@@ -1,10 +1,14 @@
 """The numeric factorization: eliminate the fronts of a branch, bottom up, with dual numbers where areas are given.
 
 With the pivots' block F, the rows below them R and the rest Q of a front,
-    K = F^-1    N = -K R^T    Schur complement S = Q + R N, added into the parent's front.
+    K = F^-1    N = -R K    Schur complement S = Q + N R^T, added into the parent's front.
 Every quantity X of the matrix L carries its derivative along L + t A, since d/dt (L + t A)^-1 = -G A G with
 G = L^-1.  K1 and N1 are minus the derivatives of K and N, so that all that follows adds up to +G A G:
-    K1 = K F1 K    N1 = K R1^T + K F1 N    S1 = Q1 - X - X^T,  X = R (K R1^T + N1) / 2.
+    K1 = K F1 K    N1 = R1 K + N F1 K    S1 = Q1 - X - X^T,  X = (R1 K + N1) R^T / 2.
+
+What is computed with these later is computed with the complex numbers K + i K1 and N + i N1: if A is scaled so far
+down that its square is lost in rounding, complex arithmetic is the arithmetic of derivatives to the last digit
+("complex step"; Squire and Trapp 1998), and one product does the work of three.
 """
 
 from dataclasses import dataclass, field
@@ -22,16 +26,16 @@ SINGULAR = 1e-14
 
 @dataclass
 class Block:
-    """What is kept of a stack: K, K1 (b, c, c) and N, N1 (b, c, m); K1 and N1 are empty without areas."""
+    """What is kept of a stack: K, K1 (b, c, c), N (b, m, c) and M = N + i N1; K1 and M are empty without areas."""
 
     K: np.ndarray
     N: np.ndarray
     K1: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    N1: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    M: np.ndarray = field(default_factory=lambda: np.zeros(0, complex))
 
     @property
     def nbytes(self) -> int:
-        return self.K.nbytes + self.N.nbytes + self.K1.nbytes + self.N1.nbytes
+        return self.K.nbytes + self.N.nbytes + self.K1.nbytes + self.M.nbytes
 
 
 @dataclass(frozen=True)
@@ -39,7 +43,7 @@ class Entries:
     """The entries of a matrix below its diagonal, ordered by the stack they belong to.
 
     near, far (e,): their vertices, the one in the front first; value (e,); starts: where each stack's begin.
-    diagonal (n,); areas (n,) or None.
+    diagonal (n,); areas (n,), scaled (see above), or None.
     """
 
     near: np.ndarray
@@ -160,27 +164,33 @@ def _eliminate(
     """
     R, Q = F[0][:, c:, :c], F[0][:, c:, c:]
     K = _inverse(F[0][:, :c, :c], scale)
-    N = np.matmul(K, R.swapaxes(1, 2))
+    N = R @ K
     np.negative(N, out=N)
-    S = R @ N
+    S = N @ R.swapaxes(1, 2)
     S += Q
     if leaf_areas is not None:
-        T = K * leaf_areas[:, None]
-        N1 = T @ N
-        X = R @ (N1 * -0.5)
+        T = leaf_areas[:, :, None] * K
+        N1 = N @ T
+        X = (N1 * -0.5) @ R.swapaxes(1, 2)
         X += X.swapaxes(1, 2).copy()
-        return Block(K, N, T @ K, N1), [S, X]
+        return Block(K, N, K @ T, _complex(N, N1)), [S, X]
     if len(F) == 1:
         return Block(K, N), [S]
-    T, V = K @ F[1][:, :c, :c], K @ F[1][:, :c, c:]
-    N1 = T @ N
+    T, V = F[1][:, :c, :c] @ K, F[1][:, c:, :c] @ K
+    N1 = N @ T
     N1 += V
     V += N1
     V *= -0.5
-    X = R @ V
+    X = V @ R.swapaxes(1, 2)
     X += X.swapaxes(1, 2).copy()
     X += F[1][:, c:, c:]
-    return Block(K, N, T @ K, N1), [S, X]
+    return Block(K, N, K @ T, _complex(N, N1)), [S, X]
+
+
+def _complex(real: np.ndarray, imaginary: np.ndarray) -> np.ndarray:
+    result = np.empty(real.shape, complex)
+    result.real, result.imag = real, imaginary
+    return result
 
 
 def _inverse(F: np.ndarray, scale: np.ndarray) -> np.ndarray:

@@ -13,6 +13,7 @@ the dummy hold zeros.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -28,9 +29,9 @@ LEAF = 40
 SPLIT = 1
 """There are 2**SPLIT branches, worked on side by side."""
 LIKE = 1.2
-"""Fronts whose sizes differ by at most this factor may share a stack ..."""
-ALONE = 400
-"""... but one with more rows than this has a stack of its own: there padding costs more than Python."""
+"""Fronts whose sizes differ by at most this factor share a stack."""
+PASSES, CALLS = 10, 3e6
+"""What the passes over each number of a front, and the calls for a stack, cost: as much as so many operations."""
 STACK = 1 << 21
 """Most numbers in one stack of fronts (16 MiB): it should be done in a moment, for progress and cancelling."""
 
@@ -67,7 +68,7 @@ class Stack:
     @property
     def work(self) -> float:
         """About how many operations its elimination takes."""
-        return float(self.size) * (self.pivots + 0.1 * self.boundary) + 1e5
+        return float(_work(*self.shape))
 
 
 @dataclass
@@ -268,20 +269,43 @@ def _add_gather(level: Level) -> None:
     level.gather = sp.csr_matrix((np.ones(len(bound)), order, starts), shape=shape)
 
 
+def _work(b: Any, c: Any, m: Any) -> Any:
+    """About how many operations stacks of b fronts with c pivots and m boundary vertices cost."""
+    return b * (c + m) ** 2.0 * (c + 0.1 * m + PASSES) + CALLS
+
+
 def _alike(nodes: np.ndarray, pivots: np.ndarray, bounds: np.ndarray) -> Iterator[np.ndarray]:
-    """The nodes in groups of like sizes, in each the left children first."""
+    """The nodes in groups of like sizes, in each the left children first.
 
-    def bucket(size: np.ndarray) -> np.ndarray:
-        return np.ceil(np.log(np.maximum(size, 8)) / np.log(LIKE)).astype(np.int64)
+    Two groups become one as long as that saves more calls than it costs padding.
+    """
+    bucket = np.ceil(np.log(np.stack([np.maximum(pivots, 1), bounds + 1])) / np.log(LIKE)).astype(np.int64)
+    _, group = np.unique(bucket[0] * 1000 + bucket[1], return_inverse=True)
+    count = np.bincount(group)
+    c, m = np.ones_like(count), np.ones_like(count)
+    np.maximum.at(c, group, pivots)
+    np.maximum.at(m, group, bounds + 1)
+    work = _work(count, c, m)
 
-    group = bucket(pivots) * 1000 + bucket(bounds)
-    alone = np.flatnonzero(pivots + bounds > ALONE)
-    group[alone] = -1 - np.arange(len(alone))
-    labels, group = np.unique(group, return_inverse=True)
-    for k in range(len(labels)):
-        members = np.flatnonzero(group == k)
-        most = max(1, STACK // int(pivots[members].max() + bounds[members].max() + 1) ** 2)
-        for some in np.array_split(nodes[members], -(-len(members) // most)):
+    def saved(some: Any) -> np.ndarray:
+        """(k, groups) by joining each of `some` with each group."""
+        one = np.arange(len(count))[some, None]
+        gains = work[one] + work - _work(count[one] + count, np.maximum(c[one], c), np.maximum(m[one], m))
+        return np.where(one == np.arange(len(count)), -np.inf, gains)
+
+    gains = saved(slice(None))
+    while gains.max(initial=0) > 0:
+        one, other = divmod(int(gains.argmax()), len(count))
+        group[group == other] = one
+        count[one] += count[other]
+        c[one], m[one] = max(c[one], c[other]), max(m[one], m[other])
+        work[one], work[other] = _work(count[one], c[one], m[one]), -np.inf
+        gains[other] = gains[:, other] = -np.inf
+        gains[one] = gains[:, one] = saved([one])[0]
+    for label in np.flatnonzero(work > 0):
+        members = nodes[group == label]
+        most = max(1, STACK // int(c[label] + m[label]) ** 2)
+        for some in np.array_split(members, -(-len(members) // most)):
             yield some[np.argsort(some & 1, kind="stable")]
 
 

@@ -2,9 +2,10 @@
 
 With G = matrix^-1 and a diagonal A, the diagonal of G A G costs no more than a few factorizations (paper, Eq. 9 and
 10 need it for every vertex): it is minus the derivative of diag((matrix + t A)^-1) at t = 0, and since A is diagonal
-that derivative lives on the factor's own pattern.  So everything is computed with dual numbers.
+that derivative lives on the factor's own pattern.  So everything carries its derivative (see `elimination`).
 """
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -23,6 +24,10 @@ from .worker_threads import Job, side_by_side
 
 ReceivePiece = Callable[[np.ndarray, slice, np.ndarray], None]
 """Takes some rows (r,), a slice of the columns asked for, and the values (r, k) there, which it may overwrite."""
+
+TINY = -100
+"""Areas are scaled to about 2**TINY of the diagonal: the square of that is lost in rounding whatever the condition,
+and is still far from where numbers end."""
 
 WIDE = 32
 """How many columns are solved for together: more would not stay in the cache."""
@@ -48,6 +53,9 @@ class Factor:
         matrix, weights = _checked_matrix(tree, matrix), _checked_areas(tree, areas)
         self.tree = tree
         self._diagonals: tuple[np.ndarray, np.ndarray] | None = None
+        if weights is not None:
+            self._scale = _tiny_scale(weights, matrix.diagonal())
+            weights = weights * self._scale
         with one_blas_thread():
             # Measured: the inversion and the gathers of an elimination take about as long as each other.
             work = sum(stack.work for stack in tree.stacks) * (1 + (weights is not None))
@@ -66,9 +74,11 @@ class Factor:
 
     def _inverted(self, job: Job) -> tuple[np.ndarray, np.ndarray]:
         tree, blocks = self.tree, self._blocks
-        diagonals = np.empty(tree.n), np.empty(tree.n)
-        (above,) = job.run(lambda top: invert_branch(tree, top, [], blocks, diagonals, job), [tree.top])
-        job.run(lambda branch: invert_branch(tree, branch, above, blocks, diagonals, job), tree.branches)
+        result = np.empty(tree.n, complex)
+        (above,) = job.run(lambda top: invert_branch(tree, top, np.empty(0), blocks, result, job), [tree.top])
+        job.run(lambda branch: invert_branch(tree, branch, above, blocks, result, job), tree.branches)
+        with np.errstate(over="ignore"):
+            diagonals = result.real.copy(), result.imag / self._scale
         for diagonal in diagonals:
             _check_result(diagonal)
             diagonal.flags.writeable = False
@@ -77,12 +87,12 @@ class Factor:
     @property
     def diagonal(self) -> np.ndarray:
         """(n,) diag(matrix^-1), read-only; SolverError without areas."""
-        return self._dual()[0]
+        return self._with_areas()[0]
 
     @property
     def sandwich_diagonal(self) -> np.ndarray:
         """(n,) diag(matrix^-1 A matrix^-1), read-only; SolverError without areas."""
-        return self._dual()[1]
+        return self._with_areas()[1]
 
     @property
     def nbytes(self) -> int:
@@ -120,23 +130,24 @@ class Factor:
 
     def each_sandwich_piece(self, index: npt.ArrayLike, receive: ReceivePiece) -> None:
         """The same without an array for all of it: `receive` gets every piece once, from several threads."""
-        self._dual()
+        self._with_areas()
         index, n = np.asarray(index), self.tree.n
         if index.ndim != 1 or (index.size and (index.dtype.kind not in "iu" or index.min() < 0 or index.max() >= n)):
             raise ParameterError(f"Columns are chosen by a list of whole numbers from 0 to {n - 1}, not {index!r}.")
 
         def sweep(some: slice, run: Run) -> None:
-            def checked(rows: np.ndarray, values: np.ndarray) -> None:
+            def finish(rows: np.ndarray, values: np.ndarray) -> None:
+                values = values / self._scale
                 _check_result(values)
                 receive(rows, some, values)
 
-            sandwich_columns(self.tree, self._blocks, index[some], run, checked)
+            sandwich_columns(self.tree, self._blocks, index[some], run, finish)
 
-        with one_blas_thread():
-            # Each column brings its derivative along.
+        with one_blas_thread(), np.errstate(over="ignore"):
+            # Complex numbers are twice as large.
             _in_slices(len(index), WIDE // 2, sweep)
 
-    def _dual(self) -> tuple[np.ndarray, np.ndarray]:
+    def _with_areas(self) -> tuple[np.ndarray, np.ndarray]:
         if self._diagonals is None:
             raise SolverError("This factor was made without areas, which its diagonals and sandwich columns need.")
         return self._diagonals
@@ -174,6 +185,12 @@ def _checked_areas(tree: EliminationTree, areas: npt.ArrayLike | None) -> np.nda
     if areas.shape != (tree.n,) or not (np.isfinite(areas) & (areas >= 0)).all():
         raise ParameterError(f"Areas must be {tree.n} finite numbers of at least 0.")
     return areas
+
+
+def _tiny_scale(areas: np.ndarray, diagonal: np.ndarray) -> float:
+    """What the areas are multiplied by; a power of two, so that no digit changes."""
+    ratio = float(np.max(areas / np.maximum(np.abs(diagonal), 1e-300), initial=0))
+    return math.ldexp(1.0, TINY - math.frexp(ratio)[1]) if 0 < ratio < np.inf else 1.0
 
 
 def _check_result(x: np.ndarray) -> None:

@@ -1,8 +1,11 @@
 """Solves with a finished factor: sweeps up and down the branches of the tree.
 
-x is a branch's vector, (end + 1, k): k columns in the order of its places.  Up: x[boundary] += N^T x[pivots].
-Down: x[pivots] = K x[pivots] + N x[boundary].  The dual sweep carries the columns' derivatives as k more columns:
-with G = L^-1 it turns a unit vector into a column of G and one of G A G at once.
+x is a branch's vector, (end + 1, k): k columns in the order of its places.  Up: x[boundary] += N x[pivots].
+Down: x[pivots] = K x[pivots] + N^T x[boundary].  In complex numbers (see `elimination`) the same sweeps turn a unit
+vector into a column of G = L^-1 and one of G A G at once, as its real and its imaginary part.
+
+A single column is bound by memory: each number of the factor is read once.  So it pays to have few, large stacks,
+which keep NumPy's calls long, and to let go of the interpreter lock in each of them.
 
 `run` says how to treat the branches: one after the other, or side by side.
 """
@@ -21,12 +24,18 @@ NARROW = 4
 
 FEW = 3
 """So many entries of a right-hand side that are not 0 are eliminated one by one."""
+
+HELD = 500
+"""NumPy's stacked products keep the interpreter lock if they have no more results than this ..."""
+LONG = 1 << 16
+"""... which matters if each of them reads as many numbers as this."""
+
 PIECE = 1 << 16
 """How many numbers are worked on at a time where they should stay in the cache."""
 
 Receive = Callable[[np.ndarray, np.ndarray], None]
 Started = dict[int, list[tuple[int, int, np.ndarray]]]
-"""By stack: which of its fronts, which column, and (c, 2) what its pivots start from."""
+"""By stack: which of its fronts, which column, and (c,) complex, what its pivots start from."""
 
 
 class Run(Protocol):
@@ -75,41 +84,39 @@ def sandwich_columns(
     started: Started = defaultdict(list)
     for column, vertex in enumerate(index):
         _sweep_up_unit(tree, blocks, int(vertex), column, started)
-    whole = np.empty((tree.top.end + 1, 2 * k))
+    whole = np.empty((tree.top.end + 1, k), complex)
 
     def down(part: Branch, x: np.ndarray) -> None:
         x[: part.above] = whole[: part.above]
         x[-1] = 0
-        _sweep_down_dual(part, blocks, started, x)
-        # Each row as two: the derivatives are the odd ones.
-        halves, rows = x.reshape(-1, k), max(1, PIECE // k)
+        _sweep_down_started(part, blocks, started, x)
+        rows = max(1, PIECE // k)
         for start in range(0, len(part.vertices), rows):
             some = slice(start, start + rows)
-            receive(part.vertices[some], halves.take(2 * part.places[some] + 1, axis=0, mode="clip"))
+            receive(part.vertices[some], x.take(part.places[some], axis=0, mode="clip").imag)
 
     down(tree.top, whole)
-    run(lambda branch: down(branch, np.empty((branch.end + 1, 2 * k))), tree.branches)
+    run(lambda branch: down(branch, np.empty((branch.end + 1, k), complex)), tree.branches)
 
 
 def _sweep_up_unit(tree: EliminationTree, blocks: Sequence[Block], vertex: int, column: int, started: Started) -> None:
-    """Eliminate a one at `vertex`, and its derivative, and apply K and K1: only from its front to the root is there
-    anything to do.  What the pivots there start from on the way down is noted in `started`."""
+    """Eliminate a one at `vertex` and apply K + i K1: only from its front to the root is there anything to do.  What
+    the pivots there start from on the way down is noted in `started`."""
     front = int(tree.node[vertex])
     # The places of the top come first in every part's vectors, so this one reaches up to the root.
-    x = np.zeros((tree.parts[tree.part_of(front)].end + 1, 2))
-    x[tree.place[vertex], 0] = 1
+    x = np.zeros(tree.parts[tree.part_of(front)].end + 1, complex)
+    x[tree.place[vertex]] = 1
     while front:
         stack, k = tree.stacks[tree.stack_of[front]], tree.member[front]
         block = blocks[stack.index]
         start = tree.corner[front]
         pivots = x[start : start + stack.pivots]
-        applied = block.K[k] @ pivots
-        applied[:, 1] += block.K1[k] @ pivots[:, 0]
-        started[stack.index].append((k, column, applied))
-        sent = block.N[k].T @ pivots
-        sent[:, 1] += block.N1[k].T @ pivots[:, 0]
+        real, imaginary = pivots.real.copy(), pivots.imag.copy()
+        applied = block.K[k] @ imaginary
+        applied += block.K1[k] @ real
+        started[stack.index].append((k, column, block.K[k] @ real + 1j * applied))
         # Several padded rows share the dummy's place, but all of them send zeros.
-        x[stack.bound[k]] += sent
+        x[stack.bound[k]] += block.M[k] @ pivots
         front >>= 1
 
 
@@ -121,7 +128,7 @@ def _sweep_up(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
         for stack in level.stacks:
             b, c, m = stack.shape
             out = sent[at : at + b * m].reshape(b, m, k)
-            _multiply(blocks[stack.index].N.swapaxes(1, 2), x[stack.span].reshape(b, c, k), out)
+            _multiply(blocks[stack.index].N, x[stack.span].reshape(b, c, k), out)
             at += b * m
         x[level.touched] += level.gather @ sent
 
@@ -135,7 +142,7 @@ def _sweep_up_paths(
         stack, k = tree.stacks[tree.stack_of[front]], tree.member[front]
         pivots = x[tree.corner[front] : tree.corner[front] + stack.pivots]
         # Several padded rows share the dummy's place, but all of them send zeros.
-        x[stack.bound[k]] += blocks[stack.index].N[k].T @ pivots
+        x[stack.bound[k]] += blocks[stack.index].N[k] @ pivots
 
 
 def _sweep_down(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
@@ -145,29 +152,32 @@ def _sweep_down(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
         block = blocks[stack.index]
         pivots = x[stack.span].reshape(b, c, k)
         result = _multiply(block.K, pivots)
-        result += _multiply(block.N, x.take(stack.bound, axis=0, mode="clip"))
+        result += _multiply(block.N.swapaxes(1, 2), x.take(stack.bound, axis=0, mode="clip"))
         pivots[:] = result
 
 
-def _sweep_down_dual(branch: Branch, blocks: Sequence[Block], started: Started, x: np.ndarray) -> None:
-    columns = x.shape[1] // 2
+def _sweep_down_started(branch: Branch, blocks: Sequence[Block], started: Started, x: np.ndarray) -> None:
+    k = x.shape[1]
     for stack in branch.stacks:
         b, c, m = stack.shape
-        N, N1 = blocks[stack.index].N, blocks[stack.index].N1
-        pivots = x[stack.span].reshape(b, c, 2 * columns)
-        some = max(1, PIECE // (2 * columns * m))
+        Mt = blocks[stack.index].M.swapaxes(1, 2)
+        pivots = x[stack.span].reshape(b, c, k)
+        some = max(1, PIECE // (k * m))
         for start in range(0, b, some):
             part = slice(start, start + some)
-            above = x.take(stack.bound[part], axis=0, mode="clip")
-            _multiply(N[part], above, pivots[part])
-            pivots[part, :, columns:] += _multiply(N1[part], above[:, :, :columns])
-        for k, column, first in started.get(stack.index, ()):
-            pivots[k, :, column::columns] += first
+            _multiply(Mt[part], x.take(stack.bound[part], axis=0, mode="clip"), pivots[part])
+        for front, column, first in started.get(stack.index, ()):
+            pivots[front, :, column] += first
 
 
 def _multiply(N: np.ndarray, x: np.ndarray, out: np.ndarray | None = None) -> np.ndarray:
-    """N @ x for stacks N (b, c, m) and x (b, m, k)."""
-    k = x.shape[2]
+    """N @ x for stacks N (b, r, s) and x (b, s, k)."""
+    (b, r, s), k = N.shape, x.shape[2]
+    if k == 1 and b * r <= HELD and r * s >= LONG:
+        result = np.empty((b, r, 1)) if out is None else out
+        for front in range(b):
+            np.dot(N[front], x[front, :, 0], out=result[front, :, 0])
+        return result
     if k == 1 or k > NARROW:
         return np.matmul(N, x, out=out)
     # Product by product, so that a front is still in the cache for its next column.

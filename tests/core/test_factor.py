@@ -429,7 +429,6 @@ def test_tiny_stacks_give_the_same_answer(monkeypatch):
     areas = np.ones(2400)
     one = Factor(EliminationTree(matrix, x), matrix, areas)
     monkeypatch.setattr(elimination_tree, "STACK", 1 << 13)
-    monkeypatch.setattr(elimination_tree, "ALONE", 100)
     two = Factor(EliminationTree(matrix, x), matrix, areas)
     assert close(two.sandwich_diagonal, one.sandwich_diagonal)
     assert close(two.sandwich_columns([9]), one.sandwich_columns([9]))
