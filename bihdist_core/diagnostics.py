@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from .distance import Distance
 from .errors import ParameterError
-from .isolines import isolines
+from .isoline_tracing import isolines
 from .progress import Progress, part, silent
 from .surface import Surface
 

@@ -6,7 +6,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from .isolines import Isoline
+from .isoline_tracing import Isoline
 from .whole_file import check_output, whole_file
 
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from ..diagnostics import FieldChange
 from ..edge_geodesic import EdgeGeodesic
-from ..extrema import extrema
 from ..laplacian import Laplacian
+from ..persistence import extrema
 from ..progress import Progress, part
 from ..surface import Surface
 from .damage import welded, with_handle

@@ -8,8 +8,8 @@ head is, of t = 4 spurious local extrema in the front legs.
 import numpy as np
 
 from ..edge_geodesic import EdgeGeodesic
-from ..extrema import extrema
 from ..interpolation import ShepardInterpolant
+from ..persistence import extrema
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import KINK, inner_jumps, percent

@@ -6,9 +6,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..diagnostics import FieldChange, field_change, gradient_jumps, isotropy_ratio
-from ..extrema import Extrema, extrema
 from ..geodesic import GeodesicDistance
 from ..laplacian import Laplacian
+from ..persistence import Extrema, extrema
 from ..surface import Surface
 from .resizing import refined
 from .result import Cell, Chart, Mark, Series

@@ -91,6 +91,7 @@ def click(size: Size) -> Iterator[Line]:
 
 
 # ---------------------------------------------------------------------- the start
+IMPORT = "from bihdist_core import BiharmonicDistance"
 FIRST_PAINT = """
 import os, sys
 from app.qt import main_window
@@ -106,6 +107,8 @@ def start(size: Size) -> Iterator[Line]:
         programs = [
             ("bihdist --version", 0.3, ["-m", "app", "--version"], False),
             ("import bihdist_core", 1.0, ["-c", "import bihdist_core"], False),
+            # Names are imported when they are asked for; this is what a program waits for in fact.
+            (IMPORT, 1.0, ["-c", IMPORT], False),
             ("window shown", 2.5, ["-c", FIRST_PAINT, "view", size.sample], True),
             ("first picture", 10.0, ["-m", "app", "view", size.sample, "--screenshot", picture], True),
         ]
