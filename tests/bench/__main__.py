@@ -11,22 +11,22 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from datetime import date
 
-from . import machine, peers, rows, window_rows
+from . import exact_rows, growth_rows, machine, other_rows, peers, window_rows
 from .size import FULL, QUICK, Size
 from .table import Line, as_json, render
 
 ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
-    1: rows.set_up,
-    2: rows.one_field,
-    3: rows.many_sources,
-    4: rows.all_pairs,
-    5: rows.eigenpairs,
-    6: rows.heat_geodesic,
-    7: rows.growth,
-    8: rows.largest,
-    9: rows.shapes,
+    1: exact_rows.set_up,
+    2: exact_rows.one_field,
+    3: exact_rows.many_sources,
+    4: exact_rows.all_pairs,
+    5: other_rows.eigenpairs,
+    6: other_rows.heat_geodesic,
+    7: growth_rows.growth,
+    8: growth_rows.largest,
+    9: growth_rows.shapes,
     10: window_rows.click,
-    11: rows.column,
+    11: exact_rows.column,
     12: window_rows.start,
     13: window_rows.drawing,
     14: window_rows.stalls,
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for line in ROWS[row](size):
             lines.append(line)
             print(render([line]).splitlines()[-1], file=sys.stderr, flush=True)
-    copied, multiplied = rows.limits()
+    copied, multiplied = machine.limits()
     facts = {
         "date": date.today().isoformat(),
         "machine": machine.describe(),

@@ -6,6 +6,7 @@ import statistics
 import threading
 import time
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -37,6 +38,12 @@ def matmul_rate(size: int = 512) -> float:
             [lambda k=k: [np.matmul(a[k], a[k], out=out[k]) for _ in range(4)] for k in range(CORES)], 7
         )
     return CORES * 4 * 2 * size**3 / seconds
+
+
+@cache
+def limits() -> tuple[float, float]:
+    """Bytes and floating-point operations per second, at most."""
+    return bandwidth(), matmul_rate()
 
 
 def _together(works: list[Callable[[], object]], rounds: int) -> float:

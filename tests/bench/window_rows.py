@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from .case import EXACT, main_case
 from .child import in_child
 from .meshes import bumpy_sphere
-from .rows import EXACT, main_case
 from .size import Size
 from .table import Line
 from .timing import alternate

@@ -1,0 +1,162 @@
+"""Rows 1 to 4 and 11: what the exact distance costs.
+
+Set-up always means from arrays to the first exact field, so that nothing hides in laziness.
+"""
+
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from bihdist_core import BiharmonicDistance, Surface
+from bihdist_core.all_pairs import write_all_pairs
+
+from . import machine, peers
+from .case import EXACT, Case, difference, main_case
+from .child import forget_peak, in_child, peak_memory
+from .least_work import column_bytes, operations
+from .meshes import bumpy_sphere
+from .size import Size
+from .table import Line
+from .timing import alternate, timed
+
+SINGLE = 2e-7
+"""Rounding to float32."""
+
+
+def set_up(size: Size) -> Iterator[Line]:
+    case = main_case(size)
+    result = alternate(case.set_up, lambda: peers.heat_solver(*case.arrays), size.rounds)
+    values = result.answer.from_source(case.source)[case.targets]
+    work = operations(case.component.tree())
+    memory = in_child(_set_up_alone, size)
+    yield Line(
+        1,
+        f"exact set-up, {case.count}",
+        result.our_time,
+        result.peer_time,
+        result.ratio,
+        result.effort,
+        bound=0.6,
+        limit=work / result.our_time / machine.limits()[1],
+        memory=memory,
+        error=case.error(values),
+        tolerance=EXACT,
+        note="peer: potpourri3d, heat solver constructed",
+    )
+
+
+def one_field(size: Size) -> Iterator[Line]:
+    case = main_case(size)
+    result = case.one_field
+    values = case.distance.from_source(case.source)[case.targets]
+    yield Line(
+        2,
+        f"one exact field, {case.count}",
+        result.our_time,
+        result.peer_time,
+        result.ratio,
+        result.effort,
+        bound=0.22,
+        limit=column_bytes(case.component.tree()) / result.our_time / machine.limits()[0],
+        error=case.error(values),
+        tolerance=EXACT,
+        note="peer: one potpourri3d heat solve",
+    )
+
+
+def many_sources(size: Size) -> Iterator[Line]:
+    case = main_case(size)
+
+    def ours() -> np.ndarray:
+        return BiharmonicDistance(Surface(*case.arrays)).from_sources(case.sources)
+
+    def dijkstra() -> np.ndarray:
+        return peers.edge_distances(peers.edge_graph(Surface(*case.arrays)), case.sources)
+
+    result = alternate(ours, dijkstra, max(1, size.rounds - 1))
+    yield Line(
+        3,
+        f"{len(case.sources)} sources to all, {case.count}, set-up included",
+        result.our_time,
+        result.peer_time,
+        result.ratio,
+        result.effort,
+        bound=0.7,
+        error=case.error(result.answer[case.targets, 0]),
+        tolerance=EXACT,
+        note="peer: scipy Dijkstra",
+    )
+
+
+def all_pairs(size: Size) -> Iterator[Line]:
+    case = Case(*bumpy_sphere(size.pairs), size)
+    with tempfile.TemporaryDirectory() as folder:
+        path, other = str(Path(folder, "ours.npy")), str(Path(folder, "peer.npy"))
+
+        def ours() -> None:
+            write_all_pairs(BiharmonicDistance(Surface(*case.arrays)), path)
+
+        def dijkstra() -> None:
+            peers.edge_distances_to_file(peers.edge_graph(Surface(*case.arrays)), other)
+
+        result = alternate(ours, dijkstra, 1)
+        values = np.load(path, mmap_mode="r")[case.source, case.targets]
+        memory = in_child(_all_pairs_alone, size)
+    yield Line(
+        4,
+        f"all pairs to float32 on disk, {case.count}",
+        result.our_time,
+        result.peer_time,
+        result.ratio,
+        result.effort,
+        bound=1.0,
+        memory=memory,
+        error=case.error(values),
+        tolerance=SINGLE,
+        note="peer: scipy Dijkstra, to the same",
+    )
+
+
+def column(size: Size) -> Iterator[Line]:
+    case = main_case(size)
+    component = case.component
+    factor, index = component.factor(diagonals=True), np.array([case.source])
+    source = iter(np.tile(case.sources, 100))
+    # Both depend on what else the machine does, so they are measured in turn.
+    ours, copied = [], []
+    for _ in range(3 * size.rounds):
+        copied.append(machine.bandwidth(rounds=3))
+        ours.append(np.median([timed(lambda: factor.sandwich_columns([next(source)]))[0] for _ in range(size.repeat)]))
+    least = column_bytes(component.tree()) / np.array(copied)
+    ratio = float(np.median(ours / least))
+    green = component.solve(np.eye(1, len(component.areas), case.source)[0])
+    twice = component.solve(component.areas * green)
+    yield Line(
+        11,
+        f"column against memory bandwidth, {case.count}",
+        float(np.median(ours)),
+        float(np.median(least)),
+        ratio,
+        bound=3,
+        limit=1 / ratio,
+        error=difference(factor.sandwich_columns(index)[:, 0], twice, over=np.abs(twice).max()),
+        tolerance=EXACT,
+        note=f"{np.median(copied) / 1e9:.1f} GB/s copied on two threads",
+    )
+
+
+def _set_up_alone(size: Size) -> int:
+    case = main_case(size)
+    forget_peak()
+    case.set_up()
+    return peak_memory()
+
+
+def _all_pairs_alone(size: Size) -> int:
+    case = Case(*bumpy_sphere(size.pairs), size)
+    forget_peak()
+    with tempfile.TemporaryDirectory() as folder:
+        write_all_pairs(BiharmonicDistance(Surface(*case.arrays)), Path(folder, "ours.npy"))
+    return peak_memory()
