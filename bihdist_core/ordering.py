@@ -20,6 +20,8 @@ from .worker_threads import Job
 LANDMARKS = 4
 LEAST_SHARE = 0.4
 """The smaller half of a cut region has at least this share of it."""
+SMALL = 400
+"""Up to so many vertices on the average, regions are cut by their positions alone."""
 LARGE = 3000
 """From so many vertices on, separators of regions are made as small as can be."""
 SAMPLE = 200
@@ -173,11 +175,10 @@ class _Cutter:
         allowed = off_centre <= 0.5 - LEAST_SHARE + 0.5 / count[region]
         weight = np.where(allowed, 1 + 2 * off_centre, np.inf)
         best, side = np.full(regions, np.inf), np.zeros(m, np.int8)
-        for chart in self.charts:
-            # Small regions are many and cheap to separate: one axis will do.
-            tries = chart.tries if m > 500 * regions else 1
+        # Small regions are many and nearly flat: one axis in space will do.
+        for chart in self.charts if m > SMALL * regions else self.charts[:1]:
             axes = [axis[live] for axis in chart.axes]
-            for key in _principal_keys(axes, region, count, tries):
+            for key in _principal_keys(axes, region, count, chart.tries):
                 place = np.empty(m, np.int64)
                 place[_order_in_regions(key, region, start, full)] = rank
                 p, q = place[i], place[j]

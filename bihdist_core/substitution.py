@@ -27,7 +27,7 @@ FEW = 3
 
 HELD = 500
 """NumPy's stacked products keep the interpreter lock if they have no more results than this ..."""
-LONG = 1 << 16
+LONG = 1 << 13
 """... which matters if each of them reads as many numbers as this."""
 
 PIECE = 1 << 16
