@@ -35,7 +35,7 @@ PIECE = 1 << 16
 
 Receive = Callable[[np.ndarray, np.ndarray], None]
 Started = dict[int, list[tuple[int, int, np.ndarray]]]
-"""By stack: which of its fronts, which column, and (c,) complex, what its pivots start from."""
+"""By stack: which of its fronts, which column, and (c,) complex, what the sweep up brought to its pivots."""
 
 
 class Run(Protocol):
@@ -100,23 +100,19 @@ def sandwich_columns(
 
 
 def _sweep_up_unit(tree: EliminationTree, blocks: Sequence[Block], vertex: int, column: int, started: Started) -> None:
-    """Eliminate a one at `vertex` and apply K + i K1: only from its front to the root is there anything to do.  What
-    the pivots there start from on the way down is noted in `started`."""
+    """Eliminate a one at `vertex`, and note in `started` what comes to the pivots: only from its front to the root is
+    there anything to do."""
     front = int(tree.node[vertex])
     # The places of the top come first in every part's vectors, so this one reaches up to the root.
     x = np.zeros(tree.parts[tree.part_of(front)].end + 1, complex)
     x[tree.place[vertex]] = 1
     while front:
         stack, k = tree.stacks[tree.stack_of[front]], tree.member[front]
-        block = blocks[stack.index]
         start = tree.corner[front]
         pivots = x[start : start + stack.pivots]
-        real, imaginary = pivots.real.copy(), pivots.imag.copy()
-        applied = block.K[k] @ imaginary
-        applied += block.K1[k] @ real
-        started[stack.index].append((k, column, block.K[k] @ real + 1j * applied))
+        started[stack.index].append((k, column, pivots))
         # Several padded rows share the dummy's place, but all of them send zeros.
-        x[stack.bound[k]] += block.M[k] @ pivots
+        x[stack.bound[k]] += blocks[stack.index].M[k] @ pivots
         front >>= 1
 
 
@@ -160,14 +156,18 @@ def _sweep_down_started(branch: Branch, blocks: Sequence[Block], started: Starte
     k = x.shape[1]
     for stack in branch.stacks:
         b, c, m = stack.shape
-        Mt = blocks[stack.index].M.swapaxes(1, 2)
+        block = blocks[stack.index]
+        Mt = block.M.swapaxes(1, 2)
         pivots = x[stack.span].reshape(b, c, k)
         some = max(1, PIECE // (k * m))
         for start in range(0, b, some):
             part = slice(start, start + some)
             _multiply(Mt[part], x.take(stack.bound[part], axis=0, mode="clip"), pivots[part])
         for front, column, first in started.get(stack.index, ()):
-            pivots[front, :, column] += first
+            # (K + i K1) first, without the product of the two imaginary parts, which is nothing.
+            K, K1, real, imaginary = block.K[front], block.K1[front], first.real.copy(), first.imag.copy()
+            pivots[front, :, column].real += K @ real
+            pivots[front, :, column].imag += K @ imaginary + K1 @ real
 
 
 def _multiply(N: np.ndarray, x: np.ndarray, out: np.ndarray | None = None) -> np.ndarray:
