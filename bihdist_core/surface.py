@@ -6,7 +6,6 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-import scipy.sparse as sp
 
 from .errors import MeshError, VertexError
 
@@ -67,14 +66,10 @@ class Surface:
         n, f = len(self.vertices), self.faces
         used = np.zeros(n, bool)
         used[f] = True
-        if _reached(f, n) == used.sum():
-            return np.where(used, 0, -1)
         label = _connected(np.concatenate([f[:, :2], f[:, 1:]]).T, n)
-        _, first, label[used], count = np.unique(
-            label[used], return_index=True, return_inverse=True, return_counts=True
-        )
+        count = np.bincount(label[used])
         rank = np.empty(len(count), np.int64)
-        rank[np.lexsort((first, -count))] = np.arange(len(count))
+        rank[np.argsort(-count, kind="stable")] = np.arange(len(count))
         return np.where(used, rank[np.minimum(label, len(count) - 1)], -1)
 
     @cached_property
@@ -98,10 +93,16 @@ class Surface:
     @cached_property
     def _sides(self) -> tuple[np.ndarray, np.ndarray]:
         """(e, 2) edges, ascending, and (3m,) the edge of each face's sides 01, 12, 20 (all 01 first)."""
-        f = self.faces
-        sides = np.sort(np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]]), axis=1)
-        key, of_side = np.unique(sides[:, 0] * len(self.vertices) + sides[:, 1], return_inverse=True)
-        return np.stack([key // len(self.vertices), key % len(self.vertices)], 1), of_side
+        f, n = self.faces, len(self.vertices)
+        tail, head = f.T.ravel(), f[:, [1, 2, 0]].T.ravel()
+        key = np.minimum(tail, head) * n + np.maximum(tail, head)
+        # Not by np.unique: where that counts, other Python threads stand still.
+        order = key.argsort()
+        key = key[order]
+        first = np.append(True, key[1:] != key[:-1])
+        of_side = np.empty(len(key), np.int64)
+        of_side[order] = np.cumsum(first.astype(np.int64)) - 1
+        return np.stack(np.divmod(key[first], n), 1), of_side
 
     @property
     def edges(self) -> np.ndarray:
@@ -151,7 +152,8 @@ class Surface:
 
         joined = np.concatenate([np.stack(pair) for pair in zip(ends(left), ends(right), strict=True)], axis=1)
         fan = _connected(joined, 3 * m)
-        vertex_of_fan = np.unique(np.stack([corner, fan]), axis=1)[0]
+        vertex_of_fan = np.empty(fan.max() + 1, np.int64)
+        vertex_of_fan[fan] = corner
         return int((np.bincount(vertex_of_fan) > 1).sum())
 
     @property
@@ -210,26 +212,24 @@ def dots(a: Coordinates, b: Coordinates) -> np.ndarray:
     return product
 
 
-def _reached(faces: np.ndarray, n: int) -> int:
-    """How many vertices are connected with the first face's.
-
-    Several times faster than finding all components, during which other Python threads would stand still.
-    """
-    from scipy.sparse.csgraph import breadth_first_order
-
-    # Each face is a directed circle, so whoever reaches one of its corners reaches all.
-    tail, head = faces.T.ravel(), faces[:, [1, 2, 0]].T.ravel()
-    graph = sp.csr_matrix((np.ones(len(tail), np.int8), (tail, head)), shape=(n, n))
-    return len(breadth_first_order(graph, faces[0, 0], return_predecessors=False))
-
-
 def _connected(edges: np.ndarray, n: int) -> np.ndarray:
-    """(n,) component, from 0, of each vertex of a graph with edges (2, e)."""
-    # Not at the top: it is half of what `import bihdist_core` would take.
-    from scipy.sparse.csgraph import connected_components
+    """(n,) component, from 0 in the order of their least vertices, of each vertex of a graph with edges (2, e).
 
-    graph = sp.coo_matrix((np.ones(edges.shape[1], np.int8), edges), shape=(n, n))
-    return connected_components(graph, directed=False)[1]
+    Each tree joins that of its least neighbour, until none has a neighbour: some ten rounds (Liu and Tarjan, Simple
+    Concurrent Connected Components Algorithms, 2022).  SciPy's search is slower, and other Python threads stand still.
+    """
+    root = np.arange(n)
+    i, j = edges
+    while len(i):
+        low, high = np.minimum(i, j), np.maximum(i, j)
+        np.minimum.at(root, high, low)
+        while not np.array_equal(root, above := root.take(root)):
+            root = above
+        i, j = root.take(low), root.take(high)
+        apart = np.flatnonzero(i != j)
+        i, j = i.take(apart), j.take(apart)
+    # Not counted in booleans, which would hold up other Python threads.
+    return (np.cumsum((root == np.arange(n)).astype(np.int64)) - 1).take(root)
 
 
 def _checked_vertices(vertices: npt.ArrayLike, name: str) -> np.ndarray:
