@@ -8,10 +8,10 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
 from bihdist_core import Surface
+from bihdist_core.surface import dots
 
 from .style import Style
 
@@ -34,25 +34,38 @@ _PAINT = """//VTK::Light::Impl
 
 
 def drawable(surface: Surface) -> vtkPolyData:
-    """The surface with point normals, in the surface's vertex ids.  Safe to call on a background thread."""
+    """The surface with point normals, in the surface's vertex ids and memory.  Safe to call on a background thread."""
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(surface.vertices, deep=True))
-    sides = np.empty((len(surface.faces), 4), np.int64)
-    sides[:, 0], sides[:, 1:] = 3, surface.faces
+    points.SetData(numpy_to_vtk(surface.vertices))
     cells = vtkCellArray()
-    cells.ImportLegacyFormat(numpy_to_vtkIdTypeArray(sides.ravel(), deep=True))
+    cells.SetData(3, numpy_to_vtkIdTypeArray(surface.faces.ravel()))
     mesh = vtkPolyData()
     mesh.SetPoints(points)
     mesh.SetPolys(cells)
-    normals = vtkPolyDataNormals()
-    normals.SetInputData(mesh)
-    normals.SplittingOff()
-    normals.ConsistencyOff()
-    normals.NonManifoldTraversalOff()
-    normals.Update()
-    mesh.GetPointData().SetNormals(normals.GetOutput().GetPointData().GetNormals())
+    mesh.GetPointData().SetNormals(numpy_to_vtk(point_normals(surface)))
     mesh.ComputeBounds()
     return mesh
+
+
+def point_normals(surface: Surface) -> np.ndarray:
+    """(n, 3) float32: the mean of the unit normals of a vertex' faces, brought to length 1; 0 where there is none.
+
+    In NumPy, which releases the interpreter lock, so that the window stays awake: vtkPolyDataNormals holds it.
+    """
+    n, corners = len(surface.vertices), np.ascontiguousarray(surface.faces.T)
+    a, b, _ = surface.sides()
+    normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    _to_length_one(normal)
+    sums = [sum(np.bincount(ids, x, n) for ids in corners) for x in normal]
+    _to_length_one(sums)
+    return np.stack(sums, axis=1, dtype=np.float32)
+
+
+def _to_length_one(vectors: list[np.ndarray]) -> None:
+    """Divide vectors, three arrays of coordinates, by their lengths, in place; those of no length stay 0."""
+    length = np.sqrt(dots(vectors, vectors))
+    for x in vectors:
+        np.divide(x, length, out=x, where=length > 0)
 
 
 def isoline_values(field: np.ndarray, maximum: float, count: int) -> np.ndarray:

@@ -1,21 +1,19 @@
 """From a point of the screen to a vertex: a ray, the first face it meets, that face's nearest corner."""
 
 import numpy as np
-from vtkmodules.vtkCommonCore import mutable
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStaticCellLocator
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from bihdist_core import Surface
 
+from .face_blocks import FaceBlocks
+
 
 class Picker:
-    """Built once for a surface and what `scene.drawable` made of it; a pick takes about 0.02 ms."""
+    """Made once for a surface, on any thread; a pick takes about a millisecond."""
 
-    def __init__(self, surface: Surface, mesh: vtkPolyData) -> None:
+    def __init__(self, surface: Surface) -> None:
         self._surface = surface
-        self._locator = vtkStaticCellLocator()
-        self._locator.SetDataSet(mesh)
-        self._locator.BuildLocator()
+        self._blocks = FaceBlocks(surface)
 
     def vertex_at(self, renderer: vtkRenderer, x: float, y: float) -> int | None:
         """The vertex nearest to where the surface is met at device pixel (x, y), y up; None beside the surface."""
@@ -27,9 +25,10 @@ class Picker:
             if weight == 0:
                 return None
             ends.append(np.array(point) / weight)
-        t, where, face = mutable(0.0), [0.0] * 3, mutable(0)
-        if not self._locator.IntersectWithLine(*ends, 1e-9, t, where, [0.0] * 3, mutable(0), face):
+        met = self._blocks.first_met(*ends)
+        if met is None:
             return None
-        corners = self._surface.faces[int(face)]
+        face, where = met
+        corners = self._surface.faces[face]
         nearest = np.linalg.norm(self._surface.vertices[corners] - where, axis=1).argmin()
         return int(corners[nearest])

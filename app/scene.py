@@ -30,6 +30,8 @@ class PanelScene:
         place.SetCoordinateSystemToNormalizedViewport()
         place.SetValue(0.5, 0.008)
         renderer.SetBackground(*style.background)
+        # To find out what is out of sight VTK would go over all vertices, and here nothing ever is.
+        renderer.GetCullers().RemoveAllItems()
         for actor in (self._field.actor, self._bar, self._unit):
             renderer.AddActor(actor)
         light(renderer)

@@ -5,10 +5,13 @@ It opens at once and imports what draws (VTK, pyvista) only then.
 
 import os
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
+import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core import BihdistError, OutputError
+from bihdist_core import BihdistError, OutputError, Surface
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..samples import mesh_path, sample_names, thumbnail
@@ -95,12 +98,12 @@ class MainWindow(QtWidgets.QMainWindow):
 
     # ------------------------------------------------------------------ what the session tells
     def mesh_changed(self) -> None:
-        surface, (mesh, picker, _) = self.session.surface, self.session.prepared
+        surface, prepared = self.session.surface, self.session.prepared
         self.setWindowTitle(f"{surface.name} - Biharmonic distance")
         with QtCore.QSignalBlocker(self._source_box):  # a smaller mesh would otherwise choose its last vertex
             self._source_box.setRange(0, len(surface.vertices) - 1)
         for panel in self.panels:
-            panel.show_surface(mesh, picker, self._camera)
+            panel.show_surface(prepared.mesh, prepared.picker, self._camera)
         self._hovered = None
         self.reset_view()
         if self.first_view:
@@ -169,13 +172,14 @@ class MainWindow(QtWidgets.QMainWindow):
         if surface is None:
             return
         size = self.panels[0].interactor.size()
-        *_, shown = self.session.prepared
-        place_camera(self._camera, shown, size.width() / max(size.height(), 1), view)
+        place_camera(self._camera, self.session.prepared.points, size.width() / max(size.height(), 1), view)
         self._repaint()
 
     def _repaint(self) -> None:
+        if self.session.prepared:
+            # The panels have one camera.  Left to itself VTK would go over all vertices to find the bounds.
+            self.panels[0].renderer.ResetCameraClippingRange(self.session.prepared.bounds)
         for panel in self.panels:
-            panel.renderer.ResetCameraClippingRange()
             panel.repaint_view()
 
     def _announce(self) -> None:
@@ -353,15 +357,26 @@ Ctrl+R  open a figure's recipe
 Esc  cancel what is being computed"""
 
 
-def _prepare(surface):
-    """What the panels need of a surface, made in the background."""
+@dataclass(frozen=True, eq=False)
+class _Prepared:
+    """What the panels need of a surface: to draw, to pick, and of its vertices that have a face some points (k, 3) to
+    fit the camera to and the bounds (x, x, y, y, z, z)."""
+
+    mesh: Any
+    picker: Any
+    points: np.ndarray
+    bounds: tuple[float, ...]
+
+
+def _prepare(surface: Surface) -> _Prepared:
+    """Made in the background."""
     from ..picking import Picker
     from ..scene import drawable
 
-    mesh = drawable(surface)
     shown = surface.vertices[surface.component_of_vertex >= 0]
+    bounds = tuple(float(end) for x in shown.T for end in (x.min(), x.max()))
     # The camera is fitted on the window's thread: some of the points of a large mesh do as well.
-    return mesh, Picker(surface, mesh), shown[:: max(1, len(shown) // FITTED)]
+    return _Prepared(drawable(surface), Picker(surface), shown[:: max(1, len(shown) // FITTED)], bounds)
 
 
 def _summary(surface) -> str:
