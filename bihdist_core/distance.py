@@ -42,9 +42,10 @@ class Distance(ABC):
         """(n,) distance of every vertex from one; 0 at the source."""
         component = self.laplacian.component_of(vertex)
         self.prepare(component, progress)
-        index = component.local(np.array([vertex]))
-        field = np.full(len(self.surface.vertices), np.nan)
-        field[component.vertices] = self._columns(component, index, progress)[:, 0]
+        field = self._columns(component, component.local(np.array([vertex])), progress)[:, 0]
+        if len(field) < len(self.surface.vertices):
+            part, field = field, np.full(len(self.surface.vertices), np.nan)
+            field[component.vertices] = part
         field[vertex] = 0
         return field
 

@@ -30,7 +30,7 @@ SPLIT = 1
 """There are 2**SPLIT branches, worked on side by side."""
 LIKE = 1.2
 """Fronts whose sizes differ by at most this factor share a stack."""
-PASSES, CALLS = 10, 3e6
+PASSES, CALLS = 10, 5e6
 """What the passes over each number of a front, and the calls for a stack, cost: as much as so many operations."""
 STACK = 1 << 21
 """Most numbers in one stack of fronts (16 MiB): it should be done in a moment, for progress and cancelling."""
