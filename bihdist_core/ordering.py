@@ -20,7 +20,7 @@ from .worker_threads import Job
 LANDMARKS = 4
 LEAST_SHARE = 0.4
 """The smaller half of a cut region has at least this share of it."""
-SMALL = 400
+SMALL = 150
 """Up to so many vertices on the average, regions are cut by their positions alone."""
 LARGE = 3000
 """From so many vertices on, separators of regions are made as small as can be."""
