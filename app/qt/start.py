@@ -1,5 +1,6 @@
 """Start Qt, show the window, open a mesh."""
 
+import gc
 import os
 import sys
 import traceback
@@ -46,11 +47,18 @@ def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: st
     window.show()
     window.open(path, source)
     # Once the window has been painted: the imports take a second.
-    QtCore.QTimer.singleShot(PAINTED_MS, window.build_panels)
+    QtCore.QTimer.singleShot(PAINTED_MS, lambda: build_panels(window))
     application.exec()
     for message in failures:
         print(f"bihdist: {message}", file=sys.stderr)
     return 2 if failures else 0
+
+
+def build_panels(window: MainWindow) -> None:
+    """Make the panels.  What was imported for them stays, so the garbage collector need not look at it again: each time
+    it does, the window stands still for a tenth of a second."""
+    window.build_panels()
+    gc.freeze()
 
 
 def _check_screen() -> None:

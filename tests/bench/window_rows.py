@@ -255,6 +255,7 @@ def _window(path: str):
     from qtpy import QtWidgets
 
     from app.qt.main_window import MainWindow
+    from app.qt.start import build_panels
     from app.state import PanelState, ViewerState
 
     application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bench"])
@@ -263,7 +264,7 @@ def _window(path: str):
     window.quiet = True
     window.show()
     application.processEvents()
-    window.build_panels()
+    build_panels(window)
     # The first pictures, of nothing: the start has a row of its own.
     application.processEvents()
     window.open(path)
