@@ -49,9 +49,9 @@ def solve_into(result: np.ndarray, tree: EliminationTree, blocks: Sequence[Block
     top, k = tree.top, b.shape[1]
 
     def up(branch: Branch) -> np.ndarray:
-        x = np.zeros((branch.end + 1, k))
-        x[branch.places] = b[branch.vertices]
-        filled = branch.vertices[np.flatnonzero(b[branch.vertices].any(axis=1))]
+        x, own = np.zeros((branch.end + 1, k)), b[branch.vertices]
+        x[branch.places] = own
+        filled = branch.vertices[np.flatnonzero(own.any(axis=1))]
         if len(filled) <= FEW:
             _sweep_up_paths(tree, branch, blocks, filled, x)
         else:

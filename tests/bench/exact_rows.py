@@ -18,7 +18,7 @@ from .child import forget_peak, in_child, peak_memory
 from .least_work import column_bytes, operations
 from .meshes import bumpy_sphere
 from .size import Size
-from .table import Line
+from .table import Line, compared
 from .timing import alternate, timed
 
 SINGLE = 2e-7
@@ -31,13 +31,10 @@ def set_up(size: Size) -> Iterator[Line]:
     values = result.answer.from_source(case.source)[case.targets]
     work = operations(case.component.tree())
     memory = in_child(_set_up_alone, size)
-    yield Line(
+    yield compared(
         1,
         f"exact set-up, {case.count}",
-        result.our_time,
-        result.peer_time,
-        result.ratio,
-        result.effort,
+        result,
         bound=0.6,
         limit=work / result.our_time / machine.limits()[1],
         memory=memory,
@@ -51,13 +48,10 @@ def one_field(size: Size) -> Iterator[Line]:
     case = main_case(size)
     result = case.one_field
     values = case.distance.from_source(case.source)[case.targets]
-    yield Line(
+    yield compared(
         2,
         f"one exact field, {case.count}",
-        result.our_time,
-        result.peer_time,
-        result.ratio,
-        result.effort,
+        result,
         bound=0.22,
         limit=column_bytes(case.component.tree()) / result.our_time / machine.limits()[0],
         error=case.error(values),
@@ -76,13 +70,10 @@ def many_sources(size: Size) -> Iterator[Line]:
         return peers.edge_distances(peers.edge_graph(Surface(*case.arrays)), case.sources)
 
     result = alternate(ours, dijkstra, max(1, size.rounds - 1))
-    yield Line(
+    yield compared(
         3,
         f"{len(case.sources)} sources to all, {case.count}, set-up included",
-        result.our_time,
-        result.peer_time,
-        result.ratio,
-        result.effort,
+        result,
         bound=0.7,
         error=case.error(result.answer[case.targets, 0]),
         tolerance=EXACT,
@@ -104,13 +95,10 @@ def all_pairs(size: Size) -> Iterator[Line]:
         result = alternate(ours, dijkstra, 1)
         values = np.load(path, mmap_mode="r")[case.source, case.targets]
         memory = in_child(_all_pairs_alone, size)
-    yield Line(
+    yield compared(
         4,
         f"all pairs to float32 on disk, {case.count}",
-        result.our_time,
-        result.peer_time,
-        result.ratio,
-        result.effort,
+        result,
         bound=1.0,
         memory=memory,
         error=case.error(values),

@@ -11,7 +11,7 @@ from bihdist_core.spectrum import Spectrum, smallest_eigenpairs
 from . import peers
 from .case import Case, difference, main_case
 from .size import Size
-from .table import Line
+from .table import Line, compared
 from .timing import alternate
 
 HEAT = 1e-6
@@ -30,13 +30,10 @@ def eigenpairs(size: Size) -> Iterator[Line]:
             return peers.arpack_eigenvalues(component, count, RESIDUAL)
 
         result = alternate(ours, arpack, 1)
-        yield Line(
+        yield compared(
             5,
             f"{count} eigenpairs, {case.count}",
-            result.our_time,
-            result.peer_time,
-            result.ratio,
-            result.effort,
+            result,
             bound=bound,
             error=difference(result.answer.eigenvalues, result.peer_answer),
             tolerance=EIGENVALUE,
@@ -55,13 +52,10 @@ def heat_geodesic(size: Size) -> Iterator[Line]:
     result = alternate(ours, lambda: peers.heat_solver(*case.arrays), size.rounds)
     distance = result.answer
     error = difference(distance.from_source(case.source), slow_heat(case))
-    yield Line(
+    yield compared(
         6,
         f"heat geodesic, set-up, {case.count}",
-        result.our_time,
-        result.peer_time,
-        result.ratio,
-        result.effort,
+        result,
         bound=0.6,
         error=error,
         tolerance=HEAT,
@@ -73,13 +67,10 @@ def heat_geodesic(size: Size) -> Iterator[Line]:
         3 * size.rounds,
         size.repeat,
     )
-    yield Line(
+    yield compared(
         6,
         f"heat geodesic, one field, {case.count}",
-        result.our_time,
-        result.peer_time,
-        result.ratio,
-        result.effort,
+        result,
         bound=0.5,
         note="peer: one potpourri3d heat solve",
     )

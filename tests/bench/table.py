@@ -1,6 +1,9 @@
 """The lines of the benchmark and how they are printed."""
 
 from dataclasses import asdict, dataclass
+from typing import Any
+
+from .timing import Comparison
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,11 @@ class Line:
     @property
     def is_accurate(self) -> bool | None:
         return None if self.error is None or self.tolerance is None else bool(self.error <= self.tolerance)
+
+
+def compared(row: int, work: str, result: Comparison, **told: Any) -> Line:
+    """The line of a comparison, which is judged by its ratio; told: more of the line's fields."""
+    return Line(row, work, result.our_time, result.peer_time, result.ratio, result.effort, **told)
 
 
 COLUMNS = ("row", "work", "ours", "peer", "value", "bound", "", "effort", "limit", "memory", "error", "note")

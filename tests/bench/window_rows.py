@@ -18,7 +18,7 @@ from .case import EXACT, main_case
 from .child import in_child
 from .meshes import bumpy_sphere
 from .size import Size
-from .table import Line
+from .table import Line, compared
 from .timing import alternate
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -76,13 +76,10 @@ def click(size: Size) -> Iterator[Line]:
         values = session.answers[0].field[case.targets]
     finally:
         session.close()
-    yield Line(
+    yield compared(
         10,
         f"click to three fields, {len(case.arrays[0]):,}",
-        result.our_time,
-        result.peer_time,
-        result.ratio,
-        result.effort,
+        result,
         bound=0.8,
         error=case.error(values),
         tolerance=EXACT,
