@@ -5,7 +5,7 @@ import pytest
 import scipy.sparse as sp
 
 from bihdist_core.errors import Cancelled
-from bihdist_core.ordering import nested_dissection
+from bihdist_core.ordering import _along_a_curve, _unit_box, nested_dissection
 
 
 def grid(rows, columns):
@@ -102,6 +102,18 @@ def test_a_rolled_up_sheet_is_cut_along_its_surface():
     angle = x[:, 0] / 10
     rolled = np.c_[(5 + angle / 50) * np.cos(angle), (5 + angle / 50) * np.sin(angle), x[:, 1]]
     assert (nested_dissection(i, j, rolled, 3) == 1).sum() <= 20
+
+
+def test_how_vertices_are_numbered_does_not_matter():
+    i, j, x = grid(40, 50)
+    new = np.random.default_rng(0).permutation(len(x))
+    order, box = _along_a_curve(_unit_box(x[np.argsort(new)]))
+    place = np.empty(len(x), int)
+    place[order] = np.arange(len(x))
+    assert np.allclose(np.stack(box, 1), np.stack(_unit_box(x[np.argsort(new)]), 1)[order])
+    # Numbers of neighbours are 600 to 700 apart in a random numbering.
+    assert np.median(abs(place[new[i]] - place[new[j]])) < 20
+    assert (nested_dissection(new[i], new[j], x[np.argsort(new)], 5) == 1).sum() <= 45
 
 
 @pytest.mark.parametrize("scale", [1e150, 1e-150, 1e300])
