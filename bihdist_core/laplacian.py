@@ -128,9 +128,10 @@ class Component:
 
     def solve(self, b: np.ndarray, progress: Progress | None = None) -> np.ndarray:
         """G b; b (m,) or (m, k)."""
-        b = np.array(b, np.float64)
-        b[self.pin] = 0
-        return self.factor(progress).solve(b)
+        x = self.factor(progress).solve(b)
+        # The pinned vertex' equation is one of its own: x_p = b_p.
+        x[self.pin] = 0
+        return x
 
     def centred(self, x: np.ndarray) -> np.ndarray:
         """x (m,) or (m, k) less its mean by area."""

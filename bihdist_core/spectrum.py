@@ -10,14 +10,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-import scipy
 import scipy.sparse as sp
 
 from .blas import one_blas_thread
 from .errors import ParameterError, SolverError
 from .krylov import largest_eigenpairs
 from .progress import Progress, part, silent
-from .tall import gram, multiply, over_rows, sparse_rows
+from .tall import centre, gram, multiply, over_rows, sparse_rows
 
 Solve = Callable[[np.ndarray], np.ndarray]
 
@@ -53,8 +52,8 @@ def smallest_eigenpairs(
 ) -> Spectrum:
     """The `count` smallest eigenpairs of a stiffness matrix whose kernel is the constants.
 
-    stiffness: (n, n), positive semi-definite.  areas: (n,), not negative.  solve(b): G b for b (n,) or (n, k), G
-    being the inverse of the stiffness matrix without one vertex' row and column, padded with zeros.
+    stiffness: (n, n), positive semi-definite.  areas: (n,), not negative.  solve(b): G b for b (n,) or (n, k), as
+    a new array; G is the inverse of the stiffness matrix without one vertex' row and column, padded with zeros.
     tolerance: for the residuals (see `Spectrum`), or what rounding allows.  Eigenvalues are right to about its
     square over their relative distance from the first one left out; 1e-6 keeps distances made of the pairs within
     1e-7 of the largest, 1e-4 within 1e-5, in about a fifth less time.
@@ -73,7 +72,9 @@ def smallest_eigenpairs(
             return Spectrum(start.eigenvalues[:count], start.eigenvectors[:, :count], start.residuals[:count])
 
     def apply(x: np.ndarray) -> np.ndarray:
-        return _centred(solve(areas[:, None] * x), areas)
+        y = solve(areas[:, None] * x)
+        centre(y, areas)
+        return y
 
     with one_blas_thread():
         if dense_is_faster(len(areas), count):
@@ -122,7 +123,8 @@ def _dense(areas: np.ndarray, apply: Callable[[np.ndarray], np.ndarray], count: 
         unit[columns, columns - first] = unroot[columns]
         full[:, columns] = root[:, None] * apply(_centred(unit, areas))
     progress(0.5, "eigenpairs of the dense operator")
-    inverse, vectors = scipy.linalg.eigh((full + full.T) / 2, subset_by_index=[n - count, n - 1])
+    inverse, vectors = np.linalg.eigh((full + full.T) / 2)
+    inverse, vectors = inverse[-count:], vectors[:, -count:]
     # One more application of T: dividing by small roots of areas would magnify rounding.
     return apply(_centred(unroot[:, None] * vectors[:, ::-1], areas)) / inverse[::-1]
 
@@ -164,7 +166,11 @@ def _refined(stiffness: sp.csr_matrix, areas: np.ndarray, vectors: np.ndarray, p
     energies = over_rows(lambda rows: vectors[rows].T @ (sparse_rows(stiffness, rows) @ vectors), len(areas))
     energy = sum(energies) * scale * scale[:, None]
     progress(0.4, "eigenpairs: combining")
-    values, mix = scipy.linalg.eigh((energy + energy.T) / 2, (mass + mass.T) / 2)
+    # The small generalized eigenproblem, in steps for which other Python threads need not stand still.
+    turn = np.linalg.inv(np.linalg.cholesky(mass)).T
+    energy = turn.T @ energy @ turn
+    values, mix = np.linalg.eigh((energy + energy.T) / 2)
+    mix = turn @ mix
     vectors = multiply(vectors, scale[:, None] * mix)
     progress(0.8, "eigenpairs: checking")
 

@@ -1,5 +1,7 @@
 """Products of tall arrays (many rows, few columns) in row chunks on our own worker threads; for use inside
 `blas.one_blas_thread`.
+
+Where a product has few results it is np.dot's: np.matmul would keep the interpreter lock meanwhile.
 """
 
 from collections.abc import Callable
@@ -18,7 +20,7 @@ ROWS = 8192
 
 def gram(x: np.ndarray, y: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """(j, k) products x^T diag(weights) y of x (n, j) and y (n, k)."""
-    return sum(over_rows(lambda rows: x[rows].T @ (weights[rows, None] * y[rows]), len(x)))
+    return sum(over_rows(lambda rows: np.dot(x[rows].T, weights[rows, None] * y[rows]), len(x)))
 
 
 def multiply(x: np.ndarray, c: np.ndarray) -> np.ndarray:
@@ -39,7 +41,7 @@ def subtract(y: np.ndarray, x: np.ndarray, c: np.ndarray) -> None:
 
 def centre(x: np.ndarray, weights: np.ndarray) -> None:
     """Make the mean, weighted by weights (n,), of each column of x (n, k) zero, in place."""
-    mean = sum(over_rows(lambda rows: weights[rows] @ x[rows], len(x))) / weights.sum()
+    mean = sum(over_rows(lambda rows: np.dot(weights[rows], x[rows]), len(x))) / weights.sum()
 
     def one(rows: slice) -> None:
         x[rows] -= mean
