@@ -1,5 +1,7 @@
 """A lane: one background thread that works on the latest request and forgets the ones before."""
 
+import os
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -13,6 +15,8 @@ Request = TypeVar("Request")
 REPORTS_PER_SECOND = 20
 QUIET_SECONDS = 0.15
 """Work shorter than this is not reported: it would only flicker."""
+NICE = 5
+"""By how much a lane, and the threads it starts, stand back for the window's thread and for drawing."""
 
 
 class Lane(Generic[Request]):
@@ -69,6 +73,9 @@ class Lane(Generic[Request]):
         self._thread.join(timeout)
 
     def _run(self) -> None:
+        # Elsewhere Python cannot do this for a single thread.
+        if sys.platform == "linux":
+            os.nice(NICE)
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._closed or self._taken < self._serial)
