@@ -21,6 +21,8 @@ from .look import STYLE_SHEET, LargeIcons
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 HOVER_DELAY_MS = 25
+PROGRESS_MS = 200
+"""How often progress is shown at most: with software OpenGL each change of a label paints the whole window."""
 FITTED = 20_000
 """How many points the camera is fitted to."""
 
@@ -127,12 +129,22 @@ class MainWindow(QtWidgets.QMainWindow):
         self._note(index)
 
     def progress_changed(self) -> None:
+        if not self.session.progress:
+            self._show_progress()
+        elif not self._progress_soon.isActive():
+            self._progress_soon.start()
+
+    def _show_progress(self) -> None:
+        self._progress_soon.stop()
         going = [self.session.progress[name] for name in sorted(self.session.progress)]
         self._progress.setVisible(bool(going))
         self._cancel.setVisible(bool(going))
         self._doing.setText(going[0][1] if going else "")
         if going:
+            # Painted at once it would be by itself, and the labels once more after it.
+            self._progress.setUpdatesEnabled(False)
             self._progress.setValue(round(1000 * going[0][0]))
+            self._progress.setUpdatesEnabled(True)
         for index in range(len(self.panels)):
             self._note(index)
         if self.session.is_complete and not going:
@@ -336,6 +348,8 @@ class MainWindow(QtWidgets.QMainWindow):
             bar.addPermanentWidget(widget)
         self._progress.hide()
         self._cancel.hide()
+        self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
+        self._progress_soon.timeout.connect(self._show_progress)
 
     def _say(self, text: str) -> None:
         self._message.setText(text)

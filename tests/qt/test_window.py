@@ -222,6 +222,22 @@ def test_progress_and_cancel_are_shown_while_something_is_computed(screen, mesh_
     assert s.panels[0].hint.text() == "stopped; click a point to ask again"
 
 
+def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows_at_once(screen):
+    s = screen()
+    window = s.window
+    for percent in range(50):
+        window.session.progress["panel 1"] = (percent / 100, "solving")
+        window.progress_changed()
+    before = window._doing.text()
+    s.settle()
+    assert (before, window._doing.text(), window._progress.value()) == ("", "solving", 490)
+    assert window.panels[1].hint.text() == "solving: 49%"
+    window.session.progress.clear()
+    window.progress_changed()
+    assert window._doing.text() == ""
+    assert not window._progress.isVisible()
+
+
 def test_closing_while_computing_ends_the_threads(screen, mesh_file):
     import threading
 
