@@ -15,7 +15,7 @@ Request = TypeVar("Request")
 REPORTS_PER_SECOND = 20
 QUIET_SECONDS = 0.15
 """Work shorter than this is not reported: it would only flicker."""
-NICE = 5
+NICE = 10
 """By how much a lane, and the threads it starts, stand back for the window's thread and for drawing."""
 
 

@@ -5,15 +5,13 @@ It opens at once and imports what draws (VTK, pyvista) only then.
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
 
-import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core import BihdistError, OutputError, Surface
+from bihdist_core import BihdistError, OutputError
 from bihdist_core.whole_file import check_output, whole_file
 
+from ..prepared import prepare
 from ..samples import mesh_path, sample_names, thumbnail
 from ..session import Session
 from ..state import ViewerState
@@ -22,9 +20,7 @@ from .look import STYLE_SHEET, LargeIcons
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 HOVER_DELAY_MS = 25
 PROGRESS_MS = 200
-"""How often progress is shown at most: with software OpenGL each change of a label paints the whole window."""
-FITTED = 20_000
-"""How many points the camera is fitted to."""
+"""How often progress is shown at most."""
 
 
 class MainWindow(QtWidgets.QMainWindow):
@@ -41,7 +37,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.resize(1322, 660)
         self.setStyleSheet(STYLE_SHEET)
         self._posted.connect(lambda function: function())
-        self.session = Session(self, self._posted.emit, state, prepare=_prepare)
+        self.session = Session(self, self._posted.emit, state, prepare=prepare)
         self.panels: list = []
         self._camera = None
         self.recipe = None  # the one opened last
@@ -139,11 +135,11 @@ class MainWindow(QtWidgets.QMainWindow):
         going = [self.session.progress[name] for name in sorted(self.session.progress)]
         self._progress.setVisible(bool(going))
         self._cancel.setVisible(bool(going))
-        self._doing.setText(going[0][1] if going else "")
+        self._doing.setText("   ·   ".join(dict.fromkeys(f"{text} {fraction:.0%}" for fraction, text in going)))
         if going:
             # Painted at once it would be by itself, and the labels once more after it.
             self._progress.setUpdatesEnabled(False)
-            self._progress.setValue(round(1000 * going[0][0]))
+            self._progress.setValue(round(1000 * sum(fraction for fraction, _ in going) / len(going)))
             self._progress.setUpdatesEnabled(True)
         for index in range(len(self.panels)):
             self._note(index)
@@ -152,12 +148,14 @@ class MainWindow(QtWidgets.QMainWindow):
             QtCore.QTimer.singleShot(0, self._announce)
 
     def _note(self, index: int) -> None:
-        """Say in a panel what it is waiting for."""
-        fraction, text = self.session.progress.get(f"panel {index}", (0, ""))
+        """Say in a panel what it is waiting for; how far that is, the status bar says, which is cheap to paint."""
+        _, text = self.session.progress.get(f"panel {index}", (0, ""))
         if text:
-            text = f"{text}: {fraction:.0%}"
+            text = f"{text.partition(':')[0]} …"
         elif self.session.is_stopped and not self.session.is_answered(index):
             text = "stopped; click a point to ask again"
+        elif self.session.surface and self.session.answers[index] is None and self.session.progress:
+            text = "waiting …"
         self.panels[index].show_note(text)
 
     def failed(self, message: str) -> None:
@@ -335,6 +333,11 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def _fill_status_bar(self) -> None:
         bar = self.statusBar()
+        if QtGui.QGuiApplication.platformName() == "xcb":
+            # A native window of its own.  As a part of the main window, each change of a word in it would have OpenGL
+            # put the whole window together anew: 15 ms in software, and 100 ms while the processors are busy.
+            bar.setAttribute(QtCore.Qt.WidgetAttribute.WA_DontCreateNativeAncestors)
+            bar.setAttribute(QtCore.Qt.WidgetAttribute.WA_NativeWindow)
         self._pointer = QtWidgets.QLabel("")
         self._message = QtWidgets.QLabel("")
         self._doing = QtWidgets.QLabel("")
@@ -369,28 +372,6 @@ R  reset the view      1 … 6  front, back, left, right, top, bottom
 Ctrl+P  save a picture of the window      Ctrl+E  export a figure      Ctrl+M  a movie
 Ctrl+R  open a figure's recipe
 Esc  cancel what is being computed"""
-
-
-@dataclass(frozen=True, eq=False)
-class _Prepared:
-    """What the panels need of a surface: to draw, to pick, and of its vertices that have a face some points (k, 3) to
-    fit the camera to and the bounds (x, x, y, y, z, z)."""
-
-    mesh: Any
-    picker: Any
-    points: np.ndarray
-    bounds: tuple[float, ...]
-
-
-def _prepare(surface: Surface) -> _Prepared:
-    """Made in the background."""
-    from ..picking import Picker
-    from ..scene import drawable
-
-    shown = surface.vertices[surface.component_of_vertex >= 0]
-    bounds = tuple(float(end) for x in shown.T for end in (x.min(), x.max()))
-    # The camera is fitted on the window's thread: some of the points of a large mesh do as well.
-    return _Prepared(drawable(surface), Picker(surface), shown[:: max(1, len(shown) // FITTED)], bounds)
 
 
 def _summary(surface) -> str:

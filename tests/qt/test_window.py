@@ -229,12 +229,25 @@ def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows
         window.session.progress["something"] = (percent / 100, "solving")
         window.progress_changed()
     assert window._doing.text() == ""
-    s.until(lambda: window._doing.text() == "solving")
+    s.until(lambda: window._doing.text() == "solving 49%")
     assert window._progress.value() == 490
     window.session.progress.clear()
     window.progress_changed()
     assert window._doing.text() == ""
     assert not window._progress.isVisible()
+
+
+def test_the_status_bar_tells_how_far_everything_is_and_a_panel_what_it_waits_for(screen, mesh_file):
+    s = screen()
+    window = s.window
+    s.open(mesh_file(bumpy(800)))
+    window.session.answers[2] = None
+    window.session.progress.update({"panel 0": (0.2, "Factoring"), "panel 1": (0.4, "eigenpairs: solving")})
+    window.progress_changed()
+    s.until(window._doing.text)
+    assert window._doing.text() == "Factoring 20%   ·   eigenpairs: solving 40%"
+    assert window._progress.value() == 300
+    assert [panel.hint.text() for panel in window.panels] == ["Factoring …", "eigenpairs …", "waiting …"]
 
 
 def test_closing_while_computing_ends_the_threads(screen, mesh_file):
