@@ -250,6 +250,17 @@ def test_the_status_bar_tells_how_far_everything_is_and_a_panel_what_it_waits_fo
     assert [panel.hint.text() for panel in window.panels] == ["Factoring …", "eigenpairs …", "waiting …"]
 
 
+def test_a_panel_s_words_do_not_change_the_size_of_its_picture(screen, mesh_file):
+    s = screen()
+    s.settle()
+    before = [panel.interactor.size() for panel in s.panels]
+    s.open(mesh_file(bumpy(800)))
+    s.panels[0].show_value(5)
+    s.settle()
+    assert [panel.interactor.size() for panel in s.panels] == before
+    assert all(panel.title.text() and panel.hint.text() for panel in s.panels)
+
+
 def test_closing_while_computing_ends_the_threads(screen, mesh_file):
     import threading
 
