@@ -52,7 +52,7 @@ def _opened(dialog: JobDialog, window) -> JobDialog:
 def shown_recipe(window) -> Recipe:
     """What the window shows; looks (size, style, ...) from the recipe that was opened last."""
     state = window.session.state
-    seen = camera_seen(window.camera, _aspect(window))
+    seen = camera_seen(window.camera, window.aspect)
     return replace(
         window.recipe or Recipe("", ()),
         mesh=window.session.path,
@@ -96,12 +96,7 @@ def open_recipe(window, path: str) -> None:
     first = recipe.views[0] if recipe.views else "home"
     if isinstance(first, RecipeCamera):
         camera = Camera(first.position, first.focal_point, first.up, first.extent)
-        window.first_view = lambda: show_camera(window.camera, camera, _aspect(window))
+        window.first_view = lambda: show_camera(window.camera, camera, window.aspect)
     else:
         window.first_view = lambda: window.reset_view(first)
     window.open(mesh, recipe.panels[0].source if recipe.panels else None)
-
-
-def _aspect(window) -> float:
-    size = window.panels[0].interactor.size()
-    return size.width() / max(size.height(), 1)

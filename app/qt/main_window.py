@@ -5,6 +5,7 @@ It opens at once and imports what draws (VTK, pyvista) only then.
 
 import os
 from collections.abc import Callable
+from dataclasses import replace
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -40,6 +41,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.session = Session(self, self._posted.emit, state, prepare=prepare)
         self.panels: list = []
         self._camera = None
+        self._extent: tuple[float, float] | None = None  # what the camera is to see in panels of any shape
         self.recipe = None  # the one opened last
         self.first_view: Callable[[], None] | None = None  # of the next mesh, where it is not the usual one
         self._hovered: int | None = None
@@ -69,6 +71,7 @@ class MainWindow(QtWidgets.QMainWindow):
             panel.clicked.connect(self.session.select_source)
             panel.hovered.connect(self._hover)
             panel.moved.connect(self._repaint)
+            panel.resized.connect(self._keep_in_view)
             panel.changed.connect(lambda chosen, index=index: self.session.set_panel(index, chosen))
             panel.scene.show_isolines(self.session.state.isolines)
             panel.renderer.SetActiveCamera(self._camera)
@@ -107,6 +110,7 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.first_view:
             self.first_view()
             self.first_view = None
+            self._remember_extent()
             self._repaint()
         self._say(_summary(surface))
 
@@ -171,6 +175,12 @@ class MainWindow(QtWidgets.QMainWindow):
         """The camera of all panels."""
         return self._camera
 
+    @property
+    def aspect(self) -> float:
+        """Width / height of a panel."""
+        size = self.panels[0].interactor.size()
+        return size.width() / max(size.height(), 1)
+
     def show_isolines(self, count: int) -> None:
         """Choose a number of isolines, as the box in the tool bar does."""
         self._isolines_box.setValue(count)
@@ -181,9 +191,21 @@ class MainWindow(QtWidgets.QMainWindow):
         surface = self.session.surface
         if surface is None:
             return
-        size = self.panels[0].interactor.size()
-        place_camera(self._camera, self.session.prepared.points, size.width() / max(size.height(), 1), view)
+        place_camera(self._camera, self.session.prepared.points, self.aspect, view)
+        self._remember_extent()
         self._repaint()
+
+    def _remember_extent(self) -> None:
+        from ..camera import camera_seen
+
+        self._extent = camera_seen(self._camera, self.aspect).extent
+
+    def _keep_in_view(self) -> None:
+        """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""
+        from ..camera import camera_seen, show_camera
+
+        if self._extent is not None:
+            show_camera(self._camera, replace(camera_seen(self._camera, self.aspect), extent=self._extent), self.aspect)
 
     def _repaint(self) -> None:
         if self.session.prepared:

@@ -19,6 +19,7 @@ class DistancePanel(QtWidgets.QWidget):
     clicked = QtCore.Signal(int)  # a vertex, clicked without dragging
     hovered = QtCore.Signal(object)  # a vertex, or None beside the surface
     moved = QtCore.Signal()  # the camera
+    resized = QtCore.Signal()  # the picture
     changed = QtCore.Signal(object)  # PanelState chosen with the controls
 
     def __init__(self, state: PanelState, parent: QtWidgets.QWidget | None = None) -> None:
@@ -127,6 +128,8 @@ class DistancePanel(QtWidgets.QWidget):
                     self.clicked.emit(vertex)
         elif kind == QtCore.QEvent.Type.Leave:
             self.hovered.emit(None)
+        elif kind == QtCore.QEvent.Type.Resize:
+            self.resized.emit()
         return False
 
     def _camera_may_move(self) -> None:

@@ -175,6 +175,23 @@ def test_views_turn_all_panels_together(screen, mesh_file):
     assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
 
 
+@pytest.mark.parametrize("size", [(1200, 1000), (1100, 380)])
+def test_what_was_seen_stays_in_view_when_the_window_changes_its_shape(screen, mesh_file, size):
+    s = screen()
+    s.open(mesh_file(bumpy(800)))
+    camera = s.window.camera
+    before = s.window.size(), camera.GetViewAngle(), camera.GetPosition()
+    s.window.resize(*size)
+    s.settle()
+    for panel in s.panels:
+        seen = [s.point_of(panel, vertex) for vertex in range(0, 800, 7)]
+        assert all(panel.interactor.rect().contains(point) for point in seen)
+    s.window.resize(before[0])
+    s.settle()
+    assert (s.window.size(), camera.GetPosition()) == (before[0], before[2])
+    assert camera.GetViewAngle() == pytest.approx(before[1], rel=1e-9)
+
+
 def test_vtk_keys_do_nothing(screen, mesh_file):
     from qtpy.QtTest import QTest
 
