@@ -1,5 +1,6 @@
 """A lane: one background thread that works on the latest request and forgets the ones before."""
 
+import math
 import os
 import sys
 import threading
@@ -13,8 +14,6 @@ from bihdist_core.progress import Progress
 Request = TypeVar("Request")
 
 REPORTS_PER_SECOND = 20
-QUIET_SECONDS = 0.15
-"""Work shorter than this is not reported: it would only flicker."""
 NICE = 10
 """By how much a lane, and the threads it starts, stand back for the window's thread and for drawing."""
 
@@ -51,7 +50,7 @@ class Lane(Generic[Request]):
 
     def progress(self, is_wanted: Callable[[Request], bool]) -> Progress:
         """A progress callback for the work on this lane (see the class)."""
-        last = time.monotonic() + QUIET_SECONDS
+        last = -math.inf
 
         def report(fraction: float, text: str) -> None:
             nonlocal last

@@ -182,6 +182,11 @@ def _view(options: argparse.Namespace) -> int:
     from .samples import mesh_path
 
     path = mesh_path(options.mesh or "figure")
+    # Not in the window, where a script would wait for ever.
+    if not os.path.exists(path):
+        from bihdist_core import MeshError
+
+        raise MeshError(f"There is no file {path}.")
     if options.screenshot:
         from bihdist_core.whole_file import check_output
 
@@ -204,6 +209,10 @@ def _panel(options: argparse.Namespace, word: str):
     return PanelState(word, t=options.t, k=options.k, alpha=options.alpha, method=options.method)
 
 
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
 def _field(options: argparse.Namespace) -> None:
     from bihdist_core.field_output import FIELD_FORMATS, write_fields
     from bihdist_core.whole_file import check_output
@@ -216,7 +225,7 @@ def _field(options: argparse.Namespace) -> None:
         columns = distance.from_sources(options.source, progress)
     names = [f"{options.distance}_from_{v}" for v in options.source]
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
-    print(f"{options.output}: {distance.label}, {columns.shape[0]} vertices, {columns.shape[1]} sources")
+    print(f"{options.output}: {distance.label}, {columns.shape[0]} vertices, {_counted(columns.shape[1], 'source')}")
 
 
 def _pairs(options: argparse.Namespace) -> None:

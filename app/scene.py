@@ -12,6 +12,10 @@ from .style import PAPER, Colour, Style
 __all__ = ["PanelScene", "drawable"]
 
 
+BACKING = 0.85
+"""Opacity of what is behind the colour bar and its words."""
+
+
 class PanelScene:
     """One surface with one field in one renderer.  `scale`: device pixels per pixel of the style's widths."""
 
@@ -26,6 +30,8 @@ class PanelScene:
         self._bar.VisibilityOff()
         self._unit = _text(style.quiet_text, 12 * scale)
         self._unit.GetTextProperty().SetVerticalJustificationToBottom()
+        self._unit.GetTextProperty().SetBackgroundColor(*style.background)
+        self._unit.GetTextProperty().SetBackgroundOpacity(BACKING)
         place = self._unit.GetPositionCoordinate()
         place.SetCoordinateSystemToNormalizedViewport()
         place.SetValue(0.5, 0.008)
@@ -117,6 +123,10 @@ def _colour_bar(table: vtkLookupTable, style: Style, scale: float) -> vtkScalarB
     bar.SetHeight(0.075)
     bar.SetBarRatio(0.3)
     bar.DrawTickLabelsOn()
+    # To be read where the surface reaches behind it.
+    bar.DrawBackgroundOn()
+    bar.GetBackgroundProperty().SetColor(*style.background)
+    bar.GetBackgroundProperty().SetOpacity(BACKING)
     text = bar.GetLabelTextProperty()
     text.SetColor(style.text)
     text.SetFontSize(round(12 * scale))

@@ -72,6 +72,8 @@ def _content(path: Path) -> bytes:
         if not stat.S_ISREG(kind):
             raise MeshError(f"{path} is not a regular file.")
         content = path.read_bytes()
+    except MeshError:
+        raise  # it is a ValueError too
     except FileNotFoundError:
         raise MeshError(f"There is no file {path}.") from None
     except PermissionError:

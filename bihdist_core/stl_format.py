@@ -59,7 +59,7 @@ def _binary_corners(raw: bytes, name: str) -> np.ndarray:
     announced, held = int.from_bytes(raw[80:84], "little"), (len(raw) - _HEAD) / _TRIANGLE.itemsize
     if not _has_binary_length(raw):
         raise MeshError(
-            f"{name} announces {announced} triangles but has room for {held:.16g}: "
+            f"{name} announces {announced} triangles but has room for {int(100 * held) / 100:.12g}: "
             "it is cut off, its count is wrong or it is not an STL file."
         )
     return np.frombuffer(raw, _TRIANGLE, offset=_HEAD)["corners"].reshape(-1, 3).astype(np.float64)

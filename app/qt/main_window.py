@@ -21,7 +21,10 @@ from .look import STYLE_SHEET, LargeIcons
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 HOVER_DELAY_MS = 25
 PROGRESS_MS = 200
-"""How often progress is shown at most."""
+"""How often progress is shown at most, and from when on."""
+ANY_VERTEX = 2**31 - 1
+"""The box takes every id, and the session refuses those that are none: a box that knows the largest one silently makes
+999 of 99999."""
 
 
 class MainWindow(QtWidgets.QMainWindow):
@@ -80,6 +83,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.setCentralWidget(middle)
         self._repaint_soon = QtCore.QTimer(self, singleShot=True, interval=HOVER_DELAY_MS)
         self._repaint_soon.timeout.connect(self._repaint)
+        self._leave_boxes()
         waiting, self._waiting = self._waiting, []
         for function in waiting:
             function()
@@ -101,8 +105,6 @@ class MainWindow(QtWidgets.QMainWindow):
     def mesh_changed(self) -> None:
         surface, prepared = self.session.surface, self.session.prepared
         self.setWindowTitle(f"{surface.name} - Biharmonic distance")
-        with QtCore.QSignalBlocker(self._source_box):  # a smaller mesh would otherwise choose its last vertex
-            self._source_box.setRange(0, len(surface.vertices) - 1)
         for panel in self.panels:
             panel.show_surface(prepared.mesh, prepared.picker, self._camera)
         self._hovered = None
@@ -165,7 +167,11 @@ class MainWindow(QtWidgets.QMainWindow):
     def failed(self, message: str) -> None:
         self.refused.emit(message)
         if not self.quiet:
-            box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=self)
+            # Above a dialog that is open, it would otherwise get no keys.
+            above = QtWidgets.QApplication.activeModalWidget() or self
+            box = QtWidgets.QMessageBox(
+                QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=above
+            )
             box.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
             box.open()
 
@@ -206,6 +212,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
         if self._extent is not None:
             show_camera(self._camera, replace(camera_seen(self._camera, self.aspect), extent=self._extent), self.aspect)
+            self._repaint()
 
     def _repaint(self) -> None:
         if self.session.prepared:
@@ -252,10 +259,12 @@ class MainWindow(QtWidgets.QMainWindow):
             self.open(path)
 
     def choose_screenshot(self) -> None:
-        path, _ = QtWidgets.QFileDialog.getSaveFileName(self, "Save a picture of the window", "bihdist.png", "*.png")
-        if path:
+        dialog = QtWidgets.QFileDialog(self, "Save a picture of the window", "bihdist.png", "Pictures (*.png)")
+        dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("png")
+        if dialog.exec():
             try:
-                self.save_screenshot(path)
+                self.save_screenshot(dialog.selectedFiles()[0])
             except BihdistError as error:
                 self.failed(str(error))
 
@@ -289,6 +298,10 @@ class MainWindow(QtWidgets.QMainWindow):
             self.failed(str(error))
             self.source_changed()
 
+    def _leave_boxes(self) -> None:
+        """A box that has the keyboard takes digits and Ctrl+E for itself."""
+        self.panels[0].interactor.setFocus()
+
     def _choose_isolines(self, count: int) -> None:
         self.session.set_isolines(count)
         for panel in self.panels:
@@ -311,10 +324,11 @@ class MainWindow(QtWidgets.QMainWindow):
         bar.addWidget(QtWidgets.QLabel(" Source vertex "))
         self._source_box = QtWidgets.QSpinBox()
         self._source_box.setKeyboardTracking(False)
-        self._source_box.setRange(0, 0)
+        self._source_box.setRange(0, ANY_VERTEX)
         self._source_box.setMinimumWidth(100)
         self._source_box.setToolTip("Type a vertex id and press Enter")
         self._source_box.valueChanged.connect(self._choose_source)
+        self._source_box.lineEdit().returnPressed.connect(self._leave_boxes)
         bar.addWidget(self._source_box)
         bar.addSeparator()
         bar.addWidget(QtWidgets.QLabel(" Isolines "))
@@ -323,6 +337,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self._isolines_box.setValue(self.session.state.isolines)
         self._isolines_box.setToolTip("Equal steps from 0 to each panel's maximum; 0 for no lines")
         self._isolines_box.valueChanged.connect(self._choose_isolines)
+        self._isolines_box.lineEdit().returnPressed.connect(self._leave_boxes)
         bar.addWidget(self._isolines_box)
         bar.addSeparator()
         bar.addAction("Reset view", self.reset_view)

@@ -168,6 +168,8 @@ def test_bad_input_gets_a_sentence_and_leaves_no_file(mesh, mesh_file, tmp_path,
         (["pairs", mesh, "--file", tmp_path / "none.csv", "-o", out], "none.csv"),
         (["figure", mesh, "-o", tmp_path / "f.jpg"], ".jpg"),
         (["info", empty], "empty.off"),
+        (["view", tmp_path / "none.off"], "There is no file"),
+        (["frobnicate"], "There is no file frobnicate."),
     ]:
         assert words in refused(capsys, *arguments)
         assert not out.exists()

@@ -51,7 +51,7 @@ def outcome(path):
 def test_a_missing_file_a_folder_and_an_empty_file(tmp_path, put):
     assert refused(tmp_path / "no.off") == f"There is no file {tmp_path / 'no.off'}."
     (tmp_path / "x.off").mkdir()
-    assert "is a folder" in refused(tmp_path / "x.off")
+    assert refused(tmp_path / "x.off") == f"{tmp_path / 'x.off'} is a folder, not a mesh file."
     for extension in MESH_FORMATS:
         assert "is empty" in refused(put(f"a{extension}", ""))
 
@@ -59,7 +59,7 @@ def test_a_missing_file_a_folder_and_an_empty_file(tmp_path, put):
 def test_an_unknown_extension_lists_the_known_ones(put):
     assert "'.step'" in (message := refused(put("a.step", "x")))
     assert all(extension in message for extension in MESH_FORMATS)
-    assert "no extension" in refused(put("mesh", "x"))
+    assert refused(put("mesh", "x")).startswith("mesh has no extension; ")
 
 
 def test_a_pipe_is_refused_and_not_waited_for(tmp_path):

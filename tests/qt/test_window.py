@@ -147,6 +147,24 @@ def test_a_typed_vertex_that_cannot_be_a_source_is_refused(screen, mesh_file):
     assert s.window._source_box.value() == 3
 
 
+def test_a_typed_vertex_id_is_taken_as_it_was_typed_and_the_keys_go_back_to_the_panels(screen, mesh_file):
+    from qtpy.QtTest import QTest
+
+    s = screen()
+    s.open(mesh_file(bumpy(800)), 3)
+    box, panel = s.window._source_box, s.panels[0].interactor
+    s.until(lambda: s.window.focusWidget() is panel)
+    for typed, source in (("99999", 3), ("42", 42)):
+        box.setFocus()
+        box.selectAll()
+        QTest.keyClicks(box, typed + "\r")
+        s.settle()
+        assert s.session.state.source == box.value() == source
+        assert s.window.focusWidget() is panel
+    assert len(s.refusals) == 1
+    assert "no vertex 99999" in s.refusals[0]
+
+
 def test_a_dropped_file_is_opened(screen, mesh_file):
     from qtpy import QtCore, QtGui
 
