@@ -17,6 +17,7 @@ from ..samples import mesh_path, sample_names, thumbnail
 from ..session import Session
 from ..state import ViewerState
 from .look import STYLE_SHEET, LargeIcons
+from .status_bar import StatusBar
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 HOVER_DELAY_MS = 25
@@ -50,7 +51,11 @@ class MainWindow(QtWidgets.QMainWindow):
         self._hovered: int | None = None
         self._waiting: list[Callable[[], None]] = []
         self.quiet = False
-        self._fill_status_bar()
+        self.status = StatusBar(self)
+        self.status.cancelled.connect(self.session.cancel)
+        self.setStatusBar(self.status)
+        self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
+        self._progress_soon.timeout.connect(self._show_progress)
         self._fill_tool_bar()
         self._fill_menus()
         placeholder = QtWidgets.QLabel("Opening …", objectName="hint")
@@ -139,14 +144,7 @@ class MainWindow(QtWidgets.QMainWindow):
     def _show_progress(self) -> None:
         self._progress_soon.stop()
         going = [self.session.progress[name] for name in sorted(self.session.progress)]
-        self._progress.setVisible(bool(going))
-        self._cancel.setVisible(bool(going))
-        self._doing.setText("   ·   ".join(dict.fromkeys(f"{text} {fraction:.0%}" for fraction, text in going)))
-        if going:
-            # Painted at once it would be by itself, and the labels once more after it.
-            self._progress.setUpdatesEnabled(False)
-            self._progress.setValue(round(1000 * sum(fraction for fraction, _ in going) / len(going)))
-            self._progress.setUpdatesEnabled(True)
+        self.status.show_progress(going)
         for index in range(len(self.panels)):
             self._note(index)
         if self.session.is_complete and not going:
@@ -246,10 +244,10 @@ class MainWindow(QtWidgets.QMainWindow):
             panel.scene.mark_pointer(position)
             panel.show_value(vertex)
         if vertex is None:
-            self._pointer.setText("")
+            self.status.pointer.setText("")
         else:
             x, y, z = position
-            self._pointer.setText(f"vertex {vertex}   ({x:.4g}, {y:.4g}, {z:.4g})")
+            self.status.pointer.setText(f"vertex {vertex}   ({x:.4g}, {y:.4g}, {z:.4g})")
         self._repaint_soon.start()
 
     # ------------------------------------------------------------------ the user's commands
@@ -368,31 +366,8 @@ class MainWindow(QtWidgets.QMainWindow):
         about = self.menuBar().addMenu("&Help")
         _action(about, "&Mouse and keys", self._show_help, "F1")
 
-    def _fill_status_bar(self) -> None:
-        bar = self.statusBar()
-        if QtGui.QGuiApplication.platformName() == "xcb":
-            # A native window of its own.  As a part of the main window, each change of a word in it would have OpenGL
-            # put the whole window together anew: 15 ms in software, and 100 ms while the processors are busy.
-            bar.setAttribute(QtCore.Qt.WidgetAttribute.WA_DontCreateNativeAncestors)
-            bar.setAttribute(QtCore.Qt.WidgetAttribute.WA_NativeWindow)
-        self._pointer = QtWidgets.QLabel("")
-        self._message = QtWidgets.QLabel("")
-        self._doing = QtWidgets.QLabel("")
-        self._progress = QtWidgets.QProgressBar(maximum=1000, textVisible=False)
-        self._progress.setFixedWidth(180)
-        self._cancel = QtWidgets.QPushButton("Cancel")
-        self._cancel.clicked.connect(lambda: self.session.cancel())
-        bar.addWidget(self._message, 1)
-        bar.addWidget(self._pointer)
-        for widget in (self._doing, self._progress, self._cancel):
-            bar.addPermanentWidget(widget)
-        self._progress.hide()
-        self._cancel.hide()
-        self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
-        self._progress_soon.timeout.connect(self._show_progress)
-
     def _say(self, text: str) -> None:
-        self._message.setText(text)
+        self.status.message.setText(text)
 
     def _show_help(self) -> None:
         QtWidgets.QMessageBox.information(self, "Mouse and keys", HELP)

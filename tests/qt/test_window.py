@@ -57,7 +57,7 @@ def test_pointing_shows_the_values_of_the_same_vertex_everywhere(screen, mesh_fi
     QTest.mouseMove(s.panels[2].interactor, s.point_of(s.panels[2], target))
     s.until(lambda: s.window._hovered == target)
     s.settle()
-    assert f"vertex {target} " in s.window._pointer.text()
+    assert f"vertex {target} " in s.window.status.pointer.text()
     for panel, answer in zip(s.panels, s.session.answers, strict=True):
         assert panel.value.text().startswith(f"{answer.field[target]:.5g} ")
         assert f"{answer.field[target] / answer.maximum:.1%}" in panel.value.text()
@@ -75,8 +75,8 @@ def test_what_is_not_connected_is_grey_and_said_to_be(screen, mesh_file):
         point = s.point_of(panel, 64)
         patch = picture[point.y() - 1 : point.y() + 4, point.x() - 1 : point.x() + 2].reshape(-1, 3).astype(int)
         assert np.ptp(patch, axis=1).min() <= 8
-    assert "2 components" in s.window._message.text()
-    assert "1 vertices without a face" in s.window._message.text()
+    assert "2 components" in s.window.status.message.text()
+    assert "1 vertices without a face" in s.window.status.message.text()
 
 
 def test_the_slider_changes_the_diffusion_time(screen, mesh_file):
@@ -250,10 +250,10 @@ def test_a_failed_screenshot_leaves_the_old_file(screen, mesh_file, tmp_path):
 def test_progress_and_cancel_are_shown_while_something_is_computed(screen, mesh_file):
     s = screen(ViewerState(panels=(PanelState("diffusion", t=1 / 15),)))
     s.window.open(mesh_file(bumpy(12000)))
-    s.until(lambda: s.window._progress.isVisible() and s.window._doing.text())
-    assert s.window._cancel.isVisible()
-    s.window._cancel.click()
-    s.until(lambda: not s.window._progress.isVisible(), seconds=5)
+    s.until(lambda: s.window.status.progress.isVisible() and s.window.status.doing.text())
+    assert s.window.status.cancel.isVisible()
+    s.window.status.cancel.click()
+    s.until(lambda: not s.window.status.progress.isVisible(), seconds=5)
     assert s.panels[0].hint.text() == "stopped; click a point to ask again"
 
 
@@ -263,13 +263,13 @@ def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows
     for percent in range(50):
         window.session.progress["something"] = (percent / 100, "solving")
         window.progress_changed()
-    assert window._doing.text() == ""
-    s.until(lambda: window._doing.text() == "solving 49%")
-    assert window._progress.value() == 490
+    assert window.status.doing.text() == ""
+    s.until(lambda: window.status.doing.text() == "solving 49%")
+    assert window.status.progress.value() == 490
     window.session.progress.clear()
     window.progress_changed()
-    assert window._doing.text() == ""
-    assert not window._progress.isVisible()
+    assert window.status.doing.text() == ""
+    assert not window.status.progress.isVisible()
 
 
 def test_the_status_bar_tells_how_far_everything_is_and_a_panel_what_it_waits_for(screen, mesh_file):
@@ -279,9 +279,9 @@ def test_the_status_bar_tells_how_far_everything_is_and_a_panel_what_it_waits_fo
     window.session.answers[2] = None
     window.session.progress.update({"panel 0": (0.2, "Factoring"), "panel 1": (0.4, "eigenpairs: solving")})
     window.progress_changed()
-    s.until(window._doing.text)
-    assert window._doing.text() == "Factoring 20%   ·   eigenpairs: solving 40%"
-    assert window._progress.value() == 300
+    s.until(window.status.doing.text)
+    assert window.status.doing.text() == "Factoring 20%   ·   eigenpairs: solving 40%"
+    assert window.status.progress.value() == 300
     assert [panel.hint.text() for panel in window.panels] == ["Factoring …", "eigenpairs …", "waiting …"]
 
 
