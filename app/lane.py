@@ -1,6 +1,5 @@
 """A lane: one background thread that works on the latest request and forgets the ones before."""
 
-import math
 import os
 import sys
 import threading
@@ -14,6 +13,8 @@ from bihdist_core.progress import Progress
 Request = TypeVar("Request")
 
 REPORTS_PER_SECOND = 20
+QUIET_SECONDS = 0.15
+"""Work shorter than this is not reported: it would only flicker."""
 NICE = 10
 """By how much a lane, and the threads it starts, stand back for the window's thread and for drawing."""
 
@@ -48,9 +49,9 @@ class Lane(Generic[Request]):
             self._serial += 1
             self._changed.notify()
 
-    def progress(self, is_wanted: Callable[[Request], bool]) -> Progress:
-        """A progress callback for the work on this lane (see the class)."""
-        last = -math.inf
+    def progress(self, is_wanted: Callable[[Request], bool], quiet: float = QUIET_SECONDS) -> Progress:
+        """A progress callback for the work on this lane (see the class), silent for the first `quiet` seconds."""
+        last = time.monotonic() + quiet - 1 / REPORTS_PER_SECOND
 
         def report(fraction: float, text: str) -> None:
             nonlocal last

@@ -152,7 +152,8 @@ class Session:
 
     # ------------------------------------------------------------------ loading
     def _load(self, path: str, lane: Lane[str]) -> None:
-        report = lane.progress(lambda latest: latest is path)
+        # The first report comes before the reading, which has no others.
+        report = lane.progress(lambda latest: latest is path, quiet=0)
         report(0, f"reading {os.path.basename(path)}")
         surface = read_surface(path)
         laplacian = Laplacian(surface, self.state.areas)
@@ -162,7 +163,7 @@ class Session:
             source = first_source(surface)
         source = surface.check_vertex(source)
         prepared = self._prepare(surface)
-        report(1, "")
+        report(1, f"assembling {surface.name}")
         self._post(lambda: self._loaded(path, laplacian, source, prepared))
 
     def _loaded(self, path: str, laplacian: Laplacian, source: int, prepared: Any) -> None:

@@ -272,6 +272,18 @@ def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows
     assert not window.status.progress.isVisible()
 
 
+def test_quick_answers_change_no_panel_s_words(screen, mesh_file, monkeypatch):
+    s = screen()
+    s.open(mesh_file(bumpy(800)))
+    notes = []
+    for panel in s.panels:
+        monkeypatch.setattr(panel, "show_note", notes.append)
+    s.session.select_source(42)
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert set(notes) == {""}
+
+
 def test_the_status_bar_tells_how_far_everything_is_and_a_panel_what_it_waits_for(screen, mesh_file):
     s = screen()
     window = s.window
