@@ -2,13 +2,17 @@
 
 import numpy as np
 
+from .accuracy import accuracy_of_pairs
 from .distance import Distance, root
 from .laplacian import Component, Laplacian
 from .progress import Progress
-from .surface import Surface
+from .surface import FLAT, Surface
 from .tall import point_distances
 
 SMALL_SET = 64
+NEAR, NEAR_BY_HEIGHT, MOST_NEAR = 1e-5, 1e-9, 16
+"""Distances below this share of the maximum, or, on a mesh with thin faces, the second over the height of the thinnest,
+are computed again as pairs, up to so many of them: there a difference of the Green's function has few digits left."""
 
 
 class BiharmonicDistance(Distance):
@@ -39,6 +43,14 @@ class BiharmonicDistance(Distance):
             distances[rows, columns] = root(values, largest)
 
         component.each_biharmonic_piece(index, finish)
+        share = max(NEAR, NEAR_BY_HEIGHT / max(component.surface.face_heights.min(), FLAT))
+        for column, source in enumerate(index):
+            field = distances[:, column]
+            near = np.flatnonzero(field < share * np.sqrt(largest))
+            near = near[near != source]
+            if len(near):
+                near = near[np.argsort(field[near], kind="stable")[:MOST_NEAR]]
+                field[near] = self._pairwise(component, np.append(source, near))[0, 1:]
         return distances
 
     def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
@@ -50,3 +62,13 @@ class BiharmonicDistance(Distance):
         green = half.T @ half
         squares = np.diag(green) + np.diag(green)[:, None] - 2 * green
         return root(squares, green.max())
+
+    def _estimated_accuracy(self, component: Component) -> float:
+        def form(b: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+            y = component.centred(y)
+            y *= component.areas[:, None] ** 0.5
+            squares = np.einsum("ij,ij->j", y, y)
+            y *= component.areas[:, None] ** 0.5
+            return squares, component.solve(y), 2
+
+        return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), form)

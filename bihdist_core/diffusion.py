@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from .accuracy import SPARE
 from .errors import ParameterError
 from .laplacian import Component, Laplacian
 from .progress import Progress, part
-from .spectral import SpectralDistance
+from .spectral import SpectralDistance, checked_number
 from .spectrum import Spectrum
 from .surface import Surface
 
@@ -31,9 +32,9 @@ class DiffusionDistance(SpectralDistance):
         tolerance: float = 1e-8,
         progress: Progress | None = None,
     ) -> None:
-        if not 0 < t < np.inf:
+        if not 0 < checked_number(t, "The diffusion time t") < np.inf:
             raise ParameterError(f"The diffusion time t is {t:g}; it must be positive.")
-        if not 0 < tolerance < 1:
+        if not 0 < checked_number(tolerance, "The tolerance") < 1:
             raise ParameterError(f"The tolerance is {tolerance:g}; it must lie between 0 and 1.")
         super().__init__(laplacian)
         self.t, self.tolerance = float(t), float(tolerance)
@@ -45,7 +46,7 @@ class DiffusionDistance(SpectralDistance):
         spectrum = component.spectrum(FIRST_BATCH, part(progress, 0, 0.3))
         first = spectrum.eigenvalues[0]
         last = first * (1 - np.log(self.tolerance) / self.t)
-        most = len(component.vertices) - 1
+        most = component.most_eigenpairs
         while spectrum.eigenvalues[-1] < last and len(spectrum.eigenvalues) < most:
             have = len(spectrum.eigenvalues)
             # Weyl's law, lambda_k ~ 4 pi k / area, with the constant of the last pair known.
@@ -60,6 +61,28 @@ class DiffusionDistance(SpectralDistance):
         count = int(np.searchsorted(spectrum.eigenvalues, last))
         self._omitted[component.index] = float(weights[count]) if count < len(weights) else 0.0
         return spectrum, weights[:count]
+
+    def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
+        # The weights depend on the first eigenvalue too.
+        return 2 * self.t * eigenvalues / eigenvalues[0]
+
+    def _missing(self, component: Component, source: int, squares: np.ndarray, changes: np.ndarray) -> np.ndarray:
+        """The terms that are known without being used, and an estimate of the others.
+
+        By Weyl's law, lambda_k ~ 4 pi k / area, and (phi_k(x) - phi_k(y))^2 ~ min(2, lambda_k r^2 / 2) / area, in the
+        mean: at a tip it can be several times as much.
+        """
+        spectrum, count = component.spectrum(1), squares.shape[1]
+        values = spectrum.eigenvalues
+        if count == component.most_eigenpairs:
+            return np.zeros(len(squares))
+        weights = np.exp(-self.t * values / values[0])
+        others = spectrum.eigenvectors[:, count:]
+        known = (others - others[source]) ** 2 @ weights[count:]
+        step = values[0] / self.t
+        far = weights[-1] * step / (2 * np.pi)
+        near = weights[-1] * step * (values[-1] + step) * component.areas.sum() / (4 * np.pi * (weights @ values))
+        return SPARE * known + SPARE**2 * np.minimum(far, near * squares.sum(axis=1))
 
     def pair_count(self, vertex: int) -> int:
         """How many eigenpairs the sum has on the component of a vertex."""
@@ -77,10 +100,10 @@ class DiffusionDistance(SpectralDistance):
         count = points.shape[1]
         vectors = component.spectrum(count).eigenvectors[:, :count]
         known = np.einsum("ij,ij->i", vectors - vectors[source], vectors - vectors[source])
-        tail = self._omitted[component.index] * (1 / component.areas + 1 / component.areas[source] - known)
-        tail = np.maximum(tail, 0)
         field = self.from_source(vertex)[component.vertices]
         with np.errstate(divide="ignore", invalid="ignore"):
+            tail = self._omitted[component.index] * (1 / component.areas + 1 / component.areas[source] - known)
+            tail = np.maximum(tail, 0)
             error = np.fmin(np.sqrt(tail), tail / field)
         error[source] = 0
         bound = np.full(len(self.surface.vertices), np.nan)

@@ -6,12 +6,13 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
+from .accuracy import Certificate, rounded_up
 from .errors import SolverError
 from .laplacian import Component, Laplacian, as_laplacian
 from .progress import Progress
 from .surface import Surface
 
-ROUNDING = 1e-9
+ROUNDING = 1e-7
 """Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""
 
 
@@ -31,6 +32,8 @@ class Distance(ABC):
     def __init__(self, laplacian: Laplacian | Surface) -> None:
         self.laplacian = as_laplacian(laplacian)
         self.surface = self.laplacian.surface
+        self._asked: set[int] = set()
+        self._accuracies: dict[int, float | None] = {}
 
     @property
     def unit(self) -> str:
@@ -38,9 +41,56 @@ class Distance(ABC):
         known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units"}
         return known.get(self.length_power, f"mesh units^{self.length_power:g}")
 
+    @property
+    def accuracy(self) -> float | None:
+        """How far a field may be from what `label` says, as a share of its maximum: an estimate on the safe side.
+
+        It holds for the components that were asked about (the largest, if none was) and is made when first wanted,
+        in less than a tenth of the time the distance took to construct.  None for geodesic distances.
+        """
+        known = [self._accuracy_on(self.laplacian.components[index]) for index in self._asked or {0}]
+        return None if None in known else max(a for a in known if a is not None)
+
+    def certificate(self) -> Certificate:
+        """The accuracy in words.
+
+        SolverError if it is worse than a thousandth: then the answers so far should not be used.
+        """
+        accuracy = self.accuracy
+        try:
+            return Certificate.of(accuracy)
+        except ValueError:
+            off = "by any amount" if accuracy == np.inf else f"by {rounded_up(accuracy or 0)} of its maximum"
+            raise SolverError(
+                f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy()}"
+            ) from None
+
+    def _remedy(self) -> str:
+        """What would help where the accuracy is too poor: a sentence."""
+        heights = self.surface.face_heights
+        flattest = int(heights.argmin())
+        return (
+            f"Its faces are too thin, or differ too much in size (face {flattest} is {heights[flattest]:.0e} of its "
+            "longest side high); remeshing would help."
+        )
+
+    def _accuracy_on(self, component: Component) -> float | None:
+        if component.index not in self._accuracies:
+            self.prepare(component)
+            # Where numbers end, the estimate is infinite.
+            with np.errstate(all="ignore"):
+                accuracy = self._estimated_accuracy(component)
+            self._accuracies[component.index] = np.inf if accuracy is not None and np.isnan(accuracy) else accuracy
+        return self._accuracies[component.index]
+
+    def _estimated_accuracy(self, component: Component) -> float | None:
+        """`accuracy` on one component."""
+        return None
+
     def from_source(self, vertex: int, progress: Progress | None = None) -> np.ndarray:
         """(n,) distance of every vertex from one; 0 at the source."""
         component = self.laplacian.component_of(vertex)
+        self._asked.add(component.index)
         self.prepare(component, progress)
         field = self._columns(component, component.local(np.array([vertex])), progress)[:, 0]
         if len(field) < len(self.surface.vertices):
@@ -96,6 +146,7 @@ class Distance(ABC):
         """Each component with the positions of its vertices among ids (k,)."""
         label = self.surface.component_of_vertex[ids]
         for index in np.unique(label):
+            self._asked.add(int(index))
             yield self.laplacian.components[index], np.flatnonzero(label == index)
 
 

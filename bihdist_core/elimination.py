@@ -4,7 +4,7 @@ With the pivots' block F, the rows below them R and the rest Q of a front,
     K = F^-1    N = -R K    Schur complement S = Q + N R^T, added into the parent's front.
 Every quantity X of the matrix L carries its derivative along L + t A, since d/dt (L + t A)^-1 = -G A G with
 G = L^-1.  K1 and N1 are minus the derivatives of K and N, so that all that follows adds up to +G A G:
-    K1 = K F1 K    N1 = R1 K + N F1 K    S1 = Q1 - X - X^T,  X = (R1 K + N1) R^T / 2.
+    K1 = K F1 K    N1 = (R1 + N F1) K    S1 = Q1 + X + X^T,  X = (R1 + N F1 / 2) N^T.
 
 What is computed with these later is computed with the complex numbers K + i K1 and N + i N1: if A is scaled so far
 down that its square is lost in rounding, complex arithmetic is the arithmetic of derivatives to the last digit
@@ -22,6 +22,9 @@ from .worker_threads import Job
 
 SINGULAR = 1e-14
 """A pivot below this share of its diagonal entry is nothing but rounding."""
+STIFF = 3e-2
+"""If one falls below this share, K has lost digits that matter: beside a flat face, of height h, rows have entries of
+size 1 / h, and what K lacks comes back in S = Q + N R^T magnified by as much once more."""
 
 
 @dataclass
@@ -162,26 +165,29 @@ def _eliminate(
 
     scale (b, c): the matrix' diagonal there.  Raises SolverError if a pivot block is not positive definite.
     """
-    R, Q = F[0][:, c:, :c], F[0][:, c:, c:]
-    K = _inverse(F[0][:, :c, :c], scale)
+    P, R, Q = F[0][:, :c, :c], F[0][:, c:, :c], F[0][:, c:, c:]
+    K, is_stiff = _inverse(P, scale)
     N = R @ K
     np.negative(N, out=N)
+    if is_stiff:
+        # One step of iterative refinement: N P = -R then holds to rounding, as after a solve with a Cholesky factor.
+        N -= (R + N @ P) @ K
     S = N @ R.swapaxes(1, 2)
     S += Q
     if leaf_areas is not None:
         T = leaf_areas[:, :, None] * K
         N1 = N @ T
-        X = (N1 * -0.5) @ R.swapaxes(1, 2)
+        X = (N * (0.5 * leaf_areas[:, None, :])) @ N.swapaxes(1, 2)
         X += X.swapaxes(1, 2).copy()
         return Block(K, N, K @ T, _complex(N, N1)), [S, X]
     if len(F) == 1:
         return Block(K, N), [S]
-    T, V = F[1][:, :c, :c] @ K, F[1][:, c:, :c] @ K
-    N1 = N @ T
-    N1 += V
-    V += N1
-    V *= -0.5
-    X = V @ R.swapaxes(1, 2)
+    T, U = F[1][:, :c, :c] @ K, N @ F[1][:, :c, :c]
+    U += F[1][:, c:, :c]
+    N1 = U @ K
+    U += F[1][:, c:, :c]
+    U *= 0.5
+    X = U @ N.swapaxes(1, 2)
     X += X.swapaxes(1, 2).copy()
     X += F[1][:, c:, c:]
     return Block(K, N, K @ T, _complex(N, N1)), [S, X]
@@ -193,12 +199,16 @@ def _complex(real: np.ndarray, imaginary: np.ndarray) -> np.ndarray:
     return result
 
 
-def _inverse(F: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """(b, c, c) inverses; the Cholesky factor costs a tenth of them and tells what is not positive definite."""
+def _inverse(F: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, bool]:
+    """(b, c, c) inverses, and whether they have lost digits.
+
+    The Cholesky factor costs a tenth of them and tells both that and what is not positive definite.
+    """
     try:
         root = np.einsum("bii->bi", np.linalg.cholesky(F))
-        if (root**2 > SINGULAR * scale).all():
-            return np.linalg.inv(F)
+        left = (root**2 / scale).min()
+        if left > SINGULAR:
+            return np.linalg.inv(F), bool(left < STIFF)
     except np.linalg.LinAlgError:
         pass
     raise SolverError("The matrix is not positive definite to working accuracy, so it cannot be factored.")

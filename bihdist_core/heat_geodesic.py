@@ -20,6 +20,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from .errors import ParameterError, SolverError
+from .operators import face_sides
 from .progress import Progress, silent
 from .surface import Surface, dots
 
@@ -123,21 +124,27 @@ class _FaceFlow:
     With sides e1, e2 from corner 0 and differences d1, d2 of u along them, c = d1 e2 - d2 e1 is grad u turned by a
     right angle within the face and scaled by twice its area.  So c / |c| is X turned, and the integrals of
     grad(hat_k) . X are -e2 . c / (2 |c|) for corner 1, e1 . c / (2 |c|) for corner 2 and minus their sum for corner 0:
-    no division by an area, hence no special case for flat faces.
+    no division by an area.  Of a flat face the direction is that of the field that its spring gives, hence with the
+    spring's height; the integrals are those of the true face.
     """
 
     def __init__(self, surface: Surface) -> None:
-        x, self._corners = surface.vertices, np.ascontiguousarray(surface.faces.T)
-        self._n = len(x)
-        # Coordinates first: each step below then runs over contiguous memory.
-        self._e1, self._e2 = (np.ascontiguousarray((x[self._corners[k]] - x[self._corners[0]]).T) for k in (1, 2))
+        self._n, self._corners = len(surface.vertices), np.ascontiguousarray(surface.faces.T)
+        _, back, self._e1 = face_sides(surface)
+        self._e2 = np.negative(back, out=back)
+        self._true1, self._true2 = self._e1, self._e2
+        if len(surface.flat_faces):
+            _, back, self._true1 = face_sides(surface, true=True)
+            self._true2 = np.negative(back, out=back)
 
     def divergence(self, u: np.ndarray, faces: np.ndarray | None = None) -> np.ndarray:
         """(n,) div X of -grad u / |grad u| on all or some (k,) faces; a face where u is constant has X = 0."""
         if faces is None:
-            corners, e1, e2 = self._corners, self._e1, self._e2
+            corners, e1, e2, true1, true2 = self._corners, self._e1, self._e2, self._true1, self._true2
         else:
-            corners, e1, e2 = self._corners[:, faces], self._e1[:, faces], self._e2[:, faces]
+            corners, e1, e2, true1, true2 = (
+                x[:, faces] for x in (self._corners, self._e1, self._e2, self._true1, self._true2)
+            )
         b = np.empty(corners.shape)
         for start in range(0, corners.shape[1], BLOCK):
             part = np.s_[:, start : start + BLOCK]
@@ -152,8 +159,8 @@ class _FaceFlow:
             c -= d2 * e1[part]
             length = np.sqrt(dots(c, c))
             half = np.divide(0.5, length, out=np.zeros_like(length), where=length > 0)
-            b[1, start : start + BLOCK] = -half * dots(e2[part], c)
-            b[2, start : start + BLOCK] = half * dots(e1[part], c)
+            b[1, start : start + BLOCK] = -half * dots(true2[part], c)
+            b[2, start : start + BLOCK] = half * dots(true1[part], c)
         np.add(b[1], b[2], out=b[0])
         np.negative(b[0], out=b[0])
         return np.bincount(corners.ravel(), b.ravel(), self._n)

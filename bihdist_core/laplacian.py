@@ -16,7 +16,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from .elimination_tree import EliminationTree
-from .errors import ParameterError
+from .errors import ParameterError, SolverError
 from .factor import Factor, ReceivePiece
 from .operators import AREAS, stiffness, vertex_areas
 from .progress import Progress, part
@@ -32,6 +32,8 @@ class Laplacian:
     """
 
     def __init__(self, surface: Surface, areas: str = "voronoi") -> None:
+        if not isinstance(surface, Surface):
+            raise ParameterError(f"A Laplacian is that of a Surface, not of {type(surface).__name__}.")
         if areas not in AREAS:
             raise ParameterError(f"There are no {areas!r} vertex areas; choose one of {', '.join(AREAS)}.")
         self.surface = surface
@@ -120,9 +122,14 @@ class Component:
                 tree = self.tree(part(progress, 0, 0.4))
                 areas = self.areas.copy()
                 areas[self.pin] = 0
-                self._factor = Factor(
-                    tree, _pinned(self.stiffness, self.pin), areas if diagonals else None, part(progress, 0.4, 1)
-                )
+                matrix = _pinned(self.stiffness, self.pin)
+                try:
+                    self._factor = Factor(tree, matrix, areas if diagonals else None, part(progress, 0.4, 1))
+                except SolverError as error:
+                    raise SolverError(
+                        f"The Laplacian of {self.surface.name} cannot be factored: its faces are too thin, or differ "
+                        f"too much in size. Remeshing would help. ({error})"
+                    ) from None
                 self._factor_has_diagonals = diagonals
             return self._factor
 
@@ -171,17 +178,25 @@ class Component:
         self.factor(diagonals=True).each_sandwich_piece(index, centred)
 
     # ------------------------------------------------------------------ the spectrum
+    @property
+    def most_eigenpairs(self) -> int:
+        """How many there are besides the constant: as many as vertices with an area, less one."""
+        return int((self.areas > 0).sum()) - 1
+
     def spectrum(self, count: int, progress: Progress | None = None) -> Spectrum:
-        """At least the first `count` eigenpairs (at most m - 1 there are); grown and kept."""
-        count = min(count, len(self.vertices) - 1)
+        """At least the first `count` eigenpairs (of at most `most_eigenpairs`); grown and kept."""
+        count = min(count, self.most_eigenpairs)
         with self._spectrum_lock:
             have = self._spectrum
             if have is not None and len(have.eigenvalues) >= count:
                 return have
             self.factor(part(progress, 0, 0.1))
-            self._spectrum = smallest_eigenpairs(
-                self.stiffness, self.areas, self.solve, count, start=have, progress=part(progress, 0.1, 1)
-            )
+            try:
+                self._spectrum = smallest_eigenpairs(
+                    self.stiffness, self.areas, self.solve, count, start=have, progress=part(progress, 0.1, 1)
+                )
+            except SolverError as error:
+                raise SolverError(f"{self.surface.name}: {error}") from None
             return self._spectrum
 
 
@@ -193,7 +208,7 @@ def eigenpairs(laplacian: "Laplacian | Surface", count: int, progress: Progress 
     """
     laplacian = as_laplacian(laplacian)
     components = laplacian.components
-    most = sum(len(c.vertices) - 1 for c in components)
+    most = sum(c.most_eigenpairs for c in components)
     if not 1 <= count <= most:
         raise ParameterError(f"{laplacian.surface.name} has {most} eigenpairs besides constants; {count} asked for.")
     spectra = [

@@ -5,32 +5,39 @@ semi-definite, zero row sums; no unit.  A is the diagonal of vertex areas; unit 
 leaves the 1/2 out, which scales every biharmonic distance by 1/2 and changes nothing else; with it the discrete
 distance converges to the continuous one.  At a boundary the same formula gives Neumann conditions (section 3.2).
 
-A face of no area has no cotangents.  Its three edge lengths are made longer by a millionth of the longest, which
-makes it a proper, thin triangle; the other faces stay exactly as they are.
+Faces of (nearly) no area have no cotangents that could be used; what they get instead, `flat_faces` tells.  All other
+faces stay exactly as they are.
 """
 
 import numpy as np
 import scipy.sparse as sp
 
 from .errors import ParameterError
-from .surface import Surface, dots
+from .flat_faces import FlatFaces
+from .surface import FLAT, Surface, dots
 
 AREAS = ("voronoi", "barycentric")
-THICKEN = 1e-6
 
 
 def stiffness(surface: Surface) -> sp.csr_matrix:
     """(n, n) cotangent stiffness matrix; the rows of unreferenced vertices are empty."""
     n, f = len(surface.vertices), surface.faces
-    cotangents, _, _ = _corners(surface)
     i, j = (np.concatenate([f[:, (k + s) % 3] for k in range(3)]) for s in (1, 2))
-    half = sp.coo_matrix((cotangents.ravel() / 2, (i, j)), shape=(n, n)).tocsr()
+    half = sp.coo_matrix((face_weights(surface).ravel(), (i, j)), shape=(n, n)).tocsr()
     weights = half + half.T
     return (sp.diags_array(np.asarray(weights.sum(axis=1)).ravel()) - weights).tocsr()
 
 
+def face_weights(surface: Surface) -> np.ndarray:
+    """(3, m) half the cotangent of each corner: what a face adds to the weight of the side opposite to it."""
+    weights = _corners(surface)[0] / 2
+    if len(surface.flat_faces):
+        weights[:, surface.flat_faces] = FlatFaces.of(surface).weights()
+    return weights
+
+
 def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
-    """(n,) areas, unit length squared, that sum to the surface's area; 0 for unreferenced vertices.
+    """(n,) areas, unit length squared, that sum to the surface's area; 0 for vertices that have no face, or no area.
 
     "voronoi": mixed Voronoi areas (Meyer et al. 2002), as the paper's text; "barycentric": a third of each face's
     area to each of its vertices, as its authors' program.  Raises ParameterError for any other word.
@@ -46,23 +53,45 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
         share = (part.sum(axis=0) - part) / 8
         obtuse = cotangents < 0
         share = np.where(obtuse.any(axis=0), np.where(obtuse, area / 2, area / 4), share)
-    return np.bincount(surface.faces.T.ravel(), share.ravel(), len(surface.vertices))
+    flat, n = surface.flat_faces, len(surface.vertices)
+    if not len(flat):
+        return np.bincount(surface.faces.T.ravel(), share.ravel(), n)
+    share = share.copy()
+    share[:, flat] *= surface.face_heights[flat] / FLAT
+    areas = np.bincount(surface.faces.T.ravel(), share.ravel(), n)
+    # A vertex that has flat faces only may be a tip of much area.  Next to none is taken for none: what is divided by
+    # such an area would be lost.  But a component needs some.
+    proper = np.zeros(n, bool)
+    proper[np.delete(surface.faces, flat, axis=0)] = True
+    component = surface.component_of_vertex
+    small = FLAT * (np.median(areas[proper]) if proper.any() else surface.mean_edge_length**2 or 1.0)
+    faint = (component >= 0) & ~proper & (areas < small)
+    areas[faint] = 0
+    bare = faint & (np.bincount(component + 1, areas)[component + 1] == 0)
+    areas[bare] = small
+    return areas
+
+
+def face_sides(surface: Surface, true: bool = False) -> list[np.ndarray]:
+    """Of each face three vectors along its sides, (3, m) each, as `Surface.sides`; flat faces as in `FlatFaces.sides`.
+
+    Those of a flat face lie in a plane of their own: what is made of them must not depend on where that is.
+    """
+    side = surface.sides()
+    if len(surface.flat_faces):
+        for all_faces, flat in zip(side, FlatFaces.of(surface).sides(true), strict=True):
+            all_faces[:, surface.flat_faces] = flat
+    return side
 
 
 def _corners(surface: Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(3, m) cotangent of each corner, (3, m) squared length of the side opposite to it, (m,) face areas."""
-    side = surface.sides()
+    side = face_sides(surface)
     squares = np.stack([dots(s, s) for s in side])
     products = np.stack([-dots(side[(k + 1) % 3], side[(k + 2) % 3]) for k in range(3)])
     area = surface.face_areas.copy()
     flat = surface.flat_faces
     if len(flat):
-        lengths = np.sqrt(squares[:, flat])
-        longest = lengths.max(axis=0)
-        lengths += THICKEN * np.where(longest > 0, longest, surface.mean_edge_length)
-        a, b, c = np.sort(lengths, axis=0)[::-1]
-        # Kahan's form of Heron's formula keeps its digits on thin triangles.
-        area[flat] = np.sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))) / 4
-        squares[:, flat] = lengths**2
-        products[:, flat] = squares[:, flat].sum(axis=0) / 2 - squares[:, flat]
+        (ax, ay), (bx, by) = side[0][:2, flat], side[1][:2, flat]
+        area[flat] = np.abs(ax * by - ay * bx) / 2
     return products / (2 * area), squares, area

@@ -76,20 +76,27 @@ def smallest_eigenpairs(
         centre(y, areas)
         return y
 
-    with one_blas_thread():
+    def own() -> np.ndarray:
         if dense_is_faster(len(areas), count):
-            vectors = _dense(areas, apply, count, part(progress, 0, 0.9))
-        else:
-            vectors = largest_eigenpairs(apply, areas, count, tolerance, known, part(progress, 0, 0.95))
-        spectrum = _refined(stiffness, areas, vectors, part(progress, 0.95, 1))
-        if not _accepted(spectrum, stiffness, areas, tolerance):
-            vectors = _arnoldi(areas, apply, count, part(progress, 0.5, 0.95))
-            spectrum = _refined(stiffness, areas, vectors, part(progress, 0.95, 1))
-        if not _accepted(spectrum, stiffness, areas, tolerance):
-            worst = spectrum.residuals.max()
-            raise SolverError(f"The eigenpairs have residuals up to {worst:.1e}; {tolerance:.1e} was asked for.")
-    progress(1.0, f"{count} eigenpairs")
-    return spectrum
+            return _dense(areas, apply, count, part(progress, 0, 0.9))
+        return largest_eigenpairs(apply, areas, count, tolerance, known, part(progress, 0, 0.95))
+
+    for attempt in (own, lambda: _arnoldi(areas, apply, count, part(progress, 0.5, 0.95))):
+        try:
+            # Where numbers end, the check below says so.
+            with one_blas_thread(), np.errstate(all="ignore"):
+                spectrum = _refined(stiffness, areas, attempt(), part(progress, 0.95, 1))
+                accepted = _accepted(spectrum, stiffness, areas, tolerance)
+        except np.linalg.LinAlgError:
+            continue
+        if accepted:
+            progress(1.0, f"{count} eigenpairs")
+            return spectrum
+    raise SolverError(
+        f"The first {count} eigenpairs cannot be found accurately: the mesh has faces that are too long and thin, or "
+        "differ too much in size. Remeshing would help; biharmonic, commute-time and geodesic distance need no "
+        "eigenpairs."
+    )
 
 
 def dense_is_faster(n: int, count: int) -> bool:
@@ -150,7 +157,7 @@ def _arnoldi(
     try:
         inverse, vectors = eigsh(operator, count, v0=root * np.random.default_rng(0).standard_normal(n))
     except ArpackError as error:
-        raise SolverError(f"The eigenpairs did not converge ({error}).") from None
+        raise np.linalg.LinAlgError(str(error)) from None
     return apply(_centred(unroot[:, None] * vectors, areas)) / inverse
 
 

@@ -12,8 +12,8 @@ from .errors import MeshError, VertexError
 Coordinates = np.ndarray | list[np.ndarray]
 """(3, m): vectors, each coordinate for itself."""
 
-FLAT = 1e-10
-"""A face whose height is at most this share of its longest edge counts as having no area."""
+FLAT = 1e-7
+"""A face whose height is less than this share of its longest side is flat: operators take it to be that high."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,10 +191,15 @@ class Surface:
         return self._face_measures[0]
 
     @cached_property
-    def flat_faces(self) -> np.ndarray:
-        """(k,) faces of (nearly) no area: height at most `FLAT` times the longest edge."""
+    def face_heights(self) -> np.ndarray:
+        """(m,) each face's height over its longest side, as a share of that side; 0 for three points in one place."""
         areas, longest = self._face_measures
-        return np.flatnonzero(2 * areas <= FLAT * longest)
+        return 2 * areas / np.where(longest > 0, longest, 1)
+
+    @cached_property
+    def flat_faces(self) -> np.ndarray:
+        """(k,) faces of (nearly) no area: height less than the share `FLAT` of the longest side (see `operators`)."""
+        return np.flatnonzero(self.face_heights < FLAT)
 
     @cached_property
     def mean_edge_length(self) -> float:

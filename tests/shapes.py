@@ -87,6 +87,57 @@ def slivers() -> Surface:
     return Surface(vertices, np.concatenate([g.faces, [[0, 16, 1], [1, 17, 2]]]), "slivers")
 
 
+def caps(s: Surface, height: float, every: int, at: float = 0.5) -> Surface:
+    """Beside every so-manieth face abc an obtuse one: a vertex over ab, at a share of it and of a height in edges."""
+    x, faces = [*s.vertices], [tuple(f) for f in s.faces]
+    for q in range(0, len(s.faces), every):
+        a, b, c = s.faces[q]
+        i = len(x)
+        x.append(_over(s.vertices, a, b, c, at, height))
+        faces[q] = (a, i, c)
+        faces += [(i, b, c), (a, b, i)]
+    return Surface(np.array(x), faces, "caps")
+
+
+def folded(s: Surface, height: float, every: int) -> Surface:
+    """Two obtuse faces on one edge, one beside the other: the way from a to b goes through two vertices."""
+    x, faces = [*s.vertices], [tuple(f) for f in s.faces]
+    for q in range(0, len(s.faces), every):
+        a, b, c = s.faces[q]
+        i = len(x)
+        x += [_over(s.vertices, a, b, c, 0.4, height), _over(s.vertices, a, b, c, 0.65, 2 * height)]
+        faces[q] = (a, i, c)
+        faces += [(i, i + 1, c), (i + 1, b, c), (a, b, i), (i, b, i + 1)]
+    return Surface(np.array(x), faces, "folded")
+
+
+def needles(s: Surface, height: float, every: int) -> Surface:
+    """In every so-manieth face abc a vertex close to a, at a share of the way to the middle of bc."""
+    x, faces = [*s.vertices], [tuple(f) for f in s.faces]
+    for q in range(0, len(s.faces), every):
+        a, b, c = s.faces[q]
+        i = len(x)
+        x.append(x[a] + height * ((x[b] + x[c]) / 2 - x[a]))
+        faces[q] = (i, b, c)
+        faces += [(a, b, i), (a, i, c)]
+    return Surface(np.array(x), faces, "needles")
+
+
+def _over(x: np.ndarray, a: int, b: int, c: int, at: float, height: float) -> np.ndarray:
+    along = x[b] - x[a]
+    across = x[c] - x[a]
+    across = across - along * (across @ along) / (along @ along)
+    return x[a] + at * along + height * np.linalg.norm(along) * across / np.linalg.norm(across)
+
+
+def spike(n: int, length: float) -> Surface:
+    """A bumpy sphere with one vertex, 7, far away."""
+    s = bumpy(n)
+    x = s.vertices.copy()
+    x[7] *= length
+    return Surface(x, s.faces, "spike")
+
+
 def components_apart(s: Surface) -> list[np.ndarray]:
     """The vertex ids of each component."""
     return [np.flatnonzero(s.component_of_vertex == k) for k in range(s.component_count)]

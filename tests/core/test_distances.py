@@ -1,5 +1,8 @@
 """What holds for every distance, on every kind of surface."""
 
+import contextlib
+import re
+
 import numpy as np
 import pytest
 
@@ -12,11 +15,14 @@ from bihdist_core import (
     Laplacian,
     ParameterError,
     PowerDistance,
+    SolverError,
     Surface,
     TruncatedBiharmonicDistance,
     VertexError,
 )
-from tests.shapes import bumpy, components_apart, fin, grid, slivers, tetrahedron, torus, two_pieces
+from bihdist_core.accuracy import Certificate
+from bihdist_core.distance import root
+from tests.shapes import bumpy, components_apart, fin, grid, slivers, spike, tetrahedron, torus, two_pieces
 
 DISTANCES = {
     "biharmonic": BiharmonicDistance,
@@ -198,3 +204,100 @@ def test_labels_say_what_is_shown():
         "geodesic, heat method",
         "geodesic, Dijkstra along edges",
     ]
+
+
+def test_wrong_kinds_of_parameters_are_refused_in_a_sentence():
+    s = tetrahedron()
+    for make, words in [
+        (lambda: DiffusionDistance(s, t="a"), "The diffusion time t is 'a'; it must be a number"),
+        (lambda: DiffusionDistance(s, tolerance=None), "The tolerance is None; it must be a number"),
+        (lambda: PowerDistance(s, alpha="2"), "alpha is '2'; it must be a number"),
+        (lambda: Laplacian("x"), "A Laplacian is that of a Surface, not of str"),
+    ]:
+        with pytest.raises(ParameterError, match=words):
+            make()
+
+
+def test_no_more_eigenpairs_are_named_than_there_are():
+    s = bumpy(60)
+    assert TruncatedBiharmonicDistance(s, k=5000).label == "biharmonic, 59 eigenpairs"
+    assert PowerDistance(s, k=59).label == "1/λ^1.5, 59 eigenpairs"
+
+
+@pytest.mark.parametrize("length", [1e11, 1e13, 1e30])
+@pytest.mark.parametrize("n", [60, 500])
+def test_a_spike_without_end_gives_our_errors_or_an_accuracy(n, length):
+    """Nothing else, and no warning: where the numbers end, the accuracy says so."""
+    s = spike(n, length)
+    for make in (
+        BiharmonicDistance,
+        CommuteTimeDistance,
+        DiffusionDistance,
+        lambda s: TruncatedBiharmonicDistance(s, k=20),
+        lambda s: GeodesicDistance(s, "heat"),
+    ):
+        with contextlib.suppress(SolverError):
+            distance = make(s)
+            distance.from_source(3)
+            distance.certificate()
+
+
+def test_a_broken_operator_is_noticed():
+    terms = np.array([1.0])
+    assert root(np.array([-1e-9, 4.0]), terms).tolist() == [0.0, 2.0]  # rounding
+    for squares in ([-1e-3, 1.0], [np.nan, 1.0]):
+        with pytest.raises(SolverError, match=r"A squared distance came out as .*: the mesh is too badly shaped"):
+            root(np.array(squares), terms)
+
+
+def test_a_field_with_squares_below_zero_is_refused(monkeypatch):
+    """The guard in `root` stands in the way of every exact field."""
+    distance = CommuteTimeDistance(bumpy(60))
+    component = distance.laplacian.components[0]
+    monkeypatch.setattr(component, "green_diagonal", lambda progress=None: np.zeros(60))
+    with pytest.raises(SolverError, match="A squared distance came out as -"):
+        distance.from_source(3)
+
+
+@every_distance
+@every_surface
+def test_every_distance_tells_its_accuracy_or_that_it_has_none(make, surface):
+    if make is DISTANCES["exact"] and not surface.is_manifold:
+        pytest.skip("refused there; see test_geodesic")
+    distance = make(surface)
+    if isinstance(distance, GeodesicDistance):
+        assert distance.accuracy is None
+        assert distance.certificate() == Certificate()
+    else:
+        assert 0 < distance.accuracy < 1e-2  # a cut between equal eigenvalues of a symmetric shape leaves much open
+
+
+def test_a_certificate_in_words():
+    distance = BiharmonicDistance(bumpy(150))
+    assert re.fullmatch(r"accurate to \de-1[1-5] of the maximum", distance.certificate().text)
+    assert not distance.certificate().is_poor
+    assert Certificate.of(1.01e-6) == Certificate("accurate to 2e-06 of the maximum", True)
+    assert Certificate.of(9.6e-11).text == "accurate to 1e-10 of the maximum"
+    distance._accuracies[0] = 2e-3
+    with pytest.raises(SolverError, match=r"biharmonic, exact on bumpy may be off by 2e-03 .* remeshing would help"):
+        distance.certificate()
+
+
+def test_a_cut_between_equal_eigenvalues_is_told_and_what_to_choose():
+    """The first eigenvalues of the sphere are 2, 6 and 12, three, five and seven times; here nearly so."""
+    distance = TruncatedBiharmonicDistance(torus(24, 12), k=1)
+    with pytest.raises(
+        SolverError, match=r"Eigenvalues 1 and 2 differ by .* it is open which eigenpairs are the first 1"
+    ):
+        distance.certificate()
+    with pytest.raises(SolverError, match="choose another k, such as 2"):
+        TruncatedBiharmonicDistance(torus(24, 12), k=3).certificate()
+
+
+def test_accuracy_is_of_the_components_that_were_asked():
+    s = two_pieces()
+    distance = BiharmonicDistance(s)
+    distance.from_source(61)
+    assert list(distance._accuracies) == []
+    assert distance.accuracy is not None
+    assert list(distance._accuracies) == [1]

@@ -5,11 +5,19 @@ import threading
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, Cancelled, Laplacian, ParameterError, VertexError, eigenpairs
+from bihdist_core import (
+    BiharmonicDistance,
+    Cancelled,
+    Laplacian,
+    ParameterError,
+    SolverError,
+    VertexError,
+    eigenpairs,
+)
 from bihdist_core.blas import one_blas_thread
 from bihdist_core.progress import part
 from tests import dense_reference as dense
-from tests.shapes import bumpy, grid, torus, two_pieces
+from tests.shapes import bumpy, grid, spike, torus, two_pieces
 
 
 def test_eigenpairs_of_one_component():
@@ -118,3 +126,13 @@ def test_a_part_of_a_progress_is_its_share():
     half(0.5, "x")
     assert said == [(0.75, "x")]
     part(None, 0, 1)(0.3, "nobody listens")
+
+
+def test_what_cannot_be_computed_names_the_mesh_and_what_would_help():
+    component = Laplacian(spike(60, 1e13)).components[0]
+    with pytest.raises(SolverError, match=r"spike: The first 10 eigenpairs cannot be found .* Remeshing would help"):
+        component.spectrum(10)
+    component = Laplacian(bumpy(60)).components[0]
+    component.stiffness = -component.stiffness
+    with pytest.raises(SolverError, match=r"The Laplacian of bumpy cannot be factored: .* Remeshing would help"):
+        component.factor()

@@ -1,0 +1,108 @@
+"""Faces too flat for floating-point numbers, and what the operators make of them.
+
+With its longest side ab, of length l, its height h and the foot of the height at a share s from a to b, at most 1/2,
+the energy of a face under the stiffness matrix is
+
+    l / (2 h) (u_i - (1 - s) u_a - s u_b)^2 + h / (2 l) (u_a - u_b)^2:
+
+a spring that holds the value at the apex i to that at its foot, and a link from end to end.  A spring of 1e10 leaves
+few digits to its neighbours, and one of a face of no area is infinite.  So no spring is stronger than that of a face
+whose height is the share `FLAT` of its longest side; links and areas stay true.  A spring that is strong in any case
+moves distances in proportion to h / l only: those on the exact surface, of whatever flatness, are met to some `FLAT` of
+the maximum, even if every face has a flat one beside it.  (Lengthening all three sides by a share e of the longest, the
+intrinsic mollification of Sharp and Crane 2020, makes a flat obtuse face as high as the root of e.)
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .surface import FLAT, Surface, dots
+
+
+@dataclass(frozen=True, eq=False)
+class FlatFaces:
+    """The flat faces of a surface, all (k,).
+
+    faces: their numbers; corners (3, k): which of its corners are i, a, b; foot: the share s; share: the true height
+    over the longest side; length: of that; spring, link: their strengths, without unit.  Three points in one place are
+    a face with equal sides.
+    """
+
+    surface: Surface
+    faces: np.ndarray
+    corners: np.ndarray
+    foot: np.ndarray
+    share: np.ndarray
+    length: np.ndarray
+    spring: np.ndarray
+    link: np.ndarray
+
+    @classmethod
+    def of(cls, surface: Surface, faces: np.ndarray | None = None) -> "FlatFaces":
+        """All of them, or some."""
+        faces = surface.flat_faces if faces is None else faces
+        x = surface.vertices[surface.faces[faces]].transpose(1, 2, 0)
+        side = [x[(k + 2) % 3] - x[(k + 1) % 3] for k in range(3)]
+        squares = np.stack([dots(s, s) for s in side])
+        apex, square = squares.argmax(axis=0), squares.max(axis=0)
+        point = square == 0
+        # From either end, so that a foot near one has all its digits.
+        base, before, after = (np.choose((apex + s) % 3, side) for s in (0, 2, 1))
+        feet = np.stack([-dots(base, before), -dots(base, after)]) / np.where(point, 1, square)
+        nearer = feet.argmin(axis=0)
+        share, high = surface.face_heights[faces], 0.75**0.5
+        return cls(
+            surface,
+            faces,
+            np.stack([apex, (apex + 1 + nearer) % 3, (apex + 2 - nearer) % 3]),
+            np.where(point, 0.5, feet.min(axis=0)),
+            share,
+            np.sqrt(square),
+            0.5 / np.where(point, high, FLAT),
+            0.5 * np.where(point, high, share),
+        )
+
+    @property
+    def vertices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The vertices i, a and b, (k,) each."""
+        i, a, b = self.surface.faces[self.faces, self.corners]
+        return i, a, b
+
+    def weights(self) -> np.ndarray:
+        """(3, k) what they add to the weights of the sides opposite to their corners."""
+        to_b = self.spring * self.foot
+        return self._by_corner(self.link - to_b * (1 - self.foot), to_b, self.spring - to_b)
+
+    def sides(self, true: bool = False) -> list[np.ndarray]:
+        """Three (3, k) vectors along the sides, of each face in a plane of its own: as high as faces with such springs.
+
+        true: with their true heights instead.
+        """
+        # A point gets a side for others to be measured by.
+        length = np.where(self.length > 0, self.length, FLAT * (self.surface.mean_edge_length or 1.0))
+        height, zero = length * (2 * self.link if true else 0.5 / self.spring), np.zeros(len(length))
+        # i, a and b in the plane; which way round, no product of sides tells.
+        at = self._by_corner(
+            np.stack([self.foot * length, height, zero]),
+            np.zeros((3, len(length))),
+            np.stack([length, zero, zero]),
+        )
+        return [at[(k + 2) % 3] - at[(k + 1) % 3] for k in range(3)]
+
+    def _by_corner(self, *values: np.ndarray) -> np.ndarray:
+        """(3, ..., k) values of i, a and b in the order of the faces' corners."""
+        order = np.argsort(self.corners, axis=0)
+        return np.stack([np.choose(which, values) for which in order])
+
+    def stretch(self, u: np.ndarray) -> np.ndarray:
+        """(k, c) by how much the values u (n, c) at the apexes differ from those at their feet."""
+        i, a, b = self.vertices
+        return u[i] - (1 - self.foot[:, None]) * u[a] - self.foot[:, None] * u[b]
+
+    def missing_springs(self) -> tuple[np.ndarray, np.ndarray]:
+        """(n, k) columns g and (k,) slack: the exact stiffness matrix is L + the sum of g g^T / slack."""
+        g, column = np.zeros((len(self.surface.vertices), len(self.faces))), np.arange(len(self.faces))
+        for vertices, value in zip(self.vertices, (np.ones(len(column)), self.foot - 1, -self.foot), strict=True):
+            g[vertices, column] = value
+        return g, 2 * self.share * FLAT / (FLAT - self.share)
