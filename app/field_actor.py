@@ -117,6 +117,13 @@ class FieldActor:
         self.maximum, self._own_maximum = top, own
         self.show_isolines(self._count)
 
+    def show_bare(self) -> None:
+        """All of the surface grey."""
+        self._values[:] = UNDEFINED
+        self._array.Modified()
+        self.maximum = self._own_maximum = 0.0
+        self.show_isolines(self._count)
+
     def show_isolines(self, count: int) -> None:
         """So many equal steps from 0 to the maximum; 0 for no lines."""
         self._count = count

@@ -47,7 +47,7 @@ class FigurePanel:
     label and unit stand at the colour bar, heading and hint above.  maximum: the end of the colour bar, the field's
     own if None.  isolines: equal steps from 0 to the maximum.  views: pictures of the same side by side, each a name
     from `camera.VIEWS` or a camera.  height: a flat surface becomes a relief, raised by the field so that its maximum
-    is this share of the surface's extent.
+    is this share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
     """
 
     surface: Surface
@@ -62,6 +62,7 @@ class FigurePanel:
     marks: tuple[Mark, ...] = ()
     zooms: tuple[Zoom, ...] = ()
     height: float = 0.0
+    failure: str = ""
 
     def __post_init__(self) -> None:
         count = len(self.surface.vertices)

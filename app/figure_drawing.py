@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .figure_description import Figure
-from .figure_layout import FONT, Box, Layout, bar_words
+from .figure_layout import FONT, Box, Cell, Layout, bar_words, text_width, wrapped
 from .figure_shots import Line, Shot
 from .style import Colour
 from .vector_crossings import simplified
@@ -235,6 +235,8 @@ def _draw_words(axes: Axes, page: Page) -> None:
         _write(axes, panel.heading, middle, cell.heading_at, layout.heading, style.text, bold=True)
         for k, line in enumerate(cell.hint):
             _write(axes, line, middle, cell.hint_at + k * 1.32 * layout.hint, layout.hint, style.quiet_text)
+        if panel.failure:
+            _draw_failure(axes, page, panel.failure, cell)
         if cell.bar:
             _draw_bar(axes, page, cell.bar, top, bar_words(panel.label, panel.unit), panel.isolines)
     if layout.shared_bar:
@@ -242,6 +244,24 @@ def _draw_words(axes: Axes, page: Page) -> None:
         labels = {p.label for p in shown}
         label = labels.pop() if len(labels) == 1 else "distance"
         _draw_bar(axes, page, layout.shared_bar, max(tops), bar_words(label, shown[0].unit), shown[0].isolines)
+
+
+def _draw_failure(axes: Axes, page: Page, failure: str, cell: Cell) -> None:
+    """Why there is no field, in lines on the shape."""
+    from matplotlib.patches import Rectangle
+
+    style, size = page.figure.style, page.layout.label * 1.1
+    area = Box(cell.views[0].x, cell.views[0].y, cell.views[-1].right - cell.views[0].x, cell.views[0].height)
+    lines = wrapped(failure, size, 0.8 * area.width)
+    step, middle = 1.35 * size, area.y + area.height / 2
+    wide = max(text_width(line, size) for line in lines) + 2 * size
+    high = len(lines) * step + size
+    ground = Rectangle((area.x + (area.width - wide) / 2, middle - high / 2), wide, high, linewidth=0, zorder=999)
+    ground.set_facecolor((*style.background, 0.88))
+    axes.add_artist(ground)
+    for k, line in enumerate(lines):
+        y = middle - high / 2 + 0.5 * size + (k + 0.78) * step
+        _write(axes, line, area.x + area.width / 2, y, size, style.text)
 
 
 def _draw_bar(axes: Axes, page: Page, bar: Box, top: float, words: str, isolines: int) -> None:

@@ -5,12 +5,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from bihdist_core import Laplacian, OutputError, ParameterError, Surface, read_surface
+from bihdist_core import Laplacian, OutputError, ParameterError, SolverError, Surface, read_surface
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
+from .answers import Answer, Asked
 from .camera import Camera
 from .figure_size import Size
 from .figures import FIGURE_FORMATS, Figure, FigurePanel, Mark, Zoom, check_offscreen, save_figure
@@ -50,23 +49,33 @@ def load_mesh(recipe: Recipe) -> tuple[Surface, Recipe]:
     return surface, replace(recipe, sha256=found, panels=panels)
 
 
-def compute(recipe: Recipe, surface: Surface, progress: Progress | None = None) -> list[tuple[np.ndarray, str, str]]:
-    """For each panel its field (n,), and the label and unit of its distance."""
+def asked(laplacian: Laplacian, state: PanelState) -> Asked:
+    """A panel's distance, not yet made."""
+    return Asked(lambda progress: state.build(laplacian, progress), state.distance)
+
+
+def compute(recipe: Recipe, surface: Surface, progress: Progress | None = None) -> list[Answer]:
+    """For each panel its answer; SolverError if all of them are failures."""
     surface.check_vertices([panel.source for panel in recipe.panels])
     laplacian = Laplacian(surface, recipe.areas)
-    built: dict[PanelState, object] = {}
+    distances: dict[PanelState, Asked] = {}
     answers = []
     for k, panel in enumerate(recipe.panels):
         step = part(progress, k / len(recipe.panels), (k + 1) / len(recipe.panels))
-        if panel.state not in built:
-            built[panel.state] = panel.state.build(laplacian, part(step, 0, 0.9))
-        distance = built[panel.state]
-        answers.append((distance.from_source(panel.source, part(step, 0.9, 1)), distance.label, distance.unit))
+        distance = distances.setdefault(panel.state, asked(laplacian, panel.state))
+        answers.append(distance.answer(panel.source, step))
+    refuse_if_nothing(answers)
     return answers
 
 
-def figure_of(recipe: Recipe, surface: Surface, answers: Sequence[tuple[np.ndarray, str, str]]) -> Figure:
-    """The figure a recipe describes, from its panels' fields, labels and units."""
+def refuse_if_nothing(answers: Sequence[Answer]) -> None:
+    """SolverError if all of them are failures: a figure of bare shapes helps nobody."""
+    if answers and all(answer.failure for answer in answers):
+        raise SolverError(" ".join(dict.fromkeys(answer.failure for answer in answers)))
+
+
+def figure_of(recipe: Recipe, surface: Surface, answers: Sequence[Answer]) -> Figure:
+    """The figure a recipe describes, from its panels' answers."""
     if recipe.style not in STYLES:
         raise ParameterError(f"There is no style {recipe.style!r}; choose one of {', '.join(STYLES)}.")
     if not recipe.panels:
@@ -96,42 +105,43 @@ def write_figure(figure: Figure, recipe: Recipe, path: str, version: str, progre
         save_figure(figure, path, progress)
 
 
-def export(recipe: Recipe, path: str, version: str, progress: Progress | None = None) -> tuple[Figure, Recipe]:
-    """Everything: read, compute, draw, write.  Returns the figure, and the recipe with its sources."""
+def export(
+    recipe: Recipe, path: str, version: str, progress: Progress | None = None
+) -> tuple[Figure, Recipe, list[Answer]]:
+    """Everything: read, compute, draw, write.  Returns the figure, the recipe with its sources, and the answers."""
     check_export(path)
     surface, recipe = load_mesh(recipe)
-    # What cannot be drawn is refused before the long work, with fields that are nothing.
-    nothing = np.zeros(len(surface.vertices))
-    figure_of(recipe, surface, [(nothing, "", "")] * len(recipe.panels))
-    figure = figure_of(recipe, surface, compute(recipe, surface, part(progress, 0.0, 0.6)))
+    # What cannot be drawn is refused before the long work.
+    figure_of(recipe, surface, [Answer(label="")] * len(recipe.panels))
+    answers = compute(recipe, surface, part(progress, 0.0, 0.6))
+    figure = figure_of(recipe, surface, answers)
     write_figure(figure, recipe, path, version, part(progress, 0.6, 1.0))
-    return figure, recipe
+    return figure, recipe, answers
 
 
-def _figure_panel(
-    recipe: Recipe, panel: RecipePanel, surface: Surface, answer: tuple[np.ndarray, str, str], several: bool
-) -> FigurePanel:
-    field, label, unit = answer
+def _figure_panel(recipe: Recipe, panel: RecipePanel, surface: Surface, answer: Answer, several: bool) -> FigurePanel:
     return FigurePanel(
         surface,
-        field,
-        heading=f"{label}, from {panel.source}" if several else label,
+        answer.field,
+        heading=f"{answer.label}, from {panel.source}" if several else answer.label,
         hint=panel.state.hint if recipe.hints else "",
-        label=label,
-        unit=unit,
+        label="" if answer.failure else answer.label,
+        unit=answer.unit,
+        failure=answer.failure,
         maximum=panel.maximum,
         isolines=recipe.isolines,
         views=tuple(
             v if isinstance(v, str) else Camera(v.position, v.focal_point, v.up, v.extent) for v in recipe.views
         ),
-        marks=(Mark(panel.source), *(Mark(v, _anchor_value(v, value, field)) for v, value in recipe.anchors)),
+        marks=(Mark(panel.source), *(Mark(v, _anchor_value(v, value, answer)) for v, value in recipe.anchors)),
         zooms=tuple(Zoom(z.vertex, z.factor, z.corner) for z in recipe.zooms),
-        height=recipe.height,
+        height=0.0 if answer.failure else recipe.height,
     )
 
 
-def _anchor_value(vertex: int, value: float | None, field: np.ndarray) -> float:
+def _anchor_value(vertex: int, value: float | None, answer: Answer) -> float:
     """An anchor without a value of its own shows the field's."""
     if value is not None:
         return value
-    return float(np.nan_to_num(field[vertex])) if 0 <= vertex < len(field) else 0.0
+    known = answer.field is not None and 0 <= vertex < len(answer.field)
+    return float(answer.field[vertex]) if known and answer.field[vertex] > 0 else 0.0

@@ -155,13 +155,14 @@ def _fitting(texts: list[str], size: float, room: float, bold: bool = False) -> 
 def _hints(texts: list[str], size: float, room: float) -> tuple[list[tuple[str, ...]], float]:
     """The hints in one or two lines, and their size; none at all if they do not fit."""
     for factor in (1.0, 0.9, 0.8, 0.72):
-        wrapped = [_wrapped(text, size * factor, room) for text in texts]
-        if all(len(lines) <= 2 and all(text_width(x, size * factor) <= room for x in lines) for lines in wrapped):
-            return wrapped, size * factor
+        found = [wrapped(text, size * factor, room) for text in texts]
+        if all(len(lines) <= 2 and all(text_width(x, size * factor) <= room for x in lines) for lines in found):
+            return found, size * factor
     return [() for _ in texts], size
 
 
-def _wrapped(text: str, size: float, room: float) -> tuple[str, ...]:
+def wrapped(text: str, size: float, room: float) -> tuple[str, ...]:
+    """The lines of a text of this size that are no wider than the room, as far as its words allow."""
     lines: list[str] = []
     for word in text.split():
         longer = f"{lines[-1]} {word}" if lines else word

@@ -19,7 +19,8 @@ WORDS = ("biharmonic", "truncated", "power", "commute-time", "diffusion", "geode
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; returns the exit status: 0, 2 for what the user can mend, 130 when interrupted."""
+    """Run the command line; returns the exit status: 0, 1 for a figure with a failed panel, 2 for what the user can
+    mend, 130 when interrupted."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     if not arguments or (arguments[0] not in COMMANDS and not arguments[0].startswith("-")):
         arguments.insert(0, "view")
@@ -95,6 +96,8 @@ def _parser() -> argparse.ArgumentParser:
 
     info = _command(commands, "info", _info, "what a mesh file holds and what would be repaired")
     info.add_argument("mesh", help="mesh file, or the name of a sample")
+    info.add_argument("--accuracy", action="store_true", help="how accurate its exact distances are; factors the mesh")
+    _add_areas(info)
 
     paper = _command(commands, "paper", _paper, "every figure and table of the paper, computed anew, as one page")
     paper.add_argument("--out", metavar="DIR", required=True, help="folder for index.html, pictures and numbers")
@@ -223,9 +226,11 @@ def _field(options: argparse.Namespace) -> None:
         laplacian.surface.check_vertices(options.source)
         distance = _panel(options, options.distance).build(laplacian, progress)
         columns = distance.from_sources(options.source, progress)
+        accuracy = _accuracy(distance)
     names = [f"{options.distance}_from_{v}" for v in options.source]
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
-    print(f"{options.output}: {distance.label}, {columns.shape[0]} vertices, {_counted(columns.shape[1], 'source')}")
+    said = f"{distance.label}, {columns.shape[0]} vertices, {_counted(columns.shape[1], 'source')}"
+    print(f"{options.output}: {said}{accuracy}")
 
 
 def _pairs(options: argparse.Namespace) -> None:
@@ -240,8 +245,10 @@ def _pairs(options: argparse.Namespace) -> None:
         laplacian = _laplacian(options)
         if options.all:
             distance = _panel(options, options.distance).build(laplacian, progress)
+            accuracy = _accuracy(distance)
             write_all_pairs(distance, options.output, options.dtype, 1e6 * options.memory, progress)
-            print(f"{options.output}: {distance.label}, all pairs of {len(laplacian.surface.vertices)} vertices")
+            count = len(laplacian.surface.vertices)
+            print(f"{options.output}: {distance.label}, all pairs of {count} vertices{accuracy}")
             return
         if options.vertices:
             vertices = laplacian.surface.check_vertices(options.vertices)
@@ -253,29 +260,52 @@ def _pairs(options: argparse.Namespace) -> None:
         distance = _panel(options, options.distance).build(laplacian, progress)
         i, j = place.reshape(-1, 2).T
         values = distance.pairwise(among)[i, j]
+        accuracy = _accuracy(distance)
     if options.vertices and extension == ".npy":
         matrix = distance.pairwise(vertices)
         write_array(options.output, matrix)
     else:
         write_array(options.output, np.column_stack([pairs, values]), ["i", "j", "distance"])
-    print(f"{options.output}: {distance.label}, {len(pairs)} pairs")
+    print(f"{options.output}: {distance.label}, {_counted(len(pairs), 'pair')}{accuracy}")
 
 
-def _figure(options: argparse.Namespace) -> None:
+def _accuracy(distance) -> str:
+    """What to add to the words on an answer: how accurate it is, with a warning where that is poor."""
+    certificate = distance.certificate()
+    if certificate.is_poor:
+        _warn(f"{distance.label} on {distance.surface.name} is only {certificate.text}.")
+    return f", {certificate.text}" if certificate.text else ""
+
+
+def _warn(text: str) -> None:
+    print(f"bihdist: warning: {text}", file=sys.stderr)
+
+
+def _judged(answers, name: str) -> int:
+    """Warn of answers that are poor, name those that failed; the exit status: 1 if there is one."""
+    failures = dict.fromkeys(f"{answer.label}: {answer.failure}" for answer in answers if answer.failure)
+    for failure in failures:
+        print(f"bihdist: {failure}", file=sys.stderr)
+    for label, text in dict.fromkeys((a.label, a.certificate.text) for a in answers if a.certificate.is_poor):
+        _warn(f"{label} on {name} is only {text}.")
+    return 1 if failures else 0
+
+
+def _figure(options: argparse.Namespace) -> int:
     from .figure_export import check_export, export
     from .figures import described
 
     check_export(options.output)
     recipe = chosen_recipe(options, _panel)
     with _progress() as progress:
-        figure, recipe = export(recipe, options.output, version(), progress)
-    for text in figure.panels[0].surface.repairs:
-        print(f"{figure.panels[0].surface.name}: {text}", file=sys.stderr)
+        figure, recipe, answers = export(recipe, options.output, version(), progress)
+    _tell(figure.panels[0].surface)
     sources = ", ".join(str(v) for v in dict.fromkeys(panel.source for panel in recipe.panels))
     print(f"{options.output}: {described(figure)}, source vertex {sources}")
+    return _judged(answers, figure.panels[0].surface.name)
 
 
-def _movie(options: argparse.Namespace) -> None:
+def _movie(options: argparse.Namespace) -> int:
     from .figure_raster import check_offscreen
     from .movie import check_movie, write_movie
 
@@ -283,8 +313,9 @@ def _movie(options: argparse.Namespace) -> None:
     check_offscreen()
     movie = chosen_movie(options, _panel)
     with _progress() as progress:
-        write_movie(movie, options.output, progress)
+        answers = write_movie(movie, options.output, progress)
     print(f"{options.output}: {movie.frames} frames, {movie.frames / movie.fps:.3g} s")
+    return _judged(answers, os.path.basename(movie.recipe.mesh))
 
 
 def _info(options: argparse.Namespace) -> None:
@@ -303,16 +334,22 @@ def _info(options: argparse.Namespace) -> None:
         ("non-manifold edges", s.nonmanifold_edge_count),
         ("non-manifold vertices", s.nonmanifold_vertex_count),
         ("vertices without a face", s.unreferenced_count),
-        ("faces of no area", len(s.flat_faces)),
+        ("flat faces", len(s.flat_faces)),
         ("mean edge length", f"{s.mean_edge_length:.6g}"),
         ("area", f"{s.face_areas.sum():.6g}"),
     ]
     for name, value in rows:
         print(f"{name:<26}{value}")
-    said = [*s.repairs]
-    if len(s.flat_faces):
-        said.append("faces of no area are made a millionth of an edge thick where the operators need it")
-    print(f"{'repairs':<26}{'; '.join(said) if said else 'none'}")
+    print(f"{'repairs':<26}{'; '.join(s.remarks) or 'none'}")
+    if options.accuracy:
+        from bihdist_core import BiharmonicDistance, CommuteTimeDistance, Laplacian
+
+        with _progress() as progress:
+            laplacian = Laplacian(s, options.areas)
+            distances = [BiharmonicDistance(laplacian, progress), CommuteTimeDistance(laplacian, progress)]
+            said = [(distance.label, _accuracy(distance).removeprefix(", ")) for distance in distances]
+        for label, text in said:
+            print(f"{label:<26}{text}")
 
 
 def _paper(options: argparse.Namespace) -> None:
@@ -332,9 +369,14 @@ def _laplacian(options: argparse.Namespace):
     from .samples import mesh_path
 
     surface = read_surface(mesh_path(options.mesh))
-    for text in surface.repairs:
-        print(f"{surface.name}: {text}", file=sys.stderr)
+    _tell(surface)
     return Laplacian(surface, options.areas)
+
+
+def _tell(surface) -> None:
+    """Say on standard error what was done to a mesh."""
+    for text in surface.remarks:
+        print(f"{surface.name}: {text}", file=sys.stderr)
 
 
 def _pairs_in(path: str):

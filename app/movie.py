@@ -14,8 +14,9 @@ from bihdist_core import BihdistError, Laplacian, ParameterError, Surface
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
+from .answers import Answer
 from .camera import VIEWS, Camera, Projection, standard_camera
-from .figure_export import figure_of, load_mesh
+from .figure_export import asked, figure_of, load_mesh, refuse_if_nothing
 from .figure_layout import lay_out
 from .figures import Figure, draw_figure
 from .recipe import Recipe, RecipeCamera
@@ -61,8 +62,8 @@ def check_movie(path: str | os.PathLike[str]) -> None:
             ) from None
 
 
-def write_movie(movie: Movie, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
-    """Compute and draw a movie into a .mp4 or .gif file, whole or not at all."""
+def write_movie(movie: Movie, path: str | os.PathLike[str], progress: Progress | None = None) -> list[Answer]:
+    """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel."""
     check_movie(path)
     surface, recipe = load_mesh(movie.recipe)
     movie = replace(movie, recipe=recipe)
@@ -71,6 +72,7 @@ def write_movie(movie: Movie, path: str | os.PathLike[str], progress: Progress |
     pictures = _pictures(movie, surface, sources, fields, part(progress, 0.3, 1.0))
     with whole_file(path) as temporary:
         (_write_mp4 if temporary.suffix.lower() == ".mp4" else _write_gif)(temporary, pictures, movie)
+    return fields.examples
 
 
 def route(surface: Surface, stops: tuple[int, ...]) -> np.ndarray:
@@ -106,27 +108,38 @@ def _sources(movie: Movie, surface: Surface) -> list[int] | None:
 
 
 class _Fields:
-    """For each panel and source its field, label and unit, and one end of the colour bar for all frames."""
+    """For each panel and source its answer, and one end of the colour bar for all frames.
+
+    examples: an answer of each panel.
+    """
 
     def __init__(self, movie: Movie, surface: Surface, sources: list[int] | None, progress: Progress) -> None:
         panels = movie.recipe.panels
         laplacian = Laplacian(surface, movie.recipe.areas)
-        self._answers: list[dict[int, tuple[np.ndarray, str, str]]] = []
+        self._answers: list[dict[int, Answer]] = []
+        self.examples: list[Answer] = []
         self.recipe = movie.recipe
         kept = []
         for k, panel in enumerate(panels):
             step = part(progress, k / len(panels), (k + 1) / len(panels))
-            distance = panel.state.build(laplacian, part(step, 0, 0.5))
+            distance = asked(laplacian, panel.state)
             wanted = sorted(set(sources or [panel.source]))
             surface.check_vertices(wanted)
             answers = {}
             for number, source in enumerate(wanted):
-                step(0.5 + 0.5 * number / len(wanted), distance.label)
-                field = distance.from_source(source).astype(np.float32)
-                answers[source] = (field, distance.label, distance.unit)
-            top = max(float(np.nanmax(field, initial=0.0)) for field, _, _ in answers.values())
+                answer = distance.answer(source, part(step, number / len(wanted), (number + 1) / len(wanted)))
+                if answer.field is not None:
+                    answer = replace(answer, field=answer.field.astype(np.float32))
+                answers[source] = answer
+            # One failure is that of all: the distance could not be made.
+            failed = next((answer for answer in answers.values() if answer.failure), None)
+            if failed is not None:
+                answers = dict.fromkeys(answers, failed)
+            self.examples.append(answers[wanted[0]])
             self._answers.append(answers)
+            top = max(answer.maximum for answer in answers.values())
             kept.append(replace(panel, maximum=panel.maximum or top or None))
+        refuse_if_nothing(self.examples)
         self.recipe = replace(movie.recipe, panels=tuple(kept))
 
     def figure(self, surface: Surface, source: int | None, views: tuple) -> Figure:

@@ -1,5 +1,7 @@
 """Drawing in the window: a surface with a field on it, marks and a colour bar, in a panel's renderer."""
 
+import textwrap
+
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -38,7 +40,15 @@ class PanelScene:
         renderer.SetBackground(*style.background)
         # To find out what is out of sight VTK would go over all vertices, and here nothing ever is.
         renderer.GetCullers().RemoveAllItems()
-        for actor in (self._field.actor, self._bar, self._unit):
+        self._failure = _text(style.text, 13 * scale)
+        self._failure.GetTextProperty().SetVerticalJustificationToCentered()
+        self._failure.GetTextProperty().SetLineSpacing(1.3)
+        self._failure.GetTextProperty().SetBackgroundColor(*style.background)
+        self._failure.GetTextProperty().SetBackgroundOpacity(BACKING)
+        place = self._failure.GetPositionCoordinate()
+        place.SetCoordinateSystemToNormalizedViewport()
+        place.SetValue(0.5, 0.5)
+        for actor in (self._field.actor, self._bar, self._unit, self._failure):
             renderer.AddActor(actor)
         light(renderer)
 
@@ -48,15 +58,25 @@ class PanelScene:
         self._field.show_surface(mesh)
         self._bar.VisibilityOff()
         self._unit.SetInput("")
+        self._failure.SetInput("")
         self.mark_source(None)
         self.mark_pointer(None)
 
     def show_field(self, field: np.ndarray, unit: str = "", maximum: float | None = None) -> None:
         """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey."""
         self._field.show_field(field, maximum)
+        self._failure.SetInput("")
         self._bar.VisibilityOn()
         self._label_bar()
         self._unit.SetInput(unit)
+
+    def show_failure(self, words: str) -> None:
+        """Show the bare surface, and on it why it has no field."""
+        self._field.show_bare()
+        self._bar.VisibilityOff()
+        self._unit.SetInput("")
+        letters = 0.8 * self.renderer.GetSize()[0] / (7 * self.scale)
+        self._failure.SetInput(textwrap.fill(words, max(16, int(letters))))
 
     def show_isolines(self, count: int) -> None:
         """So many equal steps from 0 to the maximum; 0 for no lines."""

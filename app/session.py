@@ -8,32 +8,27 @@ back through `post`, which runs a function on the window's thread; an answer to 
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 
-from bihdist_core import BihdistError, Distance, Laplacian, Surface, read_surface
+from bihdist_core import Distance, Laplacian, Surface, read_surface
 from bihdist_core.progress import Progress, part
 from bihdist_core.spectral import SpectralDistance
 
+from .answers import Answer, failure_in_words
 from .lane import Lane
 from .state import PanelState, ViewerState
 
 
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """One panel's field (n,) from `source`, with NaN where undefined; `preview` if a better one is on its way."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PanelAnswer(Answer):
+    """A panel's answer from `source`; `preview` if a better one is on its way."""
 
     panel: PanelState
-    source: int
-    field: np.ndarray
-    label: str
-    unit: str
+    source: int | None
     preview: bool = False
-
-    @property
-    def maximum(self) -> float:
-        return float(np.nanmax(self.field))
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +65,7 @@ class View(Protocol):
     def mesh_changed(self) -> None: ...
     def source_changed(self) -> None: ...
     def answer_changed(self, index: int) -> None: ...
+    def certificate_changed(self, index: int) -> None: ...
     def progress_changed(self) -> None: ...
     def failed(self, message: str) -> None: ...
 
@@ -94,7 +90,7 @@ class Session:
         self.surface: Surface | None = None
         self.laplacian: Laplacian | None = None
         self.path: str | None = None
-        self.answers: list[Answer | None] = [None for _ in self.state.panels]
+        self.answers: list[PanelAnswer | None] = [None for _ in self.state.panels]
         self.progress: dict[str, tuple[float, str]] = {}
         self.is_stopped = False
         self._post = post
@@ -102,7 +98,7 @@ class Session:
         self._source_after_opening: int | None = None
         self._loader: Lane[str] = Lane("load", self._load, self._reporter("load"), self._loading_failed)
         self._lanes: list[Lane[_Question]] = [
-            Lane(f"panel {i}", self._answerer(i), self._reporter(f"panel {i}"), self._answering_failed)
+            Lane(f"panel {i}", self._answerer(i), self._reporter(f"panel {i}"), partial(self._answering_failed, i))
             for i in range(len(self.state.panels))
         ]
 
@@ -176,7 +172,7 @@ class Session:
         self._ask_all()
 
     def _loading_failed(self, path: str, error: Exception) -> None:
-        self._post(lambda: self.view.failed(_message(error)))
+        self._post(lambda: self.view.failed(failure_in_words(error)))
 
     # ------------------------------------------------------------------ answering
     def _ask_all(self) -> None:
@@ -211,21 +207,43 @@ class Session:
     ) -> None:
         field = distance.from_source(question.source, progress=progress)
         field.flags.writeable = False
-        answer = Answer(question.panel, question.source, field, distance.label, distance.unit, preview)
+        answer = PanelAnswer(
+            panel=question.panel,
+            source=question.source,
+            field=field,
+            label=distance.label,
+            unit=distance.unit,
+            preview=preview,
+        )
         self._post(lambda: self._answered(index, question, answer))
+        if not preview:
+            # The answer does not wait for it; a newer question does not either.
+            progress(1.0, distance.label)
+            certified = replace(answer, certificate=distance.certificate())
+            self._post(lambda: self._certified(index, question, certified))
 
-    def _answered(self, index: int, question: _Question, answer: Answer) -> None:
+    def _answered(self, index: int, question: _Question, answer: PanelAnswer) -> None:
         asked = (self.laplacian, self.state.panels[index], self.state.source)
         if asked == (question.laplacian, answer.panel, answer.source):
             self.answers[index] = answer
             self.view.answer_changed(index)
 
-    def _answering_failed(self, question: _Question, error: Exception) -> None:
-        def tell() -> None:
-            if question.laplacian is self.laplacian:
-                self.view.failed(_message(error))
+    def _certified(self, index: int, question: _Question, answer: PanelAnswer) -> None:
+        if self.laplacian is question.laplacian and self.is_answered(index):
+            shown = self.answers[index]
+            if (shown.panel, shown.source) == (answer.panel, answer.source):
+                self.answers[index] = answer
+                self.view.certificate_changed(index)
 
-        self._post(tell)
+    def _answering_failed(self, index: int, question: _Question, error: Exception) -> None:
+        """A panel says by itself what could not be done; the others go on."""
+        answer = PanelAnswer(
+            panel=question.panel,
+            source=question.source,
+            label=question.panel.distance,
+            failure=failure_in_words(error),
+        )
+        self._post(lambda: self._answered(index, question, answer))
 
     # ------------------------------------------------------------------ progress
     def _reporter(self, name: str) -> Callable[[float | None, str], None]:
@@ -246,11 +264,3 @@ def first_source(surface: Surface) -> int:
     """Where to start: the highest vertex (along y) of the largest component."""
     ids = np.flatnonzero(surface.component_of_vertex == 0)
     return int(ids[surface.vertices[ids, 1].argmax()])
-
-
-def _message(error: Exception) -> str:
-    if isinstance(error, BihdistError):
-        return str(error)
-    if isinstance(error, MemoryError):
-        return "There is not enough memory for this mesh."
-    return f"Something went wrong that should not have: {type(error).__name__}: {error}"

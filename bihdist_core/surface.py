@@ -201,6 +201,14 @@ class Surface:
         """(k,) faces of (nearly) no area: height less than the share `FLAT` of the longest side (see `operators`)."""
         return np.flatnonzero(self.face_heights < FLAT)
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a user should know: the repairs, and how many faces are flat."""
+        count = len(self.flat_faces)
+        noun = "face" if count == 1 else "faces"
+        flat = f"{count} {noun} of (nearly) no area treated as {FLAT:g} of the longest side high"
+        return (*self.repairs, *([flat] if count else []))
+
     @cached_property
     def mean_edge_length(self) -> float:
         i, j = self.edges.T

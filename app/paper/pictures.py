@@ -59,6 +59,7 @@ def _panel(result: Result, panel: Panel) -> FigurePanel:
         marks=tuple(_mark(mark, field) for mark in panel.marks),
         zooms=zooms,
         height=RELIEF if relief and field is not None else 0.0,
+        failure=panel.failure,
     )
 
 

@@ -159,11 +159,14 @@ def _contact_sheets(folder: Path, surfaces: Sequence[Surface]) -> Section:
         panels = []
         for surface in surfaces[start : start + SHEET]:
             source = first_source(surface)
+            field, failure = None, ""
             try:
-                field = BiharmonicDistance(surface).from_source(source)
-            except BihdistError:
-                field = None  # its own section says why
-            panels.append(FigurePanel(surface, field, surface.name, marks=(Mark(source),)))
+                distance = BiharmonicDistance(surface)
+                field = distance.from_source(source)
+                distance.certificate()
+            except BihdistError as error:
+                field, failure = None, str(error)
+            panels.append(FigurePanel(surface, field, surface.name, marks=(Mark(source),), failure=failure))
         columns = min(SHEET_COLUMNS, len(panels))
         sheet = Figure(tuple(panels), columns=columns, size=Size(width=260 * columns))
         pictures.append(("", _picture(folder, f"contact-sheet-{start // SHEET + 1}", sheet)))

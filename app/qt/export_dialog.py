@@ -67,7 +67,7 @@ class _Looks(JobDialog):
 
 
 class ExportDialog(_Looks):
-    """A figure of what the window shows; answers: for each panel its field (n,), label and unit."""
+    """A figure of what the window shows; answers: one for each panel."""
 
     def __init__(
         self,

@@ -21,8 +21,7 @@ def export_figure(window) -> ExportDialog | None:
     recipe = _complete_recipe(window)
     if recipe is None:
         return None
-    answers = [(a.field, a.label, a.unit) for a in window.session.answers]
-    return _opened(ExportDialog(recipe, window.session.surface, answers, version(), window), window)
+    return _opened(ExportDialog(recipe, window.session.surface, window.session.answers, version(), window), window)
 
 
 def export_movie(window) -> MovieDialog | None:

@@ -135,6 +135,10 @@ class MainWindow(QtWidgets.QMainWindow):
         panel.show_value(self._hovered)
         self._note(index)
 
+    def certificate_changed(self, index: int) -> None:
+        self.panels[index].show_certificate(self.session.answers[index])
+        self._note(index)
+
     def progress_changed(self) -> None:
         if not self.session.progress:
             self._show_progress()
@@ -368,6 +372,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def _say(self, text: str) -> None:
         self.status.message.setText(text)
+        self.status.message.setToolTip(text)
 
     def _show_help(self) -> None:
         QtWidgets.QMessageBox.information(self, "Mouse and keys", HELP)
@@ -392,7 +397,7 @@ def _summary(surface) -> str:
         words.append(f"{surface.component_count} components (grey: not connected to the source)")
     if surface.unreferenced_count:
         words.append(f"{surface.unreferenced_count:,} vertices without a face")
-    return "  ·  ".join([*words, *surface.repairs])
+    return "  ·  ".join([*words, *surface.remarks])
 
 
 def _action(menu: QtWidgets.QMenu, text: str, slot: Callable, key: object) -> None:

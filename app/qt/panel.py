@@ -8,7 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from ..picking import Picker
 from ..scene import PanelScene
-from ..session import Answer
+from ..session import PanelAnswer
 from ..state import PanelState
 from .controls import PanelControls
 
@@ -52,7 +52,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._picker: Picker | None = None
         self._press: QtCore.QPoint | None = None
         self._dragging = False
-        self.answer: Answer | None = None
+        self.answer: PanelAnswer | None = None
 
     @property
     def renderer(self) -> vtkRenderer:
@@ -69,21 +69,32 @@ class DistancePanel(QtWidgets.QWidget):
         self.value.setText("")
         self.repaint_view()
 
-    def show_answer(self, answer: Answer) -> None:
+    def show_answer(self, answer: PanelAnswer) -> None:
         self.answer = answer
-        self.scene.show_field(answer.field, answer.unit)
+        if answer.field is None:
+            self.scene.show_failure(answer.failure)
+        else:
+            self.scene.show_field(answer.field, answer.unit)
         self.title.setText(answer.label)
+        self.show_certificate(answer)
         self.repaint_view()
+
+    def show_certificate(self, answer: PanelAnswer) -> None:
+        """How accurate the field is, for who points at its name; `show_note` says it where it is poor."""
+        self.answer = answer
+        self.title.setToolTip(answer.certificate.text)
 
     def show_note(self, text: str) -> None:
         """What is being computed, in place of the hint; an empty text brings the hint back."""
         if self.answer is not None and self.answer.preview:
             text = text or "a better one is on its way"
+        if self.answer is not None and self.answer.certificate.is_poor:
+            text = text or f"not exact here: only {self.answer.certificate.text}"
         self.hint.setText(text or self.controls.state.hint)
 
     def show_value(self, vertex: int | None) -> None:
         """The field's value at a vertex, raw and as a share of the maximum."""
-        if self.answer is None or vertex is None:
+        if self.answer is None or self.answer.field is None or vertex is None:
             self.value.setText("")
             return
         d, top = float(self.answer.field[vertex]), self.answer.maximum

@@ -51,7 +51,11 @@ def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: st
     application.exec()
     for message in failures:
         print(f"bihdist: {message}", file=sys.stderr)
-    return 2 if failures else 0
+    failed = dict.fromkeys(f"{a.label}: {a.failure}" for a in window.session.answers if a is not None and a.failure)
+    if screenshot and not failures:
+        for message in failed:
+            print(f"bihdist: {message}", file=sys.stderr)
+    return 2 if failures else 1 if screenshot and failed else 0
 
 
 def build_panels(window: MainWindow) -> None:

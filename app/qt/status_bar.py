@@ -22,6 +22,8 @@ class StatusBar(QtWidgets.QStatusBar):
         self.progress.setFixedWidth(180)
         self.cancel = QtWidgets.QPushButton("Cancel")
         self.cancel.clicked.connect(lambda: self.cancelled.emit())
+        # Long words must not make the window wider; those that do not fit are in the tooltip.
+        self.message.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Preferred)
         self.addWidget(self.message, 1)
         self.addWidget(self.pointer)
         for widget in (self.doing, self.progress, self.cancel):

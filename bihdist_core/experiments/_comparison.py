@@ -1,8 +1,14 @@
 """Figures 4 and 5 are one experiment on different shapes: three distances, front and back, the source on the back."""
 
+import numpy as np
+
+from ..distance import Distance
+from ..errors import SolverError
+from ..laplacian import Laplacian
 from ..progress import Progress, part
+from ..surface import Surface
 from .measures import ELONGATED, FIELD_COLUMNS, ISOTROPIC, field_row, isotropy_chart, marks, shrinking, span
-from .result import Claim, Panel, Result, Table
+from .result import Claim, Mark, Panel, Result, Table
 from .shapes import DISTANCES, SEEDS, Shapes, distance, start_vertex, vertex_at
 
 BACK = {"figure": (0.5, 0.72), "figure_pose2": (0.5, 0.72), "animal": (0.5, 0.62), "hand": (0.5, 0.45)}
@@ -14,12 +20,20 @@ def compared(
 ) -> Result:
     """Three fields on each shape from a source on its back; numbers from it and five more sources (quick: one)."""
     rows, panels, charts = [], [], []
+    failures: dict[str, str] = {}
     for q, name in enumerate(names):
         surface, laplacian = shapes[name], shapes.laplacian(name)
         pictured = vertex_at(surface, *BACK.get(name, (0.5, 0.5)), "back")
         sources = {"on the back": pictured}
         sources |= {seed: start_vertex(surface, seed) for seed in SEEDS[: 1 if quick else 5]}
-        distances = {kind: distance(laplacian, kind) for kind in DISTANCES}
+        distances, missing = _distances(laplacian)
+        failures |= missing
+        if missing:
+            shown = {kind: d.from_source(pictured) for kind, d in distances.items()}
+            panels += [
+                _panel(surface, name, kind, pictured, shown.get(kind), missing.get(kind, "")) for kind in DISTANCES
+            ]
+            continue
         for k, (label, source) in enumerate(sources.items()):
             part(progress, q / len(names), (q + 1) / len(names))(k / len(sources), f"{name}, {label}")
             geodesic = distances["geodesic"].from_source(source)
@@ -29,10 +43,14 @@ def compared(
             for kind, field in fields.items():
                 rows.append(field_row(surface, name, label, source, kind, field, geodesic))
                 if label == "on the back":
-                    heading = distances[kind].label
-                    views = ("front", "back")
-                    panels.append(Panel(heading, name, field, name, marks(surface, field, source), views))
+                    panels.append(_panel(surface, name, distances[kind].label, source, field))
     table = Table("fields", FIELD_COLUMNS, tuple(rows))
+    if not rows:
+        # No shape has all three distances: the pictures are what there is.
+        if not any(panel.field is not None for panel in panels):
+            raise SolverError(" ".join(dict.fromkeys(failures.values())))
+        said = "Nothing was measured: " + " ".join(dict.fromkeys(failures.values()))
+        return Result(id, title, said, {name: shapes[name] for name in names}, tuple(panels))
 
     def numbers(column: str, kind: str) -> list[float]:
         return [float(v or 0) for v in table.values(column, distance=kind)]
@@ -85,3 +103,21 @@ def compared(
             ),
         ),
     )
+
+
+def _distances(laplacian: Laplacian) -> tuple[dict[str, Distance], dict[str, str]]:
+    """The distances that can be had, and of the others the reason why not."""
+    distances, failures = {}, {}
+    for kind in DISTANCES:
+        try:
+            distances[kind] = distance(laplacian, kind)
+        except SolverError as error:
+            failures[kind] = str(error)
+    return distances, failures
+
+
+def _panel(
+    surface: Surface, name: str, heading: str, source: int, field: np.ndarray | None, failure: str = ""
+) -> Panel:
+    shown = (Mark(source, "source"),) if field is None else marks(surface, field, source)
+    return Panel(heading, name, field, name, shown, ("front", "back"), failure=failure)

@@ -42,7 +42,7 @@ class Panel:
     row: panels of one row belong side by side.  style: "surface", or "height" for a flat domain whose field is drawn
     as a height.  views: names of directions, "front" (seen from +z), "back", or "zoom" (around `zoom_vertex`, showing
     `zoom_radius`, in the surface's unit).  Isolines: `isoline_count` equally spaced ones.  exaggerate: colours show
-    the field to this power; below 1 small values are spread out.
+    the field to this power; below 1 small values are spread out.  failure: why a field is missing.
     """
 
     heading: str
@@ -56,6 +56,7 @@ class Panel:
     zoom_radius: float | None = None
     isoline_count: int = 20
     exaggerate: float = 1.0
+    failure: str = ""
 
 
 @dataclass(frozen=True, eq=False)

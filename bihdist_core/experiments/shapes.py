@@ -84,7 +84,14 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
     """A distance by the words of the experiments: "biharmonic", "geodesic", "diffusion t = 1" (1/5, 0.125, ...).
 
     Geodesic is exact on manifold surfaces of up to 20,000 vertices, else by the heat method; the label says which.
+    SolverError if it cannot be had, or not accurately.
     """
+    made = _made(laplacian, kind, progress)
+    made.certificate()
+    return made
+
+
+def _made(laplacian: Laplacian, kind: str, progress: Progress | None) -> Distance:
     if kind == "biharmonic":
         return BiharmonicDistance(laplacian, progress)
     if kind == "geodesic":

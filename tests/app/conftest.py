@@ -24,6 +24,9 @@ class RecordingView:
     def answer_changed(self, index):
         self.told.append(f"answer {index}")
 
+    def certificate_changed(self, index):
+        pass
+
     def progress_changed(self):
         pass
 

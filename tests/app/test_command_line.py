@@ -1,6 +1,7 @@
 """The command line without a window: what it writes, and what it says when it cannot."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -19,7 +20,7 @@ from bihdist_core import (
     TruncatedBiharmonicDistance,
     read_surface,
 )
-from tests.shapes import bumpy, two_pieces
+from tests.shapes import bumpy, caps, fin, two_pieces
 
 ROOT = Path(__file__).parents[2]
 
@@ -116,6 +117,71 @@ def test_all_pairs_go_to_disk(mesh, tmp_path, capsys):
     assert written.dtype == np.float32
     assert np.abs(written - expected).max() <= 1e-6 * expected.max()  # rounded to single precision
     assert ".csv" in refused(capsys, "pairs", mesh, "--all", "-o", tmp_path / "all.csv")
+
+
+# ---------------------------------------------------------------------- accuracy
+ACCURATE = re.compile(r"accurate to \de-1\d of the maximum")
+
+
+def test_answers_come_with_their_accuracy(mesh, tmp_path, capsys):
+    out = str(tmp_path / "d.npy")
+    for command in (["field", mesh, "--source", "3"], ["pairs", mesh, "--pairs", "1,2"], ["pairs", mesh, "--all"]):
+        assert main([*command, "-o", out]) == 0
+        assert ACCURATE.search(capsys.readouterr().out)
+    assert main(["field", mesh, "--source", "3", "--distance", "geodesic", "-o", out]) == 0
+    assert "accurate" not in capsys.readouterr().out
+    assert main(["info", mesh, "--accuracy"]) == 0
+    assert len(ACCURATE.findall(capsys.readouterr().out)) == 2
+
+
+def test_a_poor_accuracy_is_a_warning_and_a_bad_one_is_refused(mesh, tmp_path, capsys, monkeypatch):
+    out = tmp_path / "d.npy"
+    monkeypatch.setattr(BiharmonicDistance, "accuracy", 3e-5)
+    assert main(["field", mesh, "--source", "3", "-o", str(out)]) == 0
+    said = capsys.readouterr()
+    assert "accurate to 3e-05" in said.out
+    assert said.err.startswith("bihdist: warning: biharmonic, exact on mesh.off is only accurate to 3e-05")
+    assert main(["figure", mesh, "--distance", "biharmonic", "-o", str(tmp_path / "d.png")]) == 0
+    assert "is only accurate to 3e-05 of the maximum" in capsys.readouterr().err
+    out.unlink()
+    monkeypatch.setattr(BiharmonicDistance, "accuracy", 0.37)
+    for command in (["field", mesh, "--source", "3"], ["pairs", mesh, "--vertices", "1,2"], ["pairs", mesh, "--all"]):
+        assert "may be off by 4e-01 of its maximum, so it is not given" in refused(capsys, *command, "-o", out)
+        assert not out.exists()
+
+
+def test_flat_faces_are_told_with_their_count(mesh_file, tmp_path, capsys):
+    flat = mesh_file(caps(bumpy(60), 1e-9, every=10))
+    words = "12 faces of (nearly) no area treated as 1e-07 of the longest side high"
+    assert main(["info", flat]) == 0
+    assert words in capsys.readouterr().out
+    assert main(["field", flat, "--source", "3", "-o", str(tmp_path / "d.npy")]) == 0
+    assert words in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------------- a panel that fails
+NOT_MANIFOLD = ["--distance", "biharmonic", "--distance", "geodesic", "--method", "exact", "--source", "0"]
+
+
+@pytest.mark.parametrize("name", ["f.png", "f.svg", "f.gif"])
+def test_a_failed_panel_is_named_and_the_others_are_drawn(mesh_file, tmp_path, capsys, name):
+    out = tmp_path / name
+    command = ["movie", "--frames", "2", "--size", "300px"] if name == "f.gif" else ["figure"]
+    assert main([*command, mesh_file(fin()), *NOT_MANIFOLD, "-o", str(out)]) == 1
+    assert (
+        "geodesic: mesh.off is not manifold, where exact geodesic distance is not computed" in capsys.readouterr().err
+    )
+    assert out.stat().st_size > 1000
+    if name == "f.svg":
+        text = out.read_text()
+        assert "biharmonic, exact" in text
+        assert "where exact geodesic" in text  # the panel says so itself
+
+
+def test_a_figure_of_failures_only_is_refused(mesh_file, tmp_path, capsys):
+    words = ["--distance", "geodesic", "--method", "exact", "--source", "0"]
+    assert "is not manifold" in refused(capsys, "figure", mesh_file(fin()), *words, "-o", tmp_path / "f.png")
+    assert not list(tmp_path.glob("f.*"))
 
 
 # ---------------------------------------------------------------------- info and version

@@ -51,12 +51,13 @@ def test_a_bad_vertex_changes_nothing(desk, mesh_file):
 def test_a_file_that_cannot_be_read_leaves_the_session_as_it_was(desk, mesh_file, tmp_path):
     d = desk()
     session = d.opened(mesh_file(bumpy(200)), source=3)
-    before = (session.surface, session.state, session.path, list(session.answers))
+    before = (session.surface, session.state, session.path, [answer.field for answer in session.answers])
     bad = tmp_path / "bad.off"
     bad.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
     session.open(str(bad))
     d.until_told("bad.off")
-    assert (session.surface, session.state, session.path, session.answers) == before
+    assert (session.surface, session.state, session.path) == before[:3]
+    assert all(answer.field is field for answer, field in zip(session.answers, before[3], strict=True))
     session.open(mesh_file(grid(3, 3), "other.off"), source=99)
     d.until_told("has no vertex 99")
     assert session.surface is before[0]
@@ -82,10 +83,34 @@ def test_a_panel_can_show_another_distance(desk, mesh_file):
     assert session.answers[2].label == "diffusion, t = 0.25"
 
 
-def test_what_a_panel_cannot_show_is_told(desk, mesh_file):
-    d = desk(ViewerState(panels=(PanelState("geodesic", method="exact"),)))
-    d.session.open(mesh_file(replace_last_face(grid(3, 3))))
-    d.until_told("manifold")
+def test_what_a_panel_cannot_show_it_says_itself_and_the_others_go_on(desk, mesh_file):
+    d = desk(ViewerState(panels=(PanelState("geodesic", method="exact"), PanelState("biharmonic"))))
+    session = d.opened(mesh_file(replace_last_face(grid(3, 3))))
+    assert "is not manifold" in session.answers[0].failure
+    assert session.answers[0].field is None
+    assert session.answers[1].maximum > 0
+    session.set_panel(0, PanelState("geodesic", method="heat"))
+    d.until(lambda: session.is_complete)
+    assert session.answers[0].failure == ""
+
+
+def test_an_answer_is_certified_after_it_was_shown(desk, mesh_file):
+    d = desk(ViewerState(panels=(PanelState("biharmonic"),)))
+    session = d.opened(mesh_file(bumpy(200)))
+    first = session.answers[0].field
+    d.until(lambda: session.answers[0].certificate.text)
+    assert session.answers[0].certificate.text.startswith("accurate to ")
+    assert session.answers[0].field is first
+
+
+def test_an_answer_that_is_too_poor_is_taken_back(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr(BiharmonicDistance, "accuracy", 0.02)
+    d = desk(ViewerState(panels=(PanelState("biharmonic"), PanelState("commute-time"))))
+    session = d.opened(mesh_file(bumpy(200)))
+    d.until(lambda: session.answers[0].failure)
+    assert "may be off by 2e-02 of its maximum" in session.answers[0].failure
+    assert session.answers[0].field is None
+    assert session.answers[1].maximum > 0
 
 
 def replace_last_face(surface):
@@ -218,8 +243,8 @@ def test_an_error_nobody_foresaw_is_told(desk, mesh_file, monkeypatch):
 
     monkeypatch.setattr(PanelState, "build", broken)
     d = desk(ViewerState(panels=(PanelState("biharmonic"),)))
-    d.session.open(mesh_file(bumpy(200)))
-    d.until_told("ZeroDivisionError")
+    session = d.opened(mesh_file(bumpy(200)))
+    assert "ZeroDivisionError" in session.answers[0].failure
 
 
 # ---------------------------------------------------------------------- state

@@ -11,7 +11,7 @@ from bihdist_core.experiments import EXPERIMENTS, NAMES, SEEDS, Shapes, _claims_
 from bihdist_core.experiments.resizing import simplified
 from bihdist_core.experiments.result import Table
 from bihdist_core.experiments.shapes import small_radius, spread_points, start_vertex, vertex_at
-from tests.shapes import bumpy, grid, two_pieces
+from tests.shapes import bumpy, grid, spike, two_pieces
 
 ASSETS = Path(__file__).resolve().parents[2] / "assets"
 COUNTS = {"figure": 1500, "animal": 1500, "hand": 1200, "genus3": 1000, "domain": 1500, "scan": 1500}
@@ -397,3 +397,13 @@ def test_claims_shortcuts(result):
         "raw largest", distance="biharmonic", **at
     )
     assert (numbers(table, "normalised mean", change="thin handle", distance="biharmonic") < 0.05).all()
+
+
+def test_a_distance_that_cannot_be_had_leaves_the_others_their_pictures():
+    result = EXPERIMENTS["fig4"].compute(Shapes(own=spike(60, 1e13)), quick=True)
+    panels = {panel.heading.split(",")[0]: panel for panel in result.panels}
+    assert panels["geodesic"].field is not None
+    for kind in ("biharmonic", "diffusion t = 1"):
+        assert panels[kind].field is None
+        assert "emeshing would help" in panels[kind].failure
+    assert result.protocol.startswith("Nothing was measured")

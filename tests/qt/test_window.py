@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.state import PanelState, ViewerState
-from tests.shapes import bumpy, grid, two_pieces
+from tests.shapes import bumpy, fin, grid, two_pieces
 
 pytest.importorskip("qtpy")
 
@@ -330,3 +330,27 @@ def test_samples_are_listed_with_their_pictures_and_open(screen):
     actions["genus3"].trigger()
     s.until(lambda: s.session.is_complete)
     assert s.window.windowTitle().startswith("genus3.ply")
+
+
+def test_a_panel_that_fails_says_so_in_its_own_place(screen, mesh_file):
+    s = screen(ViewerState(panels=(PanelState("geodesic", method="exact"), PanelState("biharmonic"))))
+    s.open(mesh_file(fin()), source=0)
+    failed, answered = s.panels
+    assert "is not manifold" in " ".join(failed.scene._failure.GetInput().split())
+    assert not failed.scene._bar.GetVisibility()
+    assert answered.scene._failure.GetInput() == ""
+    assert failed.interactor.height() == answered.interactor.height()
+    failed.controls.changed.emit(PanelState("geodesic", method="heat"))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert failed.scene._failure.GetInput() == ""
+    assert failed.scene._bar.GetVisibility()
+
+
+def test_long_words_do_not_make_the_window_wider(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(200)))
+    width = s.window.width()
+    s.window._say("repaired " * 200)
+    s.settle()
+    assert s.window.width() == width
