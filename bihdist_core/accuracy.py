@@ -24,6 +24,7 @@ from .flat_faces import FlatFaces
 from .laplacian import Component
 from .operators import face_weights
 from .surface import FLAT, Surface, dots
+from .worker_threads import side_by_side
 
 Columns = Callable[[np.ndarray], np.ndarray]
 Form = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray, int]]
@@ -94,22 +95,9 @@ class Perturbation:
         """
         held = self._diagonal[:, None] * y
         held *= z
-        squares = np.einsum("ij,ij->j", held, held)
-        faces = self._surface.faces
-        for start in range(0, len(faces), BLOCK):
-            block = slice(start, start + BLOCK)
-            at_y, at_z = ([x.take(corner, axis=0) for corner in faces[block].T] for x in (y, z))
-            energy_y, energy_z = np.zeros((2, *at_y[0].shape))
-            for k in range(3):
-                dy, dz = (at[(k + 1) % 3] - at[(k + 2) % 3] for at in (at_y, at_z))
-                by_y, by_z = dy * self._weights[k, block, None], dz * self._weights[k, block, None]
-                energy_y += by_y * dy
-                energy_z += by_z * dz
-                by_y *= dz
-                squares += np.einsum("ij,ij->j", by_y, by_y)
-            energy = np.sqrt(np.maximum(energy_y, 0) * np.maximum(energy_z, 0))
-            energy *= self._uncertain[block, None]
-            squares += np.einsum("ij,ij->j", energy, energy)
+        starts = range(0, len(self._surface.faces), BLOCK)
+        of_blocks = side_by_side(lambda start: self._rounded(y, z, slice(start, start + BLOCK)), starts)
+        squares = np.einsum("ij,ij->j", held, held) + sum(of_blocks)
         flat, spring = self._flat, np.zeros(y.shape[1])
         if len(flat.faces):
             spring += flat.spring * (1 - flat.share / FLAT) @ np.abs(flat.stretch(y) * flat.stretch(z))
@@ -117,6 +105,22 @@ class Perturbation:
             # A link, whose strength is half a height.
             squares += (((y[a] - y[b]) * (z[a] - z[b]) / 2) ** 2).sum(axis=0)
         return SPARE * ROUNDINGS / 2 * EPS * np.sqrt(squares), SPARE / 2 * spring
+
+    def _rounded(self, y: np.ndarray, z: np.ndarray, block: slice) -> np.ndarray:
+        """(k,) sum of squares of what a block of faces can do, in units of the rounding of a number."""
+        at_y, at_z = ([x.take(corner, axis=0) for corner in self._surface.faces[block].T] for x in (y, z))
+        energy_y, energy_z = np.zeros((2, *at_y[0].shape))
+        squares = np.zeros(y.shape[1])
+        for k in range(3):
+            dy, dz = (at[(k + 1) % 3] - at[(k + 2) % 3] for at in (at_y, at_z))
+            by_y, by_z = dy * self._weights[k, block, None], dz * self._weights[k, block, None]
+            energy_y += by_y * dy
+            energy_z += by_z * dz
+            by_y *= dz
+            squares += np.einsum("ij,ij->j", by_y, by_y)
+        energy = np.sqrt(np.maximum(energy_y, 0) * np.maximum(energy_z, 0))
+        energy *= self._uncertain[block, None]
+        return squares + np.einsum("ij,ij->j", energy, energy)
 
 
 def change_of_root(square: np.ndarray, by: np.ndarray) -> np.ndarray:
@@ -140,10 +144,12 @@ def accuracy_of_pairs(component: Component, columns: Columns, form: Form, correc
     fields[sources, [0, 1]] = 0
     top = fields.max()
     beside = face[1:][fields[face[1:], 0].argmin()]
-    nearest = np.where(fields > corrected * top, fields, np.inf).argmin(axis=0)
-    targets = [{beside, nearest[0], fields[:, 0].argmax()}, {edge.sum() - sources[1]}]
+    targets = [{beside, fields[:, 0].argmax()}, {edge.sum() - sources[1]}]
     if corrected:
-        targets[1].add(nearest[1])
+        for nearest, also in zip(
+            np.where(fields > corrected * top, fields, np.inf).argmin(axis=0), targets, strict=True
+        ):
+            also.add(nearest)
     pairs = [(column, int(t)) for column in (0, 1) for t in sorted(targets[column])]
     column, target = np.array(pairs).T
     b, each = np.zeros((len(fields), len(pairs))), np.arange(len(pairs))

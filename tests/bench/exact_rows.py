@@ -42,6 +42,14 @@ def set_up(size: Size) -> Iterator[Line]:
         tolerance=EXACT,
         note="peer: potpourri3d, heat solver constructed",
     )
+    laplacian = case.distance.laplacian
+    yield compared(
+        1,
+        f"accuracy of the exact distance, {case.count}",
+        alternate(lambda: BiharmonicDistance(laplacian).accuracy, case.set_up, size.rounds),
+        bound=0.1,
+        note="peer: our set-up",
+    )
 
 
 def one_field(size: Size) -> Iterator[Line]:
