@@ -159,6 +159,8 @@ class Session:
             source = first_source(surface)
         source = surface.check_vertex(source)
         prepared = self._prepare(surface)
+        # Told by the view, for whose thread going over all faces would take too long.
+        _ = surface.remarks
         report(1, f"assembling {surface.name}")
         self._post(lambda: self._loaded(path, laplacian, source, prepared))
 
