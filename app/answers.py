@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import BihdistError, Cancelled, Distance, VertexError
-from bihdist_core.accuracy import Certificate
+from bihdist_core.distances.accuracy import Certificate
 from bihdist_core.progress import Progress, part
 
 NO_CERTIFICATE = Certificate()

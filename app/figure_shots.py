@@ -8,7 +8,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from bihdist_core import ParameterError, Surface
-from bihdist_core.isoline_tracing import isolines
+from bihdist_core.analysis.isoline_tracing import isolines
 from bihdist_core.progress import Progress, part
 
 from .camera import Camera, Margins, Projection, standard_camera

@@ -217,7 +217,7 @@ def _counted(count: int, noun: str) -> str:
 
 
 def _field(options: argparse.Namespace) -> None:
-    from bihdist_core.field_output import FIELD_FORMATS, write_fields
+    from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
     from bihdist_core.whole_file import check_output
 
     check_output(options.output, FIELD_FORMATS)
@@ -236,8 +236,8 @@ def _field(options: argparse.Namespace) -> None:
 def _pairs(options: argparse.Namespace) -> None:
     import numpy as np
 
-    from bihdist_core.all_pairs import write_all_pairs
-    from bihdist_core.field_output import ARRAY_FORMATS, write_array
+    from bihdist_core.analysis.all_pairs import write_all_pairs
+    from bihdist_core.formats.field_output import ARRAY_FORMATS, write_array
     from bihdist_core.whole_file import check_output
 
     extension = check_output(options.output, (".npy",) if options.all else ARRAY_FORMATS)

@@ -14,8 +14,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from bihdist_core import Distance, Laplacian, Surface, read_surface
+from bihdist_core.distances.spectral import SpectralDistance
 from bihdist_core.progress import Progress, part
-from bihdist_core.spectral import SpectralDistance
 
 from .answers import Answer, failure_in_words
 from .lane import Lane

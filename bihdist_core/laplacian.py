@@ -15,12 +15,12 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from .elimination_tree import EliminationTree
 from .errors import ParameterError, SolverError
-from .factor import Factor, ReceivePiece
 from .operators import AREAS, stiffness, vertex_areas
 from .progress import Progress, part
-from .spectrum import Spectrum, smallest_eigenpairs
+from .solver.elimination_tree import EliminationTree
+from .solver.factor import Factor, ReceivePiece
+from .solver.spectrum import Spectrum, smallest_eigenpairs
 from .surface import Surface
 
 

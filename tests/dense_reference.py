@@ -6,8 +6,8 @@ import numpy as np
 import scipy.linalg
 
 from bihdist_core import Surface
-from bihdist_core.blas import one_blas_thread
 from bihdist_core.operators import stiffness, vertex_areas
+from bihdist_core.solver.blas import one_blas_thread
 
 
 def operators(surface: Surface, areas: str = "voronoi") -> tuple[np.ndarray, np.ndarray]:

@@ -14,7 +14,7 @@ from bihdist_core import (
     read_surface,
 )
 from bihdist_core.experiments import EXPERIMENTS, Experiment, Shapes
-from bihdist_core.mesh_io import MESH_FORMATS
+from bihdist_core.formats.mesh_io import MESH_FORMATS
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import whole_file
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core.geodesic import METHODS
+from bihdist_core.distances.geodesic import METHODS
 
 from ..state import DISTANCES, PAPER_TIMES, PanelState
 

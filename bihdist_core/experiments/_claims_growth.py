@@ -5,8 +5,8 @@ from time import perf_counter
 
 import numpy as np
 
-from ..biharmonic import BiharmonicDistance
-from ..commute_time import CommuteTimeDistance
+from ..distances.biharmonic import BiharmonicDistance
+from ..distances.commute_time import CommuteTimeDistance
 from ..laplacian import Laplacian
 from ..progress import Progress
 from .measures import percent

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from ..biharmonic import BiharmonicDistance
-from ..diagnostics import smallest_distance, triangle_violations
-from ..diffusion import DiffusionDistance
-from ..distance import Distance
-from ..geodesic import GeodesicDistance
+from ..analysis.diagnostics import smallest_distance, triangle_violations
+from ..distances.biharmonic import BiharmonicDistance
+from ..distances.diffusion import DiffusionDistance
+from ..distances.distance import Distance
+from ..distances.geodesic import GeodesicDistance
+from ..distances.spectral import TruncatedBiharmonicDistance
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
-from ..spectral import TruncatedBiharmonicDistance
 from .result import Claim, Table
 from .shapes import Shapes
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ..diagnostics import FieldChange
-from ..edge_geodesic import EdgeGeodesic
+from ..analysis.diagnostics import FieldChange
+from ..analysis.persistence import extrema
+from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
-from ..persistence import extrema
 from ..progress import Progress, part
 from ..surface import Surface
 from .damage import welded, with_handle

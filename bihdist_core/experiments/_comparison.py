@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..distance import Distance
+from ..distances.distance import Distance
 from ..errors import SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, part

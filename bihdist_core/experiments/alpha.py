@@ -6,11 +6,11 @@ distance measure"; biharmonic distance (alpha = 2) balances between too local an
 
 import numpy as np
 
-from ..biharmonic import BiharmonicDistance
-from ..geodesic import GeodesicDistance
+from ..distances.biharmonic import BiharmonicDistance
+from ..distances.geodesic import GeodesicDistance
+from ..distances.spectral import PowerDistance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
-from ..spectral import PowerDistance
 from .measures import FIELD_COLUMNS, field_row, marks, percent
 from .result import Chart, Claim, Panel, Result, Series, Table
 from .shapes import Shapes, vertex_at

@@ -4,7 +4,7 @@ The paper shows the picture and lists, in section 1, what it stands for: gradual
 the shape away from it.
 """
 
-from ..persistence import extrema
+from ..analysis.persistence import extrema
 from ..progress import Progress, part
 from .measures import FIELD_COLUMNS, ISOTROPIC, field_row, other_minima, span
 from .result import Claim, Mark, Panel, Result, Table

@@ -7,9 +7,9 @@ produces unintuitive result for small not-centered areas like the head"; with bi
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..correspondence import correspondence_prediction
-from ..edge_geodesic import EdgeGeodesic
-from ..geodesic import GeodesicDistance
+from ..analysis.correspondence import correspondence_prediction
+from ..distances.edge_geodesic import EdgeGeodesic
+from ..distances.geodesic import GeodesicDistance
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import percent

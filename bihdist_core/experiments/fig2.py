@@ -6,8 +6,8 @@ geodesic field has a kink and isolines that are not aware of the shape far away;
 
 import numpy as np
 
-from ..biharmonic import BiharmonicDistance
-from ..geodesic import GeodesicDistance
+from ..distances.biharmonic import BiharmonicDistance
+from ..distances.geodesic import GeodesicDistance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface

@@ -8,8 +8,8 @@ intact surface with holes punched into it and nothing else.
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..diagnostics import FieldChange
-from ..edge_geodesic import EdgeGeodesic
+from ..analysis.diagnostics import FieldChange
+from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface

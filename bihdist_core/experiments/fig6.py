@@ -6,7 +6,7 @@ The paper: isolines of biharmonic distance are "largely unchanged" by Gaussian n
 
 import numpy as np
 
-from ..diagnostics import FieldChange
+from ..analysis.diagnostics import FieldChange
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface

@@ -6,7 +6,7 @@ bound is (generally) linear in 1/K".
 
 import numpy as np
 
-from ..biharmonic import BiharmonicDistance
+from ..distances.biharmonic import BiharmonicDistance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from .measures import percent

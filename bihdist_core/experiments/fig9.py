@@ -7,9 +7,9 @@ head is, of t = 4 spurious local extrema in the front legs.
 
 import numpy as np
 
-from ..edge_geodesic import EdgeGeodesic
-from ..interpolation import ShepardInterpolant
-from ..persistence import extrema
+from ..analysis.interpolation import ShepardInterpolant
+from ..analysis.persistence import extrema
+from ..distances.edge_geodesic import EdgeGeodesic
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import KINK, inner_jumps, percent

@@ -5,10 +5,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..diagnostics import FieldChange, field_change, gradient_jumps, isotropy_ratio
-from ..geodesic import GeodesicDistance
+from ..analysis.diagnostics import FieldChange, field_change, gradient_jumps, isotropy_ratio
+from ..analysis.persistence import Extrema, extrema
+from ..distances.geodesic import GeodesicDistance
 from ..laplacian import Laplacian
-from ..persistence import Extrema, extrema
 from ..surface import Surface
 from .resizing import refined
 from .result import Cell, Chart, Mark, Series

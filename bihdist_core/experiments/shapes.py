@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..biharmonic import BiharmonicDistance
-from ..diffusion import DiffusionDistance
-from ..distance import Distance
-from ..edge_geodesic import EdgeGeodesic
+from ..distances.biharmonic import BiharmonicDistance
+from ..distances.diffusion import DiffusionDistance
+from ..distances.distance import Distance
+from ..distances.edge_geodesic import EdgeGeodesic
+from ..distances.geodesic import GeodesicDistance
 from ..errors import ParameterError
-from ..geodesic import GeodesicDistance
+from ..formats.mesh_io import read_surface
 from ..laplacian import Laplacian
-from ..mesh_io import read_surface
 from ..progress import Progress
 from ..surface import Surface
 from .resizing import resized

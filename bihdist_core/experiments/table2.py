@@ -9,8 +9,8 @@ from time import perf_counter, process_time
 
 import numpy as np
 
-from ..diffusion import DiffusionDistance
-from ..edge_geodesic import EdgeGeodesic
+from ..distances.diffusion import DiffusionDistance
+from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface

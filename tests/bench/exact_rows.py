@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from bihdist_core import BiharmonicDistance, Surface
-from bihdist_core.all_pairs import write_all_pairs
+from bihdist_core.analysis.all_pairs import write_all_pairs
 
 from . import machine, peers
 from .case import EXACT, Case, difference, main_case

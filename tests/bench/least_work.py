@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bihdist_core.elimination_tree import EliminationTree
+from bihdist_core.solver.elimination_tree import EliminationTree
 
 
 def _front_sizes(tree: EliminationTree) -> tuple[np.ndarray, np.ndarray]:

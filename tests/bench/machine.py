@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-from bihdist_core.blas import one_blas_thread
+from bihdist_core.solver.blas import one_blas_thread
 
 CORES = 2
 """Our kernels use two threads."""

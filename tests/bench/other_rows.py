@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from bihdist_core import GeodesicDistance, Surface
-from bihdist_core.heat_geodesic import heat_matrix, heat_time
-from bihdist_core.spectrum import Spectrum, smallest_eigenpairs
+from bihdist_core.distances.heat_geodesic import heat_matrix, heat_time
+from bihdist_core.solver.spectrum import Spectrum, smallest_eigenpairs
 
 from . import peers
 from .case import Case, difference, main_case

@@ -290,7 +290,7 @@ def _wait_a_while(application: Any, seconds: float) -> None:
 @contextmanager
 def _mesh_file(vertices: np.ndarray, faces: np.ndarray) -> Iterator[str]:
     from bihdist_core import Surface
-    from bihdist_core.field_output import write_fields
+    from bihdist_core.formats.field_output import write_fields
 
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder, "mesh.ply"))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import BiharmonicDistance, DiffusionDistance, GeodesicDistance
-from bihdist_core.all_pairs import write_all_pairs
+from bihdist_core.analysis.all_pairs import write_all_pairs
 from bihdist_core.errors import Cancelled, OutputError, ParameterError
 from tests.shapes import bumpy, two_pieces
 

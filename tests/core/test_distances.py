@@ -20,8 +20,8 @@ from bihdist_core import (
     TruncatedBiharmonicDistance,
     VertexError,
 )
-from bihdist_core.accuracy import Certificate
-from bihdist_core.distance import root
+from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.distance import root
 from tests.shapes import bumpy, components_apart, fin, grid, slivers, spike, tetrahedron, torus, two_pieces
 
 DISTANCES = {

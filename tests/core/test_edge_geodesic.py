@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bihdist_core.edge_geodesic import EdgeGeodesic
+from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.errors import VertexError
 from bihdist_core.surface import Surface
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bihdist_core import exact_geodesic
+from bihdist_core.distances import exact_geodesic
+from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.errors import Cancelled, ParameterError, SolverError, VertexError
-from bihdist_core.exact_geodesic import ExactGeodesic
 from bihdist_core.surface import Surface
 
 ORACLE = Path(__file__).parents[2].parent / "shared" / "oracle"
@@ -194,7 +194,7 @@ def test_the_process_ends_with_its_object():
 def test_a_script_without_main_guard_exits_and_leaves_no_process():
     script = """
 import numpy as np
-from bihdist_core.exact_geodesic import ExactGeodesic
+from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.surface import Surface
 solver = ExactGeodesic(Surface(np.eye(3), [[0, 1, 2]]))
 solver.distances(0)

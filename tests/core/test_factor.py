@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from bihdist_core import elimination_tree
-from bihdist_core.blas import one_blas_thread
-from bihdist_core.elimination_tree import EliminationTree
 from bihdist_core.errors import Cancelled, ParameterError, SolverError
-from bihdist_core.factor import Factor
+from bihdist_core.solver import elimination_tree
+from bihdist_core.solver.blas import one_blas_thread
+from bihdist_core.solver.elimination_tree import EliminationTree
+from bihdist_core.solver.factor import Factor
 
 # Conditions are at most about 1e4 here, and a backward stable solve loses one digit per power of ten.
 CLOSE = 1e-11
@@ -319,7 +319,7 @@ def test_progress_ascends_to_one_in_the_calling_thread():
 
 @pytest.mark.parametrize("call", [1, 3])
 def test_progress_can_stop_it(call, monkeypatch):
-    monkeypatch.setattr("bihdist_core.worker_threads.REPORT_SECONDS", 0.001)
+    monkeypatch.setattr("bihdist_core.solver.worker_threads.REPORT_SECONDS", 0.001)
     matrix, x = grid(100, 150)
 
     def stopper():

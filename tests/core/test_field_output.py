@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bihdist_core.errors import OutputError, ParameterError
-from bihdist_core.field_output import ARRAY_FORMATS, FIELD_FORMATS, ply_names, write_array, write_fields
-from bihdist_core.mesh_io import read_surface
+from bihdist_core.formats.field_output import ARRAY_FORMATS, FIELD_FORMATS, ply_names, write_array, write_fields
+from bihdist_core.formats.mesh_io import read_surface
 from bihdist_core.surface import Surface
 from bihdist_core.whole_file import check_output
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import bihdist_core.geodesic as geodesic
+import bihdist_core.distances.geodesic as geodesic
 from bihdist_core import GeodesicDistance, ParameterError, Surface
 from tests.shapes import bumpy, fin
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import splu
 
+from bihdist_core.distances.heat_geodesic import HeatGeodesic, _FaceFlow, heat_matrix, heat_time
 from bihdist_core.errors import Cancelled, ParameterError, SolverError, VertexError
-from bihdist_core.heat_geodesic import HeatGeodesic, _FaceFlow, heat_matrix, heat_time
 from bihdist_core.operators import stiffness, vertex_areas
 from bihdist_core.surface import Surface
 
@@ -119,7 +119,7 @@ def test_stages_give_what_one_flow_gives(monkeypatch):
     solver = heat_method(surface)
     expected = solver.distances(0)
     # Heat spans some 1e25 on this square, so this floor makes several stages of what needs one.
-    monkeypatch.setattr("bihdist_core.heat_geodesic.FLOOR", 1e95)
+    monkeypatch.setattr("bihdist_core.distances.heat_geodesic.FLOOR", 1e95)
     calls = []
     flow = solver._solve_heat
     solver._solve_heat = lambda b: calls.append(1) or flow(b)

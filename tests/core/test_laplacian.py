@@ -14,8 +14,8 @@ from bihdist_core import (
     VertexError,
     eigenpairs,
 )
-from bihdist_core.blas import one_blas_thread
 from bihdist_core.progress import part
+from bihdist_core.solver.blas import one_blas_thread
 from tests import dense_reference as dense
 from tests.shapes import bumpy, grid, spike, torus, two_pieces
 

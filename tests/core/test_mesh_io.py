@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bihdist_core.field_output import write_fields
-from bihdist_core.mesh_io import read_surface
+from bihdist_core.formats.field_output import write_fields
+from bihdist_core.formats.mesh_io import read_surface
 from bihdist_core.surface import Surface
 from tests.core.mesh_samples import (
     FACES,

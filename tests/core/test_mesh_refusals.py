@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from bihdist_core.errors import MeshError
-from bihdist_core.field_output import write_fields
-from bihdist_core.mesh_io import MESH_FORMATS, read_surface
+from bihdist_core.formats.field_output import write_fields
+from bihdist_core.formats.mesh_io import MESH_FORMATS, read_surface
 from bihdist_core.surface import Surface
 from tests.core.mesh_samples import (
     FACES,

@@ -5,7 +5,7 @@ import pytest
 import scipy.sparse as sp
 
 from bihdist_core.errors import Cancelled
-from bihdist_core.ordering import _along_a_curve, _unit_box, nested_dissection
+from bihdist_core.solver.ordering import _along_a_curve, _unit_box, nested_dissection
 
 
 def grid(rows, columns):

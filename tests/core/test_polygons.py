@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bihdist_core.mesh_io import read_surface
+from bihdist_core.formats.mesh_io import read_surface
 from tests.core.mesh_samples import FACES, VERTICES, assert_same, off, ply, rows
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from bihdist_core import ordering, separators
-from bihdist_core.ordering import nested_dissection
-from bihdist_core.separators import separate
+from bihdist_core.solver import ordering, separators
+from bihdist_core.solver.ordering import nested_dissection
+from bihdist_core.solver.separators import separate
 
 from .test_ordering import GRAPHS, grid
 

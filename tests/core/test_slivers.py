@@ -161,9 +161,9 @@ def test_where_no_face_is_flat_nothing_is_done():
 def test_a_certificate_knows_what_it_does_not_know(monkeypatch):
     """Where flat faces are left as they are, and the elimination loses digits, distances are wrong, and so it says."""
     surface, pairs = cases("caps", "bumpy", 1e-7)
-    for module in ("surface", "flat_faces", "accuracy", "biharmonic"):
+    for module in ("surface", "flat_faces", "distances.accuracy", "distances.biharmonic"):
         monkeypatch.setattr(f"bihdist_core.{module}.FLAT", 1e-14)
-    monkeypatch.setattr("bihdist_core.elimination.STIFF", 0.0)
+    monkeypatch.setattr("bihdist_core.solver.elimination.STIFF", 0.0)
     distance = BiharmonicDistance(Surface(surface.vertices, surface.faces))
     error = max(abs(distance.from_source(i)[j] - exact) for i, j, exact, _ in pairs) / distance.from_source(3).max()
     assert error > RIGHT

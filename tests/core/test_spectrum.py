@@ -9,10 +9,10 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
-from bihdist_core import krylov, spectrum
 from bihdist_core.errors import Cancelled, ParameterError, SolverError
 from bihdist_core.operators import stiffness, vertex_areas
-from bihdist_core.spectrum import Spectrum, smallest_eigenpairs
+from bihdist_core.solver import krylov, spectrum
+from bihdist_core.solver.spectrum import Spectrum, smallest_eigenpairs
 from bihdist_core.surface import Surface
 
 from ..dense_reference import full_spectrum, spectral

@@ -5,7 +5,7 @@ import pytest
 import scipy.sparse as sp
 from scipy.spatial.distance import cdist
 
-from bihdist_core import tall
+from bihdist_core.solver import tall
 
 RANDOM = np.random.default_rng(0)
 X, Y, C, W = (RANDOM.standard_normal(shape) for shape in [(250, 7), (250, 5), (7, 5), 250])

@@ -12,7 +12,7 @@ from app.field_actor import drawable, isoline_values
 from app.vector_crossings import chains, crossings, simplified
 from app.vector_sight import Curve, Sight
 from bihdist_core import Surface
-from bihdist_core.isoline_tracing import isolines
+from bihdist_core.analysis.isoline_tracing import isolines
 from tests.shapes import grid, sphere, torus
 
 PIXELS = 600

@@ -1,0 +1,1 @@
+"""What is made of distances: samples, interpolation, correspondence, isolines, extrema, diagnostics, all pairs."""

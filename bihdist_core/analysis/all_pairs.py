@@ -1,0 +1,123 @@
+"""Distances between all pairs of vertices, in a file: too many for memory, so they are computed and written in
+blocks of rows, and an interrupted computation is taken up where it ended.
+
+What is done stands in a file beside the result, whose name is made from all that the numbers depend on: the surface,
+the distance, the number type.  So what is found there is the beginning of the same array, and its length tells how
+much of it.
+"""
+
+import hashlib
+import os
+import shutil
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..distances.distance import Distance
+from ..errors import OutputError, ParameterError
+from ..progress import Progress, silent
+from ..whole_file import check_output
+
+MEMORY = 5e8
+"""Bytes that the arrays of one block may take, unless another number is given."""
+BYTES_PER_VALUE = 40
+"""In memory, at once, for each distance of a block: the fields, what they are made from, and their rounded copy."""
+
+
+def write_all_pairs(
+    distance: Distance,
+    path: str | os.PathLike[str],
+    dtype: npt.DTypeLike = np.float32,
+    memory: float = MEMORY,
+    progress: Progress | None = None,
+) -> None:
+    """Write the (n, n) array of all distances as .npy; NaN in the rows and columns of vertices that have none.
+
+    dtype: float32 or float64.  memory: bytes for the arrays of a block, besides what the distance itself holds; at
+    least one row is computed at a time.  After an interruption, `Cancelled` from the progress included, the same
+    call goes on with the rows that are missing.  Raises OutputError if the file cannot be written or the disk is too
+    small for it, which is looked up first.
+    """
+    dtype = np.dtype(dtype)
+    if dtype not in (np.float32, np.float64):
+        raise ParameterError(f"Distances are written as float32 or float64, not as {dtype}.")
+    if not memory > 0:
+        raise ParameterError(f"The memory for a block is {memory:g} bytes; it must be positive.")
+    check_output(path, (".npy",))
+    report = progress or silent
+    target = Path(os.path.realpath(path))
+    n = len(distance.surface.vertices)
+    partial = _partial_path(distance, target, dtype)
+    header = _header(n, dtype)
+    row_bytes = n * dtype.itemsize
+    rows = int(np.clip(memory / (n * BYTES_PER_VALUE), 1, n))
+    try:
+        done = _rows_done(partial, header, row_bytes)
+        _check_space(target, len(header) + n * row_bytes, len(header) + done * row_bytes if done else 0)
+        with partial.open("r+b" if done else "wb") as file:
+            # A row that was cut off is written again.
+            file.truncate(len(header) + done * row_bytes if done else 0)
+            file.seek(0, os.SEEK_END)
+            if not done:
+                file.write(header)
+            for start in range(done, n, rows):
+                report(start / n, f"all pairs: {start:,} of {n:,} vertices")
+                _rows(distance, np.arange(start, min(start + rows, n)), dtype).tofile(file)
+                file.flush()
+        os.replace(partial, target)
+    except OutputError:
+        raise
+    except OSError as error:
+        raise OutputError(f"{path} could not be written: {error.strerror or error}.") from error
+    report(1.0, f"all pairs: {n:,} vertices")
+
+
+def _rows(distance: Distance, ids: np.ndarray, dtype: np.dtype) -> np.ndarray:
+    """(k, n) distances from k vertices."""
+    rows = np.full((len(ids), len(distance.surface.vertices)), np.nan, dtype)
+    used = np.flatnonzero(distance.surface.component_of_vertex[ids] >= 0)
+    if len(used):
+        rows[used] = distance.from_sources(ids[used]).T
+    return rows
+
+
+def _header(n: int, dtype: np.dtype) -> bytes:
+    """What an .npy file begins with."""
+    file = BytesIO()
+    facts = {"descr": np.lib.format.dtype_to_descr(dtype), "fortran_order": False, "shape": (n, n)}
+    np.lib.format.write_array_header_1_0(file, facts)
+    return file.getvalue()
+
+
+def _partial_path(distance: Distance, target: Path, dtype: np.dtype) -> Path:
+    """Where the rows stand until all are there."""
+    digest = hashlib.sha256()
+    laplacian, surface = distance.laplacian, distance.surface
+    # A label rounds its numbers; the distance's own plain attributes do not.
+    own = sorted((key, value) for key, value in vars(distance).items() if isinstance(value, (int, float, str)))
+    for text in (distance.label, repr(own), laplacian.areas_kind, dtype.str, target.name):
+        digest.update(text.encode() + b"\0")
+    for array in (surface.vertices, surface.faces):
+        digest.update(array.tobytes())
+    return target.with_name(f".{target.stem[:60]}-{digest.hexdigest()[:16]}.npy.part")
+
+
+def _rows_done(partial: Path, header: bytes, row_bytes: int) -> int:
+    """How many whole rows an earlier call has left."""
+    if not partial.exists():
+        return 0
+    with partial.open("rb") as file:
+        if file.read(len(header)) != header:
+            return 0
+    return (partial.stat().st_size - len(header)) // row_bytes
+
+
+def _check_space(target: Path, needed: int, present: int) -> None:
+    free = shutil.disk_usage(target.parent).free
+    if needed - present > free:
+        raise OutputError(
+            f"{target} cannot be written: it needs {(needed - present) / 1e9:.2f} GB more, "
+            f"and its disk has {free / 1e9:.2f} GB left."
+        )

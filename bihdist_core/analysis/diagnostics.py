@@ -1,0 +1,180 @@
+"""What is said of distances in words, as numbers: isotropy, kinks, change, and the axioms of a metric."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..distances.distance import Distance
+from ..errors import ParameterError
+from ..progress import Progress, part, silent
+from ..surface import Surface
+from .isoline_tracing import isolines
+
+
+def isotropy_ratio(surface: Surface, field: npt.ArrayLike, geodesic: npt.ArrayLike, radius: float) -> float:
+    """Greatest over least value of a distance field on the geodesic circle of a radius around its source; 1 is best.
+
+    field, geodesic: (n,) distances from the same source, the latter geodesic (of which `radius` is a value).  Both are
+    interpolated where the circle crosses the mesh's edges.  A circle of few edges measures the triangulation: take
+    a radius of at least three or four.  Infinite if the field is 0 on the circle.  Raises ParameterError if no vertex
+    is as far as that.
+    """
+    circle = isolines(surface, geodesic, [radius])
+    if not circle:
+        raise ParameterError(f"There is no geodesic circle of radius {radius:g} around the source.")
+    values = np.concatenate([line.along(field) for line in circle])
+    return float(values.max() / values.min()) if values.min() > 0 else float("inf")
+
+
+@dataclass(frozen=True, eq=False)
+class GradientJumps:
+    """Jumps of the gradient of a field, linear on each face, across the inner edges; unit of the field per length.
+
+    edges: (k, 2) vertex ids.  jumps: (k,), at least 0.  lengths: (k,) mean length of the gradient on both sides.
+    slope: median length of the gradient over the surface, by area.
+    """
+
+    edges: np.ndarray
+    jumps: np.ndarray
+    lengths: np.ndarray
+    slope: float
+
+    @property
+    def relative(self) -> np.ndarray:
+        """(k,) jumps over the gradient's length there, or over a quarter of its median if that is more; no unit.
+
+        A smooth field's shrink with the edges, away from boundary corners; across a ridge the gradient turns round,
+        and they stay near 2.
+        """
+        return self.jumps / np.maximum(self.lengths, self.slope / 4)
+
+
+def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
+    """How far the gradient jumps across each edge of two faces; NaN next to values that are not finite.
+
+    A continuous field's gradient can only jump across an edge, by the sum of the two slopes away from the faces'
+    insides.  Flat faces and edges of another number of faces are left out.
+    """
+    f, faces, x = np.asarray(field, np.float64), surface.faces, surface.vertices
+    if f.shape != (len(x),):
+        raise ParameterError(
+            f"A field is a real number for each of {len(x)} vertices, not an array of shape {f.shape}."
+        )
+    proper = np.ones(len(faces), bool)
+    proper[surface.flat_faces] = False
+    faces, area = faces[proper], surface.face_areas[proper]
+    sides, slopes, lengths = [], [], np.zeros(len(faces))
+    for k in range(3):
+        a, b, c = (faces[:, (k + s) % 3] for s in range(3))
+        side, arm = x[b] - x[a], x[c] - x[a]
+        length_square = np.einsum("ij,ij->i", side, side)
+        foot = f[a] + np.einsum("ij,ij->i", arm, side) / length_square * (f[b] - f[a])
+        outward = (foot - f[c]) * np.sqrt(length_square) / (2 * area)
+        sides.append(np.sort(np.stack([a, b], 1), axis=1))
+        slopes.append(outward)
+        if k == 0:
+            lengths = np.sqrt(outward**2 + (f[b] - f[a]) ** 2 / length_square)
+    side, slope, length = np.concatenate(sides), np.concatenate(slopes), np.tile(lengths, 3)
+    order = np.lexsort((side[:, 1], side[:, 0]))
+    side, slope, length = side[order], slope[order], length[order]
+    first = np.flatnonzero(np.append(True, (side[1:] != side[:-1]).any(axis=1)))
+    pairs = first[np.diff(np.append(first, len(side))) == 2]
+    jumps = np.abs(slope[pairs] + slope[pairs + 1])
+    return GradientJumps(side[pairs], jumps, (length[pairs] + length[pairs + 1]) / 2, _median(lengths, area))
+
+
+def _median(values: np.ndarray, weights: np.ndarray) -> float:
+    order = np.argsort(np.where(np.isfinite(values), values, np.inf))
+    weights = np.where(np.isfinite(values), weights, 0.0)[order]
+    middle = np.searchsorted(np.cumsum(weights), weights.sum() / 2)
+    return float(values[order[min(middle, len(order) - 1)]])
+
+
+@dataclass(frozen=True)
+class FieldChange:
+    """|d' - d| / max d, and the same after each field was divided by its own maximum: mean and largest; no unit."""
+
+    mean: float
+    largest: float
+    normalised_mean: float
+    normalised_largest: float
+
+
+def field_change(before: npt.ArrayLike, after: npt.ArrayLike) -> FieldChange:
+    """How much a field (k,) changed, at points where both are finite; the maxima are over these points.
+
+    Raises ParameterError for fields of different shape, without common points, or whose maximum is not positive.
+    """
+    d, e = np.asarray(before, np.float64), np.asarray(after, np.float64)
+    if d.shape != e.shape:
+        raise ParameterError(f"Fields of shape {d.shape} and {e.shape} cannot be compared.")
+    both = np.isfinite(d) & np.isfinite(e)
+    if not both.any() or not (d[both].max() > 0 and e[both].max() > 0):
+        raise ParameterError("To compare two fields, both need finite values at common points and a positive maximum.")
+    d, e = d[both], e[both]
+    raw = np.abs(e - d) / d.max()
+    normalised = np.abs(e / e.max() - d / d.max())
+    return FieldChange(*(float(v) for v in (raw.mean(), raw.max(), normalised.mean(), normalised.max())))
+
+
+@dataclass(frozen=True)
+class TriangleSample:
+    """Random triples of points held against d(i, k) <= d(i, j) + d(j, k).
+
+    violations: triples that break it by more than rounding (1e-9 of the largest distance).  worst: the most by which
+    one breaks it, over the largest distance; 0 if none does.  tightest: the least d(i, j) + d(j, k) - d(i, k) over
+    that sum, for three different points: how close some triple comes.
+    """
+
+    triples: int
+    violations: int
+    worst: float
+    tightest: float
+
+
+def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: int = 0) -> TriangleSample:
+    """Hold `count` random triples among k points, whose distances are (k, k), against the triangle inequality.
+
+    Raises ParameterError for fewer than three points, an array that is not square, or a count below 1.
+    """
+    d = np.asarray(distances, np.float64)
+    if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) < 3:
+        raise ParameterError(f"Distances among at least 3 points are a square array, not one of shape {d.shape}.")
+    if count < 1:
+        raise ParameterError(f"count is {count}; at least one triple is needed.")
+    rng = np.random.default_rng(seed)
+    k = len(d)
+    i = rng.integers(k, size=count)
+    # Offsets that are different and not 0 give three different points.
+    step = rng.integers(1, k, size=count)
+    other = rng.integers(1, k - 1, size=count)
+    j, m = (i + step) % k, (i + other + (other >= step)) % k
+    around = d[i, j] + d[j, m]
+    slack = around - d[i, m]
+    largest = np.nanmax(d)
+    ratio = np.divide(slack, around, out=np.full(count, np.inf), where=around > 0)
+    return TriangleSample(
+        count, int((slack < -1e-9 * largest).sum()), float(max(0.0, -slack.min()) / largest), float(ratio.min())
+    )
+
+
+def smallest_distance(distance: Distance, progress: Progress | None = None, block: int = 256) -> tuple[float, int, int]:
+    """The least distance of two different vertices of one component, and the two: over all pairs, n / block blocks.
+
+    Raises ParameterError on a surface where no two vertices are connected by a distance.
+    """
+    ids = np.flatnonzero(distance.surface.component_of_vertex >= 0)
+    best: tuple[float, int, int] = (np.inf, -1, -1)
+    for start in range(0, len(ids), block):
+        chosen = ids[start : start + block]
+        fields = distance.from_sources(chosen, part(progress, start / len(ids), (start + len(chosen)) / len(ids)))
+        fields[chosen, np.arange(len(chosen))] = np.nan
+        least = np.fmin.reduce(fields, axis=0)
+        k = int(np.nanargmin(least))
+        if least[k] < best[0]:
+            best = (float(least[k]), int(np.nanargmin(fields[:, k])), int(chosen[k]))
+        (progress or silent)((start + len(chosen)) / len(ids), "all pairs")
+    if best[1] < 0:
+        raise ParameterError(f"{distance.surface.name} has no two points with a distance.")
+    return best

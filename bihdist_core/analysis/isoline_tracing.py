@@ -1,0 +1,128 @@
+"""Isolines of a field on a surface, as ordered polylines."""
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+from ..surface import Surface
+
+
+@dataclass(frozen=True, eq=False)
+class Isoline:
+    """One curve on which a field has one value.
+
+    points: (k, 3), in order along the curve; a closed curve does not repeat its first point at the end.
+    edges: (k, 2) vertices a, b of the mesh edge each point lies on; parameters: (k,) t of x = (1 - t) x_a + t x_b.
+    With these any other field or projection can be followed along the curve (`along`).
+    """
+
+    value: float
+    points: np.ndarray
+    edges: np.ndarray
+    parameters: np.ndarray
+    closed: bool
+
+    def along(self, field: npt.ArrayLike) -> np.ndarray:
+        """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated at the points of this curve."""
+        at = np.asarray(field)
+        t = self.parameters.reshape(-1, *(1,) * (at.ndim - 1))
+        return (1 - t) * at[self.edges[:, 0]] + t * at[self.edges[:, 1]]
+
+    @property
+    def length(self) -> float:
+        """Length of the curve."""
+        points = np.concatenate([self.points, self.points[:1]]) if self.closed else self.points
+        return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+
+
+def isolines(surface: Surface, field: npt.ArrayLike, values: npt.ArrayLike) -> list[Isoline]:
+    """The curves where a field, linear on each face, has the given values; in the order of `values`.
+
+    field: (n,) real numbers.  Faces with a corner that is not finite are left out, and curves end there, as at
+    boundaries and at edges of more than two faces.  A vertex whose value is exactly an isoline's counts as above it:
+    a curve then passes through the vertex, and a plateau of that value is surrounded, not filled.  Curves that shrink
+    to a point are left out.
+
+    Raises ParameterError for a field that is not (n,) numbers, or values that are not finite.
+    """
+    f = np.asarray(field)
+    if f.shape != (len(surface.vertices),) or f.dtype.kind not in "biuf":
+        raise ParameterError(f"A field is a real number for each of {len(surface.vertices)} vertices, not {f.shape}.")
+    f = f.astype(np.float64)
+    levels = np.array(values, np.float64, ndmin=1)
+    if levels.ndim != 1 or not np.isfinite(levels).all():
+        raise ParameterError("The values of isolines are finite numbers.")
+    faces = surface.faces[np.isfinite(f[surface.faces]).all(axis=1)]
+    corner = f[faces]
+    low, high = corner.min(axis=1), corner.max(axis=1)
+    found: list[Isoline] = []
+    for level in levels:
+        crossed = np.flatnonzero((low < level) & (high >= level))
+        if len(crossed):
+            found += _joined(surface, f, float(level), *_segments(faces[crossed], corner[crossed] >= level))
+    return found
+
+
+def _segments(faces: np.ndarray, above: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(e, 2) crossed edges, the vertex below the level first, and (m, 2) the two that each crossed face joins."""
+    # One corner is on the other side than the two others; the curve cuts the two edges that meet there.
+    lone = np.where(above.sum(axis=1) == 1, above.argmax(axis=1), above.argmin(axis=1))
+    rows = np.arange(len(faces))
+    tip, left, right = (faces[rows, (lone + k) % 3] for k in range(3))
+    up = above[rows, lone]
+    ends = np.concatenate([np.where(up, (left, tip), (tip, left)).T, np.where(up, (right, tip), (tip, right)).T])
+    size = int(faces.max()) + 1
+    key, index = np.unique(ends[:, 0] * size + ends[:, 1], return_inverse=True)
+    return np.stack([key // size, key % size], 1), index.reshape(2, -1).T
+
+
+def _joined(surface: Surface, f: np.ndarray, level: float, edges: np.ndarray, segments: np.ndarray) -> list[Isoline]:
+    below, top = f[edges[:, 0]], f[edges[:, 1]]
+    # Halved first, so that the difference of two huge values of opposite sign is finite.
+    t = np.clip((level / 2 - below / 2) / (top / 2 - below / 2), 0, 1)
+    x = surface.vertices
+    points = (1 - t)[:, None] * x[edges[:, 0]] + t[:, None] * x[edges[:, 1]]
+    lines = []
+    for path in _paths(segments, len(edges)):
+        closed = len(path) > 2 and path[0] == path[-1]
+        chosen = np.array(path[:-1] if closed else path)
+        here = points[chosen]
+        # A curve through a vertex meets several of its edges there, all in the same point.
+        new = np.ones(len(chosen), bool)
+        new[1:] = (here[1:] != here[:-1]).any(axis=1)
+        if closed and (here[0] == here[-1]).all():
+            new[0] = False
+        if new.sum() >= 2:
+            chosen = chosen[new]
+            lines.append(Isoline(level, points[chosen], edges[chosen], t[chosen], closed and len(chosen) > 2))
+    return lines
+
+
+def _paths(segments: np.ndarray, count: int) -> list[list[int]]:
+    """The segments (m, 2) among `count` nodes put end to end; a closed path ends with its first node."""
+    at: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+    for s, (i, j) in enumerate(segments.tolist()):
+        at[i].append((s, j))
+        at[j].append((s, i))
+    used = [False] * len(segments)
+    degree = np.bincount(segments.ravel(), minlength=count)
+    # Open paths begin where not exactly two segments meet; what is left after them are loops.
+    starts = np.concatenate([np.flatnonzero(degree != 2), np.flatnonzero(degree == 2)]).tolist()
+    paths = []
+    for start in starts:
+        for first, following in at[start]:
+            if used[first]:
+                continue
+            used[first] = True
+            path, node = [start, following], following
+            while len(at[node]) == 2 and node != start:
+                segment, node = next(((s, k) for s, k in at[node] if not used[s]), (-1, -1))
+                if segment < 0:
+                    break
+                used[segment] = True
+                path.append(node)
+            paths.append(path)
+    return paths

@@ -1,0 +1,1 @@
+"""The distances, one each, and what they have in common."""

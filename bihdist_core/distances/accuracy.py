@@ -1,0 +1,166 @@
+"""How far from exact a distance may be: an estimate from what rounding and flat faces can do to its operator.
+
+With L y = e_i - e_j, y centred by area and z = G A y, a change dL of the stiffness matrix changes the biharmonic
+d(i, j)^2 by -2 y^T dL z, the commute-time distance's by -y^T dL y, an eigenvalue by phi^T dL phi.  dL consists of
+
+- the rounding of each weight, and of each diagonal entry, which then holds on to a value instead of to a difference;
+- the rounding of a face's height h, which changes all of the face's energy by a share of about eps l / h (l is its
+  longest side);
+- for a flat face what its spring lacks (see `flat_faces`): a share 1 - h / (FLAT l) of its energy, to first order.
+
+Roundings are as good as random, so their squares are added; the springs of flat faces have one sign and add up.  A
+residual r of a solve counts as z^T r, and what else the solver makes of it is found by computing the same distances in
+another way.  All this is done for a few pairs of vertices where it is worst: at the flattest face, from there to where
+the distance is largest, and at the shortest edge.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..flat_faces import FlatFaces
+from ..laplacian import Component
+from ..operators import face_weights
+from ..solver.worker_threads import side_by_side
+from ..surface import FLAT, Surface, dots
+
+Columns = Callable[[np.ndarray], np.ndarray]
+Form = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray, int]]
+
+WARN, REFUSE = 1e-6, 1e-3
+"""A distance that may be further off than these, as shares of its maximum, is warned of, or not shown."""
+
+EPS = float(np.finfo(float).eps)
+ROUNDINGS = 8
+"""How many roundings, of half an eps each, a number may have gone through; there is some to spare."""
+SPARE = 6
+"""By how much an error found at the places that were tried may be exceeded elsewhere; what is added up, and not as good
+as random, by half as much."""
+BLOCK = 8192
+"""Faces at a time, so that the temporary arrays stay in the processor's cache."""
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """An accuracy in words, empty where there is none, and whether it is so poor that a user should be warned."""
+
+    text: str = ""
+    is_poor: bool = False
+
+    @classmethod
+    def of(cls, accuracy: float | None) -> "Certificate":
+        """Of a share of the maximum; `ValueError` if it is worse than `REFUSE`."""
+        if accuracy is None:
+            return cls()
+        if not accuracy <= REFUSE:
+            raise ValueError(accuracy)
+        return cls(f"accurate to {rounded_up(accuracy)} of the maximum", accuracy > WARN)
+
+
+def rounded_up(share: float) -> str:
+    """One digit, not less than the number: 2e-10."""
+    if not 0 < share < math.inf:
+        return f"{share:g}"
+    exponent = math.floor(math.log10(share))
+    digit = math.ceil(share / 10.0**exponent * (1 - 1e-12))
+    return f"1e{exponent + 1:+03d}" if digit == 10 else f"{digit}e{exponent:+03d}"
+
+
+class Perturbation:
+    """What dL can do to a component.
+
+    flattest: (3,) local vertices, the corners of a face, that opposite to its longest side first; shortest: (2,), the
+    ends of an edge.
+    """
+
+    def __init__(self, component: Component) -> None:
+        self._surface: Surface = component.surface
+        self._diagonal = component.stiffness.diagonal()
+        self._weights, height = face_weights(self._surface), self._surface.face_heights
+        self._flat = FlatFaces.of(self._surface)
+        with np.errstate(divide="ignore"):
+            self._uncertain = np.where(height < FLAT, 0, 1 / height)
+        squares = np.stack([dots(side, side) for side in self._surface.sides()])
+        flattest = int(height.argmin())
+        self.flattest = np.roll(self._surface.faces[flattest], -int(squares[:, flattest].argmax()))
+        k, face = divmod(int(squares.argmin()), squares.shape[1])
+        self.shortest = np.roll(self._surface.faces[face], -k)[1:]
+
+    def of(self, y: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """About the largest |y^T dL z| there can be, for the columns of y and z (m, k), 0 at the pinned vertex.
+
+        (k,) by rounding and (k,) by the springs of flat faces.
+        """
+        held = self._diagonal[:, None] * y
+        held *= z
+        starts = range(0, len(self._surface.faces), BLOCK)
+        of_blocks = side_by_side(lambda start: self._rounded(y, z, slice(start, start + BLOCK)), starts)
+        squares = np.einsum("ij,ij->j", held, held) + sum(of_blocks)
+        flat, spring = self._flat, np.zeros(y.shape[1])
+        if len(flat.faces):
+            spring += flat.spring * (1 - flat.share / FLAT) @ np.abs(flat.stretch(y) * flat.stretch(z))
+            _, a, b = flat.vertices
+            # A link, whose strength is half a height.
+            squares += (((y[a] - y[b]) * (z[a] - z[b]) / 2) ** 2).sum(axis=0)
+        return SPARE * ROUNDINGS / 2 * EPS * np.sqrt(squares), SPARE / 2 * spring
+
+    def _rounded(self, y: np.ndarray, z: np.ndarray, block: slice) -> np.ndarray:
+        """(k,) sum of squares of what a block of faces can do, in units of the rounding of a number."""
+        at_y, at_z = ([x.take(corner, axis=0) for corner in self._surface.faces[block].T] for x in (y, z))
+        energy_y, energy_z = np.zeros((2, *at_y[0].shape))
+        squares = np.zeros(y.shape[1])
+        for k in range(3):
+            dy, dz = (at[(k + 1) % 3] - at[(k + 2) % 3] for at in (at_y, at_z))
+            by_y, by_z = dy * self._weights[k, block, None], dz * self._weights[k, block, None]
+            energy_y += by_y * dy
+            energy_z += by_z * dz
+            by_y *= dz
+            squares += np.einsum("ij,ij->j", by_y, by_y)
+        energy = np.sqrt(np.maximum(energy_y, 0) * np.maximum(energy_z, 0))
+        energy *= self._uncertain[block, None]
+        return squares + np.einsum("ij,ij->j", energy, energy)
+
+
+def change_of_root(square: np.ndarray, by: np.ndarray) -> np.ndarray:
+    """How much the root changes at most where a square changes by up to `by`, both at least 0."""
+    root = np.sqrt(square)
+    return np.maximum(root - np.sqrt(np.maximum(square - by, 0)), np.sqrt(square + by) - root)
+
+
+def accuracy_of_pairs(component: Component, columns: Columns, form: Form, corrected: float = 0.0) -> float:
+    """The accuracy (see `Distance.accuracy`) of an exact distance on a component.
+
+    columns(index) gives (m, k) fields from local vertices.  form(b, y) gives, for b (m, k), differences of two unit
+    vectors, and y = G b: the squared distances (k,), z (m, k), and how many times y^T dL z they change by.
+    Distances up to the share `corrected` of the maximum do not lack springs.
+    """
+    perturbation = Perturbation(component)
+    face, edge = perturbation.flattest, perturbation.shortest
+    # Of a needle the ends of the short side, each once: the spring may hold either of them.
+    sources = np.array([face[0], edge[1] if edge[0] == face[0] else edge[0]])
+    fields = columns(sources)
+    fields[sources, [0, 1]] = 0
+    top = fields.max()
+    beside = face[1:][fields[face[1:], 0].argmin()]
+    targets = [{beside, fields[:, 0].argmax()}, {edge.sum() - sources[1]}]
+    if corrected:
+        for nearest, also in zip(
+            np.where(fields > corrected * top, fields, np.inf).argmin(axis=0), targets, strict=True
+        ):
+            also.add(nearest)
+    pairs = [(column, int(t)) for column in (0, 1) for t in sorted(targets[column])]
+    column, target = np.array(pairs).T
+    b, each = np.zeros((len(fields), len(pairs))), np.arange(len(pairs))
+    b[sources[column], each] = 1
+    b[target, each] = -1
+    y = component.solve(b)
+    squares, z, times = form(b, y)
+    rounding, springs = perturbation.of(y, z)
+    residual = np.abs(np.einsum("ij,ij->j", z, component.stiffness @ y - b))
+    computed = fields[target, column]
+    kept = computed > corrected * top
+    by = times * (rounding + SPARE * residual + np.where(kept, springs, 0))
+    found = np.where(kept, np.abs(computed - np.sqrt(squares)), 0)
+    return float((change_of_root(computed**2, by) + SPARE * found).max() / top)

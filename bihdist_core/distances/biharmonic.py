@@ -1,0 +1,74 @@
+"""The biharmonic distance, exact (paper, Eqs. 4 and 9)."""
+
+import numpy as np
+
+from ..laplacian import Component, Laplacian
+from ..progress import Progress
+from ..solver.tall import point_distances
+from ..surface import FLAT, Surface
+from .accuracy import accuracy_of_pairs
+from .distance import Distance, root
+
+SMALL_SET = 64
+NEAR, NEAR_BY_HEIGHT, MOST_NEAR = 1e-5, 1e-9, 16
+"""Distances below this share of the maximum, or, on a mesh with thin faces, the second over the height of the thinnest,
+are computed again as pairs, up to so many of them: there a difference of the Green's function has few digits left."""
+
+
+class BiharmonicDistance(Distance):
+    """d(i, j)^2 = C_ii + C_jj - 2 C_ij with the Green's function C of the biharmonic operator; unit length.
+
+    One to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
+    use the half-order form, free of cancellation: solve L y = e_i - e_j, centre y by area, d = |y|_A.
+    """
+
+    label = "biharmonic, exact"
+    length_power = 1.0
+
+    def __init__(self, laplacian: Laplacian | Surface, progress: Progress | None = None) -> None:
+        super().__init__(laplacian)
+        self.prepare(self.laplacian.components[0], progress)
+
+    def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        component.biharmonic_diagonal(progress)
+
+    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+        diagonal = component.biharmonic_diagonal()
+        distances, largest = np.empty((len(diagonal), len(index))), diagonal.max()
+
+        def finish(rows: np.ndarray, columns: slice, values: np.ndarray) -> None:
+            values *= -2
+            values += diagonal[rows, None]
+            values += diagonal[index[columns]]
+            distances[rows, columns] = root(values, largest)
+
+        component.each_biharmonic_piece(index, finish)
+        share = max(NEAR, NEAR_BY_HEIGHT / max(component.surface.face_heights.min(), FLAT))
+        for column, source in enumerate(index):
+            field = distances[:, column]
+            near = np.flatnonzero(field < share * np.sqrt(largest))
+            near = near[near != source]
+            if len(near):
+                near = near[np.argsort(field[near], kind="stable")[:MOST_NEAR]]
+                field[near] = self._pairwise(component, np.append(source, near))[0, 1:]
+        return distances
+
+    def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
+        b = np.zeros((len(component.vertices), len(index)))
+        b[index, np.arange(len(index))] = 1
+        half = component.centred(component.solve(b)) * np.sqrt(component.areas)[:, None]
+        if len(index) <= SMALL_SET:
+            return point_distances(half.T, half.T)
+        green = half.T @ half
+        squares = np.diag(green) + np.diag(green)[:, None] - 2 * green
+        return root(squares, green.max())
+
+    def _estimated_accuracy(self, component: Component) -> float:
+        def form(b: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+            y = component.centred(y)
+            y *= component.areas[:, None] ** 0.5
+            squares = np.einsum("ij,ij->j", y, y)
+            y *= component.areas[:, None] ** 0.5
+            return squares, component.solve(y), 2
+
+        return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), form)

@@ -1,0 +1,67 @@
+"""The commute-time distance, exact on the mesh (paper, Eqs. 2 and 3; it has no continuous counterpart)."""
+
+import numpy as np
+
+from ..flat_faces import FlatFaces
+from ..laplacian import Component, Laplacian
+from ..progress import Progress
+from ..surface import Surface
+from .accuracy import accuracy_of_pairs
+from .distance import Distance, root
+
+NEAR = 0.4
+"""Below this share of the maximum the height that flat faces were given shows (it is a share FLAT of the square)."""
+
+
+class CommuteTimeDistance(Distance):
+    """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix; no unit."""
+
+    label = "commute-time, exact"
+    length_power = 0.0
+
+    def __init__(self, laplacian: Laplacian | Surface, progress: Progress | None = None) -> None:
+        super().__init__(laplacian)
+        self.prepare(self.laplacian.components[0], progress)
+
+    def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        component.factor(progress, diagonals=True)
+
+    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+        diagonal = component.green_diagonal()
+        b = np.zeros((len(diagonal), len(index)))
+        b[index, np.arange(len(index))] = 1
+        squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b)
+        distances = root(squares, diagonal.max())
+        if len(component.surface.flat_faces):
+            for column, source in enumerate(index):
+                self._without_height(component, int(source), distances[:, column])
+        return distances
+
+    def _without_height(self, component: Component, source: int, field: np.ndarray) -> None:
+        """Correct the smallest distances (m,), of vertices joined by flat faces: their exact springs put in place.
+
+        By the formula of Sherman, Morrison and Woodbury, as G with few springs more.
+        """
+        near = np.flatnonzero(field < NEAR * field.max())
+        near = near[near != source]
+        flat = component.surface.flat_faces
+        beside = flat[np.isin(component.surface.faces[flat], np.append(near, source)).any(axis=1)]
+        if not (len(near) and len(beside)):
+            return
+        g, slack = FlatFaces.of(component.surface, beside).missing_springs()
+        b = np.zeros((len(field), len(near)))
+        b[source] = 1
+        b[near, np.arange(len(near))] = -1
+        solved = component.solve(np.hstack([b, g]))
+        y, by_springs = solved[:, : len(near)], solved[:, len(near) :]
+        moved = g.T @ y
+        exact = np.einsum("ij,ij->j", b, y) - np.einsum(
+            "ij,ij->j", moved, np.linalg.lstsq(np.diag(slack) + g.T @ by_springs, moved, rcond=None)[0]
+        )
+        field[near] = np.sqrt(np.maximum(exact, 0))
+
+    def _estimated_accuracy(self, component: Component) -> float:
+        def form(b: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+            return np.einsum("ij,ij->j", b, y), y, 1
+
+        return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), form, NEAR)

@@ -1,0 +1,162 @@
+"""What every distance has in common: the same four questions, answered per connected component."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import SolverError
+from ..laplacian import Component, Laplacian, as_laplacian
+from ..progress import Progress
+from ..surface import Surface
+from .accuracy import Certificate, rounded_up
+
+ROUNDING = 1e-7
+"""Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""
+
+
+class Distance(ABC):
+    """A distance between the vertices of a surface.
+
+    `label` says what it is and how it was computed; `length_power` how it scales: a surface s times as large has
+    distances s ** length_power times as large.  Distances between components, and of vertices that belong to no
+    face, are NaN.  A vertex asked for that does not exist or belongs to no face is a VertexError.
+
+    Constructing a distance does its long work on the largest component; on another, the first question does.
+    """
+
+    label: str
+    length_power: float
+
+    def __init__(self, laplacian: Laplacian | Surface) -> None:
+        self.laplacian = as_laplacian(laplacian)
+        self.surface = self.laplacian.surface
+        self._asked: set[int] = set()
+        self._accuracies: dict[int, float | None] = {}
+
+    @property
+    def unit(self) -> str:
+        """The unit of the values, in words: how they scale with the surface."""
+        known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units"}
+        return known.get(self.length_power, f"mesh units^{self.length_power:g}")
+
+    @property
+    def accuracy(self) -> float | None:
+        """How far a field may be from what `label` says, as a share of its maximum: an estimate on the safe side.
+
+        It holds for the components that were asked about (the largest, if none was) and is made when first wanted,
+        in less than a tenth of the time the distance took to construct.  None for geodesic distances.
+        """
+        known = [self._accuracy_on(self.laplacian.components[index]) for index in self._asked or {0}]
+        return None if None in known else max(a for a in known if a is not None)
+
+    def certificate(self) -> Certificate:
+        """The accuracy in words.
+
+        SolverError if it is worse than a thousandth: then the answers so far should not be used.
+        """
+        accuracy = self.accuracy
+        try:
+            return Certificate.of(accuracy)
+        except ValueError:
+            off = "by any amount" if accuracy == np.inf else f"by {rounded_up(accuracy or 0)} of its maximum"
+            raise SolverError(
+                f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy()}"
+            ) from None
+
+    def _remedy(self) -> str:
+        """What would help where the accuracy is too poor: a sentence."""
+        heights = self.surface.face_heights
+        flattest = int(heights.argmin())
+        return (
+            f"Its faces are too thin, or differ too much in size (face {flattest} is {heights[flattest]:.0e} of its "
+            "longest side high); remeshing would help."
+        )
+
+    def _accuracy_on(self, component: Component) -> float | None:
+        if component.index not in self._accuracies:
+            self.prepare(component)
+            # Where numbers end, the estimate is infinite.
+            with np.errstate(all="ignore"):
+                accuracy = self._estimated_accuracy(component)
+            self._accuracies[component.index] = np.inf if accuracy is not None and np.isnan(accuracy) else accuracy
+        return self._accuracies[component.index]
+
+    def _estimated_accuracy(self, component: Component) -> float | None:
+        """`accuracy` on one component."""
+        return None
+
+    def from_source(self, vertex: int, progress: Progress | None = None) -> np.ndarray:
+        """(n,) distance of every vertex from one; 0 at the source."""
+        component = self.laplacian.component_of(vertex)
+        self._asked.add(component.index)
+        self.prepare(component, progress)
+        field = self._columns(component, component.local(np.array([vertex])), progress)[:, 0]
+        if len(field) < len(self.surface.vertices):
+            part, field = field, np.full(len(self.surface.vertices), np.nan)
+            field[component.vertices] = part
+        field[vertex] = 0
+        return field
+
+    def from_sources(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> np.ndarray:
+        """(n, k) distances of every vertex from each of k."""
+        ids, n = self.surface.check_vertices(vertices), len(self.surface.vertices)
+        fields = np.empty((n, 0))
+        for component, mine in self._by_component(ids):
+            self.prepare(component, progress)
+            columns = self._columns(component, component.local(ids[mine]), progress)
+            if len(columns) == n:
+                fields = columns
+                break
+            if not fields.size:
+                fields = np.full((n, len(ids)), np.nan)
+            fields[np.ix_(component.vertices, mine)] = columns
+        fields[ids, np.arange(len(ids))] = 0
+        return fields
+
+    def between(self, u: int, v: int) -> float:
+        """The distance of two vertices; NaN between components."""
+        return float(self.pairwise([u, v])[0, 1])
+
+    def pairwise(self, vertices: npt.ArrayLike) -> np.ndarray:
+        """(k, k) distances among k vertices: symmetric, zero diagonal."""
+        ids = self.surface.check_vertices(vertices)
+        distances = np.full((len(ids), len(ids)), np.nan)
+        for component, mine in self._by_component(ids):
+            block = self._pairwise(component, component.local(ids[mine]))
+            distances[np.ix_(mine, mine)] = (block + block.T) / 2
+        distances[ids[:, None] == ids] = 0
+        return distances
+
+    @abstractmethod
+    def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        """Do the long work that questions about a component need; nothing if it is done."""
+
+    @abstractmethod
+    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+        """(m, k) distances within a component from its local vertices `index` (k,)."""
+
+    def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
+        """(k, k) distances among local vertices `index` (k,)."""
+        self.prepare(component)
+        return self._columns(component, index, None)[index]
+
+    def _by_component(self, ids: np.ndarray) -> Iterable[tuple[Component, np.ndarray]]:
+        """Each component with the positions of its vertices among ids (k,)."""
+        label = self.surface.component_of_vertex[ids]
+        for index in np.unique(label):
+            self._asked.add(int(index))
+            yield self.laplacian.components[index], np.flatnonzero(label == index)
+
+
+def root(squares: np.ndarray, terms: np.ndarray | float) -> np.ndarray:
+    """Square root of squared distances, computed as sums of `terms` (their size; broadcasts).
+
+    Values below zero by rounding become 0; SolverError if one is further below, or not a number.
+    """
+    if squares.size and not squares.min() >= -ROUNDING * np.max(terms):
+        worst = float(np.nanmin(squares)) if not np.isnan(squares).all() else float("nan")
+        raise SolverError(f"A squared distance came out as {worst:g}: the mesh is too badly shaped for its operator.")
+    distances = np.maximum(squares, 0)
+    return np.sqrt(distances, out=distances)

@@ -1,0 +1,1 @@
+"""Mesh files and files of fields, one reader or writer each."""

@@ -1,0 +1,177 @@
+"""Values at vertices, and tables of numbers, written to files that other programs read."""
+
+import csv
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import BinaryIO
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+from ..surface import Surface
+from ..whole_file import check_output, whole_file
+
+Columns = dict[str, np.ndarray]
+"""(n,) float64 arrays by name, in order."""
+
+
+def write_fields(path: str | os.PathLike[str], surface: Surface, fields: Mapping[str, npt.ArrayLike]) -> None:
+    """Write (n,) values at the vertices, in the order and under the names of `fields`; the extension names the format.
+
+    .npy: an (n, k) float64 array, (n,) for a single field; the names are not kept.
+    .csv: a line `vertex,name,...`, then a line for each vertex: its id and values that read back exactly; `nan` where
+          there is no value.
+    .ply: binary little-endian; the surface with a double property for each field (names reduced to letters, digits
+          and underscores).
+    .vtp: the surface with a point data array for each field.
+
+    Raises OutputError if the file cannot be written (what was at `path` before then stays), ParameterError for fields
+    that are not (n,) real numbers.
+    """
+    extension = check_output(path, FIELD_FORMATS)
+    columns = _checked(fields, len(surface.vertices))
+    with whole_file(path) as temporary, temporary.open("wb") as file:
+        _FIELD_WRITERS[extension](file, surface, columns)
+
+
+def write_array(path: str | os.PathLike[str], array: npt.ArrayLike, header: Sequence[str] | None = None) -> None:
+    """Write a (k,) or (k, m) array of numbers as .npy or .csv; `header` (m,) names the columns of a .csv.
+
+    In .csv whole numbers are written without a decimal point, other numbers so that they read back exactly.  Raises
+    OutputError as `write_fields`, ParameterError for anything else than one or two axes of real numbers, or a header
+    that does not fit.
+    """
+    extension = check_output(path, ARRAY_FORMATS)
+    table = np.asarray(array)
+    if table.ndim not in (1, 2) or table.dtype.kind not in "biuf":
+        raise ParameterError(f"a table needs one or two axes of real numbers, not {table.shape} of {table.dtype}.")
+    columns = list(table.reshape(len(table), -1).T)
+    if header is not None and len(header) != len(columns):
+        raise ParameterError(f"{len(header)} column names were given for {len(columns)} columns.")
+    with whole_file(path) as temporary, temporary.open("wb") as file:
+        if extension == ".npy":
+            np.save(file, table)
+        else:
+            _write_csv(file, header, columns)
+
+
+def _checked(fields: Mapping[str, npt.ArrayLike], n: int) -> Columns:
+    if not fields:
+        raise ParameterError("there are no fields to write.")
+    columns = {}
+    for name, values in fields.items():
+        column = np.asarray(values)
+        if column.shape != (n,) or column.dtype.kind not in "biuf":
+            raise ParameterError(
+                f"the field {name!r} has shape {column.shape} and type {column.dtype}; "
+                f"it needs a real number for each of the {n} vertices."
+            )
+        columns[name] = column.astype(np.float64)
+    return columns
+
+
+def _write_npy(file: BinaryIO, surface: Surface, columns: Columns) -> None:
+    arrays = list(columns.values())
+    np.save(file, arrays[0] if len(arrays) == 1 else np.stack(arrays, axis=1))
+
+
+def _write_fields_csv(file: BinaryIO, surface: Surface, columns: Columns) -> None:
+    ids = np.arange(len(surface.vertices))
+    _write_csv(file, ["vertex", *columns], [ids, *columns.values()])
+
+
+def _write_csv(file: BinaryIO, header: Sequence[str] | None, columns: Sequence[np.ndarray]) -> None:
+    if header is not None:
+        lines = _Lines(file)
+        csv.writer(lines, lineterminator="\n").writerow(header)
+    # Whole numbers in a float column (the ids in a list of pairs) need no '.0'; repr reads back exactly.
+    texts = [
+        map(str, np.asarray(column, np.int64).tolist()) if _is_whole(column) else map(repr, column.tolist())
+        for column in columns
+    ]
+    rows = list(zip(*texts, strict=True))
+    for low in range(0, len(rows), 65536):
+        file.write("".join(",".join(row) + "\n" for row in rows[low : low + 65536]).encode())
+
+
+def _is_whole(column: np.ndarray) -> bool:
+    if column.dtype.kind in "biu":
+        return True
+    return bool(np.all(np.isfinite(column)) and np.all(np.abs(column) < 2**53) and np.all(column == np.floor(column)))
+
+
+class _Lines:
+    """What csv.writer needs to write text into a binary file."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self.file = file
+
+    def write(self, text: str) -> int:
+        return self.file.write(text.encode("utf-8"))
+
+
+def ply_names(names: Sequence[str]) -> list[str]:
+    """Names that PLY can hold, all different, none of them x, y or z."""
+    taken, result = {"x", "y", "z"}, []
+    for name in names:
+        plain = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_") or "field"
+        candidate, k = plain, 2
+        while candidate in taken:
+            candidate, k = f"{plain}_{k}", k + 1
+        taken.add(candidate)
+        result.append(candidate)
+    return result
+
+
+def _write_ply(file: BinaryIO, surface: Surface, columns: Columns) -> None:
+    names = ["x", "y", "z", *ply_names(list(columns))]
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(surface.vertices)}"]
+    header += [f"property double {name}" for name in names]
+    header += [f"element face {len(surface.faces)}", "property list uchar int vertex_indices", "end_header", ""]
+    file.write("\n".join(header).encode("ascii"))
+    file.write(np.column_stack([surface.vertices, *columns.values()]).astype("<f8").tobytes())
+    faces = np.empty(len(surface.faces), np.dtype([("size", "u1"), ("corners", "<i4", 3)]))
+    faces["size"], faces["corners"] = 3, surface.faces
+    file.write(faces.tobytes())
+
+
+def _write_vtp(file: BinaryIO, surface: Surface, columns: Columns) -> None:
+    blocks: list[bytes] = []
+
+    def array(name: str, values: np.ndarray, components: int = 1) -> str:
+        offset = sum(map(len, blocks))
+        kind = "Float64" if values.dtype.kind == "f" else "Int64"
+        content = values.astype("<f8" if kind == "Float64" else "<i8").tobytes()
+        blocks.append(len(content).to_bytes(8, "little") + content)
+        size = f' NumberOfComponents="{components}"' if components > 1 else ""
+        return f'<DataArray type="{kind}" Name={quoteattr(name)}{size} format="appended" offset="{offset}"/>\n'
+
+    fields = "".join(array(name, values) for name, values in columns.items())
+    points = array("Points", surface.vertices, components=3)
+    polygons = array("connectivity", surface.faces) + array("offsets", 3 * np.arange(1, len(surface.faces) + 1))
+    file.write(
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
+        f'<Piece NumberOfPoints="{len(surface.vertices)}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" '
+        f'NumberOfPolys="{len(surface.faces)}">\n'
+        f"<PointData>\n{fields}</PointData>\n<Points>\n{points}</Points>\n<Polys>\n{polygons}</Polys>\n"
+        '</Piece>\n</PolyData>\n<AppendedData encoding="raw">\n_'.encode()
+    )
+    for block in blocks:
+        file.write(block)
+    file.write(b"\n</AppendedData>\n</VTKFile>\n")
+
+
+_FIELD_WRITERS: dict[str, Callable[[BinaryIO, Surface, Columns], None]] = {
+    ".npy": _write_npy,
+    ".csv": _write_fields_csv,
+    ".ply": _write_ply,
+    ".vtp": _write_vtp,
+}
+FIELD_FORMATS = tuple(_FIELD_WRITERS)
+"""The extensions `write_fields` knows."""
+ARRAY_FORMATS = (".npy", ".csv")
+"""The extensions `write_array` knows."""

@@ -1,0 +1,87 @@
+"""Mesh files into surfaces: OFF, OBJ, PLY, STL, VTK (legacy) and VTP.
+
+All readers are our own and strict: a file is read whole or refused with a sentence, and vertex ids are the file's.
+(VTK's readers split OBJ vertices along texture seams, return what is left of a truncated file, and can take the
+process down on a damaged one.)
+"""
+
+import os
+import stat
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import MeshError
+from ..surface import Surface
+from .obj import read_obj
+from .off import read_off
+from .ply import read_ply
+from .polygons import Polygons, counted, triangulated
+from .stl import read_stl
+from .vtk import read_vtk
+from .vtp import read_vtp
+
+_READERS: dict[str, Callable[[bytes, str], Polygons]] = {
+    ".off": read_off,
+    ".obj": read_obj,
+    ".ply": read_ply,
+    ".stl": read_stl,
+    ".vtk": read_vtk,
+    ".vtp": read_vtp,
+}
+MESH_FORMATS = tuple(_READERS)
+"""The extensions `read_surface` knows, each with its dot, in lower case."""
+
+
+def read_surface(path: str | os.PathLike[str]) -> Surface:
+    """The surface in a mesh file; the extension, in any case, names the format.
+
+    Polygons are divided into triangles, what cannot be part of a surface is left out, and in STL files coincident
+    vertices are merged; `Surface.repairs` says each in words with counts.
+
+    Raises MeshError, one sentence with the file, the place and the value, for a file that is missing, unreadable,
+    truncated, damaged or of another kind, and for a mesh without faces.
+    """
+    path = Path(path)
+    name = path.name
+    content = _content(path)
+    try:
+        # Damaged bytes can be any number, a signalling NaN too; NumPy need not warn, Surface refuses and names them.
+        with np.errstate(all="ignore"):
+            polygons = _READERS[path.suffix.lower()](content, name)
+            if not len(polygons.sizes):
+                held = counted(len(polygons.vertices), "vertex", "vertices")
+                raise MeshError(f"{name} has {held} but no faces; a surface needs at least one triangle.")
+            faces, said = triangulated(polygons)
+        return Surface(polygons.vertices, faces, name=name, repairs=[*polygons.repairs, *said])
+    except MemoryError:
+        raise MeshError(f"{name} is too large for the memory of this computer.") from None
+
+
+def _content(path: Path) -> bytes:
+    try:
+        kind = path.stat().st_mode
+        if stat.S_ISDIR(kind):
+            raise MeshError(f"{path} is a folder, not a mesh file.")
+        if path.suffix.lower() not in _READERS:
+            formats = ", ".join(MESH_FORMATS)
+            ending = f"the extension {path.suffix!r}" if path.suffix else "no extension"
+            raise MeshError(f"{path.name} has {ending}; mesh files that can be read are {formats}.")
+        # A pipe would wait for ever.
+        if not stat.S_ISREG(kind):
+            raise MeshError(f"{path} is not a regular file.")
+        content = path.read_bytes()
+    except MeshError:
+        raise  # it is a ValueError too
+    except FileNotFoundError:
+        raise MeshError(f"There is no file {path}.") from None
+    except PermissionError:
+        raise MeshError(f"{path} cannot be read: permission denied.") from None
+    except (OSError, ValueError) as error:
+        raise MeshError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
+    except MemoryError:
+        raise MeshError(f"{path.name} is too large for the memory of this computer.") from None
+    if not content:
+        raise MeshError(f"{path.name} is empty.")
+    return content

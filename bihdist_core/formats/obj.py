@@ -1,0 +1,91 @@
+"""Wavefront OBJ files: a strict reader of `v` and `f` lines.
+
+Vertex ids are the order of the `v` lines: texture coordinates and normals never split a vertex.  Other statements of
+the format are read over; an unknown one is an error, since a damaged `v` line would renumber every vertex after it.
+"""
+
+import numpy as np
+
+from ..errors import MeshError
+from .polygons import Polygons, counted, whole_numbers
+from .text_lines import NumberLines, TextLines, keyword_code
+
+_OTHER_STATEMENTS = (
+    *("vt", "vn", "vp", "vc", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "lod", "bevel", "end"),
+    *("c_interp", "d_interp", "shadow_obj", "trace_obj", "csh", "call", "cstype", "deg", "bmat", "step", "curv"),
+    *(
+        "curv2",
+        "surf",
+        "parm",
+        "trim",
+        "hole",
+        "scrv",
+        "sp",
+        "con",
+        "ctech",
+        "stech",
+        "bsp",
+        "bzp",
+        "cdc",
+        "cdp",
+        "res",
+    ),
+)
+_VERTEX_SIZES = (3, 4, 6, 7)
+"""Coordinates, perhaps a weight, perhaps a colour."""
+
+
+def read_obj(raw: bytes, name: str) -> Polygons:
+    """The polygons of an OBJ file; MeshError naming the line where it is not one."""
+    lines = TextLines(raw, name, comment=b"#", continuation=True)
+    is_vertex = lines.keyword == keyword_code(b"v")
+    is_face = lines.keyword == keyword_code(b"f")
+    is_loose = (lines.keyword == keyword_code(b"l")) | (lines.keyword == keyword_code(b"p"))
+    known = np.array([keyword_code(word.encode()) for word in _OTHER_STATEMENTS], np.uint64)
+    unknown = np.flatnonzero(~(is_vertex | is_face | is_loose) & ~np.isin(lines.keyword, known))
+    if len(unknown):
+        k = int(unknown[0])
+        raise MeshError(f"{name}, line {lines.number[k]}: {lines.line(k)} is not an OBJ statement.")
+    if not is_vertex.any():
+        raise MeshError(f"{name} has no vertices: none of its lines begins with 'v'.")
+
+    vertices = _vertices(lines.numbers(is_vertex, keyword=b"v"), name)
+    face_rows = lines.numbers(is_face, keyword=b"f", slashes=True)
+    before = np.cumsum(is_vertex)[is_face]
+    corners = _corners(face_rows, before, len(vertices), name)
+    loose = int(is_loose.sum())
+    said = (f"{counted(loose, 'line or point statement')} ignored",) if loose else ()
+    return Polygons(vertices, face_rows.sizes, corners, said)
+
+
+def _vertices(rows: NumberLines, name: str) -> np.ndarray:
+    wrong = np.flatnonzero(~np.isin(rows.sizes, _VERTEX_SIZES))
+    if len(wrong):
+        k = wrong[0]
+        raise MeshError(
+            f"{name}, line {rows.number[k]}: vertex {k + 1} has {counted(rows.sizes[k], 'number')} where 3 coordinates "
+            "(perhaps with a weight or a colour) belong."
+        )
+    return rows.columns(3)
+
+
+def _corners(rows: NumberLines, before: np.ndarray, n: int, name: str) -> np.ndarray:
+    """The corners of all faces as ids from 0; `before` (p,) counts the vertices above each face line."""
+    sizes = rows.sizes
+    ids, bad = whole_numbers(rows.values)
+    # -1 is the last vertex above the face's line.
+    back = ids < 0
+    if back.any():
+        ids = np.where(back, ids + np.repeat(before, sizes), ids - 1)
+        bad |= back & (ids < 0)
+    else:
+        ids -= 1
+    bad |= (ids < 0) | (ids >= n)
+    if bad.any():
+        at = int(np.argmax(bad))
+        k = int(np.searchsorted(rows.first[1:], at, side="right"))
+        raise MeshError(
+            f"{name}, line {rows.number[k]}: the face names vertex {rows.values[at]:.16g}, but vertices are numbered "
+            f"1 to {n} (or -1 to -{before[k]}, back from this line)."
+        )
+    return ids

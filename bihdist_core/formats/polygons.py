@@ -1,0 +1,163 @@
+"""Polygons as mesh files hold them, and their division into triangles."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import MeshError
+
+EAR_CLIPPING_LIMIT = 512
+"""Concave polygons with more corners are divided as a fan; clipping ears takes time cubic in the corners."""
+
+
+@dataclass(frozen=True)
+class Polygons:
+    """What a file says: `vertices` (n, 3), `sizes` (p,) corners of each polygon, `corners` (sum of sizes,) vertex ids.
+
+    `repairs` tells in words what reading has already changed or left out.
+    """
+
+    vertices: np.ndarray
+    sizes: np.ndarray
+    corners: np.ndarray
+    repairs: tuple[str, ...] = ()
+
+
+def counted(count: int, one: str, many: str = "") -> str:
+    """'1 face', '2 faces'."""
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
+def runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """(sum of sizes,) the indices start, start + 1, ... of each run, one run after the other."""
+    ends = np.cumsum(sizes)
+    return np.repeat(starts - (ends - sizes), sizes) + np.arange(ends[-1] if len(ends) else 0)
+
+
+def whole_numbers(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`values` as int64, and the mask of those that are not whole numbers (these become -1)."""
+    if values.dtype.kind in "iu":
+        return values.astype(np.int64), values.astype(np.float64) > 2.0**53
+    with np.errstate(invalid="ignore"):
+        bad = ~(np.abs(values) <= 2.0**53) | (values != np.floor(values))
+    return np.where(bad, -1, values).astype(np.int64), bad
+
+
+def checked_corners(values: np.ndarray, sizes: np.ndarray, n: int, where: Callable[[int], str]) -> np.ndarray:
+    """The corners as int64 ids from 0 to n - 1; MeshError beginning with `where(polygon)` at the first that is not."""
+    ids, bad = whole_numbers(values)
+    bad |= (ids < 0) | (ids >= n)
+    if bad.any():
+        at = int(np.argmax(bad))
+        polygon = int(np.searchsorted(np.cumsum(sizes), at, side="right"))
+        allowed = f"ids run from 0 to {n - 1}" if n else "there are no vertices"
+        raise MeshError(f"{where(polygon)} names vertex {values[at]:.16g}, but {allowed}.")
+    return ids
+
+
+def strip_triangles(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """(m, 3) triangles of triangle strips, every second one turned so that all keep the strip's orientation."""
+    count = np.maximum(sizes - 2, 0)
+    starts = np.cumsum(sizes) - sizes
+    first = runs(starts, count)
+    odd = (first - np.repeat(starts, count)) % 2
+    return corners[np.stack([first, first + 1 + odd, first + 2 - odd], axis=1)]
+
+
+def triangulated(polygons: Polygons) -> tuple[np.ndarray, list[str]]:
+    """(m, 3) triangles in the order of the polygons, and what was done in words.
+
+    A fan about the first corner where that covers the polygon, else about another corner, else by clipping ears;
+    a polygon that no cut divides cleanly (self-intersecting, all corners in line) stays a fan.
+    """
+    sizes, corners, said = polygons.sizes, polygons.corners, []
+    small = sizes < 3
+    if small.any():
+        said.append(f"{counted(int(small.sum()), 'face')} with fewer than 3 corners ignored")
+        corners, sizes = corners[np.repeat(~small, sizes)], sizes[~small]
+    if (sizes == 3).all():
+        return corners.reshape(-1, 3), said
+    starts, first = np.cumsum(sizes) - sizes, np.cumsum(sizes - 2) - (sizes - 2)
+    faces = np.empty((int((sizes - 2).sum()), 3), np.int64)
+    for size in np.unique(sizes):
+        of_size = np.flatnonzero(sizes == size)
+        rings = corners[starts[of_size][:, None] + np.arange(size)]
+        local = _divided(polygons.vertices, rings)
+        faces[first[of_size][:, None] + np.arange(size - 2)] = np.take_along_axis(
+            rings, local.reshape(len(rings), -1), axis=1
+        ).reshape(local.shape)
+    split = sizes > 3
+    made = int((sizes[split] - 2).sum())
+    said.append(f"{counted(int(split.sum()), 'polygon')} split into {counted(made, 'triangle')}")
+    return faces, said
+
+
+def _fan(start: int, size: int) -> np.ndarray:
+    """(size - 2, 3) the fan about one corner, as places in the ring."""
+    k = np.arange(1, size - 1)
+    return np.stack([np.full(size - 2, start), (start + k) % size, (start + k + 1) % size], axis=1)
+
+
+def _divided(vertices: np.ndarray, rings: np.ndarray) -> np.ndarray:
+    """(r, k - 2, 3) the triangles of r polygons of k corners, as places in the ring."""
+    size = rings.shape[1]
+    local = np.repeat(_fan(0, size)[None], len(rings), axis=0)
+    if size == 3 or not len(vertices):
+        return local
+    # Coordinates that overflow or are not numbers are refused later, with the vertex named.
+    with np.errstate(over="ignore", invalid="ignore"):
+        x = vertices[rings] - vertices[rings[:, :1]]
+        normal = np.cross(x[:, 1:-1], x[:, 2:]).sum(axis=1)
+        best = _smallest_share(x, normal, local[0])
+        unsettled = np.flatnonzero(~(best > 0))
+        for start in range(1, size if size <= EAR_CLIPPING_LIMIT else 0):
+            if not len(unsettled):
+                break
+            fan = _fan(start, size)
+            share = _smallest_share(x[unsettled], normal[unsettled], fan)
+            better = share > best[unsettled]
+            local[unsettled[better]], best[unsettled[better]] = fan, share[better]
+            unsettled = unsettled[~(best[unsettled] > 0)]
+        if 5 < size <= EAR_CLIPPING_LIMIT:
+            for ring in unsettled[best[unsettled] < 0]:
+                local[ring] = _clipped(x[ring], normal[ring], local[ring])
+    return local
+
+
+def _smallest_share(x: np.ndarray, normal: np.ndarray, fan: np.ndarray) -> np.ndarray:
+    """(r,) the smallest oriented triangle area of a fan over the polygon's; below 0 where it leaves the polygon."""
+    a, b, c = (x[:, fan[:, k]] for k in range(3))
+    area = np.einsum("rtk,rk->rt", np.cross(b - a, c - a), normal)
+    share = area.min(axis=1) / np.maximum(np.einsum("rk,rk->r", normal, normal), np.finfo(float).tiny)
+    return np.where(np.abs(share) < 1e-12, 0.0, share)
+
+
+def _clipped(x: np.ndarray, normal: np.ndarray, fan: np.ndarray) -> np.ndarray:
+    """(k - 2, 3) one polygon divided by clipping ears; the given fan where it has none left to clip."""
+    length = np.linalg.norm(normal)
+    if not length > 0:
+        return fan
+    across = np.linalg.svd(normal[None])[2][1:]
+    plane = x @ across.T
+    if np.dot(np.cross(across[0], across[1]), normal) < 0:
+        plane = plane[:, ::-1]
+
+    def turn(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+        u, w = b - a, c - a
+        return u[..., 0] * w[..., 1] - u[..., 1] * w[..., 0]
+
+    ring, triangles = list(range(len(x))), []
+    while len(ring) > 3:
+        for k in range(len(ring)):
+            a, b, c = ring[k - 1], ring[k], ring[(k + 1) % len(ring)]
+            p = plane[[v for v in ring if v not in (a, b, c)]]
+            sides = (turn(plane[a], plane[b], p), turn(plane[b], plane[c], p), turn(plane[c], plane[a], p))
+            inside = (sides[0] >= 0) & (sides[1] >= 0) & (sides[2] >= 0)
+            if turn(plane[a], plane[b], plane[c]) > 0 and not inside.any():
+                triangles.append((a, b, c))
+                del ring[k]
+                break
+        else:
+            return fan
+    return np.array([*triangles, ring])

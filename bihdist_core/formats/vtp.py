@@ -1,0 +1,201 @@
+"""VTP files (VTK's XML format for polygonal data): a strict reader.
+
+Text, base64 and raw appended arrays, plain or compressed with zlib or LZMA, of either byte order; pieces are put one
+after the other.  Point and cell data are read over.  Ids are the order of the points.
+"""
+
+import base64
+import binascii
+import lzma
+import re
+import zlib
+from dataclasses import dataclass
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ..errors import MeshError
+from .polygons import Polygons, whole_numbers
+from .text_lines import parsed_numbers
+from .vtk import Cells, cells_of_offsets, polygons_of_cells
+
+_TYPES = {f"{sign}Int{8 * size}": f"{sign.lower() or 'i'}{size}" for sign in ("", "U") for size in (1, 2, 4, 8)}
+_TYPES |= {"Float32": "f4", "Float64": "f8"}
+_KINDS = {"Polys": "POLYGONS", "Strips": "TRIANGLE_STRIPS", "Lines": "LINES", "Verts": "VERTICES"}
+
+
+def read_vtp(raw: bytes, name: str) -> Polygons:
+    """The polygons of a VTP file; MeshError where it is none or is cut off."""
+    file = _opened(raw, name)
+    pieces = file.root.findall("PolyData/Piece")
+    if not pieces:
+        raise MeshError(f"{name} holds no PolyData piece; only files of the type PolyData are surfaces.")
+    points: list[np.ndarray] = []
+    cells: dict[str, list[Cells]] = {}
+    before = 0
+    for piece in pieces:
+        points.append(_points(file, piece))
+        for tag, kind in _KINDS.items():
+            sizes, corners = _cells(file, piece, tag)
+            bad = (corners < 0) | (corners >= len(points[-1]))
+            if bad.any():
+                last = len(points[-1]) - 1
+                raise MeshError(f"{name}: a cell of {tag} names point {corners[bad][0]}, but ids run from 0 to {last}.")
+            cells.setdefault(kind, []).append((sizes, corners + before))
+        before += len(points[-1])
+    joined = {
+        kind: (np.concatenate([sizes for sizes, _ in parts]), np.concatenate([corners for _, corners in parts]))
+        for kind, parts in cells.items()
+    }
+    return polygons_of_cells(np.concatenate(points), joined, name)
+
+
+@dataclass
+class _File:
+    """The XML tree, what its root says about binary arrays, and the appended bytes."""
+
+    name: str
+    root: ElementTree.Element
+    order: str
+    length: np.dtype
+    decompress: str
+    appended: bytes
+    base64: bool
+
+    def array(self, element: ElementTree.Element, count: int | None, what: str) -> np.ndarray:
+        """The numbers of a DataArray; MeshError unless there are `count` of them (None: any number)."""
+        kind = element.get("type", "")
+        if kind not in _TYPES:
+            raise MeshError(f"{self.name}: {what} have the type {kind[:40]!r}, which is not read.")
+        dtype = np.dtype(self.order + _TYPES[kind])
+        match element.get("format", "ascii"):
+            case "ascii":
+                values = parsed_numbers((element.text or "").encode(), self.name, what)
+            case "binary":
+                values = self._numbers(_from_base64((element.text or "").encode(), f"{self.name}: {what}"), dtype, what)
+            case "appended" if re.fullmatch("[0-9]{1,15}", element.get("offset", "")):
+                content = self.appended[int(element.get("offset", "")) :]
+                if self.base64:
+                    content = _from_base64(self._until_next(element), f"{self.name}: {what}")
+                values = self._numbers(content, dtype, what)
+            case form:
+                raise MeshError(f"{self.name}: {what} have the format {form[:40]!r}, which is not read.")
+        if count is not None and len(values) != count:
+            raise MeshError(f"{self.name} announces {count} numbers of {what} but holds {len(values)}.")
+        return values
+
+    def _until_next(self, element: ElementTree.Element) -> bytes:
+        start = int(element.get("offset", ""))
+        offsets = [int(e.get("offset", "")) for e in self.root.iter("DataArray") if e.get("offset", "").isdecimal()]
+        return self.appended[start : min((o for o in offsets if o > start), default=len(self.appended))]
+
+    def _numbers(self, content: bytes, dtype: np.dtype, what: str) -> np.ndarray:
+        content = self._decompressed(content, what) if self.decompress else self._plain(content, what)
+        if len(content) % dtype.itemsize:
+            raise MeshError(f"{self.name}: {what} have {len(content)} bytes, no whole number of {dtype.name} values.")
+        return np.frombuffer(content, dtype)
+
+    def _lengths(self, content: bytes, first: int, count: int, what: str) -> list[int]:
+        if (first + count) * self.length.itemsize > len(content):
+            raise self._cut_off(what)
+        return [int(v) for v in np.frombuffer(content, self.length, count, first * self.length.itemsize)]
+
+    def _plain(self, content: bytes, what: str) -> bytes:
+        head = self.length.itemsize
+        size = self._lengths(content, 0, 1, what)[0]
+        if size > len(content) - head:
+            raise self._cut_off(what)
+        return content[head : head + size]
+
+    def _decompressed(self, content: bytes, what: str) -> bytes:
+        """Blocks behind their number, their size, the size of the last (0 if whole) and their compressed sizes."""
+        blocks = self._lengths(content, 0, 1, what)[0]
+        if not blocks:
+            return b""
+        _, size, last, *packed = self._lengths(content, 0, 3 + blocks, what)
+        at, parts = (3 + blocks) * self.length.itemsize, []
+        for k, length in enumerate(packed):
+            expected = last if k == blocks - 1 and last else size
+            if at + length > len(content):
+                raise self._cut_off(what)
+            # At most the announced size is unpacked, so that a damaged file cannot fill the memory.
+            try:
+                if self.decompress == "zlib":
+                    part = zlib.decompressobj().decompress(content[at : at + length], max(expected, 1))
+                else:
+                    part = lzma.LZMADecompressor().decompress(content[at : at + length], max(expected, 1))
+            except (zlib.error, lzma.LZMAError, OverflowError) as error:
+                raise MeshError(f"{self.name}: the compressed {what} are damaged ({error}).") from None
+            if len(part) != expected:
+                raise self._cut_off(what)
+            parts.append(part)
+            at += length
+        return b"".join(parts)
+
+    def _cut_off(self, what: str) -> MeshError:
+        return MeshError(f"{self.name}: the {what} are shorter than announced; the file is cut off or damaged.")
+
+
+def _opened(raw: bytes, name: str) -> _File:
+    if b"<!DOCTYPE" in raw[:4096] or b"<!ENTITY" in raw[:4096]:
+        raise MeshError(f"{name} declares XML entities, which no VTP file needs; it is not read.")
+    # Appended bytes are no XML: they are taken out before the rest is parsed.
+    found = re.search(rb"<AppendedData([^>]*)>\s*_", raw)
+    tree, appended, coded = raw, b"", False
+    if found:
+        end = raw.rfind(b"</AppendedData>")
+        if end < found.end():
+            raise MeshError(f"{name} is cut off: its appended data do not end.")
+        tree, appended = raw[: found.start()] + raw[end + len(b"</AppendedData>") :], raw[found.end() : end]
+        coded = b"base64" in found[1]
+    try:
+        root = ElementTree.fromstring(tree)
+    except (ElementTree.ParseError, LookupError, ValueError) as error:
+        raise MeshError(f"{name} is not a VTP file, or is cut off or damaged ({error}).") from None
+    compressor = root.get("compressor", "")
+    known = {"": "", "vtkZLibDataCompressor": "zlib", "vtkLZMADataCompressor": "lzma"}
+    if root.tag != "VTKFile":
+        raise MeshError(f"{name} is not a VTP file: its root element is {root.tag[:40]!r}, not 'VTKFile'.")
+    if compressor not in known:
+        raise MeshError(f"{name} is compressed by {compressor[:40]!r}; save it with zlib or without compression.")
+    order = ">" if root.get("byte_order") == "BigEndian" else "<"
+    length = np.dtype(order + ("u8" if root.get("header_type") == "UInt64" else "u4"))
+    return _File(name, root, order, length, known[compressor], appended, coded)
+
+
+def _points(file: _File, piece: ElementTree.Element) -> np.ndarray:
+    n = _announced(file, piece, "NumberOfPoints")
+    element = piece.find("Points/DataArray")
+    if element is None:
+        if n:
+            raise MeshError(f"{file.name} announces {n} points but holds none.")
+        return np.empty((0, 3))
+    return file.array(element, 3 * n, "points").reshape(-1, 3).astype(np.float64)
+
+
+def _cells(file: _File, piece: ElementTree.Element, tag: str) -> Cells:
+    count = _announced(file, piece, f"NumberOf{tag}")
+    arrays = {e.get("Name", "").lower(): e for e in piece.findall(f"{tag}/DataArray")}
+    if not count:
+        return cells_of_offsets(np.empty(0, np.int64), np.empty(0, np.int64), file.name)
+    if not {"offsets", "connectivity"} <= arrays.keys():
+        raise MeshError(f"{file.name} announces {count} {tag} but lacks their connectivity or offsets.")
+    ends = whole_numbers(file.array(arrays["offsets"], count, f"{tag} offsets"))[0]
+    corners = whole_numbers(file.array(arrays["connectivity"], None, f"{tag} connectivity"))[0]
+    return cells_of_offsets(np.append(0, ends), corners, f"{file.name}: {tag}")
+
+
+def _announced(file: _File, piece: ElementTree.Element, key: str) -> int:
+    text = piece.get(key, "0")
+    if not re.fullmatch("[0-9]{1,15}", text):
+        raise MeshError(f"{file.name}: {key} is {text[:40]!r}, not a count.")
+    return int(text)
+
+
+def _from_base64(text: bytes, where: str) -> bytes:
+    """The bytes of base64 text in which each part may be padded on its own."""
+    try:
+        parts = re.findall(rb"[^=]+={0,2}", b"".join(text.split()))
+        return b"".join(base64.b64decode(part, validate=True) for part in parts)
+    except binascii.Error as error:
+        raise MeshError(f"{where} are damaged base64 text ({error}).") from None

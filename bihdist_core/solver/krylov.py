@@ -1,0 +1,173 @@
+"""Largest eigenpairs of a symmetric operator by a block Krylov method with thick restarts.
+
+The operator T is symmetric in the inner product x^T A y, A = diag(weights).  The basis V is A-orthonormal, and the
+next block Q is A-orthonormal too and orthogonal to V:
+
+    T V = V H + Q B,     so     T X - X M = Q B Y     for the Ritz vectors X = V Y, where H Y = Y M.
+
+The error of every Ritz pair is thus known without applying T again.  Recombining the columns of V keeps this form,
+so that a restart, or a start from eigenvectors known already, is only another V, H, B.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ..progress import Progress
+from .tall import centre, gram, multiply, put, recombine, subtract
+
+WIDTHS = 8, 32
+"""Fewest and most columns of a block.  Wide blocks are cheaper per column; narrow ones need fewer columns."""
+PAIRS_PER_COLUMN = 12
+"""How many pairs asked for make the block one column wider; measured."""
+CHECK = 1.07
+"""By how much the basis grows until the errors, which take a dense eigenproblem, are looked at again."""
+MEMORY = 2e9
+"""Bytes the basis may fill before it is restarted, unless the pairs asked for need more."""
+PATIENCE = 8
+"""Stop, whatever the errors are, after this many times the columns usually needed; the caller checks the result."""
+CROWD = 1.01
+"""Eigenvalues within this ratio may hide further ones: a block sees at most as many equal ones as it has columns."""
+
+
+def largest_eigenpairs(
+    apply: Callable[[np.ndarray], np.ndarray],
+    weights: np.ndarray,
+    count: int,
+    tolerance: float,
+    known: tuple[np.ndarray, np.ndarray],
+    progress: Progress,
+) -> np.ndarray:
+    """(n, count) vectors that span the eigenvectors of the `count` largest eigenvalues mu.
+
+    apply(x): T x for x (n, k); it and x are A-orthogonal to constants.  weights: (n,) the diagonal of A.
+    tolerance: for ||T x - mu x||_A / mu, not promised.  known: eigenvalues (j,) and eigenvectors (n, j) to begin with.
+    `count` must be well below n.  progress is called before and after each use of `apply`.
+    """
+    n = len(weights)
+    width = int(np.clip(count // PAIRS_PER_COLUMN, *WIDTHS))
+    space = _Space(weights, int(np.clip(MEMORY / (8 * n), count + 6 * width, 4 * count + 16 * width)), *known)
+    random = np.random.default_rng(0)
+    space.inject(random.standard_normal((n, width)))
+    families, applied, check, expected = 1, 0, 1.5 * count + width, 3.5 * count + 8 * width
+    while True:
+        share = min(0.98, applied / expected)
+        progress(share, "eigenpairs: solving")
+        image = apply(space.block)
+        progress(share, "eigenpairs: orthogonalizing")
+        applied += image.shape[1]
+        space.grow(image)
+        exhausted = not space.block.shape[1]
+        if space.size >= check or (exhausted and space.size >= count):
+            check = CHECK * space.size
+            mu, y = space.ritz(count)
+            missed = space.couple @ y / mu
+            if applied > PATIENCE * expected:
+                break
+            if np.linalg.norm(missed, axis=0).max() <= tolerance:
+                crowd = width * families
+                if count <= crowd or (mu[: 1 - crowd] > CROWD * mu[crowd - 1 :]).all():
+                    break
+                space.inject(random.standard_normal((n, width)))
+                families += 1
+        if exhausted:
+            # The space is invariant: only a new direction can find more.
+            space.inject(random.standard_normal((n, width)))
+        if space.make_room(count):
+            check = 0.0
+    progress(0.99, "eigenpairs: combining")
+    vectors = multiply(space.basis[:, : space.size], y)
+    # This makes them T X M^-1 without applying T: smoother than X, and to be had for nothing.
+    subtract(vectors, space.block, -missed)
+    return vectors
+
+
+class _Space:
+    """The basis V, the block Q to expand by next, and H and B ("couple") of the module's formula."""
+
+    def __init__(self, weights: np.ndarray, room: int, values: np.ndarray, vectors: np.ndarray) -> None:
+        n, self.size = vectors.shape
+        self.weights = weights
+        room += self.size
+        # By columns: the part not filled yet then costs no memory.
+        self.basis = np.empty((n, room), order="F")
+        self.basis[:, : self.size] = vectors
+        self.h = np.zeros((room, room))
+        self.h[: self.size, : self.size] = np.diag(values)
+        self.block = np.empty((n, 0))
+        self.couple = np.zeros((0, self.size))
+
+    def inject(self, columns: np.ndarray) -> None:
+        """Widen the block by columns (n, k) that need have nothing to do with V."""
+        centre(columns, self.weights)
+        for _ in range(2):
+            for old in (self.basis[:, : self.size], self.block):
+                subtract(columns, old, gram(old, columns, self.weights))
+            columns, _ = self._orthonormal(columns)
+        self.block = np.hstack([self.block, columns])
+        self.couple = np.vstack([self.couple, np.zeros((columns.shape[1], self.size))])
+
+    def grow(self, image: np.ndarray) -> None:
+        """Take the block into the basis and make the next one of its image T Q (n, k), which is overwritten."""
+        old, new = self.size, self.size + self.block.shape[1]
+        v = self.basis[:, :new]
+        put(v, old, self.block)
+        # First what is known to be in the image, which is large.  What rounding left is removed by one pass over all
+        # columns, from the normalized rest: the pass must not be followed by a division by something small.
+        touched = np.flatnonzero(self.couple.any(axis=0))
+        if len(touched):
+            subtract(image, v[:, touched[0] : old], self.couple[:, touched[0] :].T)
+        inside = gram(self.block, image, self.weights)
+        subtract(image, self.block, inside)
+        q, r = self._orthonormal(image, smallest=1e-14 * max(self.h.max(), inside.max()))
+        rest = gram(v, q, self.weights)
+        subtract(q, v, rest)
+        centre(q, self.weights)
+        self.h[old:new, :old] = self.couple
+        self.h[:old, old:new] = self.couple.T
+        self.h[old:new, old:new] = inside
+        self.h[:new, old:new] += rest @ r
+        self.h[old:new, :old] += (rest[:old] @ r).T
+        self.block, again = self._orthonormal(q)
+        self.size, self.couple = new, np.hstack([np.zeros((again.shape[0], old)), again @ r])
+
+    def ritz(self, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """The `count` largest eigenvalues of H, descending, and its eigenvectors (size, count)."""
+        h = self.h[: self.size, : self.size]
+        # NumPy's, for which other Python threads need not stand still as for SciPy's; it takes no longer for all.
+        mu, y = np.linalg.eigh((h + h.T) / 2)
+        return mu[: -count - 1 : -1], np.ascontiguousarray(y[:, : -count - 1 : -1])
+
+    def make_room(self, count: int) -> bool:
+        """If the block does not fit into the basis any more, keep only the best Ritz vectors; whether it was so."""
+        room = self.basis.shape[1]
+        if self.size + self.block.shape[1] <= room:
+            return False
+        keep = min(count + (room - count) // 3, self.size)
+        mu, y = self.ritz(keep)
+        recombine(self.basis[:, : self.size], y)
+        self.h[:] = 0
+        self.h[:keep, :keep] = np.diag(mu)
+        self.couple, self.size = self.couple @ y, keep
+        short = keep + 2 * self.block.shape[1] - room
+        if short > 0:
+            # Only after several injections into a space at its limit of memory.
+            self.basis = np.asfortranarray(np.pad(self.basis, ((0, 0), (0, short))))
+            self.h = np.pad(self.h, (0, short))
+        return True
+
+    def _orthonormal(self, w: np.ndarray, smallest: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        """Q (n, j) and R (j, k) with W = Q R and Q A-orthonormal; what is only rounding in W (n, k) is left out.
+
+        Once leaves Q as far from orthonormal as the columns of W were from independent; twice makes it good.
+        """
+        products = gram(w, w, self.weights)
+        size = np.sqrt(np.diag(products))
+        live = np.flatnonzero(size > smallest)
+        size = size[live]
+        values, u = np.linalg.eigh(products[np.ix_(live, live)] / size / size[:, None])
+        values, u = values[values > 1e-12], u[:, values > 1e-12]
+        turn, r = np.zeros((w.shape[1], len(values))), np.zeros((len(values), w.shape[1]))
+        turn[live] = u / np.sqrt(values) / size[:, None]
+        r[:, live] = np.sqrt(values)[:, None] * u.T * size
+        return multiply(w, turn), r
