@@ -43,26 +43,31 @@ class Asked:
     """One distance for as many questions as there are: made when first asked, certified after its first answer.
 
     make(progress) gives the distance; word: what it is called where it cannot be made.  What cannot be done becomes an
-    answer that says so; Cancelled and VertexError are raised as they are.
+    answer that says so, on the component it fails on; Cancelled and VertexError are raised as they are.
     """
 
     def __init__(self, make: Callable[[Progress], Distance], word: str) -> None:
         self._make, self._word = make, word
         self._distance: Distance | None = None
-        self._failure = ""
+        self._failures: dict[int | None, str] = {}
 
     def answer(self, source: int, progress: Progress | None = None) -> Answer:
-        if self._failure:
-            return Answer(label=self._word, failure=self._failure)
+        component = None if self._distance is None else self._distance.laplacian.component_of(source).index
         try:
-            if self._distance is None:
+            if self._distance is None and None not in self._failures:
                 self._distance = self._make(part(progress, 0, 0.9))
-            distance = self._distance
-            field = distance.from_source(source, part(progress, 0.9, 1))
-            return Answer(label=distance.label, unit=distance.unit, field=field, certificate=distance.certificate())
+                component = self._distance.laplacian.component_of(source).index
+            if component not in self._failures:
+                return answered(self._distance, source, component, part(progress, 0.9, 1))
         except (Cancelled, VertexError):
             raise
         except (BihdistError, MemoryError) as error:
-            # The same for every source: what fails is the distance.
-            self._failure = failure_in_words(error)
-            return Answer(label=self._word, failure=self._failure)
+            # The same for every source of the component: what fails is the distance.
+            self._failures[component] = failure_in_words(error)
+        return Answer(label=self._word, failure=self._failures[component])
+
+
+def answered(distance: Distance, source: int, component: int, progress: Progress | None) -> Answer:
+    """A field with its certificate on the component of its source."""
+    field = distance.from_source(source, progress)
+    return Answer(label=distance.label, unit=distance.unit, field=field, certificate=distance.certificate([component]))

@@ -245,7 +245,7 @@ def _pairs(options: argparse.Namespace) -> None:
         laplacian = _laplacian(options)
         if options.all:
             distance = _panel(options, options.distance).build(laplacian, progress)
-            accuracy = _accuracy(distance)
+            accuracy = _accuracy(distance, everywhere=True)
             write_all_pairs(distance, options.output, options.dtype, 1e6 * options.memory, progress)
             count = len(laplacian.surface.vertices)
             print(f"{options.output}: {distance.label}, all pairs of {count} vertices{accuracy}")
@@ -269,9 +269,12 @@ def _pairs(options: argparse.Namespace) -> None:
     print(f"{options.output}: {distance.label}, {_counted(len(pairs), 'pair')}{accuracy}")
 
 
-def _accuracy(distance) -> str:
-    """What to add to the words on an answer: how accurate it is, with a warning where that is poor."""
-    certificate = distance.certificate()
+def _accuracy(distance, everywhere: bool = False) -> str:
+    """What to add to the words on an answer: how accurate it is, with a warning where that is poor.
+
+    everywhere: on all components, also those not asked about.
+    """
+    certificate = distance.certificate(range(distance.surface.component_count) if everywhere else None)
     if certificate.is_poor:
         _warn(f"{distance.label} on {distance.surface.name} is only {certificate.text}.")
     return f", {certificate.text}" if certificate.text else ""
@@ -342,12 +345,17 @@ def _info(options: argparse.Namespace) -> None:
         print(f"{name:<26}{value}")
     print(f"{'repairs':<26}{'; '.join(s.remarks) or 'none'}")
     if options.accuracy:
-        from bihdist_core import BiharmonicDistance, CommuteTimeDistance, Laplacian
+        from bihdist_core import BiharmonicDistance, CommuteTimeDistance, Laplacian, SolverError
 
+        said = []
         with _progress() as progress:
             laplacian = Laplacian(s, options.areas)
-            distances = [BiharmonicDistance(laplacian, progress), CommuteTimeDistance(laplacian, progress)]
-            said = [(distance.label, _accuracy(distance).removeprefix(", ")) for distance in distances]
+            for make in (BiharmonicDistance, CommuteTimeDistance):
+                try:
+                    distance = make(laplacian, progress)
+                    said.append((distance.label, _accuracy(distance, everywhere=True).removeprefix(", ")))
+                except SolverError as error:
+                    said.append((make.label, str(error)))
         for label, text in said:
             print(f"{label:<26}{text}")
 

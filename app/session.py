@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from bihdist_core import Distance, Laplacian, Surface, read_surface
+from bihdist_core import Distance, Laplacian, SolverError, Surface, read_surface
 from bihdist_core.distances.spectral import SpectralDistance
 from bihdist_core.progress import Progress, part
 
@@ -24,11 +24,12 @@ from .state import PanelState, ViewerState
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PanelAnswer(Answer):
-    """A panel's answer from `source`; `preview` if a better one is on its way."""
+    """A panel's answer from `source`; `preview` if a better one comes, `is_judged` if its certificate is there."""
 
     panel: PanelState
     source: int | None
     preview: bool = False
+    is_judged: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,8 +144,9 @@ class Session:
 
     @property
     def is_complete(self) -> bool:
-        """Whether every panel does."""
-        return self.surface is not None and all(self.is_answered(index) for index in range(len(self.answers)))
+        """Whether every panel does, and it is known how accurate that is."""
+        shown = range(len(self.answers))
+        return self.surface is not None and all(self.is_answered(k) and self.answers[k].is_judged for k in shown)
 
     # ------------------------------------------------------------------ loading
     def _load(self, path: str, lane: Lane[str]) -> None:
@@ -198,8 +200,11 @@ class Session:
             # The source may have moved while the distance was made ready: then the next question has it.
             asking(0.9, distance.label)
             if distance.label == "geodesic, exact":
-                heat = distances.get(question.laplacian, replace(question.panel, method="heat"), preparing)
-                self._deliver(index, question, heat, asking, preview=True)
+                try:
+                    heat = distances.get(question.laplacian, replace(question.panel, method="heat"), preparing)
+                    self._deliver(index, question, heat, asking, preview=True)
+                except (SolverError, MemoryError):
+                    pass  # a stand-in that fails must not cost the answer
             self._deliver(index, question, distance, asking)
 
         return answer
@@ -221,7 +226,8 @@ class Session:
         if not preview:
             # The answer does not wait for it; a newer question does not either.
             progress(1.0, distance.label)
-            certified = replace(answer, certificate=distance.certificate())
+            component = question.laplacian.component_of(question.source).index
+            certified = replace(answer, certificate=distance.certificate([component]), is_judged=True)
             self._post(lambda: self._certified(index, question, certified))
 
     def _answered(self, index: int, question: _Question, answer: PanelAnswer) -> None:
@@ -244,6 +250,7 @@ class Session:
             source=question.source,
             label=question.panel.distance,
             failure=failure_in_words(error),
+            is_judged=True,
         )
         self._post(lambda: self._answered(index, question, answer))
 

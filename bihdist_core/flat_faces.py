@@ -9,15 +9,22 @@ a spring that holds the value at the apex i to that at its foot, and a link from
 few digits to its neighbours, and one of a face of no area is infinite.  So no spring is stronger than that of a face
 whose height is the share `FLAT` of its longest side; links and areas stay true.  A spring that is strong in any case
 moves distances in proportion to h / l only: those on the exact surface, of whatever flatness, are met to some `FLAT` of
-the maximum, even if every face has a flat one beside it.  (Lengthening all three sides by a share e of the longest, the
+the maximum, even if every face has a flat one beside it; where many hang in a chain their shares add up, and the
+accuracy says so.  (Lengthening all three sides by a share e of the longest, the
 intrinsic mollification of Sharp and Crane 2020, makes a flat obtuse face as high as the root of e.)
+
+What hangs on faces of no area alone, too few to hold it, is infinitely far away.  By convention such loose faces, and
+those with three points in one place, have equal sides.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .surface import FLAT, Surface, dots
+from .surface import FLAT, Surface, connected, dots
+
+NOTHING = 1e-12
+"""A height of so small a share of the longest side is the rounding of coordinates."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,8 +32,8 @@ class FlatFaces:
     """The flat faces of a surface, all (k,).
 
     faces: their numbers; corners (3, k): which of its corners are i, a, b; foot: the share s; share: the true height
-    over the longest side; length: of that; spring, link: their strengths, without unit.  Three points in one place are
-    a face with equal sides.
+    over the longest side; length: of that; spring, link: their strengths, without unit; loose: whether that is by
+    convention.
     """
 
     surface: Surface
@@ -37,11 +44,17 @@ class FlatFaces:
     length: np.ndarray
     spring: np.ndarray
     link: np.ndarray
+    loose: np.ndarray
 
     @classmethod
     def of(cls, surface: Surface, faces: np.ndarray | None = None) -> "FlatFaces":
         """All of them, or some."""
-        faces = surface.flat_faces if faces is None else faces
+        if faces is not None:
+            all_faces = cls.of(surface)
+            some = np.searchsorted(all_faces.faces, faces)
+            kept = {f.name: getattr(all_faces, f.name)[..., some] for f in fields(cls) if f.name != "surface"}
+            return cls(surface, **kept)
+        faces = surface.flat_faces
         x = surface.vertices[surface.faces[faces]].transpose(1, 2, 0)
         side = [x[(k + 2) % 3] - x[(k + 1) % 3] for k in range(3)]
         squares = np.stack([dots(s, s) for s in side])
@@ -52,16 +65,24 @@ class FlatFaces:
         feet = np.stack([-dots(base, before), -dots(base, after)]) / np.where(point, 1, square)
         nearer = feet.argmin(axis=0)
         share, high = surface.face_heights[faces], 0.75**0.5
+        corners = np.stack([apex, (apex + 1 + nearer) % 3, (apex + 2 - nearer) % 3])
+        loose = point | (_hanging(surface, faces) & (share < NOTHING))
         return cls(
             surface,
             faces,
-            np.stack([apex, (apex + 1 + nearer) % 3, (apex + 2 - nearer) % 3]),
+            corners,
             np.where(point, 0.5, feet.min(axis=0)),
             share,
             np.sqrt(square),
-            0.5 / np.where(point, high, FLAT),
-            0.5 * np.where(point, high, share),
+            0.5 / np.where(loose, high, FLAT),
+            0.5 * np.where(loose, high, share),
+            loose,
         )
+
+    @property
+    def lack(self) -> np.ndarray:
+        """(k,) what the springs lack, to first order in the share by which they give way more than exact ones."""
+        return np.where(self.loose, 0, self.spring * (1 - self.share / FLAT))
 
     @property
     def vertices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -106,3 +127,24 @@ class FlatFaces:
         for vertices, value in zip(self.vertices, (np.ones(len(column)), self.foot - 1, -self.foot), strict=True):
             g[vertices, column] = value
         return g, 2 * self.share * FLAT / (FLAT - self.share)
+
+
+def _hanging(surface: Surface, faces: np.ndarray) -> np.ndarray:
+    """(k,) whether flat faces are too few to hold the vertices that they alone have: a spring holds one of them."""
+    f = surface.faces[faces]
+    free = ~surface.in_proper_face[f]
+    hanging = np.zeros(len(faces), bool)
+    if not free.any():
+        return hanging
+    # Two free vertices of a face are connected; one that is not free is connected to itself.
+    ends = [np.where(free[:, k], f[:, k], -1) for k in range(3)]
+    pairs = np.concatenate([np.stack([ends[k], ends[(k + 1) % 3]]) for k in range(3)], axis=1)
+    label = connected(pairs[:, (pairs >= 0).all(axis=0)], len(surface.vertices))
+    mine = np.flatnonzero(free.any(axis=1))
+    of_face = label[f[mine, free[mine].argmax(axis=1)]]
+    vertices = np.bincount(label[np.unique(f[free])], minlength=label.max() + 1)
+    # Of a component that has nothing else one vertex is pinned.
+    touches = np.bincount(of_face, (~free[mine]).any(axis=1), minlength=len(vertices)) > 0
+    held = np.bincount(of_face, minlength=len(vertices)) >= vertices - ~touches
+    hanging[mine] = ~held[of_face]
+    return hanging

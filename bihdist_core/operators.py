@@ -37,7 +37,8 @@ def face_weights(surface: Surface) -> np.ndarray:
 
 
 def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
-    """(n,) areas, unit length squared, that sum to the surface's area; 0 for vertices that have no face, or no area.
+    """(n,) areas, unit length squared, that sum to the surface's area; 0 for vertices that have no face, or next to no
+    area, unless their whole component has none.
 
     "voronoi": mixed Voronoi areas (Meyer et al. 2002), as the paper's text; "barycentric": a third of each face's
     area to each of its vertices, as its authors' program.  Raises ParameterError for any other word.
@@ -61,9 +62,7 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
     areas = np.bincount(surface.faces.T.ravel(), share.ravel(), n)
     # A vertex that has flat faces only may be a tip of much area.  Next to none is taken for none: what is divided by
     # such an area would be lost.  But a component needs some.
-    proper = np.zeros(n, bool)
-    proper[np.delete(surface.faces, flat, axis=0)] = True
-    component = surface.component_of_vertex
+    proper, component = surface.in_proper_face, surface.component_of_vertex
     small = FLAT * (np.median(areas[proper]) if proper.any() else surface.mean_edge_length**2 or 1.0)
     faint = (component >= 0) & ~proper & (areas < small)
     areas[faint] = 0

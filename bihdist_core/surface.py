@@ -13,7 +13,7 @@ Coordinates = np.ndarray | list[np.ndarray]
 """(3, m): vectors, each coordinate for itself."""
 
 FLAT = 1e-7
-"""A face whose height is less than this share of its longest side is flat: operators take it to be that high."""
+"""A face whose height is less than this share of its longest side is flat (see `flat_faces`)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +66,7 @@ class Surface:
         n, f = len(self.vertices), self.faces
         used = np.zeros(n, bool)
         used[f] = True
-        label = _connected(np.concatenate([f[:, :2], f[:, 1:]]).T, n)
+        label = connected(np.concatenate([f[:, :2], f[:, 1:]]).T, n)
         count = np.bincount(label[used])
         rank = np.empty(len(count), np.int64)
         rank[np.argsort(-count, kind="stable")] = np.arange(len(count))
@@ -127,7 +127,7 @@ class Surface:
             return 0
         ends, b = np.unique(b, return_inverse=True)
         b = b.reshape(-1, 2)
-        return int(_connected(b.T, len(ends)).max()) + 1
+        return int(connected(b.T, len(ends)).max()) + 1
 
     @property
     def nonmanifold_edge_count(self) -> int:
@@ -151,7 +151,7 @@ class Surface:
             return np.where(swap, b, a), np.where(swap, a, b)
 
         joined = np.concatenate([np.stack(pair) for pair in zip(ends(left), ends(right), strict=True)], axis=1)
-        fan = _connected(joined, 3 * m)
+        fan = connected(joined, 3 * m)
         vertex_of_fan = np.empty(fan.max() + 1, np.int64)
         vertex_of_fan[fan] = corner
         return int((np.bincount(vertex_of_fan) > 1).sum())
@@ -201,12 +201,19 @@ class Surface:
         """(k,) faces of (nearly) no area: height less than the share `FLAT` of the longest side (see `operators`)."""
         return np.flatnonzero(self.face_heights < FLAT)
 
+    @cached_property
+    def in_proper_face(self) -> np.ndarray:
+        """(n,) whether a vertex belongs to a face that is not flat."""
+        proper = np.zeros(len(self.vertices), bool)
+        proper[np.delete(self.faces, self.flat_faces, axis=0)] = True
+        return proper
+
     @property
     def remarks(self) -> tuple[str, ...]:
         """What a user should know: the repairs, and how many faces are flat."""
         count = len(self.flat_faces)
         noun = "face" if count == 1 else "faces"
-        flat = f"{count} {noun} of (nearly) no area treated as {FLAT:g} of the longest side high"
+        flat = f"{count} {noun} of (nearly) no area held in shape as if {FLAT:g} of the longest side high"
         return (*self.repairs, *([flat] if count else []))
 
     @cached_property
@@ -225,7 +232,7 @@ def dots(a: Coordinates, b: Coordinates) -> np.ndarray:
     return product
 
 
-def _connected(edges: np.ndarray, n: int) -> np.ndarray:
+def connected(edges: np.ndarray, n: int) -> np.ndarray:
     """(n,) component, from 0 in the order of their least vertices, of each vertex of a graph with edges (2, e).
 
     Each tree joins that of its least neighbour, until none has a neighbour: some ten rounds (Liu and Tarjan, Simple

@@ -21,7 +21,9 @@ def export_figure(window) -> ExportDialog | None:
     recipe = _complete_recipe(window)
     if recipe is None:
         return None
-    return _opened(ExportDialog(recipe, window.session.surface, window.session.answers, version(), window), window)
+    return _opened(
+        ExportDialog(recipe, window.session.surface, list(window.session.answers), version(), window), window
+    )
 
 
 def export_movie(window) -> MovieDialog | None:

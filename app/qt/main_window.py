@@ -138,6 +138,8 @@ class MainWindow(QtWidgets.QMainWindow):
     def certificate_changed(self, index: int) -> None:
         self.panels[index].show_certificate(self.session.answers[index])
         self._note(index)
+        if self.session.is_complete and not self.session.progress:
+            QtCore.QTimer.singleShot(0, self._announce)
 
     def progress_changed(self) -> None:
         if not self.session.progress:

@@ -27,6 +27,8 @@ from ..solver.worker_threads import side_by_side
 from ..surface import FLAT, Surface, dots
 
 Columns = Callable[[np.ndarray], np.ndarray]
+Adjoint = Callable[[np.ndarray], np.ndarray]
+Effect = Callable[[int], np.ndarray]
 Form = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray, int]]
 
 WARN, REFUSE = 1e-6, 1e-3
@@ -38,6 +40,8 @@ ROUNDINGS = 8
 SPARE = 6
 """By how much an error found at the places that were tried may be exceeded elsewhere; what is added up, and not as good
 as random, by half as much."""
+SPRINGS = 16
+"""How many springs of flat faces are looked at to find where they matter most."""
 BLOCK = 8192
 """Faces at a time, so that the temporary arrays stay in the processor's cache."""
 
@@ -76,12 +80,16 @@ class Perturbation:
     """
 
     def __init__(self, component: Component) -> None:
+        self._component = component
         self._surface: Surface = component.surface
         self._diagonal = component.stiffness.diagonal()
         self._weights, height = face_weights(self._surface), self._surface.face_heights
         self._flat = FlatFaces.of(self._surface)
         with np.errstate(divide="ignore"):
             self._uncertain = np.where(height < FLAT, 0, 1 / height)
+        # What a convention gives is no place to look for errors.
+        height = height.copy()
+        height[self._flat.faces[self._flat.loose]] = 1
         squares = np.stack([dots(side, side) for side in self._surface.sides()])
         flattest = int(height.argmin())
         self.flattest = np.roll(self._surface.faces[flattest], -int(squares[:, flattest].argmax()))
@@ -100,11 +108,32 @@ class Perturbation:
         squares = np.einsum("ij,ij->j", held, held) + sum(of_blocks)
         flat, spring = self._flat, np.zeros(y.shape[1])
         if len(flat.faces):
-            spring += flat.spring * (1 - flat.share / FLAT) @ np.abs(flat.stretch(y) * flat.stretch(z))
+            spring += flat.lack @ np.abs(flat.stretch(y) * flat.stretch(z))
             _, a, b = flat.vertices
             # A link, whose strength is half a height.
-            squares += (((y[a] - y[b]) * (z[a] - z[b]) / 2) ** 2).sum(axis=0)
+            links = (y[a] - y[b]) * (z[a] - z[b]) / 2
+            squares += (links[~flat.loose] ** 2).sum(axis=0)
         return SPARE * ROUNDINGS / 2 * EPS * np.sqrt(squares), SPARE / 2 * spring
+
+    def effect_of_springs(self, adjoint: Adjoint) -> Effect | None:
+        """By how much what springs lack changes squared distances from a vertex to all, from a few springs; None if
+        none lacks anything.
+
+        Where many hang at one vertex, as those of a closed T-junction do, or in a row, what they lack adds up; this
+        tells between which vertices.
+        """
+        flat = self._flat
+        lacking = np.flatnonzero(flat.lack)
+        if not len(lacking):
+            return None
+        corners = self._surface.faces[flat.faces[lacking]]
+        hub = np.bincount(corners.ravel()).argmax()
+        around = lacking[(corners == hub).any(axis=1)]
+        some = np.unique(np.concatenate([_spread(around), _spread(lacking)]))
+        g, _ = FlatFaces.of(self._surface, flat.faces[some]).missing_springs()
+        y = self._component.solve(g)
+        z, lack = adjoint(y), flat.lack[some]
+        return lambda vertex: np.abs((y - y[vertex]) * (z - z[vertex])) @ lack
 
     def _rounded(self, y: np.ndarray, z: np.ndarray, block: slice) -> np.ndarray:
         """(k,) sum of squares of what a block of faces can do, in units of the rounding of a number."""
@@ -123,34 +152,50 @@ class Perturbation:
         return squares + np.einsum("ij,ij->j", energy, energy)
 
 
+def _spread(some: np.ndarray) -> np.ndarray:
+    """A few of them, evenly."""
+    return some[:: -(-len(some) // SPRINGS)]
+
+
 def change_of_root(square: np.ndarray, by: np.ndarray) -> np.ndarray:
     """How much the root changes at most where a square changes by up to `by`, both at least 0."""
     root = np.sqrt(square)
     return np.maximum(root - np.sqrt(np.maximum(square - by, 0)), np.sqrt(square + by) - root)
 
 
-def accuracy_of_pairs(component: Component, columns: Columns, form: Form, corrected: float = 0.0) -> float:
+def accuracy_of_pairs(
+    component: Component, columns: Columns, form: Form, adjoint: Adjoint, corrected: float = 0.0
+) -> float:
     """The accuracy (see `Distance.accuracy`) of an exact distance on a component.
 
     columns(index) gives (m, k) fields from local vertices.  form(b, y) gives, for b (m, k), differences of two unit
-    vectors, and y = G b: the squared distances (k,), z (m, k), and how many times y^T dL z they change by.
+    vectors, and y = G b: the squared distances (k,), z (m, k), and how many times y^T dL z they change by; adjoint(y)
+    gives z alone.
     Distances up to the share `corrected` of the maximum do not lack springs.
     """
     perturbation = Perturbation(component)
     face, edge = perturbation.flattest, perturbation.shortest
     # Of a needle the ends of the short side, each once: the spring may hold either of them.
     sources = np.array([face[0], edge[1] if edge[0] == face[0] else edge[0]])
+    effect = perturbation.effect_of_springs(adjoint)
+    if effect is not None:
+        sources = np.append(sources, effect(int(effect(int(face[0])).argmax())).argmax())
     fields = columns(sources)
-    fields[sources, [0, 1]] = 0
+    fields[sources, np.arange(len(sources))] = 0
     top = fields.max()
     beside = face[1:][fields[face[1:], 0].argmin()]
     targets = [{beside, fields[:, 0].argmax()}, {edge.sum() - sources[1]}]
+    if effect is not None:
+        targets.append(set())
+        for source, field, some in zip(sources, fields.T, targets, strict=True):
+            most = effect(int(source))
+            some |= {most.argmax(), change_of_root(field**2, most).argmax()}
     if corrected:
         for nearest, also in zip(
             np.where(fields > corrected * top, fields, np.inf).argmin(axis=0), targets, strict=True
         ):
             also.add(nearest)
-    pairs = [(column, int(t)) for column in (0, 1) for t in sorted(targets[column])]
+    pairs = [(column, int(t)) for column, some in enumerate(targets) for t in sorted(some) if t != sources[column]]
     column, target = np.array(pairs).T
     b, each = np.zeros((len(fields), len(pairs))), np.arange(len(pairs))
     b[sources[column], each] = 1

@@ -71,4 +71,7 @@ class BiharmonicDistance(Distance):
             y *= component.areas[:, None] ** 0.5
             return squares, component.solve(y), 2
 
-        return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), form)
+        def adjoint(y: np.ndarray) -> np.ndarray:
+            return component.solve(component.areas[:, None] * component.centred(y))
+
+        return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), form, adjoint)

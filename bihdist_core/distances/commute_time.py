@@ -10,7 +10,9 @@ from .accuracy import accuracy_of_pairs
 from .distance import Distance, root
 
 NEAR = 0.4
-"""Below this share of the maximum the height that flat faces were given shows (it is a share FLAT of the square)."""
+"""Below this share of the maximum it shows what the springs of flat faces lack (it is a share FLAT of the square)."""
+MOST_NEAR, MOST_SPRINGS = 128, 256
+"""So many distances are corrected at most, with so many springs: many more lie so near only where all are far apart."""
 
 
 class CommuteTimeDistance(Distance):
@@ -44,16 +46,17 @@ class CommuteTimeDistance(Distance):
         """
         near = np.flatnonzero(field < NEAR * field.max())
         near = near[near != source]
+        near = near[np.argsort(field[near], kind="stable")[:MOST_NEAR]]
         flat = component.surface.flat_faces
         beside = flat[np.isin(component.surface.faces[flat], np.append(near, source)).any(axis=1)]
+        beside = beside[FlatFaces.of(component.surface, beside).lack > 0][:MOST_SPRINGS]
         if not (len(near) and len(beside)):
             return
         g, slack = FlatFaces.of(component.surface, beside).missing_springs()
         b = np.zeros((len(field), len(near)))
         b[source] = 1
         b[near, np.arange(len(near))] = -1
-        solved = component.solve(np.hstack([b, g]))
-        y, by_springs = solved[:, : len(near)], solved[:, len(near) :]
+        y, by_springs = component.solve(b), component.solve(g)
         moved = g.T @ y
         exact = np.einsum("ij,ij->j", b, y) - np.einsum(
             "ij,ij->j", moved, np.linalg.lstsq(np.diag(slack) + g.T @ by_springs, moved, rcond=None)[0]
@@ -64,4 +67,6 @@ class CommuteTimeDistance(Distance):
         def form(b: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
             return np.einsum("ij,ij->j", b, y), y, 1
 
-        return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), form, NEAR)
+        return accuracy_of_pairs(
+            component, lambda index: self._columns(component, index, None), form, lambda y: y, NEAR
+        )

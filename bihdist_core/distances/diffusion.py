@@ -82,7 +82,7 @@ class DiffusionDistance(SpectralDistance):
         step = values[0] / self.t
         far = weights[-1] * step / (2 * np.pi)
         near = weights[-1] * step * (values[-1] + step) * component.areas.sum() / (4 * np.pi * (weights @ values))
-        return SPARE**2 * (known + np.minimum(far, near * squares.sum(axis=1)))
+        return 2 * SPARE * known + SPARE**2 * np.minimum(far, near * squares.sum(axis=1))
 
     def pair_count(self, vertex: int) -> int:
         """How many eigenpairs the sum has on the component of a vertex."""

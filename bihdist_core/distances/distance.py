@@ -1,7 +1,7 @@
 """What every distance has in common: the same four questions, answered per connected component."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -48,26 +48,31 @@ class Distance(ABC):
         It holds for the components that were asked about (the largest, if none was) and is made when first wanted,
         in less than a tenth of the time the distance took to construct.  None for geodesic distances.
         """
-        known = [self._accuracy_on(self.laplacian.components[index]) for index in self._asked or {0}]
+        return self._accuracy_of(sorted(self._asked) or [0])
+
+    def _accuracy_of(self, components: Sequence[int]) -> float | None:
+        known = [self._accuracy_on(self.laplacian.components[index]) for index in components]
         return None if None in known else max(a for a in known if a is not None)
 
-    def certificate(self) -> Certificate:
-        """The accuracy in words.
+    def certificate(self, components: Sequence[int] | None = None) -> Certificate:
+        """The accuracy in words, on components with these numbers, or on those that were asked about.
 
-        SolverError if it is worse than a thousandth: then the answers so far should not be used.
+        SolverError if it is worse than a thousandth: then answers there should not be used.
         """
-        accuracy = self.accuracy
+        components = (sorted(self._asked) or [0]) if components is None else components
+        accuracy = self._accuracy_of(components)
         try:
             return Certificate.of(accuracy)
         except ValueError:
             off = "by any amount" if accuracy == np.inf else f"by {rounded_up(accuracy or 0)} of its maximum"
             raise SolverError(
-                f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy()}"
+                f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy(components)}"
             ) from None
 
-    def _remedy(self) -> str:
-        """What would help where the accuracy is too poor: a sentence."""
-        heights = self.surface.face_heights
+    def _remedy(self, components: Sequence[int]) -> str:
+        """What would help where the accuracy on these components is too poor: a sentence."""
+        mine = np.isin(self.surface.component_of_vertex[self.surface.faces[:, 0]], components)
+        heights = np.where(mine, self.surface.face_heights, np.inf)
         flattest = int(heights.argmin())
         return (
             f"Its faces are too thin, or differ too much in size (face {flattest} is {heights[flattest]:.0e} of its "

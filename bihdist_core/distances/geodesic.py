@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..errors import ParameterError
+from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
 from ..solver.factor import Factor
@@ -80,7 +80,13 @@ def _heat(component: Component, progress: Progress | None) -> HeatGeodesic:
     heat[probes, np.arange(len(probes))] = 1
     for factor in TIME_FACTORS:
         matrix = heat_matrix(component.stiffness, component.areas, heat_time(component.surface, factor))
-        flow = Factor(component.tree(), matrix, progress=part(progress, 0.7, 1))
+        try:
+            flow = Factor(component.tree(), matrix, progress=part(progress, 0.7, 1))
+        except SolverError as error:
+            raise SolverError(
+                f"The heat flow on {component.surface.name} cannot be computed: its faces are too thin, or differ too "
+                f"much in size. Remeshing would help. ({error})"
+            ) from None
         if (flow.solve(heat) < 0).mean() <= MOST_NEGATIVE:
             break
     return HeatGeodesic(component.surface, matrix, flow.solve, component.solve)

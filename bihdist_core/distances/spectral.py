@@ -1,6 +1,7 @@
 """Distances that are sums over eigenpairs: d(i, j)^2 = sum_k w_k (phi_k(i) - phi_k(j))^2."""
 
 from abc import abstractmethod
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -98,8 +99,7 @@ class PowerDistance(SpectralDistance):
         self.prepare(self.laplacian.components[0], progress)
 
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
-        # One more tells how clearly those used are set off.
-        spectrum = component.spectrum(self.k + 1, progress)
+        spectrum = component.spectrum(self.k, progress)
         return spectrum, spectrum.eigenvalues[: self.k] ** -self.alpha
 
     def _most(self) -> int:
@@ -109,8 +109,8 @@ class PowerDistance(SpectralDistance):
     def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
         return np.full(len(eigenvalues), self.alpha)
 
-    def _remedy(self) -> str:
-        for component in (self.laplacian.components[index] for index in sorted(self._asked or {0})):
+    def _remedy(self, components: Sequence[int]) -> str:
+        for component in (self.laplacian.components[index] for index in components):
             values = component.spectrum(self.k + 1).eigenvalues[: self.k + 1]
             gaps = np.diff(values) / values[1:]
             if len(values) > self.k and gaps[-1] < CLEAR:
@@ -120,9 +120,10 @@ class PowerDistance(SpectralDistance):
                     f"Eigenvalues {self.k} and {self.k + 1} differ by {gaps[-1]:.0e} of themselves only, so that it is "
                     f"open which eigenpairs are the first {self.k}{choose}."
                 )
-        return super()._remedy()
+        return super()._remedy(components)
 
     def _missing(self, component: Component, source: int, squares: np.ndarray, changes: np.ndarray) -> np.ndarray:
+        # One more tells how clearly those used are set off.
         spectrum, count = component.spectrum(self.k + 1), squares.shape[1]
         if len(spectrum.eigenvalues) <= count:
             return np.zeros(len(squares))

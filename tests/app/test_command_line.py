@@ -17,10 +17,11 @@ from bihdist_core import (
     GeodesicDistance,
     Laplacian,
     PowerDistance,
+    Surface,
     TruncatedBiharmonicDistance,
     read_surface,
 )
-from tests.shapes import bumpy, caps, fin, two_pieces
+from tests.shapes import bumpy, caps, fin, grid, two_pieces
 
 ROOT = Path(__file__).parents[2]
 
@@ -136,7 +137,7 @@ def test_answers_come_with_their_accuracy(mesh, tmp_path, capsys):
 
 def test_a_poor_accuracy_is_a_warning_and_a_bad_one_is_refused(mesh, tmp_path, capsys, monkeypatch):
     out = tmp_path / "d.npy"
-    monkeypatch.setattr(BiharmonicDistance, "accuracy", 3e-5)
+    monkeypatch.setattr(BiharmonicDistance, "_estimated_accuracy", lambda *_: 3e-5)
     assert main(["field", mesh, "--source", "3", "-o", str(out)]) == 0
     said = capsys.readouterr()
     assert "accurate to 3e-05" in said.out
@@ -144,7 +145,7 @@ def test_a_poor_accuracy_is_a_warning_and_a_bad_one_is_refused(mesh, tmp_path, c
     assert main(["figure", mesh, "--distance", "biharmonic", "-o", str(tmp_path / "d.png")]) == 0
     assert "is only accurate to 3e-05 of the maximum" in capsys.readouterr().err
     out.unlink()
-    monkeypatch.setattr(BiharmonicDistance, "accuracy", 0.37)
+    monkeypatch.setattr(BiharmonicDistance, "_estimated_accuracy", lambda *_: 0.37)
     for command in (["field", mesh, "--source", "3"], ["pairs", mesh, "--vertices", "1,2"], ["pairs", mesh, "--all"]):
         assert "may be off by 4e-01 of its maximum, so it is not given" in refused(capsys, *command, "-o", out)
         assert not out.exists()
@@ -152,11 +153,25 @@ def test_a_poor_accuracy_is_a_warning_and_a_bad_one_is_refused(mesh, tmp_path, c
 
 def test_flat_faces_are_told_with_their_count(mesh_file, tmp_path, capsys):
     flat = mesh_file(caps(bumpy(60), 1e-9, every=10))
-    words = "12 faces of (nearly) no area treated as 1e-07 of the longest side high"
+    words = "12 faces of (nearly) no area held in shape as if 1e-07 of the longest side high"
     assert main(["info", flat]) == 0
     assert words in capsys.readouterr().out
     assert main(["field", flat, "--source", "3", "-o", str(tmp_path / "d.npy")]) == 0
     assert words in capsys.readouterr().err
+
+
+def test_all_pairs_and_info_are_as_accurate_as_the_worst_component(mesh_file, tmp_path, capsys):
+    s, g = bumpy(60), grid(3, 2)
+    squashed = g.vertices * [1, 1e-9, 1] + 5
+    both = mesh_file(Surface(np.concatenate([s.vertices, squashed]), [*s.faces.tolist(), *(g.faces + 60).tolist()]))
+    assert main(["field", both, "--source", "3", "-o", str(tmp_path / "d.npy")]) == 0
+    capsys.readouterr()
+    out = tmp_path / "all.npy"
+    assert main(["pairs", both, "--all", "-o", str(out)]) == 2
+    assert "Remeshing would help" in capsys.readouterr().err
+    assert not out.exists()
+    assert main(["info", both, "--accuracy"]) == 0
+    assert "accurate" not in capsys.readouterr().out.replace("accurately", "")
 
 
 # ---------------------------------------------------------------------- a panel that fails

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.state import COMPARISON, PanelState, ViewerState
-from bihdist_core import BiharmonicDistance, Cancelled, Laplacian, ParameterError, VertexError
+from bihdist_core import BiharmonicDistance, Cancelled, Laplacian, ParameterError, SolverError, Surface, VertexError
 from tests.shapes import bumpy, grid, two_pieces
 
 
@@ -94,6 +94,27 @@ def test_what_a_panel_cannot_show_it_says_itself_and_the_others_go_on(desk, mesh
     assert session.answers[0].failure == ""
 
 
+def test_a_failure_on_one_component_is_none_on_another(desk, mesh_file):
+    s, g = bumpy(60), grid(3, 2)
+    squashed = g.vertices * [1, 1e-9, 1] + 5
+    both = Surface(np.concatenate([s.vertices, squashed]), [*s.faces.tolist(), *(g.faces + 60).tolist()])
+    d = desk(ViewerState(panels=(PanelState("biharmonic"),)))
+    session = d.opened(mesh_file(both), source=3)
+    for source, fails in [(60, True), (5, False)]:
+        session.select_source(source)
+        d.until(lambda: session.is_complete)
+        assert bool(session.answers[0].failure) is fails
+
+
+def test_a_stand_in_that_fails_does_not_cost_the_answer(desk, mesh_file, monkeypatch):
+    def broken(*_):
+        raise SolverError("no heat")
+
+    monkeypatch.setattr("bihdist_core.distances.geodesic._heat", broken)
+    d = desk(ViewerState(panels=(PanelState("geodesic", method="exact"),)))
+    assert d.opened(mesh_file(bumpy(60))).answers[0].maximum > 0
+
+
 def test_an_answer_is_certified_after_it_was_shown(desk, mesh_file):
     d = desk(ViewerState(panels=(PanelState("biharmonic"),)))
     session = d.opened(mesh_file(bumpy(200)))
@@ -104,7 +125,7 @@ def test_an_answer_is_certified_after_it_was_shown(desk, mesh_file):
 
 
 def test_an_answer_that_is_too_poor_is_taken_back(desk, mesh_file, monkeypatch):
-    monkeypatch.setattr(BiharmonicDistance, "accuracy", 0.02)
+    monkeypatch.setattr(BiharmonicDistance, "_estimated_accuracy", lambda *_: 0.02)
     d = desk(ViewerState(panels=(PanelState("biharmonic"), PanelState("commute-time"))))
     session = d.opened(mesh_file(bumpy(200)))
     d.until(lambda: session.answers[0].failure)

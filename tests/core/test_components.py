@@ -6,7 +6,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from bihdist_core import Surface
-from bihdist_core.surface import _connected
+from bihdist_core.surface import connected
 from tests.shapes import bumpy, fin, slivers, torus, two_pieces
 
 
@@ -27,7 +27,7 @@ def test_components_are_those_of_scipy(seed):
     for count in (0, 5, n // 4, n // 2, n, 4 * n):
         edges = rng.integers(0, n, (2, count))
         graph = sp.coo_array((np.ones(count), edges), shape=(n, n))
-        assert np.array_equal(_connected(edges, n), connected_components(graph, directed=False)[1])
+        assert np.array_equal(connected(edges, n), connected_components(graph, directed=False)[1])
 
 
 @pytest.mark.parametrize("edges", [_path(100_001), _star(100_001)], ids=["path", "star"])
@@ -38,7 +38,7 @@ def test_long_ways_and_large_stars_take_a_few_rounds(edges, order):
     if number is None:
         number = np.random.default_rng(0).permutation(n)
     # One vertex a round would take minutes.
-    assert not _connected(number[edges], n).any()
+    assert not connected(number[edges], n).any()
 
 
 def test_components_are_ranked_by_size_then_by_their_first_vertex():

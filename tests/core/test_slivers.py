@@ -168,3 +168,53 @@ def test_a_certificate_knows_what_it_does_not_know(monkeypatch):
     error = max(abs(distance.from_source(i)[j] - exact) for i, j, exact, _ in pairs) / distance.from_source(3).max()
     assert error > RIGHT
     assert distance.accuracy > error
+
+
+def chain(count: int, height: float) -> Surface:
+    """An edge divided into many on one side only, the other side closed by as many flat faces around one end."""
+    t = np.linspace(0, 1, count + 2)
+    inner = height * np.random.default_rng(1).random(count + 2) * (t * (1 - t) > 0)
+    x = np.concatenate([np.stack([t, inner, 0 * t], 1), [[0.4, 1, 0], [0.6, -1, 0.3]]])
+    c, d = count + 2, count + 3
+    faces = [(i, i + 1, c) for i in range(count + 1)] + [(0, i + 1, i) for i in range(1, count + 1)]
+    return Surface(x, [*faces, (0, d, count + 1)], "chain")
+
+
+def fan(count: int, height: float) -> Surface:
+    """Needles around one vertex, side by side, between two faces of usual shape."""
+    angle = np.arange(count) * height
+    ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], 1)
+    faces = [(0, i, i + 1) for i in range(1, count)]
+    ends = [(0, count + 1, 1), (0, count, count + 2), (0, count + 2, count + 1)]
+    return Surface(np.concatenate([[[0, 0, 0]], ring, [[0.3, -1, 0.2], [-1, 0.5, 0.1]]]), faces + ends, "fan")
+
+
+@pytest.mark.parametrize("height", [1e-8, 1e-12, 0.0])
+@pytest.mark.parametrize(("make", "count"), [(chain, 25), (chain, 80), (fan, 30), (fan, 60)])
+def test_many_flat_faces_in_a_chain_are_never_worse_than_certified(make, count, height):
+    """What their springs lack adds up, to more than 1e-6 in a long chain: then the accuracy says so."""
+    surface = make(count, height)
+    laplacian, reference = Laplacian(surface), ExactReference(surface)
+    for index, kind in enumerate(EXACT):
+        distance = kind(laplacian)
+        for i, j in [(0, 5), (1, count), (5, count // 2), (count + 1, count + 2), (0, count + 1)]:
+            field, exact = distance.from_source(i), reference.pair(i, j)[index]
+            assert abs(field[j] - exact) <= field.max() * distance.accuracy, (distance.label, i, j)
+
+
+def test_what_hangs_on_faces_of_no_area_costs_the_others_nothing():
+    """A triangle of no area, and one in one place, each attached at a vertex."""
+    s = bumpy(60)
+    x, e = s.vertices[5], np.array([1.0, 0, 0])
+    for more in ([x + e, x + 2 * e], [x, x]):
+        surface = Surface(np.concatenate([s.vertices, more]), [*s.faces.tolist(), [5, 60, 61]])
+        for make in (BiharmonicDistance, CommuteTimeDistance, DiffusionDistance):
+            alone, distance = make(s).from_source(3), make(surface)
+            assert np.abs(distance.from_source(3)[:60] - alone).max() <= RIGHT * alone.max()
+            assert distance.accuracy < RIGHT
+
+
+def test_a_component_of_faces_of_no_area_has_distances_by_convention():
+    surface = Surface([[0, 0, 0], [1, 0, 0], [0.4, 0, 0]], [[0, 1, 2]])
+    for make in (BiharmonicDistance, CommuteTimeDistance):
+        assert (make(surface).from_source(0)[1:] > 0).all()
