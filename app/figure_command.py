@@ -65,7 +65,7 @@ def add_figure_options(figure: argparse.ArgumentParser, files: str = "a .png, .p
 
 
 def chosen_recipe(options: argparse.Namespace, panel: Callable[[argparse.Namespace, str], object]):
-    """The recipe the options make; `panel(options, word)` gives a distance's state."""
+    """The recipe the options make; `panel(options, text)` gives a distance's spec."""
     from bihdist_core import ParameterError
 
     if options.recipe is None:
@@ -91,7 +91,7 @@ def _new_recipe(options: argparse.Namespace, panel: Callable):
     from .recipe import Recipe, RecipePanel, RecipeZoom
     from .state import COMPARISON
 
-    words = options.distance or [p.distance for p in COMPARISON]
+    words = options.distance or [spec.word for spec in COMPARISON]
     sources = options.source or [None]
     views = options.view or []
     if options.two_views:

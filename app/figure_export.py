@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bihdist_core import Laplacian, OutputError, ParameterError, SolverError, Surface, read_surface
+from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
@@ -16,7 +17,6 @@ from .figures import FIGURE_FORMATS, Figure, FigurePanel, Mark, Zoom, check_offs
 from .recipe import Recipe, RecipePanel, checksum, is_recipe, mesh_reference, recipe_text
 from .samples import mesh_path
 from .session import first_source
-from .state import PanelState
 from .style import STYLES
 
 
@@ -49,20 +49,20 @@ def load_mesh(recipe: Recipe) -> tuple[Surface, Recipe]:
     return surface, replace(recipe, sha256=found, panels=panels)
 
 
-def asked(laplacian: Laplacian, state: PanelState) -> Asked:
+def asked(laplacian: Laplacian, spec: Spec) -> Asked:
     """A panel's distance, not yet made."""
-    return Asked(lambda progress: state.build(laplacian, progress), state.distance)
+    return Asked(lambda progress: spec.build(laplacian, progress), str(spec))
 
 
 def compute(recipe: Recipe, surface: Surface, progress: Progress | None = None) -> list[Answer]:
     """For each panel its answer; SolverError if all of them are failures."""
     surface.check_vertices([panel.source for panel in recipe.panels])
     laplacian = Laplacian(surface, recipe.areas)
-    distances: dict[PanelState, Asked] = {}
+    distances: dict[Spec, Asked] = {}
     answers = []
     for k, panel in enumerate(recipe.panels):
         step = part(progress, k / len(recipe.panels), (k + 1) / len(recipe.panels))
-        distance = distances.setdefault(panel.state, asked(laplacian, panel.state))
+        distance = distances.setdefault(panel.spec, asked(laplacian, panel.spec))
         answers.append(distance.answer(panel.source, step))
     refuse_if_nothing(answers)
     return answers
@@ -124,7 +124,7 @@ def _figure_panel(recipe: Recipe, panel: RecipePanel, surface: Surface, answer: 
         surface,
         answer.field,
         heading=f"{answer.label}, from {panel.source}" if several else answer.label,
-        hint=panel.state.hint if recipe.hints else "",
+        hint=panel.spec.kind.hint if recipe.hints else "",
         label="" if answer.failure else answer.label,
         unit=answer.unit,
         failure=answer.failure,

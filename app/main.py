@@ -11,11 +11,14 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import contextmanager
 
+from bihdist_core.distances.kinds import OURS, Parameter, Spec, kinds
+from bihdist_core.errors import ParameterError
+
 from .figure_command import add_figure_options, add_movie_options, chosen_movie, chosen_recipe
+from .state import COMPARISON
 from .version import version
 
 COMMANDS = ("view", "field", "pairs", "figure", "movie", "info", "paper")
-WORDS = ("biharmonic", "truncated", "power", "commute-time", "diffusion", "geodesic")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -122,24 +125,42 @@ def _command(commands, name: str, run: Callable, text: str) -> argparse.Argument
 
 
 def _add_distance(parser: argparse.ArgumentParser, several: bool = False) -> None:
+    """`--distance`, and an option for each parameter of ours, which holds where the distance does not say otherwise."""
+    words = f"{', '.join(kinds())}; with parameters like 'diffusion(t=1/4)'"
     if several:
-        parser.add_argument(
-            "--distance",
-            choices=WORDS,
-            action="append",
-            help="a panel; repeat for more (default: biharmonic, geodesic, diffusion)",
-        )
+        usual = ", ".join(str(spec) for spec in COMPARISON)
+        text = f"a panel: {words}; repeat for more (default: {usual})"
+        parser.add_argument("--distance", type=_distance, metavar="NAME", action="append", help=text)
     else:
-        parser.add_argument("--distance", choices=WORDS, default="biharmonic", help="(default: biharmonic)")
-    parser.add_argument("--t", type=_positive, default=1.0, help="diffusion time (default: 1)")
-    parser.add_argument("--k", type=_count, default=200, help="eigenpairs for truncated, power (default: 200)")
-    parser.add_argument("--alpha", type=_positive, default=1.5, help="exponent for power (default: 1.5)")
-    parser.add_argument(
-        "--method",
-        choices=("auto", "exact", "heat", "dijkstra"),
-        default="auto",
-        help="for geodesic (default: auto, exact up to 20,000 vertices, else heat)",
-    )
+        text = f"{words} (default: biharmonic)"
+        parser.add_argument("--distance", type=_distance, metavar="NAME", default="biharmonic", help=text)
+    parameters = {p.name: p for kind in OURS for p in kind.parameters}
+    for name, parameter in parameters.items():
+        of = ", ".join(kind.word for kind in OURS if parameter in kind.parameters)
+        parser.add_argument(
+            f"--{name}",
+            type=_parsed(parameter),
+            metavar="{" + ",".join(parameter.choices) + "}" if parameter.choices else name.upper()[:1],
+            help=f"{parameter.meaning}, for {of} (default: {parameter.written(parameter.default)})",
+        )
+
+
+def _distance(text: str) -> str:
+    try:
+        Spec.parse(text)
+    except ParameterError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return text
+
+
+def _parsed(parameter: Parameter) -> Callable[[str], object]:
+    def parsed(text: str) -> object:
+        try:
+            return parameter.parsed(text)
+        except ParameterError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+
+    return parsed
 
 
 def _add_areas(parser: argparse.ArgumentParser) -> None:
@@ -162,12 +183,6 @@ def _pair(text: str) -> list[int]:
     if len(pair) != 2:
         raise argparse.ArgumentTypeError(f"{text!r} is not a pair of vertex ids such as 1,2")
     return pair
-
-
-def _count(text: str) -> int:
-    if not text.isdigit():
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 0")
-    return int(text)
 
 
 def _positive(text: str) -> float:
@@ -200,16 +215,16 @@ def _view(options: argparse.Namespace) -> int:
 
 
 def _viewer_state(options: argparse.Namespace):
-    from .state import COMPARISON, ViewerState
+    from .state import ViewerState
 
-    words = options.distance or [panel.distance for panel in COMPARISON]
-    return ViewerState(panels=tuple(_panel(options, word) for word in words), areas=options.areas)
+    words = options.distance or [spec.word for spec in COMPARISON]
+    return ViewerState(panels=tuple(_spec(options, word) for word in words), areas=options.areas)
 
 
-def _panel(options: argparse.Namespace, word: str):
-    from .state import PanelState
-
-    return PanelState(word, t=options.t, k=options.k, alpha=options.alpha, method=options.method)
+def _spec(options: argparse.Namespace, text: str) -> Spec:
+    """The distance that a text means with the options beside it."""
+    given = {p.name: getattr(options, p.name) for kind in OURS for p in kind.parameters}
+    return Spec.parse(text, **{name: value for name, value in given.items() if value is not None})
 
 
 def _counted(count: int, noun: str) -> str:
@@ -224,10 +239,11 @@ def _field(options: argparse.Namespace) -> None:
     with _progress() as progress:
         laplacian = _laplacian(options)
         laplacian.surface.check_vertices(options.source)
-        distance = _panel(options, options.distance).build(laplacian, progress)
+        distance = _spec(options, options.distance).build(laplacian, progress)
         columns = distance.from_sources(options.source, progress)
         accuracy = _accuracy(distance)
-    names = [f"{options.distance}_from_{v}" for v in options.source]
+    word = _spec(options, options.distance).word
+    names = [f"{word}_from_{v}" for v in options.source]
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
     said = f"{distance.label}, {columns.shape[0]} vertices, {_counted(columns.shape[1], 'source')}"
     print(f"{options.output}: {said}{accuracy}")
@@ -244,7 +260,7 @@ def _pairs(options: argparse.Namespace) -> None:
     with _progress() as progress:
         laplacian = _laplacian(options)
         if options.all:
-            distance = _panel(options, options.distance).build(laplacian, progress)
+            distance = _spec(options, options.distance).build(laplacian, progress)
             accuracy = _accuracy(distance, everywhere=True)
             write_all_pairs(distance, options.output, options.dtype, 1e6 * options.memory, progress)
             count = len(laplacian.surface.vertices)
@@ -257,7 +273,7 @@ def _pairs(options: argparse.Namespace) -> None:
             pairs = _pairs_in(options.file) if options.file else np.array(options.pairs)
         among, place = np.unique(pairs, return_inverse=True)
         laplacian.surface.check_vertices(among)
-        distance = _panel(options, options.distance).build(laplacian, progress)
+        distance = _spec(options, options.distance).build(laplacian, progress)
         i, j = place.reshape(-1, 2).T
         values = distance.pairwise(among)[i, j]
         accuracy = _accuracy(distance)
@@ -299,7 +315,7 @@ def _figure(options: argparse.Namespace) -> int:
     from .figures import described
 
     check_export(options.output)
-    recipe = chosen_recipe(options, _panel)
+    recipe = chosen_recipe(options, _spec)
     with _progress() as progress:
         figure, recipe, answers = export(recipe, options.output, version(), progress)
     _tell(figure.panels[0].surface)
@@ -314,7 +330,7 @@ def _movie(options: argparse.Namespace) -> int:
 
     check_movie(options.output)
     check_offscreen()
-    movie = chosen_movie(options, _panel)
+    movie = chosen_movie(options, _spec)
     with _progress() as progress:
         answers = write_movie(movie, options.output, progress)
     print(f"{options.output}: {movie.frames} frames, {movie.frames / movie.fps:.3g} s")

@@ -122,7 +122,7 @@ class _Fields:
         kept = []
         for k, panel in enumerate(panels):
             step = part(progress, k / len(panels), (k + 1) / len(panels))
-            distance = asked(laplacian, panel.state)
+            distance = asked(laplacian, panel.spec)
             wanted = sorted(set(sources or [panel.source]))
             surface.check_vertices(wanted)
             answers = {}

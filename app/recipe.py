@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from bihdist_core import ParameterError
-
-from .state import DISTANCES, PanelState
+from bihdist_core.distances.kinds import Parameter, Spec, kind_of
 
 FORMAT = 1
 """Goes up when a recipe could not be understood by older programs."""
@@ -19,10 +18,6 @@ FORMAT = 1
 PROGRAM = "bihdist"
 
 AREAS = ("voronoi", "barycentric")
-METHODS = ("auto", "exact", "heat", "dijkstra")
-PARAMETERS = {"diffusion": ("t",), "truncated": ("k",), "power": ("alpha", "k"), "geodesic": ("method",)}
-"""Which parameters each distance has; the others have none."""
-
 
 @dataclass(frozen=True)
 class RecipePanel:
@@ -31,7 +26,7 @@ class RecipePanel:
     A source of None stands for `session.first_source`, until the mesh is read.
     """
 
-    state: PanelState
+    spec: Spec
     source: int | None
     maximum: float | None = None
 
@@ -110,9 +105,7 @@ def recipe_text(recipe: Recipe, version: str) -> str:
 
 
 def _panel_data(panel: RecipePanel) -> dict[str, Any]:
-    state = panel.state
-    parameters = {name: getattr(state, name) for name in PARAMETERS.get(state.distance, ())}
-    return {"distance": state.distance, **parameters, "source": panel.source, "maximum": panel.maximum}
+    return {"distance": panel.spec.word, **dict(panel.spec.values), "source": panel.source, "maximum": panel.maximum}
 
 
 def _plain(record: RecipeCamera | RecipeZoom) -> dict[str, Any]:
@@ -196,16 +189,26 @@ def _recipe(data: Any) -> Recipe:
 
 
 def _panel(data: Any, where: str) -> RecipePanel:
-    distance = _one_of(DISTANCES)(data.get("distance") if isinstance(data, dict) else None, f"{where}.distance")
-    readers = {"t": _positive, "alpha": _positive, "k": _count, "method": _one_of(METHODS)}
-    own = {name: readers[name] for name in PARAMETERS.get(distance, ())}
-    readers = {"distance": _text, "source": _whole, "maximum": _or_none(_positive), **own}
-    values = _record(data, where, readers, {"distance", "source"})
-    return RecipePanel(
-        PanelState(distance, **{name: values[name] for name in own if name in values}),
-        values["source"],
-        values.get("maximum"),
-    )
+    word = data.get("distance") if isinstance(data, dict) else None
+    try:
+        kind = kind_of(_text(word, f"{where}.distance"))
+        own = {p.name: _parameter(p) for p in kind.parameters}
+        readers = {"distance": _text, "source": _whole, "maximum": _or_none(_positive), **own}
+        values = _record(data, where, readers, {"distance", "source"})
+        spec = Spec.of(kind.word, **{name: values[name] for name in own if name in values})
+    except ParameterError as error:
+        raise ParameterError(str(error) if where in str(error) else f"{where}: {error}") from None
+    return RecipePanel(spec, values["source"], values.get("maximum"))
+
+
+def _parameter(parameter: Parameter) -> Callable[[Any, str], Any]:
+    def reader(data: Any, where: str) -> Any:
+        try:
+            return parameter.checked(data)
+        except ParameterError as error:
+            raise ParameterError(f"{where}: {error}") from None
+
+    return reader
 
 
 def _view(data: Any, where: str) -> str | RecipeCamera:
@@ -289,12 +292,6 @@ def _flag(data: Any, where: str) -> bool:
 def _whole(data: Any, where: str) -> int:
     if not isinstance(data, int) or isinstance(data, bool) or data < 0:
         raise ParameterError(f"{where} must be a whole number of at least 0, not {_shown(data)}.")
-    return data
-
-
-def _count(data: Any, where: str) -> int:
-    if _whole(data, where) == 0:
-        raise ParameterError(f"{where} must be at least 1.")
     return data
 
 

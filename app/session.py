@@ -14,19 +14,20 @@ from typing import Any, Protocol
 import numpy as np
 
 from bihdist_core import Distance, Laplacian, SolverError, Surface, read_surface
+from bihdist_core.distances.kinds import Spec
 from bihdist_core.distances.spectral import SpectralDistance
 from bihdist_core.progress import Progress, part
 
 from .answers import Answer, failure_in_words
 from .lane import Lane
-from .state import PanelState, ViewerState
+from .state import ViewerState
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PanelAnswer(Answer):
     """A panel's answer from `source`; `preview` if a better one comes, `is_judged` if its certificate is there."""
 
-    panel: PanelState
+    panel: Spec
     source: int | None
     preview: bool = False
     is_judged: bool = False
@@ -37,7 +38,7 @@ class _Question:
     """All that a lane needs to answer: nothing is read from the session while it works."""
 
     laplacian: Laplacian
-    panel: PanelState
+    panel: Spec
     source: int | None
 
 
@@ -46,16 +47,16 @@ class _Distances:
 
     def __init__(self) -> None:
         self._laplacian: Laplacian | None = None
-        self._known: dict[PanelState, Distance] = {}
+        self._known: dict[Spec, Distance] = {}
 
-    def get(self, laplacian: Laplacian, panel: PanelState, progress: Progress) -> Distance:
+    def get(self, laplacian: Laplacian, panel: Spec, progress: Progress) -> Distance:
         if laplacian is not self._laplacian:
             self._laplacian, self._known = laplacian, {}
         if panel not in self._known:
             distance = panel.build(laplacian, progress)
             if isinstance(distance, SpectralDistance):
                 # A slider would leave one at every step; the eigenpairs themselves stay with the Laplacian.
-                self._known = {p: d for p, d in self._known.items() if p.distance != panel.distance}
+                self._known = {p: d for p, d in self._known.items() if p.word != panel.word}
             self._known[panel] = distance
         return self._known[panel]
 
@@ -117,7 +118,7 @@ class Session:
         self.view.source_changed()
         self._ask_all()
 
-    def set_panel(self, index: int, panel: PanelState) -> None:
+    def set_panel(self, index: int, panel: Spec) -> None:
         """Show another distance, or the same with other parameters."""
         if panel != self.state.panels[index]:
             self.state = self.state.with_panel(index, panel)
@@ -199,10 +200,11 @@ class Session:
             distance = distances.get(question.laplacian, question.panel, part(preparing, 0, 0.9))
             # The source may have moved while the distance was made ready: then the next question has it.
             asking(0.9, distance.label)
-            if distance.label == "geodesic, exact":
+            stand_in = question.panel.quick(distance)
+            if stand_in is not None:
                 try:
-                    heat = distances.get(question.laplacian, replace(question.panel, method="heat"), preparing)
-                    self._deliver(index, question, heat, asking, preview=True)
+                    quick = distances.get(question.laplacian, stand_in, preparing)
+                    self._deliver(index, question, quick, asking, preview=True)
                 except (SolverError, MemoryError):
                     pass  # a stand-in that fails must not cost the answer
             self._deliver(index, question, distance, asking)
@@ -248,7 +250,7 @@ class Session:
         answer = PanelAnswer(
             panel=question.panel,
             source=question.source,
-            label=question.panel.distance,
+            label=str(question.panel),
             failure=failure_in_words(error),
             is_judged=True,
         )

@@ -38,6 +38,11 @@ class Surface:
         for key, value in [("vertices", vertices), ("faces", faces), ("repairs", (*self.repairs, *dropped))]:
             object.__setattr__(self, key, value)
 
+    def __setstate__(self, state: dict) -> None:
+        self.__dict__.update(state)
+        # Arrays come back from a pickle writeable.
+        self.vertices.flags.writeable = self.faces.flags.writeable = False
+
     def __repr__(self) -> str:
         return f"Surface({self.name}: {len(self.vertices)} vertices, {len(self.faces)} faces)"
 

@@ -1,113 +1,141 @@
-"""The controls over a panel: which distance, and the parameter it has."""
+"""The controls over a panel: which distance, and its parameters.  All of it comes from the table of distances."""
 
-from dataclasses import replace
+from collections.abc import Callable
+from math import exp, log
 
-import numpy as np
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core.distances.geodesic import METHODS
-
-from ..state import DISTANCES, PAPER_TIMES, PanelState
-
-NAMES = {
-    "biharmonic": "Biharmonic",
-    "truncated": "Biharmonic, truncated",
-    "power": "1/λ^α family",
-    "commute-time": "Commute-time",
-    "diffusion": "Diffusion",
-    "geodesic": "Geodesic",
-}
+from bihdist_core import ParameterError
+from bihdist_core.distances.kinds import Parameter, Spec, Value, kind_of, kinds
 
 STEPS = 240
-"""Positions of the slider for t, equal in log t from the paper's smallest to its largest time."""
+"""Positions of a slider, in equal steps of the parameter's logarithm."""
+
+SYMBOLS = {"alpha": "α"}
 
 
 class PanelControls(QtWidgets.QWidget):
-    """Emits `changed(PanelState)` for each choice."""
+    """Emits `changed(Spec)` for each choice.  A distance chosen again has the parameters it had before."""
 
     changed = QtCore.Signal(object)
 
-    def __init__(self, state: PanelState, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, spec: Spec, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
-        self.state = state
+        self.spec = spec
+        self._before: dict[str, Spec] = {}
         self.distance = QtWidgets.QComboBox(self)
-        for word in DISTANCES:
-            self.distance.addItem(NAMES[word], word)
+        for word in kinds():
+            try:
+                self.distance.addItem(kind_of(word).name, word)
+            except ParameterError:
+                continue  # somebody else's that cannot be loaded; asked for by its word it says why
         self.distance.setToolTip("The distance this panel shows")
-        self.method = QtWidgets.QComboBox(self)
-        for word in METHODS:
-            self.method.addItem(word, word)
-        self.method.setToolTip("How geodesic distance is computed; auto: exact up to 20,000 vertices, else heat")
-        self.time = QtWidgets.QSlider(QtCore.Qt.Orientation.Horizontal, self)
-        self.time.setRange(0, STEPS)
-        self.time.setToolTip("Diffusion time t, from the paper's 1/15 to 4")
-        self.time_label = QtWidgets.QLabel(self)
-        self.pairs = QtWidgets.QSpinBox(self)
-        self.pairs.setRange(1, 2000)
-        self.pairs.setPrefix("k = ")
-        self.pairs.setKeyboardTracking(False)
-        self.pairs.setToolTip("How many eigenpairs")
-        self.alpha = QtWidgets.QDoubleSpinBox(self)
-        self.alpha.setRange(1.05, 8)
-        self.alpha.setSingleStep(0.25)
-        self.alpha.setPrefix("α = ")
-        self.alpha.setKeyboardTracking(False)
-        self.alpha.setToolTip("The power of 1/λ")
-        layout = QtWidgets.QHBoxLayout(self)
-        layout.setContentsMargins(8, 6, 8, 2)
-        layout.addWidget(self.distance)
-        layout.addWidget(self.method)
-        layout.addWidget(self.time, 1)
-        layout.addWidget(self.time_label)
-        layout.addWidget(self.pairs)
-        layout.addWidget(self.alpha)
-        layout.addStretch(0)
-        self.show_state(state)
-        self.distance.currentIndexChanged.connect(lambda: self._choose(distance=self.distance.currentData()))
-        self.method.currentIndexChanged.connect(lambda: self._choose(method=self.method.currentData()))
-        self.time.valueChanged.connect(lambda step: self._choose(t=time_of_step(step)))
-        self.pairs.valueChanged.connect(lambda k: self._choose(k=k))
-        self.alpha.valueChanged.connect(lambda alpha: self._choose(alpha=alpha))
+        self._row = QtWidgets.QHBoxLayout(self)
+        self._row.setContentsMargins(8, 6, 8, 2)
+        self._row.addWidget(self.distance)
+        self._row.addStretch(0)
+        self._of_word = ""
+        self.parameters: dict[str, ParameterControl] = {}
+        self.show_spec(spec)
+        self.distance.currentIndexChanged.connect(self._choose_distance)
 
-    def show_state(self, state: PanelState) -> None:
-        """Make the controls say what the state says, without emitting."""
-        self.state = state
-        for widget, index in [
-            (self.distance, self.distance.findData(state.distance)),
-            (self.method, self.method.findData(state.method)),
-        ]:
-            with QtCore.QSignalBlocker(widget):
-                widget.setCurrentIndex(index)
-        for widget, value in [(self.time, step_of_time(state.t)), (self.pairs, state.k), (self.alpha, state.alpha)]:
-            with QtCore.QSignalBlocker(widget):
-                widget.setValue(value)
-        self.time_label.setText(f"t = {_plain(state.t)}")
-        self.method.setVisible(state.distance == "geodesic")
-        for widget in (self.time, self.time_label):
-            widget.setVisible(state.distance == "diffusion")
-        self.pairs.setVisible(state.distance in ("truncated", "power"))
-        self.alpha.setVisible(state.distance == "power")
+    def show_spec(self, spec: Spec) -> None:
+        """Make the controls say what the spec says, without emitting."""
+        self.spec = self._before[spec.word] = spec
+        with QtCore.QSignalBlocker(self.distance):
+            self.distance.setCurrentIndex(self.distance.findData(spec.word))
+        if spec.word != self._of_word:
+            for control in self.parameters.values():
+                self._row.removeWidget(control)
+                control.deleteLater()
+            self.parameters = {}
+            for parameter in spec.kind.parameters:
+                control = ParameterControl(parameter, self)
+                control.chosen.connect(lambda value, name=parameter.name: self._choose(**{name: value}))
+                self._row.insertWidget(self._row.count() - 1, control, int(parameter.logarithmic))
+                self.parameters[parameter.name] = control
+            self._of_word = spec.word
+        for name, value in spec.values:
+            self.parameters[name].show_value(value)
+
+    def _choose_distance(self) -> None:
+        word = self.distance.currentData()
+        self.show_spec(self._before.get(word) or Spec.of(word))
+        self.changed.emit(self.spec)
 
     def _choose(self, **choice: object) -> None:
-        self.show_state(replace(self.state, **choice))
-        self.changed.emit(self.state)
+        self.show_spec(self.spec.changed(**choice))
+        self.changed.emit(self.spec)
 
 
-def time_of_step(step: int) -> float:
-    """The time at a slider position; the paper's own times where they are within half a step."""
-    low, high = np.log(PAPER_TIMES[0]), np.log(PAPER_TIMES[-1])
-    for t in PAPER_TIMES:
-        if step_of_time(t) == step:
-            return t
-    return float(f"{np.exp(low + (high - low) * step / STEPS):.3g}")
+class ParameterControl(QtWidgets.QWidget):
+    """A menu for a word, a slider for a number with a logarithm, a box for another; `chosen(value)` by the user."""
+
+    chosen = QtCore.Signal(object)
+
+    def __init__(self, parameter: Parameter, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.parameter = parameter
+        self._label = QtWidgets.QLabel(self)
+        row = QtWidgets.QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        if parameter.choices:
+            self.widget, self._put = self._menu()
+        elif parameter.logarithmic:
+            self.widget, self._put = self._slider()
+        else:
+            self.widget, self._put = self._box()
+        self.widget.setToolTip(f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}")
+        row.addWidget(self.widget, 1)
+        row.addWidget(self._label)
+        self._label.setVisible(parameter.logarithmic)
+
+    def show_value(self, value: Value) -> None:
+        """Without emitting."""
+        with QtCore.QSignalBlocker(self.widget):
+            self._put(value)
+        if self.parameter.logarithmic:
+            written = self.parameter.written(value)
+            self._label.setText(f"{self._symbol} = {written if '/' in written else f'{value:.3g}'}")
+
+    @property
+    def _symbol(self) -> str:
+        return SYMBOLS.get(self.parameter.name, self.parameter.name)
+
+    def _menu(self) -> tuple[QtWidgets.QWidget, Callable]:
+        menu = QtWidgets.QComboBox(self)
+        for word in self.parameter.choices:
+            menu.addItem(word, word)
+        menu.currentIndexChanged.connect(lambda: self.chosen.emit(menu.currentData()))
+        return menu, lambda value: menu.setCurrentIndex(menu.findData(value))
+
+    def _slider(self) -> tuple[QtWidgets.QWidget, Callable]:
+        slider = QtWidgets.QSlider(QtCore.Qt.Orientation.Horizontal, self)
+        slider.setRange(0, STEPS)
+        slider.valueChanged.connect(lambda step: self.chosen.emit(value_of_step(self.parameter, step)))
+        return slider, lambda value: slider.setValue(step_of_value(self.parameter, value))
+
+    def _box(self) -> tuple[QtWidgets.QWidget, Callable]:
+        box = QtWidgets.QSpinBox(self) if self.parameter.is_whole else QtWidgets.QDoubleSpinBox(self)
+        low, high = self.parameter.shown
+        box.setRange(*((int(low), int(high)) if self.parameter.is_whole else (low, high)))
+        box.setSingleStep(1 if self.parameter.is_whole else 0.25)
+        box.setPrefix(f"{self._symbol} = ")
+        box.setKeyboardTracking(False)
+        box.valueChanged.connect(self.chosen.emit)
+        return box, box.setValue
 
 
-def step_of_time(t: float) -> int:
-    low, high = np.log(PAPER_TIMES[0]), np.log(PAPER_TIMES[-1])
-    return round(STEPS * (np.log(t) - low) / (high - low))
+def value_of_step(parameter: Parameter, step: int) -> float:
+    """The value at a slider position; one of the marks where it is within half a step."""
+    for mark in parameter.marks:
+        if step_of_value(parameter, mark) == step:
+            return mark
+    low, high = (log(end) for end in parameter.shown)
+    return float(f"{exp(low + (high - low) * step / STEPS):.3g}")
 
 
-def _plain(t: float) -> str:
-    """The paper's times as it writes them."""
-    return next((f"1/{n}" for n in (15, 8, 4) if abs(t - 1 / n) < 1e-12), f"{t:.3g}")
+def step_of_value(parameter: Parameter, value: float) -> int:
+    low, high = (log(end) for end in parameter.shown)
+    return round(STEPS * (log(value) - low) / (high - low))

@@ -92,8 +92,8 @@ def open_recipe(window, path: str) -> None:
     session.state = replace(session.state, areas=recipe.areas)
     window.show_isolines(recipe.isolines)
     for k, (panel, chosen) in enumerate(zip(window.panels, recipe.panels, strict=False)):
-        panel.controls.show_state(chosen.state)
-        session.set_panel(k, chosen.state)
+        panel.controls.show_spec(chosen.spec)
+        session.set_panel(k, chosen.spec)
     first = recipe.views[0] if recipe.views else "home"
     if isinstance(first, RecipeCamera):
         camera = Camera(first.position, first.focal_point, first.up, first.extent)

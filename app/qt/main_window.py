@@ -74,8 +74,8 @@ class MainWindow(QtWidgets.QMainWindow):
         row = QtWidgets.QHBoxLayout(middle)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(1)
-        for index, state in enumerate(self.session.state.panels):
-            panel = DistancePanel(state, middle)
+        for index, spec in enumerate(self.session.state.panels):
+            panel = DistancePanel(spec, middle)
             panel.clicked.connect(self.session.select_source)
             panel.hovered.connect(self._hover)
             panel.moved.connect(self._repaint)

@@ -9,7 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 from ..picking import Picker
 from ..scene import PanelScene
 from ..session import PanelAnswer
-from ..state import PanelState
+from bihdist_core.distances.kinds import Spec
 from .controls import PanelControls
 
 
@@ -20,12 +20,12 @@ class DistancePanel(QtWidgets.QWidget):
     hovered = QtCore.Signal(object)  # a vertex, or None beside the surface
     moved = QtCore.Signal()  # the camera
     resized = QtCore.Signal()  # the picture
-    changed = QtCore.Signal(object)  # PanelState chosen with the controls
+    changed = QtCore.Signal(object)  # the distance chosen with the controls: a Spec
 
-    def __init__(self, state: PanelState, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, spec: Spec, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
-        self.controls = PanelControls(state, self)
+        self.controls = PanelControls(spec, self)
         self.controls.changed.connect(self.changed)
         self.title = QtWidgets.QLabel("", self, objectName="title")
         self.hint = QtWidgets.QLabel("", self, objectName="hint")
@@ -90,7 +90,7 @@ class DistancePanel(QtWidgets.QWidget):
             text = text or "a better one is on its way"
         if self.answer is not None and self.answer.certificate.is_poor:
             text = text or f"not exact here: only {self.answer.certificate.text}"
-        self.hint.setText(text or self.controls.state.hint)
+        self.hint.setText(text or self.controls.spec.kind.hint)
 
     def show_value(self, vertex: int | None) -> None:
         """The field's value at a vertex, raw and as a share of the maximum."""

@@ -48,10 +48,11 @@ class _Viewless:
 def click(size: Size) -> Iterator[Line]:
     """Biharmonic, heat geodesic and diffusion, asked for at once as a click does."""
     from app.session import Session
-    from app.state import PanelState, ViewerState
+    from app.state import ViewerState
+    from bihdist_core.distances.kinds import Spec
 
     case = main_case(size)
-    panels = (PanelState("biharmonic"), PanelState("geodesic", method="heat"), PanelState("diffusion"))
+    panels = (Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("diffusion"))
     view = _Viewless()
     session = Session(view, view.posted.put, ViewerState(panels))
 
@@ -254,10 +255,11 @@ def _window(path: str):
 
     from app.qt.main_window import MainWindow
     from app.qt.start import build_panels
-    from app.state import PanelState, ViewerState
+    from app.state import ViewerState
+    from bihdist_core.distances.kinds import Spec
 
     application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bench"])
-    panels = (PanelState("biharmonic"), PanelState("geodesic", method="heat"), PanelState("diffusion"))
+    panels = (Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("diffusion"))
     window = MainWindow(ViewerState(panels))
     window.quiet = True
     window.show()

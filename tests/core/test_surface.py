@@ -1,3 +1,5 @@
+import pickle
+
 import numpy as np
 import pytest
 
@@ -94,3 +96,11 @@ def test_flat_faces_are_found_and_thin_ones_are_not():
 def test_measures():
     assert grid(3, 2).face_areas.sum() == pytest.approx(6)
     assert grid(1, 1).mean_edge_length == pytest.approx((4 + 2**0.5) / 5)
+
+
+def test_a_surface_from_a_pickle_is_as_it_was():
+    surface = pickle.loads(pickle.dumps(slivers()))
+    assert surface.flat_faces.tolist() == [18]
+    for array in (surface.vertices, surface.faces):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0, 0] = 1

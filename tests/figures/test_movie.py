@@ -11,14 +11,14 @@ from PIL import Image
 from app.main import main
 from app.movie import Movie, route, write_movie
 from app.recipe import Recipe, RecipePanel
-from app.state import PanelState
 from bihdist_core import Cancelled, ParameterError
+from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid, two_pieces
 
 
 @pytest.fixture
 def recipe(mesh_file):
-    return Recipe(mesh_file(bumpy(200)), (RecipePanel(PanelState(), 4),), size="121x141@96dpi", hints=False)
+    return Recipe(mesh_file(bumpy(200)), (RecipePanel(Spec.of("biharmonic"), 4),), size="121x141@96dpi", hints=False)
 
 
 def gif_frames(path):

@@ -10,7 +10,7 @@ from PIL import Image
 
 from app.main import main
 from app.recipe import Recipe, RecipeCamera, RecipePanel, RecipeZoom, read_recipe, recipe_text
-from app.state import PanelState
+from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 
 SMALL = ["--size", "300x200@96dpi"]
@@ -47,12 +47,12 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
         RecipePanel(state, k, maximum)
         for k, (state, maximum) in enumerate(
             [
-                (PanelState("biharmonic"), None),
-                (PanelState("diffusion", t=1 / 15), 0.1),
-                (PanelState("power", alpha=2.5, k=7), 3.0),
-                (PanelState("truncated", k=11), None),
-                (PanelState("geodesic", method="heat"), None),
-                (PanelState("commute-time"), None),
+                (Spec.of("biharmonic"), None),
+                (Spec.of("diffusion", t=1 / 15), 0.1),
+                (Spec.of("power", alpha=2.5, k=7), 3.0),
+                (Spec.of("truncated", k=11), None),
+                (Spec.of("geodesic", method="heat"), None),
+                (Spec.of("commute-time"), None),
             ]
         )
     )
@@ -127,7 +127,7 @@ def test_a_recipe_and_its_mesh_may_move_together_and_meet_another_mesh(mesh, mes
     ],
 )
 def test_a_bad_recipe_gets_a_sentence(mesh, tmp_path, capsys, change, words):
-    recipe = Recipe(mesh, (RecipePanel(PanelState("diffusion", t=1.0), 4),))
+    recipe = Recipe(mesh, (RecipePanel(Spec.of("diffusion", t=1.0), 4),))
     data = json.loads(recipe_text(recipe, "0.1"))
     change(data)
     path, out = tmp_path / "bad.json", tmp_path / "out.png"

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from app.state import PanelState, ViewerState
+from app.state import ViewerState
+from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, fin, grid, two_pieces
 
 pytest.importorskip("qtpy")
@@ -80,30 +81,32 @@ def test_what_is_not_connected_is_grey_and_said_to_be(screen, mesh_file):
 
 
 def test_the_slider_changes_the_diffusion_time(screen, mesh_file):
-    from app.qt.controls import step_of_time, time_of_step
+    from app.qt.controls import step_of_value, value_of_step
 
     s = screen()
     s.open(mesh_file(bumpy(800)))
     controls = s.panels[2].controls
-    assert controls.time.isVisible()
-    controls.time.setValue(step_of_time(1 / 4))
+    time = controls.parameters["t"]
+    assert time.isVisible()
+    time.widget.setValue(step_of_value(time.parameter, 1 / 4))
     s.until(lambda: s.session.is_complete)
-    assert s.session.answers[2].panel.t == 1 / 4
-    assert controls.time_label.text() == "t = 1/4"
+    assert s.session.answers[2].panel == Spec.of("diffusion", t=1 / 4)
+    assert time._label.text() == "t = 1/4"
     assert s.panels[2].title.text() == "diffusion, t = 0.25"
-    assert time_of_step(controls.time.minimum()) == 1 / 15
-    assert time_of_step(controls.time.maximum()) == 4
+    assert value_of_step(time.parameter, time.widget.minimum()) == 1 / 15
+    assert value_of_step(time.parameter, time.widget.maximum()) == 4
 
 
 def test_the_menu_changes_the_geodesic_method_and_any_panel_its_distance(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(800)))
     controls = s.panels[1].controls
-    controls.method.setCurrentIndex(controls.method.findData("dijkstra"))
+    method = controls.parameters["method"].widget
+    method.setCurrentIndex(method.findData("dijkstra"))
     other = s.panels[0].controls
     other.distance.setCurrentIndex(other.distance.findData("truncated"))
-    assert other.pairs.isVisible()
-    other.pairs.setValue(25)
+    assert other.parameters["k"].isVisible()
+    other.parameters["k"].widget.setValue(25)
     s.until(lambda: s.session.is_complete)
     assert s.panels[1].title.text() == "geodesic, Dijkstra along edges"
     assert s.panels[0].title.text() == "biharmonic, 25 eigenpairs"
@@ -248,7 +251,7 @@ def test_a_failed_screenshot_leaves_the_old_file(screen, mesh_file, tmp_path):
 
 
 def test_progress_and_cancel_are_shown_while_something_is_computed(screen, mesh_file):
-    s = screen(ViewerState(panels=(PanelState("diffusion", t=1 / 15),)))
+    s = screen(ViewerState(panels=(Spec.of("diffusion", t=1 / 15),)))
     s.window.open(mesh_file(bumpy(12000)))
     s.until(lambda: s.window.status.progress.isVisible() and s.window.status.doing.text())
     assert s.window.status.cancel.isVisible()
@@ -333,14 +336,14 @@ def test_samples_are_listed_with_their_pictures_and_open(screen):
 
 
 def test_a_panel_that_fails_says_so_in_its_own_place(screen, mesh_file):
-    s = screen(ViewerState(panels=(PanelState("geodesic", method="exact"), PanelState("biharmonic"))))
+    s = screen(ViewerState(panels=(Spec.of("geodesic", method="exact"), Spec.of("biharmonic"))))
     s.open(mesh_file(fin()), source=0)
     failed, answered = s.panels
     assert "is not manifold" in " ".join(failed.scene._failure.GetInput().split())
     assert not failed.scene._bar.GetVisibility()
     assert answered.scene._failure.GetInput() == ""
     assert failed.interactor.height() == answered.interactor.height()
-    failed.controls.changed.emit(PanelState("geodesic", method="heat"))
+    failed.controls.changed.emit(Spec.of("geodesic", method="heat"))
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert failed.scene._failure.GetInput() == ""

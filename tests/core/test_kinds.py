@@ -1,0 +1,171 @@
+"""The table of distances: words, canonical specs, what cannot be, and distances of somebody else's."""
+
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from bihdist_core import Laplacian, ParameterError
+from bihdist_core.distances.kinds import OURS, Spec, kind_of, kinds
+from tests.shapes import bumpy
+
+ROOT = Path(__file__).parents[2]
+every_kind = pytest.mark.parametrize("kind", OURS, ids=lambda kind: kind.word)
+
+
+@every_kind
+def test_every_kind_makes_its_distance(kind):
+    spec = Spec.of(kind.word, **({"k": 20} if any(p.name == "k" for p in kind.parameters) else {}))
+    distance = spec.build(Laplacian(bumpy(100)))
+    assert distance.from_source(0)[0] == 0
+    assert kind.hint
+    assert kind.name
+
+
+@every_kind
+def test_every_kind_is_in_the_readme_with_its_parameters(kind):
+    names = ", ".join(p.name for p in kind.parameters)
+    word = f"`{kind.word}({names})`" if names else f"`{kind.word}`"
+    row = f"| {word} | {kind.name} | {kind.squares} | {kind.scaling} | {kind.cost} |"
+    assert row in (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_a_spec_is_canonical_and_can_be_written_and_read():
+    quarter = Spec.parse("diffusion(t=1/4)")
+    assert quarter == Spec.of("diffusion", t=0.25) == Spec.parse(" diffusion ( t = 0.25 ) ")
+    assert hash(quarter) == hash(Spec.of("diffusion", t=0.25))
+    assert pickle.loads(pickle.dumps(quarter)) == quarter
+    assert str(quarter) == "diffusion(t=1/4)"
+    assert str(Spec.of("diffusion", t=1 / 15)) == "diffusion(t=1/15)"
+    assert str(Spec.of("geodesic")) == "geodesic"
+    assert str(Spec.of("truncated", k=50)) == "truncated(k=50)"
+    assert Spec.of("truncated", k=50.0) == Spec.of("truncated", k=50)
+    assert Spec.parse("power(alpha=2, k=7)").values == (("alpha", 2.0), ("k", 7))
+    for value in (0.1, 1 / 3, 2.5, 1e-7, 123456.789):
+        spec = Spec.of("diffusion", t=value)
+        assert Spec.parse(str(spec)) == spec
+
+
+def test_values_beside_a_word_hold_where_it_does_not_say_otherwise():
+    assert Spec.parse("diffusion", t=4.0, k=3)["t"] == 4
+    assert Spec.parse("diffusion(t=2)", t=4.0)["t"] == 2
+    assert Spec.parse("truncated", t=4.0, k=3)["k"] == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("euclidean", "no distance 'euclidean'; choose one of biharmonic, truncated"),
+        ("diffusion(t=0)", "t must be a number above 0, not 0.0"),
+        ("diffusion(t=a)", "t must be a number above 0, not 'a'"),
+        ("diffusion(t=1/0)", "t must be a number above 0"),
+        ("diffusion(k=3)", "diffusion has no parameter 'k'; it has t"),
+        ("biharmonic(t=1)", "biharmonic has no parameter 't'; it has none"),
+        ("diffusion(t=1", "has no closing bracket; distances are written like diffusion"),
+        ("diffusion(t)", "'t' in 'diffusion(t)' is not like t=1/4"),
+        ("truncated(k=2.5)", "k must be a whole number above 0, not 2.5"),
+        ("truncated(k=1e400)", "k must be a whole number above 0"),
+        ("power(alpha=1)", "alpha must be a number above 1"),
+        ("geodesic(method=fast)", "method must be one of auto, exact, heat, dijkstra, not 'fast'"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_a_sentence(text, words):
+    with pytest.raises(ParameterError) as error:
+        Spec.parse(text)
+    assert words in str(error.value)
+
+
+@pytest.mark.parametrize("value", [True, "3", None, [1], 10**400, float("nan"), float("inf")])
+def test_values_of_the_wrong_kind_are_refused(value):
+    with pytest.raises(ParameterError, match="k must be a whole number above 0"):
+        Spec.of("truncated", k=value)
+
+
+def test_a_stand_in_is_asked_of_the_distance_itself():
+    laplacian, auto = Laplacian(bumpy(100)), Spec.of("geodesic")
+    assert auto.quick(auto.build(laplacian)) == Spec.of("geodesic", method="heat")
+    heat = Spec.of("geodesic", method="heat")
+    assert heat.quick(heat.build(laplacian)) is None
+
+
+# ---------------------------------------------------------------------- somebody else's
+EXAMPLE = '''
+import numpy as np
+from bihdist_core import Distance
+from bihdist_core.distances.kinds import Kind, Parameter
+
+
+class Straight(Distance):
+    label = "straight"
+    length_power = 1.0
+
+    def __init__(self, laplacian, stretch=1.0, progress=None):
+        super().__init__(laplacian)
+        self.stretch = stretch
+
+    def prepare(self, component, progress=None):
+        pass
+
+    def _columns(self, component, index, progress):
+        x = component.surface.vertices
+        return self.stretch * np.linalg.norm(x[:, None] - x[index], axis=2)
+
+
+KIND = Kind("straight", "Straight line", "through the air", Straight, (Parameter("stretch", 1.0, "a factor"),))
+'''
+
+
+@pytest.fixture
+def package(tmp_path):
+    """An installed package with a distance, one that cannot be imported, and one that claims a word of ours."""
+    (tmp_path / "straight_distance.py").write_text(EXAMPLE)
+    info = tmp_path / "straight_distance-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: straight-distance\nVersion: 1.0\n")
+    entries = "straight = straight_distance:KIND\nbroken = not_there:KIND\nbiharmonic = straight_distance:KIND\n"
+    (info / "entry_points.txt").write_text(f"[bihdist.distances]\n{entries}")
+    return tmp_path
+
+
+def run(package, code):
+    said = subprocess.run(
+        [sys.executable, "-c", f"import sys; sys.path[:0] = [{str(package)!r}]\n{code}"],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    return said.returncode, said.stdout
+
+
+def test_a_distance_of_somebody_else_joins(package, mesh_file, tmp_path):
+    mesh, out = mesh_file(bumpy(60)), tmp_path / "d.npy"
+    status, said = run(
+        package,
+        "from app.main import main\nraise SystemExit(main(["
+        f"'field', {str(mesh)!r}, '--source', '3', '--distance', 'straight(stretch=2)', '-o', {str(out)!r}]))",
+    )
+    assert status == 0, said
+    assert "straight, 60 vertices" in said
+
+
+def test_others_are_imported_when_asked_for_and_what_is_wrong_with_them_is_said(package):
+    status, said = run(
+        package,
+        "from bihdist_core import ParameterError\nfrom bihdist_core.distances.kinds import Spec, kinds, kind_of\n"
+        "assert list(kinds())[-2:] == ['broken', 'straight'], list(kinds())\n"
+        "assert 'straight_distance' not in sys.modules\n"
+        "assert kind_of('biharmonic').name == 'Biharmonic'\n"
+        "print(Spec.parse('straight(stretch=1/2)'))\n"
+        "try:\n    Spec.of('broken')\nexcept ParameterError as error:\n    print(error)\n",
+    )
+    assert status == 0, said
+    assert "straight(stretch=1/2)" in said
+    assert "The distance 'broken' of not_there:KIND cannot be loaded" in said
+
+
+def test_ours_come_first():
+    assert list(kinds())[: len(OURS)] == [kind.word for kind in OURS]
+    assert kind_of("geodesic") is OURS[-1]
