@@ -6,19 +6,22 @@ The only place that wires everything.  What is heavy (numpy, VTK, Qt) is importe
 
 import argparse
 import os
+import re
 import sys
 import time
 from collections.abc import Callable, Sequence
 from contextlib import contextmanager
 
-from bihdist_core.distances.kinds import OURS, Parameter, Spec, kinds
-from bihdist_core.errors import ParameterError
+from bihdist_core.distances.kinds import OURS, Spec, kinds
 
 from .figure_command import add_figure_options, add_movie_options, chosen_movie, chosen_recipe
 from .state import COMPARISON
 from .version import version
 
 COMMANDS = ("view", "field", "pairs", "figure", "movie", "info", "paper")
+
+WHOLE = re.compile("-?[0-9]{1,18}")
+PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -63,7 +66,7 @@ def _parser() -> argparse.ArgumentParser:
     view.add_argument("mesh", nargs="?", help="mesh file, or the name of a sample (default: figure)")
     view.add_argument("--source", type=_vertex, metavar="V", help="vertex id the distances start from")
     view.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
-    _add_distance(view, several=True)
+    _add_distance(view, PANELS)
     _add_areas(view)
 
     field = _command(commands, "field", _field, "distances of all vertices from one or more sources")
@@ -83,18 +86,18 @@ def _parser() -> argparse.ArgumentParser:
     pairs.add_argument("--dtype", choices=("float32", "float64"), default="float32", help="for --all")
     pairs.add_argument("--memory", type=_positive, default=500, metavar="MB", help="for --all (default: 500)")
     pairs.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy or .csv file")
-    _add_distance(pairs)
+    _add_distance(pairs, "a column; repeat for more (default: biharmonic)")
     _add_areas(pairs)
 
     figure = _command(commands, "figure", _figure, "the window's comparison as a picture, without a window")
     add_figure_options(figure)
-    _add_distance(figure, several=True)
+    _add_distance(figure, PANELS)
     _add_areas(figure)
 
     movie = _command(commands, "movie", _movie, "a figure that turns, or whose source wanders, as MP4 or GIF")
     add_figure_options(movie, "a .mp4 or .gif file")
     add_movie_options(movie)
-    _add_distance(movie, several=True)
+    _add_distance(movie, PANELS)
     _add_areas(movie)
 
     info = _command(commands, "info", _info, "what a mesh file holds and what would be repaired")
@@ -124,43 +127,22 @@ def _command(commands, name: str, run: Callable, text: str) -> argparse.Argument
     return parser
 
 
-def _add_distance(parser: argparse.ArgumentParser, several: bool = False) -> None:
+def _add_distance(parser: argparse.ArgumentParser, several: str = "") -> None:
     """`--distance`, and an option for each parameter of ours, which holds where the distance does not say otherwise."""
     words = f"{', '.join(kinds())}; with parameters like 'diffusion(t=1/4)'"
     if several:
-        usual = ", ".join(str(spec) for spec in COMPARISON)
-        text = f"a panel: {words}; repeat for more (default: {usual})"
-        parser.add_argument("--distance", type=_distance, metavar="NAME", action="append", help=text)
+        parser.add_argument("--distance", metavar="NAME", action="append", help=f"{words}: {several}")
     else:
         text = f"{words} (default: biharmonic)"
-        parser.add_argument("--distance", type=_distance, metavar="NAME", default="biharmonic", help=text)
+        parser.add_argument("--distance", metavar="NAME", default="biharmonic", help=text)
     parameters = {p.name: p for kind in OURS for p in kind.parameters}
     for name, parameter in parameters.items():
         of = ", ".join(kind.word for kind in OURS if parameter in kind.parameters)
         parser.add_argument(
             f"--{name}",
-            type=_parsed(parameter),
             metavar="{" + ",".join(parameter.choices) + "}" if parameter.choices else name.upper()[:1],
             help=f"{parameter.meaning}, for {of} (default: {parameter.written(parameter.default)})",
         )
-
-
-def _distance(text: str) -> str:
-    try:
-        Spec.parse(text)
-    except ParameterError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-    return text
-
-
-def _parsed(parameter: Parameter) -> Callable[[str], object]:
-    def parsed(text: str) -> object:
-        try:
-            return parameter.parsed(text)
-        except ParameterError as error:
-            raise argparse.ArgumentTypeError(str(error)) from None
-
-    return parsed
 
 
 def _add_areas(parser: argparse.ArgumentParser) -> None:
@@ -223,8 +205,9 @@ def _viewer_state(options: argparse.Namespace):
 
 def _spec(options: argparse.Namespace, text: str) -> Spec:
     """The distance that a text means with the options beside it."""
-    given = {p.name: getattr(options, p.name) for kind in OURS for p in kind.parameters}
-    return Spec.parse(text, **{name: value for name, value in given.items() if value is not None})
+    parameters = {p.name: p for kind in OURS for p in kind.parameters}
+    given = {name: getattr(options, name) for name in parameters}
+    return Spec.parse(text, **{name: parameters[name].parsed(v) for name, v in given.items() if v is not None})
 
 
 def _counted(count: int, noun: str) -> str:
@@ -253,14 +236,19 @@ def _pairs(options: argparse.Namespace) -> None:
     import numpy as np
 
     from bihdist_core.analysis.all_pairs import write_all_pairs
+    from bihdist_core.errors import ParameterError
     from bihdist_core.formats.field_output import ARRAY_FORMATS, write_array
     from bihdist_core.whole_file import check_output
 
     extension = check_output(options.output, (".npy",) if options.all else ARRAY_FORMATS)
+    specs = [_spec(options, text) for text in dict.fromkeys(options.distance or ["biharmonic"])]
+    if options.all and len(specs) > 1:
+        raise ParameterError("--all writes the pairs of one distance; name one.")
     with _progress() as progress:
         laplacian = _laplacian(options)
         if options.all:
-            distance = _spec(options, options.distance).build(laplacian, progress)
+            (spec,) = specs
+            distance = spec.build(laplacian, progress)
             accuracy = _accuracy(distance, everywhere=True)
             write_all_pairs(distance, options.output, options.dtype, 1e6 * options.memory, progress)
             count = len(laplacian.surface.vertices)
@@ -271,18 +259,20 @@ def _pairs(options: argparse.Namespace) -> None:
             pairs = np.array([(i, j) for k, i in enumerate(vertices) for j in vertices[k + 1 :]]).reshape(-1, 2)
         else:
             pairs = _pairs_in(options.file) if options.file else np.array(options.pairs)
-        among, place = np.unique(pairs, return_inverse=True)
-        laplacian.surface.check_vertices(among)
-        distance = _spec(options, options.distance).build(laplacian, progress)
-        i, j = place.reshape(-1, 2).T
-        values = distance.pairwise(among)[i, j]
-        accuracy = _accuracy(distance)
-    if options.vertices and extension == ".npy":
-        matrix = distance.pairwise(vertices)
-        write_array(options.output, matrix)
+            laplacian.surface.check_vertices(np.unique(pairs))
+        is_matrix = bool(options.vertices) and extension == ".npy" and len(specs) == 1
+        answers, said = [], []
+        for spec in specs:
+            distance = spec.build(laplacian, progress)
+            answers.append(distance.pairwise(vertices) if is_matrix else distance.of_pairs(pairs))
+            said.append(f"{distance.label}, {_counted(len(pairs), 'pair')}{_accuracy(distance)}")
+    if is_matrix:
+        write_array(options.output, answers[0])
     else:
-        write_array(options.output, np.column_stack([pairs, values]), ["i", "j", "distance"])
-    print(f"{options.output}: {distance.label}, {_counted(len(pairs), 'pair')}{accuracy}")
+        names = ["distance"] if len(specs) == 1 else [str(spec) for spec in specs]
+        write_array(options.output, np.column_stack([pairs, *answers]), ["i", "j", *names])
+    for text in said:
+        print(f"{options.output}: {text}")
 
 
 def _accuracy(distance, everywhere: bool = False) -> str:
@@ -414,9 +404,9 @@ def _pairs_in(path: str):
         with open(path, encoding="utf-8-sig") as lines:
             for number, line in enumerate(lines, 1):
                 words = [word.strip() for word in line.replace(";", ",").split(",")]
-                if not line.strip() or (number == 1 and not words[0].lstrip("-").isdigit()):
+                if not line.strip() or (number == 1 and not WHOLE.fullmatch(words[0])):
                     continue
-                if len(words) < 2 or not all(word.lstrip("-").isdigit() for word in words[:2]):
+                if len(words) < 2 or not all(WHOLE.fullmatch(word) for word in words[:2]):
                     raise ParameterError(f"{path}, line {number}: {line.strip()!r} is not a pair of ids such as 1,2.")
                 pairs.append((int(words[0]), int(words[1])))
     except (OSError, UnicodeDecodeError) as error:

@@ -19,6 +19,7 @@ PROGRAM = "bihdist"
 
 AREAS = ("voronoi", "barycentric")
 
+
 @dataclass(frozen=True)
 class RecipePanel:
     """One panel: a distance, the vertex it starts from, and the end of its colour bar (its own maximum if None).

@@ -34,6 +34,15 @@ class PanelAnswer(Answer):
 
 
 @dataclass(frozen=True, eq=False)
+class _Opening:
+    """A mesh to be opened, with all that was chosen when it was asked for."""
+
+    path: str
+    source: int | None
+    areas: str
+
+
+@dataclass(frozen=True, eq=False)
 class _Question:
     """All that a lane needs to answer: nothing is read from the session while it works."""
 
@@ -97,8 +106,8 @@ class Session:
         self.is_stopped = False
         self._post = post
         self._prepare = prepare
-        self._source_after_opening: int | None = None
-        self._loader: Lane[str] = Lane("load", self._load, self._reporter("load"), self._loading_failed)
+        self._opening: _Opening | None = None
+        self._loader: Lane[_Opening] = Lane("load", self._load, self._reporter("load"), self._loading_failed)
         self._lanes: list[Lane[_Question]] = [
             Lane(f"panel {i}", self._answerer(i), self._reporter(f"panel {i}"), partial(self._answering_failed, i))
             for i in range(len(self.state.panels))
@@ -107,8 +116,8 @@ class Session:
     # ------------------------------------------------------------------ intents
     def open(self, path: str, source: int | None = None) -> None:
         """Load a mesh in the background; what is open stays until the new one has been read."""
-        self._source_after_opening = source
-        self._loader.submit(os.fspath(path))
+        self._opening = _Opening(os.fspath(path), source, self.state.areas)
+        self._loader.submit(self._opening)
 
     def select_source(self, vertex: int) -> None:
         """Ask every panel for the distances from a vertex; VertexError if there is none."""
@@ -129,7 +138,7 @@ class Session:
 
     def cancel(self) -> None:
         """Stop everything that is going on; the next click or change asks again."""
-        self.is_stopped = True
+        self.is_stopped, self._opening = True, None
         for lane in (self._loader, *self._lanes):
             lane.submit(None)
 
@@ -150,33 +159,32 @@ class Session:
         return self.surface is not None and all(self.is_answered(k) and self.answers[k].is_judged for k in shown)
 
     # ------------------------------------------------------------------ loading
-    def _load(self, path: str, lane: Lane[str]) -> None:
+    def _load(self, opening: _Opening, lane: Lane[_Opening]) -> None:
         # The first report comes before the reading, which has no others.
-        report = lane.progress(lambda latest: latest is path, quiet=0)
-        report(0, f"reading {os.path.basename(path)}")
-        surface = read_surface(path)
-        laplacian = Laplacian(surface, self.state.areas)
+        report = lane.progress(lambda latest: latest is opening, quiet=0)
+        report(0, f"reading {os.path.basename(opening.path)}")
+        surface = read_surface(opening.path)
+        laplacian = Laplacian(surface, opening.areas)
         report(0.5, f"assembling {surface.name}")
-        source = self._source_after_opening
-        if source is None:
-            source = first_source(surface)
-        source = surface.check_vertex(source)
+        source = surface.check_vertex(first_source(surface) if opening.source is None else opening.source)
         prepared = self._prepare(surface)
         # Told by the view, for whose thread going over all faces would take too long.
         _ = surface.remarks
         report(1, f"assembling {surface.name}")
-        self._post(lambda: self._loaded(path, laplacian, source, prepared))
+        self._post(lambda: self._loaded(opening, laplacian, source, prepared))
 
-    def _loaded(self, path: str, laplacian: Laplacian, source: int, prepared: Any) -> None:
-        self.prepared = prepared
-        self.path, self.laplacian, self.surface = path, laplacian, laplacian.surface
+    def _loaded(self, opening: _Opening, laplacian: Laplacian, source: int, prepared: Any) -> None:
+        if opening is not self._opening:
+            return  # cancelled, or another mesh was asked for, while it was on its way here
+        self._opening, self.prepared = None, prepared
+        self.path, self.laplacian, self.surface = opening.path, laplacian, laplacian.surface
         self.answers = [None for _ in self.state.panels]
-        self.state = replace(self.state, source=source)
+        self.state = replace(self.state, source=source, areas=opening.areas)
         self.view.mesh_changed()
         self.view.source_changed()
         self._ask_all()
 
-    def _loading_failed(self, path: str, error: Exception) -> None:
+    def _loading_failed(self, opening: _Opening, error: Exception) -> None:
         self._post(lambda: self.view.failed(failure_in_words(error)))
 
     # ------------------------------------------------------------------ answering

@@ -54,6 +54,7 @@ class PanelControls(QtWidgets.QWidget):
                 control = ParameterControl(parameter, self)
                 control.chosen.connect(lambda value, name=parameter.name: self._choose(**{name: value}))
                 self._row.insertWidget(self._row.count() - 1, control, int(parameter.logarithmic))
+                control.show()
                 self.parameters[parameter.name] = control
             self._of_word = spec.word
         for name, value in spec.values:

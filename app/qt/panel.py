@@ -6,10 +6,11 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
+from bihdist_core.distances.kinds import Spec
+
 from ..picking import Picker
 from ..scene import PanelScene
 from ..session import PanelAnswer
-from bihdist_core.distances.kinds import Spec
 from .controls import PanelControls
 
 

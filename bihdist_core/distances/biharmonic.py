@@ -63,6 +63,21 @@ class BiharmonicDistance(Distance):
         squares = np.diag(green) + np.diag(green)[:, None] - 2 * green
         return root(squares, green.max())
 
+    def _of_pairs(self, component: Component, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+        among, place = np.unique(np.stack([i, j]), return_inverse=True)
+        if len(among) <= min(len(i), SMALL_SET):
+            return self._pairwise(component, among)[tuple(place.reshape(2, -1))]
+        distances = np.empty(len(i))
+        for start in range(0, len(i), SMALL_SET):
+            some = slice(start, start + SMALL_SET)
+            b = np.zeros((len(component.vertices), len(i[some])))
+            each = np.arange(b.shape[1])
+            b[i[some], each] += 1
+            b[j[some], each] -= 1
+            y = component.centred(component.solve(b))
+            distances[some] = np.sqrt(np.einsum("ij,i,ij->j", y, component.areas, y))
+        return distances
+
     def _estimated_accuracy(self, component: Component) -> float:
         def form(b: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
             y = component.centred(y)

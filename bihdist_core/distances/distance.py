@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import SolverError
+from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress
 from ..surface import Surface
@@ -14,6 +14,9 @@ from .accuracy import Certificate, rounded_up
 
 ROUNDING = 1e-7
 """Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""
+
+SOURCES = 32
+"""From so many sources at a time pairs are computed, which bounds the memory."""
 
 
 class Distance(ABC):
@@ -28,6 +31,7 @@ class Distance(ABC):
 
     label: str
     length_power: float
+    is_symmetric = True
 
     def __init__(self, laplacian: Laplacian | Surface) -> None:
         self.laplacian = as_laplacian(laplacian)
@@ -132,6 +136,41 @@ class Distance(ABC):
             block = self._pairwise(component, component.local(ids[mine]))
             distances[np.ix_(mine, mine)] = (block + block.T) / 2
         distances[ids[:, None] == ids] = 0
+        return distances
+
+    def of_pairs(self, pairs: npt.ArrayLike) -> np.ndarray:
+        """(k,) the distances of k pairs of vertices (k, 2); NaN between components.
+
+        The mean of both ways where a distance is not symmetric.  ParameterError for another shape.
+        """
+        table = np.asarray(pairs)
+        if table.ndim != 2 or table.shape[1] != 2:
+            raise ParameterError(f"Pairs of vertices must have shape (k, 2), not {table.shape}.")
+        i, j = self.surface.check_vertices(table.ravel()).reshape(-1, 2).T
+        distances = np.full(len(i), np.nan)
+        label = self.surface.component_of_vertex
+        for component, mine in self._by_component(i):
+            mine = mine[label[i[mine]] == label[j[mine]]]
+            if len(mine):
+                self.prepare(component)
+                distances[mine] = self._of_pairs(component, component.local(i[mine]), component.local(j[mine]))
+        distances[i == j] = 0
+        return distances
+
+    def _of_pairs(self, component: Component, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+        """(k,) distances of local vertices i and j (k,)."""
+        if not self.is_symmetric:
+            return (self._one_way(component, i, j) + self._one_way(component, j, i)) / 2
+        few, others = sorted((i, j), key=lambda side: len(np.unique(side)))
+        return self._one_way(component, few, others)
+
+    def _one_way(self, component: Component, sources: np.ndarray, targets: np.ndarray) -> np.ndarray:
+        among, place = np.unique(sources, return_inverse=True)
+        distances = np.empty(len(sources))
+        for start in range(0, len(among), SOURCES):
+            columns = self._columns(component, among[start : start + SOURCES], None)
+            mine = np.flatnonzero((place >= start) & (place < start + SOURCES))
+            distances[mine] = columns[targets[mine], place[mine] - start]
         return distances
 
     @abstractmethod

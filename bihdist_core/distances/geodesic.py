@@ -44,6 +44,7 @@ class GeodesicDistance(Distance):
             method = "exact" if exact else "heat"
         self.method = method
         self.label = LABELS[method]
+        self.is_symmetric = method != "heat"
         self._solvers: dict[int, ExactGeodesic | HeatGeodesic | EdgeGeodesic] = {}
         self.prepare(self.laplacian.components[0], progress)
 

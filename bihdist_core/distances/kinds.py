@@ -289,7 +289,7 @@ OURS = (
             Parameter(
                 "method",
                 "auto",
-                "how; auto: exact up to 20,000 vertices, else heat",
+                "how it is computed; auto: exactly up to 20,000 vertices, else by the heat method",
                 choices=("auto", "exact", "heat", "dijkstra"),
             ),
         ),

@@ -58,6 +58,10 @@ class SpectralDistance(Distance):
         points = self.points(component)[index]
         return point_distances(points, points)
 
+    def _of_pairs(self, component: Component, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+        points = self.points(component)
+        return np.linalg.norm(points[i] - points[j], axis=1)
+
     def _estimated_accuracy(self, component: Component) -> float:
         spectrum, weights = self._weighted(component, None)
         count = len(weights)

@@ -53,6 +53,8 @@ def test_field_writes_one_column_per_source(mesh, tmp_path, capsys):
     ("words", "make"),
     [
         (["biharmonic", "--areas", "barycentric"], lambda s: BiharmonicDistance(Laplacian(s, "barycentric"))),
+        (["truncated(k=20)"], lambda s: TruncatedBiharmonicDistance(s, k=20)),
+        (["diffusion(t=1/4)"], lambda s: DiffusionDistance(s, t=0.25)),
         (["truncated", "--k", "20"], lambda s: TruncatedBiharmonicDistance(s, k=20)),
         (["power", "--k", "20", "--alpha", "3"], lambda s: PowerDistance(s, alpha=3, k=20)),
         (["commute-time"], CommuteTimeDistance),
@@ -97,6 +99,25 @@ def test_pairs_of_a_set_as_a_matrix_and_as_rows(mesh, tmp_path):
     table = np.loadtxt(rows, delimiter=",", skiprows=1)
     assert table[:, :2].tolist() == [[5, 1], [5, 9], [1, 9]]
     assert table[:, 2] == pytest.approx([expected[0, 1], expected[0, 2], expected[1, 2]])
+
+
+def test_several_distances_are_a_column_each(mesh, tmp_path, capsys):
+    out = tmp_path / "p.csv"
+    words = ["--distance", "biharmonic", "--distance", "diffusion(t=1/4)"]
+    assert main(["pairs", mesh, "--pairs", "1,2", "3,4", *words, "-o", str(out)]) == 0
+    assert out.read_text().splitlines()[0] == "i,j,biharmonic,diffusion(t=1/4)"
+    table, s = np.loadtxt(out, delimiter=",", skiprows=1), read_surface(mesh)
+    assert table[:, 2] == pytest.approx(BiharmonicDistance(s).of_pairs([[1, 2], [3, 4]]))
+    assert table[:, 3] == pytest.approx(DiffusionDistance(s, t=0.25).of_pairs([[1, 2], [3, 4]]))
+    assert len(capsys.readouterr().out.splitlines()) == 2
+    assert "name one" in refused(capsys, "pairs", mesh, "--all", *words, "-o", tmp_path / "all.npy")
+
+
+@pytest.mark.parametrize("line", ["1,--5", "1,²", "1,5.0", "1," + 30 * "9", "one,two"])
+def test_a_line_that_is_no_pair_is_named(mesh, tmp_path, capsys, line):
+    file = tmp_path / "pairs.csv"
+    file.write_text(f"1,2\n{line}\n", encoding="utf-8")
+    assert "line 2: " in refused(capsys, "pairs", mesh, "--file", file, "-o", tmp_path / "p.npy")
 
 
 def test_listed_pairs_from_words_and_from_a_file(mesh, tmp_path):
@@ -184,7 +205,8 @@ def test_a_failed_panel_is_named_and_the_others_are_drawn(mesh_file, tmp_path, c
     command = ["movie", "--frames", "2", "--size", "300px"] if name == "f.gif" else ["figure"]
     assert main([*command, mesh_file(fin()), *NOT_MANIFOLD, "-o", str(out)]) == 1
     assert (
-        "geodesic: mesh.off is not manifold, where exact geodesic distance is not computed" in capsys.readouterr().err
+        "geodesic(method=exact): mesh.off is not manifold, where exact geodesic distance is not computed"
+        in capsys.readouterr().err
     )
     assert out.stat().st_size > 1000
     if name == "f.svg":
@@ -244,6 +266,14 @@ def test_bad_input_gets_a_sentence_and_leaves_no_file(mesh, mesh_file, tmp_path,
         (["field", mesh, "--source", 0, "-o", tmp_path / "d.xyz"], ".xyz"),
         (["field", mesh, "--source", 0, "-o", tmp_path / "no" / "d.npy"], "no folder"),
         (["field", mesh, "--source", 0, "--distance", "power", "--alpha", 0.5, "-o", out], "alpha"),
+        (
+            ["field", mesh, "--source", 0, "--distance", "euclidean", "-o", out],
+            "no distance 'euclidean'; choose one of",
+        ),
+        (["field", mesh, "--source", 0, "--distance", "diffusion(k=3)", "-o", out], "has no parameter 'k'; it has t"),
+        (["figure", mesh, "--distance", "diffusion(t", "-o", tmp_path / "f.png"], "has no closing bracket"),
+        (["field", mesh, "--source", 0, "--t", "-1", "-o", out], "t must be a number above 0, not -1"),
+        (["view", mesh, "--k", "many"], "k must be a whole number above 0, not 'many'"),
         (["pairs", mesh, "--vertices", "1,900", "-o", out], "no vertex 900"),
         (["pairs", mesh, "--file", bad_pairs, "-o", out], "line 2: '3,x'"),
         (["pairs", mesh, "--file", tmp_path / "none.csv", "-o", out], "none.csv"),
@@ -261,8 +291,6 @@ def test_bad_input_gets_a_sentence_and_leaves_no_file(mesh, mesh_file, tmp_path,
     [
         ["field", "figure", "-o", "x.npy"],
         ["field", "figure", "--source", "a", "-o", "x.npy"],
-        ["field", "figure", "--source", "1", "--distance", "euclidean", "-o", "x.npy"],
-        ["field", "figure", "--source", "1", "--t", "-1", "-o", "x.npy"],
         ["pairs", "figure", "--pairs", "1", "-o", "x.npy"],
         ["pairs", "figure", "-o", "x.npy"],
         ["--nonsense"],

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.state import COMPARISON, ViewerState
-from bihdist_core import BiharmonicDistance, Cancelled, Laplacian, ParameterError, SolverError, Surface, VertexError
+from bihdist_core import BiharmonicDistance, Cancelled, SolverError, Surface, VertexError
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid, two_pieces
 
@@ -276,3 +276,40 @@ def test_state_is_replaced_not_changed():
     assert state.panels == COMPARISON
     assert [panel.word for panel in other.panels] == ["biharmonic", "commute-time", "diffusion"]
     assert replace(other, source=3).panels is other.panels
+
+
+# ---------------------------------------------------------------------- a mesh that comes too late
+def post_later(d):
+    """What the session posts is kept until the test lets it go."""
+    kept = []
+    d.session._post, after = kept.append, d.session._post
+    return kept, after
+
+
+def test_a_mesh_that_was_cancelled_is_not_shown_when_it_comes(desk, mesh_file):
+    d = desk()
+    kept, after = post_later(d)
+    d.session.open(mesh_file(bumpy(60)))
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.session.cancel()
+    d.session._post = after
+    for function in kept:
+        function()
+    assert d.session.surface is None
+    assert "mesh" not in d.view.told
+
+
+def test_of_two_meshes_the_later_is_shown_with_its_own_source(desk, mesh_file):
+    d = desk()
+    kept, after = post_later(d)
+    d.session.open(mesh_file(bumpy(60)), source=5)
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.session._post = after
+    d.session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    for function in kept:
+        function()
+    assert d.session.surface is None
+    d.until(lambda: d.session.is_complete)
+    assert d.session.surface.name == "other.off"
+    assert d.session.state.source == 7
+    assert d.view.told.count("mesh") == 1

@@ -301,3 +301,22 @@ def test_accuracy_is_of_the_components_that_were_asked():
     assert list(distance._accuracies) == []
     assert distance.accuracy is not None
     assert list(distance._accuracies) == [1]
+
+
+@every_distance
+def test_pairs_equal_the_matrix_of_all(make):
+    s = two_pieces()
+    distance, rng = make(s), np.random.default_rng(0)
+    pairs = np.array([p for p in rng.integers(0, 65, (150, 2)) if 60 not in p] + [(3, 3), (0, 62)])
+    everyone = np.delete(np.arange(65), 60)
+    expected = distance.pairwise(everyone)
+    at = np.searchsorted(everyone, pairs)
+    values = distance.of_pairs(pairs)
+    assert np.array_equal(np.isnan(values), np.isnan(expected[tuple(at.T)]))
+    assert np.nanmax(np.abs(values - expected[tuple(at.T)])) <= 1e-7 * np.nanmax(expected)
+    assert values[-2] == 0
+    few = distance.of_pairs(pairs[:5])
+    assert np.allclose(few, values[:5], rtol=1e-9, equal_nan=True)
+    for wrong in ([1, 2], [[1, 2, 3]]):
+        with pytest.raises(ParameterError, match=r"must have shape \(k, 2\)"):
+            distance.of_pairs(wrong)

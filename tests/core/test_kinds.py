@@ -91,7 +91,7 @@ def test_a_stand_in_is_asked_of_the_distance_itself():
 
 
 # ---------------------------------------------------------------------- somebody else's
-EXAMPLE = '''
+EXAMPLE = """
 import numpy as np
 from bihdist_core import Distance
 from bihdist_core.distances.kinds import Kind, Parameter
@@ -114,7 +114,7 @@ class Straight(Distance):
 
 
 KIND = Kind("straight", "Straight line", "through the air", Straight, (Parameter("stretch", 1.0, "a factor"),))
-'''
+"""
 
 
 @pytest.fixture
