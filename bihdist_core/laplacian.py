@@ -10,12 +10,12 @@ is the Green's function of the biharmonic operator up to terms that cancel in di
 """
 
 import threading
-from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
 
 from .errors import ParameterError, SolverError
+from .once import once
 from .operators import AREAS, stiffness, vertex_areas
 from .progress import Progress, part
 from .solver.elimination_tree import EliminationTree
@@ -40,12 +40,15 @@ class Laplacian:
         self.areas_kind = areas
         self.components = tuple(Component(self, k) for k in range(surface.component_count))
 
-    @cached_property
+    def __repr__(self) -> str:
+        return f"Laplacian({self.surface!r}, {self.areas_kind} areas)"
+
+    @once
     def stiffness(self) -> sp.csr_matrix:
         """(n, n) cotangent stiffness matrix (see `operators`)."""
         return stiffness(self.surface)
 
-    @cached_property
+    @once
     def areas(self) -> np.ndarray:
         """(n,) vertex areas, unit length squared."""
         return vertex_areas(self.surface, self.areas_kind)
@@ -74,7 +77,7 @@ class Component:
         self._factor_has_diagonals = False
         self._spectrum: Spectrum | None = None
 
-    @cached_property
+    @once
     def _cut(self) -> tuple[Surface, np.ndarray]:
         return self.laplacian.surface.component(self.index)
 
@@ -92,13 +95,13 @@ class Component:
         """Local numbers of ids that belong to this component."""
         return np.searchsorted(self.vertices, vertices)
 
-    @cached_property
+    @once
     def stiffness(self) -> sp.csr_matrix:
         """(m, m) stiffness matrix."""
         whole = self.laplacian.stiffness
         return whole if len(self.vertices) == whole.shape[0] else whole[self.vertices][:, self.vertices]
 
-    @cached_property
+    @once
     def areas(self) -> np.ndarray:
         """(m,) vertex areas, unit length squared."""
         return self.laplacian.areas[self.vertices]
@@ -157,11 +160,11 @@ class Component:
             self.factor(progress, diagonals=True)
             return self._biharmonic_diagonal
 
-    @cached_property
+    @once
     def _biharmonic_diagonal(self) -> np.ndarray:
         return self.factor(diagonals=True).sandwich_diagonal - self._u**2 / self.areas.sum()
 
-    @cached_property
+    @once
     def _u(self) -> np.ndarray:
         """(m,) u = G A 1."""
         return self.solve(self.areas)

@@ -39,6 +39,9 @@ class Distance(ABC):
         self._asked: set[int] = set()
         self._accuracies: dict[int, float | None] = {}
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.label}, on {self.surface!r})"
+
     @property
     def unit(self) -> str:
         """The unit of the values, in words: how they scale with the surface."""

@@ -1,6 +1,7 @@
 """The Laplacian's components and what they compute once."""
 
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from bihdist_core import (
     VertexError,
     eigenpairs,
 )
+from bihdist_core.operators import stiffness
 from bihdist_core.progress import part
 from bihdist_core.solver.blas import one_blas_thread
 from tests import dense_reference as dense
@@ -136,3 +138,34 @@ def test_what_cannot_be_computed_names_the_mesh_and_what_would_help():
     component.stiffness = -component.stiffness
     with pytest.raises(SolverError, match=r"The Laplacian of bumpy cannot be factored: .* Remeshing would help"):
         component.factor()
+
+
+def test_what_is_computed_once_is_so_for_several_threads(monkeypatch):
+    calls, start = [], threading.Barrier(4)
+
+    def slow(surface):
+        calls.append(surface)
+        time.sleep(0.05)
+        return stiffness(surface)
+
+    monkeypatch.setattr("bihdist_core.laplacian.stiffness", slow)
+    laplacian, found = Laplacian(bumpy(60)), []
+
+    def ask():
+        start.wait()
+        found.append(laplacian.stiffness)
+
+    threads = [threading.Thread(target=ask) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(calls) == 1
+    assert all(matrix is found[0] for matrix in found)
+
+
+def test_laplacians_and_distances_say_what_they_are():
+    laplacian = Laplacian(bumpy(60), "barycentric")
+    assert repr(laplacian) == "Laplacian(Surface(bumpy: 60 vertices, 116 faces), barycentric areas)"
+    distance = BiharmonicDistance(laplacian)
+    assert repr(distance) == "BiharmonicDistance(biharmonic, exact, on Surface(bumpy: 60 vertices, 116 faces))"
