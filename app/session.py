@@ -6,7 +6,7 @@ back through `post`, which runs a function on the window's thread; an answer to 
 """
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Protocol
@@ -35,11 +35,13 @@ class PanelAnswer(Answer):
 
 @dataclass(frozen=True, eq=False)
 class _Opening:
-    """A mesh to be opened, with all that was chosen when it was asked for."""
+    """A mesh to be opened, what is to be shown of it, and what to do once it is there."""
 
     path: str
     source: int | None
     areas: str
+    panels: tuple[Spec, ...]
+    arrived: Callable[[], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,9 +116,19 @@ class Session:
         ]
 
     # ------------------------------------------------------------------ intents
-    def open(self, path: str, source: int | None = None) -> None:
-        """Load a mesh in the background; what is open stays until the new one has been read."""
-        self._opening = _Opening(os.fspath(path), source, self.state.areas)
+    def open(
+        self,
+        path: str,
+        source: int | None = None,
+        areas: str | None = None,
+        panels: Sequence[Spec] = (),
+        arrived: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Load a mesh in the background; what is open stays as it is until the new one has been read.
+
+        areas, panels: what is chosen with it, for as many panels as are given; arrived: called when it is shown.
+        """
+        self._opening = _Opening(os.fspath(path), source, areas or self.state.areas, tuple(panels), arrived)
         self._loader.submit(self._opening)
 
     def select_source(self, vertex: int) -> None:
@@ -179,8 +191,10 @@ class Session:
         self._opening, self.prepared = None, prepared
         self.path, self.laplacian, self.surface = opening.path, laplacian, laplacian.surface
         self.answers = [None for _ in self.state.panels]
-        self.state = replace(self.state, source=source, areas=opening.areas)
+        panels = (*opening.panels, *self.state.panels[len(opening.panels) :])[: len(self.state.panels)]
+        self.state = replace(self.state, source=source, areas=opening.areas, panels=panels)
         self.view.mesh_changed()
+        opening.arrived()
         self.view.source_changed()
         self._ask_all()
 

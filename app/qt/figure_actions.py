@@ -87,17 +87,19 @@ def open_recipe(window, path: str) -> None:
         window.failed(
             f"The mesh {recipe.mesh} is not what it was when the recipe was written; it is shown all the same."
         )
-    window.recipe = recipe
-    session = window.session
-    session.state = replace(session.state, areas=recipe.areas)
-    window.show_isolines(recipe.isolines)
-    for k, (panel, chosen) in enumerate(zip(window.panels, recipe.panels, strict=False)):
-        panel.controls.show_spec(chosen.spec)
-        session.set_panel(k, chosen.spec)
-    first = recipe.views[0] if recipe.views else "home"
-    if isinstance(first, RecipeCamera):
-        camera = Camera(first.position, first.focal_point, first.up, first.extent)
-        window.first_view = lambda: show_camera(window.camera, camera, window.aspect)
-    else:
-        window.first_view = lambda: window.reset_view(first)
-    window.open(mesh, recipe.panels[0].source if recipe.panels else None)
+
+    def arrived() -> None:
+        window.recipe = recipe
+        window.show_isolines(recipe.isolines)
+        for panel, chosen in zip(window.panels, recipe.panels, strict=False):
+            panel.controls.show_spec(chosen.spec)
+        first = recipe.views[0] if recipe.views else "home"
+        if isinstance(first, RecipeCamera):
+            camera = Camera(first.position, first.focal_point, first.up, first.extent)
+            window.look_from(lambda: show_camera(window.camera, camera, window.aspect))
+        else:
+            window.reset_view(first)
+
+    source = recipe.panels[0].source if recipe.panels else None
+    # Nothing changes before the mesh is there: it may not open.
+    window.open(mesh, source, areas=recipe.areas, panels=[chosen.spec for chosen in recipe.panels], arrived=arrived)

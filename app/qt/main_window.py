@@ -6,6 +6,7 @@ It opens at once and imports what draws (VTK, pyvista) only then.
 import os
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -47,7 +48,6 @@ class MainWindow(QtWidgets.QMainWindow):
         self._camera = None
         self._extent: tuple[float, float] | None = None  # what the camera is to see in panels of any shape
         self.recipe = None  # the one opened last
-        self.first_view: Callable[[], None] | None = None  # of the next mesh, where it is not the usual one
         self._hovered: int | None = None
         self._waiting: list[Callable[[], None]] = []
         self.quiet = False
@@ -93,12 +93,18 @@ class MainWindow(QtWidgets.QMainWindow):
         for function in waiting:
             function()
 
-    def open(self, path: str, source: int | None = None) -> None:
-        """Open a mesh; also before the panels are made."""
+    def open(self, path: str, source: int | None = None, **chosen: Any) -> None:
+        """Open a mesh, also before the panels are made; chosen: see `Session.open`."""
         if self.panels:
-            self.session.open(path, source)
+            self.session.open(path, source, **chosen)
         else:
-            self._waiting.append(lambda: self.session.open(path, source))
+            self._waiting.append(lambda: self.session.open(path, source, **chosen))
+
+    def look_from(self, place: Callable[[], None]) -> None:
+        """Let the camera be placed, and keep what is then seen in view."""
+        place()
+        self._remember_extent()
+        self._repaint()
 
     def closeEvent(self, event: QtGui.QCloseEvent) -> None:
         self.session.close()
@@ -114,11 +120,6 @@ class MainWindow(QtWidgets.QMainWindow):
             panel.show_surface(prepared.mesh, prepared.picker, self._camera)
         self._hovered = None
         self.reset_view()
-        if self.first_view:
-            self.first_view()
-            self.first_view = None
-            self._remember_extent()
-            self._repaint()
         self._say(_summary(surface))
 
     def source_changed(self) -> None:

@@ -5,8 +5,9 @@ import os
 import numpy as np
 import pytest
 
-from app.recipe import read_recipe
-from tests.shapes import bumpy
+from app.recipe import Recipe, RecipePanel, read_recipe, recipe_text
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
 
@@ -132,3 +133,25 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     assert np.all(np.array(again.views[0].extent) >= np.array([0.4, 0.3]) - 1e-9)
     open_recipe(s.window, str(tmp_path / "none.json"))
     assert "cannot be read" in s.refusals[-1]
+
+
+def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tmp_path):
+    from app.qt.figure_actions import open_recipe
+
+    s = screen()
+    s.open(mesh_file(bumpy(200)), source=5)
+    before, lines = s.session.state, s.window._isolines_box.value()
+    (tmp_path / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
+    recipe = Recipe(
+        "bad.off", (RecipePanel(Spec.of("commute-time"), 0),), areas="barycentric", isolines=7, views=("top",)
+    )
+    (tmp_path / "bad.json").write_text(recipe_text(recipe, "0"))
+    open_recipe(s.window, str(tmp_path / "bad.json"))
+    s.until(lambda: any("bad.off" in words for words in s.refusals))
+    s.settle()
+    assert s.session.state == before
+    assert s.window.recipe is None
+    assert s.window._isolines_box.value() == lines
+    assert s.panels[0].controls.spec == before.panels[0]
+    s.open(mesh_file(grid(3, 3), "other.off"))
+    assert s.session.state.panels == before.panels
