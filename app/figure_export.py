@@ -38,7 +38,8 @@ def load_mesh(recipe: Recipe) -> tuple[Surface, Recipe]:
     """
     path = mesh_path(recipe.mesh)
     if not os.path.exists(path):
-        raise ParameterError(f"The mesh {recipe.mesh} is not there; name another with --mesh.")
+        name = recipe.mesh if len(recipe.mesh) <= 200 else f"{recipe.mesh[:100]}..."
+        raise ParameterError(f"The mesh {name} is not there; name another with --mesh.")
     surface, found = read_surface(path), checksum(path)
     if recipe.sha256 and found != recipe.sha256:
         raise ParameterError(

@@ -141,7 +141,8 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
     beside = Path(path).parent / recipe.mesh
-    return replace(recipe, mesh=str(beside)) if beside.exists() else recipe
+    # os.path, which takes a path that is too long for one that is not there.
+    return replace(recipe, mesh=str(beside)) if os.path.exists(beside) else recipe
 
 
 def is_recipe(path: str | os.PathLike[str]) -> bool:

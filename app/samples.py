@@ -20,6 +20,6 @@ def thumbnail(name: str) -> Path:
 def mesh_path(mesh: str) -> str:
     """The path of a mesh file; a bare word that is no file may be the name of a sample."""
     sample = SAMPLES / f"{mesh}.ply"
-    if not os.path.exists(mesh) and os.path.basename(mesh) == mesh and sample.is_file():
+    if not os.path.exists(mesh) and os.path.basename(mesh) == mesh and os.path.isfile(sample):
         return str(sample)
     return mesh

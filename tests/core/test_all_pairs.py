@@ -71,16 +71,18 @@ def test_goes_on_where_it_was_stopped(distance, tmp_path, monkeypatch):
 
 
 def test_takes_up_nothing_that_is_not_the_same(distance, tmp_path, monkeypatch):
-    path = tmp_path / "D.npy"
-    with pytest.raises(Cancelled):
-        write_all_pairs(distance, path, memory=10 * 150 * 40, progress=stop_after(0.5))
     others = [
         (BiharmonicDistance(bumpy(150, seed=1)), np.float32),
         (distance, np.float64),
         (DiffusionDistance(distance.laplacian, t=1.0), np.float32),
         (DiffusionDistance(distance.laplacian, t=1.0 + 1e-9), np.float32),
     ]
-    for other, dtype in others:
+    for number, (other, dtype) in enumerate(others):
+        path = tmp_path / str(number) / "D.npy"
+        path.parent.mkdir()
+        with pytest.raises(Cancelled):
+            write_all_pairs(distance, path, memory=10 * 150 * 40, progress=stop_after(0.5))
+        assert len(list(path.parent.iterdir())) == 1
         asked = counted(other, monkeypatch)
         write_all_pairs(other, path, dtype)
         assert asked == list(range(150))

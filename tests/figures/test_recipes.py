@@ -111,6 +111,7 @@ def test_a_recipe_and_its_mesh_may_move_together_and_meet_another_mesh(mesh, mes
         (lambda r: r["panels"][0].update(t="long"), "panels[0].t: t must be a number above 0, not 'long'"),
         (lambda r: r["panels"][0].update(t=-1), "panels[0].t: t must be a number above 0, not -1"),
         (lambda r: r["panels"][0].update(distance="euclidean"), "panels[0]: There is no distance 'euclidean'"),
+        (lambda r: r["mesh"].update(path=10_000 * "m"), "is not there"),
         (lambda r: r["panels"][0].update(t=10**400), "panels[0].t: t must be a number above 0"),
         (lambda r: r["panels"][0].update(source=1.5), "panels[0].source must be a whole number"),
         (lambda r: r["panels"][0].update(source=5000), "no vertex 5000"),
