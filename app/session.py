@@ -246,11 +246,15 @@ class Session:
             unit=distance.unit,
             preview=preview,
         )
+        component = question.laplacian.component_of(question.source).index
+        if distance.is_judged(component) and not preview:
+            certified = replace(answer, certificate=distance.certificate([component]), is_judged=True)
+            self._post(lambda: self._answered(index, question, certified))
+            return
         self._post(lambda: self._answered(index, question, answer))
         if not preview:
             # The answer does not wait for it; a newer question does not either.
             progress(1.0, distance.label)
-            component = question.laplacian.component_of(question.source).index
             certified = replace(answer, certificate=distance.certificate([component]), is_judged=True)
             self._post(lambda: self._certified(index, question, certified))
 

@@ -76,6 +76,10 @@ class Distance(ABC):
                 f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy(components)}"
             ) from None
 
+    def is_judged(self, component: int) -> bool:
+        """Whether the accuracy on a component is known, so that its certificate costs nothing."""
+        return component in self._accuracies
+
     def _remedy(self, components: Sequence[int]) -> str:
         """What would help where the accuracy on these components is too poor: a sentence."""
         mine = np.isin(self.surface.component_of_vertex[self.surface.faces[:, 0]], components)
