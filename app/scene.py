@@ -71,7 +71,7 @@ class PanelScene:
         self._unit.SetInput(unit)
 
     def show_failure(self, words: str) -> None:
-        """Show the bare surface, and on it why it has no field."""
+        """Show the bare surface, and on it why it has no field; again when the panel has another width."""
         self._field.show_bare()
         self._bar.VisibilityOff()
         self._unit.SetInput("")

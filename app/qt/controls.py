@@ -91,6 +91,9 @@ class ParameterControl(QtWidgets.QWidget):
         row.addWidget(self.widget, 1)
         row.addWidget(self._label)
         self._label.setVisible(parameter.logarithmic)
+        if not parameter.logarithmic:
+            # No wider than what is in it.
+            self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Maximum, QtWidgets.QSizePolicy.Policy.Preferred)
 
     def show_value(self, value: Value) -> None:
         """Without emitting."""

@@ -141,8 +141,15 @@ class DistancePanel(QtWidgets.QWidget):
         elif kind == QtCore.QEvent.Type.Leave:
             self.hovered.emit(None)
         elif kind == QtCore.QEvent.Type.Resize:
+            # After VTK has handled it: then the view has its new size.
+            QtCore.QTimer.singleShot(0, self._fit_failure)
             self.resized.emit()
         return False
+
+    def _fit_failure(self) -> None:
+        if self.answer is not None and self.answer.failure:
+            self.scene.show_failure(self.answer.failure)
+            self.repaint_view()
 
     def _camera_may_move(self) -> None:
         # After VTK has handled the event this filter sees first.

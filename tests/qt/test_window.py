@@ -343,6 +343,10 @@ def test_a_panel_that_fails_says_so_in_its_own_place(screen, mesh_file):
     assert not failed.scene._bar.GetVisibility()
     assert answered.scene._failure.GetInput() == ""
     assert failed.interactor.height() == answered.interactor.height()
+    lines = failed.scene._failure.GetInput().splitlines()
+    s.window.resize(700, 500)
+    s.settle()
+    assert len(failed.scene._failure.GetInput().splitlines()) > len(lines)
     failed.controls.changed.emit(Spec.of("geodesic", method="heat"))
     s.until(lambda: s.session.is_complete)
     s.settle()
