@@ -47,13 +47,8 @@ class FlatFaces:
     loose: np.ndarray
 
     @classmethod
-    def of(cls, surface: Surface, faces: np.ndarray | None = None) -> "FlatFaces":
-        """All of them, or some."""
-        if faces is not None:
-            all_faces = cls.of(surface)
-            some = np.searchsorted(all_faces.faces, faces)
-            kept = {f.name: getattr(all_faces, f.name)[..., some] for f in fields(cls) if f.name != "surface"}
-            return cls(surface, **kept)
+    def of(cls, surface: Surface) -> "FlatFaces":
+        """All of them."""
         faces = surface.flat_faces
         x = surface.vertices[surface.faces[faces]].transpose(1, 2, 0)
         side = [x[(k + 2) % 3] - x[(k + 1) % 3] for k in range(3)]
@@ -78,6 +73,11 @@ class FlatFaces:
             0.5 * np.where(loose, high, share),
             loose,
         )
+
+    def some(self, index: np.ndarray) -> "FlatFaces":
+        """Those at some places (j,)."""
+        kept = {f.name: getattr(self, f.name)[..., index] for f in fields(self) if f.name != "surface"}
+        return FlatFaces(self.surface, **kept)
 
     @property
     def lack(self) -> np.ndarray:

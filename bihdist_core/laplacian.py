@@ -15,6 +15,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from .errors import ParameterError, SolverError
+from .flat_faces import FlatFaces
 from .once import once
 from .operators import AREAS, stiffness, vertex_areas
 from .progress import Progress, part
@@ -100,6 +101,11 @@ class Component:
         """(m, m) stiffness matrix."""
         whole = self.laplacian.stiffness
         return whole if len(self.vertices) == whole.shape[0] else whole[self.vertices][:, self.vertices]
+
+    @once
+    def flat(self) -> FlatFaces:
+        """Its flat faces."""
+        return FlatFaces.of(self.surface)
 
     @once
     def areas(self) -> np.ndarray:

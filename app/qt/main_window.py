@@ -375,7 +375,6 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def _say(self, text: str) -> None:
         self.status.message.setText(text)
-        self.status.message.setToolTip(text)
 
     def _show_help(self) -> None:
         QtWidgets.QMessageBox.information(self, "Mouse and keys", HELP)

@@ -5,6 +5,22 @@ from collections.abc import Sequence
 from qtpy import QtCore, QtGui, QtWidgets
 
 
+class ElidedLabel(QtWidgets.QLabel):
+    """Words that must not make the window wider: what does not fit ends in dots, and all of it is in the tooltip."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Preferred)
+
+    def setText(self, text: str) -> None:
+        super().setText(text)
+        self.setToolTip(text)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        words = self.fontMetrics().elidedText(self.text(), QtCore.Qt.TextElideMode.ElideRight, self.width())
+        QtGui.QPainter(self).drawText(self.rect(), QtCore.Qt.AlignmentFlag.AlignVCenter, words)
+
+
 class StatusBar(QtWidgets.QStatusBar):
     """Cheap to change: it is here that progress is shown, and not in the panels."""
 
@@ -17,13 +33,12 @@ class StatusBar(QtWidgets.QStatusBar):
             # put the whole window together anew: 15 ms in software, and 100 ms while the processors are busy.
             self.setAttribute(QtCore.Qt.WidgetAttribute.WA_DontCreateNativeAncestors)
             self.setAttribute(QtCore.Qt.WidgetAttribute.WA_NativeWindow)
-        self.message, self.pointer, self.doing = (QtWidgets.QLabel("") for _ in range(3))
+        self.message = ElidedLabel()
+        self.pointer, self.doing = QtWidgets.QLabel(""), QtWidgets.QLabel("")
         self.progress = QtWidgets.QProgressBar(maximum=1000, textVisible=False)
         self.progress.setFixedWidth(180)
         self.cancel = QtWidgets.QPushButton("Cancel")
         self.cancel.clicked.connect(lambda: self.cancelled.emit())
-        # Long words must not make the window wider; those that do not fit are in the tooltip.
-        self.message.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Preferred)
         self.addWidget(self.message, 1)
         self.addWidget(self.pointer)
         for widget in (self.doing, self.progress, self.cancel):

@@ -20,7 +20,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..flat_faces import FlatFaces
 from ..laplacian import Component
 from ..operators import face_weights
 from ..solver.worker_threads import side_by_side
@@ -29,7 +28,7 @@ from ..surface import FLAT, Surface, dots
 Columns = Callable[[np.ndarray], np.ndarray]
 Adjoint = Callable[[np.ndarray], np.ndarray]
 Effect = Callable[[int], np.ndarray]
-Form = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray, int]]
+Squares = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 WARN, REFUSE = 1e-6, 1e-3
 """A distance that may be further off than these, as shares of its maximum, is warned of, or not shown."""
@@ -55,11 +54,9 @@ class Certificate:
 
     @classmethod
     def of(cls, accuracy: float | None) -> "Certificate":
-        """Of a share of the maximum; `ValueError` if it is worse than `REFUSE`."""
+        """Of a share of the maximum."""
         if accuracy is None:
             return cls()
-        if not accuracy <= REFUSE:
-            raise ValueError(accuracy)
         return cls(f"accurate to {rounded_up(accuracy)} of the maximum", accuracy > WARN)
 
 
@@ -84,7 +81,7 @@ class Perturbation:
         self._surface: Surface = component.surface
         self._diagonal = component.stiffness.diagonal()
         self._weights, height = face_weights(self._surface), self._surface.face_heights
-        self._flat = FlatFaces.of(self._surface)
+        self._flat = component.flat
         with np.errstate(divide="ignore"):
             self._uncertain = np.where(height < FLAT, 0, 1 / height)
         # What a convention gives is no place to look for errors.
@@ -130,7 +127,7 @@ class Perturbation:
         hub = np.bincount(corners.ravel()).argmax()
         around = lacking[(corners == hub).any(axis=1)]
         some = np.unique(np.concatenate([_spread(around), _spread(lacking)]))
-        g, _ = FlatFaces.of(self._surface, flat.faces[some]).missing_springs()
+        g, _ = flat.some(some).missing_springs()
         y = self._component.solve(g)
         z, lack = adjoint(y), flat.lack[some]
         return lambda vertex: np.abs((y - y[vertex]) * (z - z[vertex])) @ lack
@@ -164,13 +161,12 @@ def change_of_root(square: np.ndarray, by: np.ndarray) -> np.ndarray:
 
 
 def accuracy_of_pairs(
-    component: Component, columns: Columns, form: Form, adjoint: Adjoint, corrected: float = 0.0
+    component: Component, columns: Columns, squares_of: Squares, adjoint: Adjoint, times: int, corrected: float = 0.0
 ) -> float:
     """The accuracy (see `Distance.accuracy`) of an exact distance on a component.
 
-    columns(index) gives (m, k) fields from local vertices.  form(b, y) gives, for b (m, k), differences of two unit
-    vectors, and y = G b: the squared distances (k,), z (m, k), and how many times y^T dL z they change by; adjoint(y)
-    gives z alone.
+    columns(index) gives (m, k) fields from local vertices.  For b (m, k), differences of two unit vectors, and y = G b
+    squares_of(b, y) gives the squared distances (k,), adjoint(y) gives z (m, k); they change by so many times y^T dL z.
     Distances up to the share `corrected` of the maximum do not lack springs.
     """
     perturbation = Perturbation(component)
@@ -201,7 +197,7 @@ def accuracy_of_pairs(
     b[sources[column], each] = 1
     b[target, each] = -1
     y = component.solve(b)
-    squares, z, times = form(b, y)
+    squares, z = squares_of(b, y), adjoint(y)
     rounding, springs = perturbation.of(y, z)
     residual = np.abs(np.einsum("ij,ij->j", z, component.stiffness @ y - b))
     computed = fields[target, column]

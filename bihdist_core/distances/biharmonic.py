@@ -56,7 +56,7 @@ class BiharmonicDistance(Distance):
     def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
         b = np.zeros((len(component.vertices), len(index)))
         b[index, np.arange(len(index))] = 1
-        half = component.centred(component.solve(b)) * np.sqrt(component.areas)[:, None]
+        half = _half_order(component, component.solve(b))
         if len(index) <= SMALL_SET:
             return point_distances(half.T, half.T)
         green = half.T @ half
@@ -74,19 +74,22 @@ class BiharmonicDistance(Distance):
             each = np.arange(b.shape[1])
             b[i[some], each] += 1
             b[j[some], each] -= 1
-            y = component.centred(component.solve(b))
-            distances[some] = np.sqrt(np.einsum("ij,i,ij->j", y, component.areas, y))
+            distances[some] = np.linalg.norm(_half_order(component, component.solve(b)), axis=0)
         return distances
 
     def _estimated_accuracy(self, component: Component) -> float:
-        def form(b: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
-            y = component.centred(y)
-            y *= component.areas[:, None] ** 0.5
-            squares = np.einsum("ij,ij->j", y, y)
-            y *= component.areas[:, None] ** 0.5
-            return squares, component.solve(y), 2
+        def squares(b: np.ndarray, y: np.ndarray) -> np.ndarray:
+            half = _half_order(component, y)
+            return np.einsum("ij,ij->j", half, half)
 
         def adjoint(y: np.ndarray) -> np.ndarray:
             return component.solve(component.areas[:, None] * component.centred(y))
 
-        return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), form, adjoint)
+        return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), squares, adjoint, 2)
+
+
+def _half_order(component: Component, y: np.ndarray) -> np.ndarray:
+    """(m, k) A^1/2 (y - mean by area), whose norms are distances."""
+    half = component.centred(y)
+    half *= np.sqrt(component.areas)[:, None]
+    return half

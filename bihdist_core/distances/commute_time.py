@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ..flat_faces import FlatFaces
 from ..laplacian import Component, Laplacian
 from ..progress import Progress
 from ..surface import Surface
@@ -34,25 +33,24 @@ class CommuteTimeDistance(Distance):
         b[index, np.arange(len(index))] = 1
         squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b)
         distances = root(squares, diagonal.max())
-        if len(component.surface.flat_faces):
+        if component.flat.lack.any():
             for column, source in enumerate(index):
-                self._without_height(component, int(source), distances[:, column])
+                self._with_exact_springs(component, int(source), distances[:, column])
         return distances
 
-    def _without_height(self, component: Component, source: int, field: np.ndarray) -> None:
-        """Correct the smallest distances (m,), of vertices joined by flat faces: their exact springs put in place.
+    def _with_exact_springs(self, component: Component, source: int, field: np.ndarray) -> None:
+        """Put exact springs in place for the smallest distances (m,), where those of flat faces show most.
 
         By the formula of Sherman, Morrison and Woodbury, as G with few springs more.
         """
         near = np.flatnonzero(field < NEAR * field.max())
         near = near[near != source]
         near = near[np.argsort(field[near], kind="stable")[:MOST_NEAR]]
-        flat = component.surface.flat_faces
-        beside = flat[np.isin(component.surface.faces[flat], np.append(near, source)).any(axis=1)]
-        beside = beside[FlatFaces.of(component.surface, beside).lack > 0][:MOST_SPRINGS]
+        touches = np.isin(component.flat.vertices, np.append(near, source)).any(axis=0)
+        beside = np.flatnonzero(touches & (component.flat.lack > 0))[:MOST_SPRINGS]
         if not (len(near) and len(beside)):
             return
-        g, slack = FlatFaces.of(component.surface, beside).missing_springs()
+        g, slack = component.flat.some(beside).missing_springs()
         b = np.zeros((len(field), len(near)))
         b[source] = 1
         b[near, np.arange(len(near))] = -1
@@ -64,9 +62,9 @@ class CommuteTimeDistance(Distance):
         field[near] = np.sqrt(np.maximum(exact, 0))
 
     def _estimated_accuracy(self, component: Component) -> float:
-        def form(b: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
-            return np.einsum("ij,ij->j", b, y), y, 1
+        def squares(b: np.ndarray, y: np.ndarray) -> np.ndarray:
+            return np.einsum("ij,ij->j", b, y)
 
         return accuracy_of_pairs(
-            component, lambda index: self._columns(component, index, None), form, lambda y: y, NEAR
+            component, lambda index: self._columns(component, index, None), squares, lambda y: y, 1, NEAR
         )

@@ -1,5 +1,7 @@
 """The diffusion distance (paper, Eq. 1, with its normalised time t <- t / (2 lambda_1))."""
 
+import math
+
 import numpy as np
 
 from ..errors import ParameterError
@@ -11,6 +13,8 @@ from .accuracy import SPARE
 from .spectral import SpectralDistance, checked_number
 
 FIRST_BATCH = 16
+LONGEST = 700.0
+"""From here on the first weight, exp(-t), is no number any more."""
 MOST_PAIRS = 3000
 """More eigenpairs than this are not computed: at 100,000 vertices they fill 2.4 GB."""
 
@@ -32,8 +36,8 @@ class DiffusionDistance(SpectralDistance):
         tolerance: float = 1e-8,
         progress: Progress | None = None,
     ) -> None:
-        if not 0 < checked_number(t, "The diffusion time t") < np.inf:
-            raise ParameterError(f"The diffusion time t is {t:g}; it must be positive.")
+        if not 0 < checked_number(t, "The diffusion time t") <= LONGEST:
+            raise ParameterError(f"The diffusion time t is {t:g}; it must be positive, and at most {LONGEST:g}.")
         if not 0 < checked_number(tolerance, "The tolerance") < 1:
             raise ParameterError(f"The tolerance is {tolerance:g}; it must lie between 0 and 1.")
         super().__init__(laplacian)
@@ -45,18 +49,18 @@ class DiffusionDistance(SpectralDistance):
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
         spectrum = component.spectrum(FIRST_BATCH, part(progress, 0, 0.3))
         first = spectrum.eigenvalues[0]
-        last = first * (1 - np.log(self.tolerance) / self.t)
+        last = float(first) * (1 - math.log(self.tolerance) / self.t)
         most = component.most_eigenpairs
         while spectrum.eigenvalues[-1] < last and len(spectrum.eigenvalues) < most:
             have = len(spectrum.eigenvalues)
             # Weyl's law, lambda_k ~ 4 pi k / area, with the constant of the last pair known.
-            needed = int(1.1 * have * last / spectrum.eigenvalues[-1]) + 4
+            needed = 1.1 * have * last / spectrum.eigenvalues[-1] + 4
             if min(needed, most) > MOST_PAIRS:
                 raise ParameterError(
-                    f"Diffusion with t = {self.t:g} to a tolerance of {self.tolerance:g} needs about {needed} "
+                    f"Diffusion with t = {self.t:g} to a tolerance of {self.tolerance:g} needs about {needed:.3g} "
                     f"eigenpairs here; at most {MOST_PAIRS} are computed. Choose a larger t or tolerance."
                 )
-            spectrum = component.spectrum(needed, part(progress, 0.3, 1))
+            spectrum = component.spectrum(int(min(needed, most)), part(progress, 0.3, 1))
         weights = np.exp(-self.t * spectrum.eigenvalues / first)
         count = int(np.searchsorted(spectrum.eigenvalues, last))
         self._omitted[component.index] = float(weights[count]) if count < len(weights) else 0.0

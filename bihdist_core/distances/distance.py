@@ -10,7 +10,7 @@ from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress
 from ..surface import Surface
-from .accuracy import Certificate, rounded_up
+from .accuracy import REFUSE, Certificate, rounded_up
 
 ROUNDING = 1e-7
 """Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""
@@ -68,13 +68,12 @@ class Distance(ABC):
         """
         components = (sorted(self._asked) or [0]) if components is None else components
         accuracy = self._accuracy_of(components)
-        try:
-            return Certificate.of(accuracy)
-        except ValueError:
-            off = "by any amount" if accuracy == np.inf else f"by {rounded_up(accuracy or 0)} of its maximum"
+        if accuracy is not None and accuracy > REFUSE:
+            off = "by any amount" if accuracy == np.inf else f"by {rounded_up(accuracy)} of its maximum"
             raise SolverError(
                 f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy(components)}"
-            ) from None
+            )
+        return Certificate.of(accuracy)
 
     def is_judged(self, component: int) -> bool:
         """Whether the accuracy on a component is known, so that its certificate costs nothing."""

@@ -179,6 +179,7 @@ def test_construction_reports_progress_and_can_be_cancelled(name):
     ("make", "words"),
     [
         (lambda s: DiffusionDistance(s, t=0), "time t is 0; it must be positive"),
+        (lambda s: DiffusionDistance(s, t=1e308), "time t is 1e\\+308; it must be positive, and at most 700"),
         (lambda s: DiffusionDistance(s, tolerance=2), "tolerance is 2"),
         (lambda s: TruncatedBiharmonicDistance(s, k=0), "k is 0"),
         (lambda s: PowerDistance(s, k=2.5), "k is 2.5"),
@@ -320,3 +321,14 @@ def test_pairs_equal_the_matrix_of_all(make):
     for wrong in ([1, 2], [[1, 2, 3]]):
         with pytest.raises(ParameterError, match=r"must have shape \(k, 2\)"):
             distance.of_pairs(wrong)
+
+
+def test_a_time_that_needs_more_eigenpairs_than_numbers_can_count_is_refused_shortly(monkeypatch):
+    monkeypatch.setattr("bihdist_core.distances.diffusion.MOST_PAIRS", 50)
+    for t in (1e-300, 5e-324):
+        with pytest.raises(ParameterError, match=r"needs about \S{1,10} eigenpairs here; at most 50 are computed"):
+            DiffusionDistance(bumpy(150), t=t)
+    monkeypatch.undo()
+    everything = DiffusionDistance(bumpy(150), t=1e-300)
+    assert everything.pair_count(0) == 149
+    assert np.isfinite(DiffusionDistance(bumpy(150), t=700).from_source(3)).all()
