@@ -1,6 +1,28 @@
-"""The viewer, the figures and the command line.
+"""The viewer, the figures, the command line, and the library under one name: `import bihdist`.
 
-From the bottom up: state, lane, session (plain Python); scene and picking (VTK); the figures: what they are
-(figure_description), their pieces (figure_*, vector_*) and the whole (figures), recipes and movies; paper (the paper's
-figures on one page); qt (the window); main (the command line, which wires everything).  Only qt and main know Qt.
+From the bottom up, each folder using only what stands before it: `document` (what is shown, as data), `session` (what
+is open, asked and answered), `drawing` (VTK), `figures` (and movies), `paper` (the paper's figures on one page), `qt`
+(the window), `commands` (the command line).
+
+In a checkout this folder is called `app`; installed it is the package `bihdist`.  The library's names are those of
+`bihdist_core`, imported when they are first asked for.
 """
+
+from typing import TYPE_CHECKING
+
+import bihdist_core as _library
+
+if TYPE_CHECKING:
+    from bihdist_core import *  # noqa: F403
+
+__all__ = _library.__all__  # type: ignore[attr-defined]
+
+
+def __getattr__(name: str) -> object:
+    if name in __all__:
+        return getattr(_library, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -7,8 +7,8 @@ import numpy as np
 from bihdist_core.experiments import Mark as ExperimentMark
 from bihdist_core.experiments import Panel, Result
 
-from ..figure_size import Size
-from ..figures import Figure, FigurePanel, Mark, Zoom
+from ..figures.draw import Figure, FigurePanel, Mark, Zoom
+from ..figures.size import Size
 
 ACROSS = {1: 5, 2: 3}
 """Panels side by side at most, by how many views they have."""

@@ -18,10 +18,10 @@ from bihdist_core.formats.mesh_io import MESH_FORMATS
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import whole_file
 
-from ..figure_size import Size
-from ..figures import Figure, FigurePanel, Mark, check_offscreen, draw_figure
+from ..figures.draw import Figure, FigurePanel, Mark, check_offscreen, draw_figure
+from ..figures.size import Size
 from ..samples import SAMPLES
-from ..session import first_source
+from ..session.questions import first_source
 from .charts import chart_svg
 from .page import Named, Section, page
 from .pictures import figures

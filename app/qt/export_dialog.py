@@ -6,12 +6,13 @@ from functools import partial
 
 from qtpy import QtWidgets
 
-from bihdist_core import BihdistError, ParameterError, Surface
+from bihdist_core import BihdistError, ParameterError
+from bihdist_core.distances.answers import Answer
 
-from ..figure_export import check_export, figure_of, write_figure
-from ..movie import Movie, check_movie, write_movie
-from ..recipe import Recipe
-from ..style import STYLES
+from ..document.page import Recipe
+from ..drawing.style import STYLES
+from ..figures.export import Surfaces, check_export, figure_of, write_figure
+from ..figures.movie import Movie, check_movie, write_movie
 from .job_dialog import JobDialog
 
 FIGURE_FILES = "PNG picture (*.png);;PDF with vector isolines (*.pdf);;SVG with vector isolines (*.svg)"
@@ -31,20 +32,20 @@ class _Looks(JobDialog):
     def __init__(
         self, recipe: Recipe, title: str, extension: str, files: str, parent: QtWidgets.QWidget | None
     ) -> None:
-        name = os.path.splitext(os.path.basename(recipe.mesh))[0] or "figure"
+        name = os.path.splitext(os.path.basename(recipe.document.surfaces[0].path))[0] or "figure"
         super().__init__(title, name + extension, files, parent)
         self._recipe = recipe
-        self.size_text = QtWidgets.QLineEdit(recipe.size)
+        self.size_text = QtWidgets.QLineEdit(recipe.page.size)
         self.size_text.setPlaceholderText("8000px, 160mm@300dpi; empty: usual")
         self.size_text.setMinimumWidth(330)
         self.style_box = QtWidgets.QComboBox()
         for word in STYLES:
             self.style_box.addItem(STYLE_NAMES.get(word, word), word)
-        self.style_box.setCurrentIndex(max(self.style_box.findData(recipe.style), 0))
+        self.style_box.setCurrentIndex(max(self.style_box.findData(recipe.page.style), 0))
         self.columns = QtWidgets.QSpinBox(maximum=12, specialValueText="all in one row")
-        self.columns.setValue(recipe.columns or 0)
-        self.shared = QtWidgets.QCheckBox("One colour bar for all panels", checked=recipe.shared_range)
-        self.hints = QtWidgets.QCheckBox("What to look for, under the headings", checked=recipe.hints)
+        self.columns.setValue(recipe.page.columns or 0)
+        self.shared = QtWidgets.QCheckBox("One colour bar for all panels", checked=recipe.document.shared_range)
+        self.hints = QtWidgets.QCheckBox("What to look for, under the headings", checked=recipe.page.hints)
         for label, widget in [
             ("Size", self.size_text),
             ("Style", self.style_box),
@@ -56,13 +57,15 @@ class _Looks(JobDialog):
 
     def chosen(self) -> Recipe:
         """The recipe as the dialog stands."""
-        return replace(
-            self._recipe,
+        page = replace(
+            self._recipe.page,
             size=self.size_text.text().strip(),
             style=self.style_box.currentData(),
             columns=self.columns.value() or None,
-            shared_range=self.shared.isChecked(),
             hints=self.hints.isChecked(),
+        )
+        return replace(
+            self._recipe, page=page, document=replace(self._recipe.document, shared_range=self.shared.isChecked())
         )
 
 
@@ -72,31 +75,32 @@ class ExportDialog(_Looks):
     def __init__(
         self,
         recipe: Recipe,
-        surface: Surface,
-        answers: list,
+        surfaces: Surfaces,
+        answers: list[Answer],
         version: str,
         parent: QtWidgets.QWidget | None = None,
     ) -> None:
         super().__init__(recipe, "Export figure", ".png", FIGURE_FILES, parent)
-        self._surface, self._answers, self._version = surface, answers, version
+        self._surfaces, self._answers, self._version = surfaces, answers, version
         self.view = QtWidgets.QComboBox()
         self.view.addItems(list(VIEWS))
-        self.transparent = QtWidgets.QCheckBox("Transparent background", checked=recipe.transparent)
-        self.crop = QtWidgets.QCheckBox("Without the empty margins", checked=recipe.crop)
+        self.transparent = QtWidgets.QCheckBox("Transparent background", checked=recipe.page.transparent)
+        self.crop = QtWidgets.QCheckBox("Without the empty margins", checked=recipe.page.crop)
         for label, widget in [("View", self.view), ("", self.transparent), ("", self.crop)]:
             self.rows.addRow(label, widget)
 
     def chosen(self) -> Recipe:
         views = VIEWS[self.view.currentText()]
-        recipe = replace(super().chosen(), transparent=self.transparent.isChecked(), crop=self.crop.isChecked())
-        return recipe if views is None else replace(recipe, views=views)
+        recipe = super().chosen()
+        page = replace(recipe.page, transparent=self.transparent.isChecked(), crop=self.crop.isChecked())
+        return replace(recipe, page=page if views is None else replace(page, views=views))
 
     def export(self, path: str) -> None:
         """Start drawing to a path; a size that is none, or a path that cannot be written, is refused at once."""
         recipe = self.chosen()
         try:
             check_export(path)
-            figure = figure_of(recipe, self._surface, self._answers)
+            figure = figure_of(recipe, self._surfaces, self._answers)
         except BihdistError as error:
             self.failed.emit(str(error))
             return

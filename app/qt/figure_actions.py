@@ -6,8 +6,8 @@ from qtpy import QtWidgets
 
 from bihdist_core import BihdistError
 
-from ..camera import Camera, camera_seen, show_camera
-from ..recipe import Recipe, RecipeCamera, RecipePanel, checksum, read_recipe
+from ..document.file import checksum, read_recipe
+from ..document.page import Recipe
 from ..samples import mesh_path
 from ..version import version
 from .export_dialog import ExportDialog, MovieDialog
@@ -21,9 +21,10 @@ def export_figure(window) -> ExportDialog | None:
     recipe = _complete_recipe(window)
     if recipe is None:
         return None
-    return _opened(
-        ExportDialog(recipe, window.session.surface, list(window.session.answers), version(), window), window
-    )
+    session = window.session
+    surfaces = {mesh.name: session.opened(mesh.name) for mesh in recipe.document.surfaces}
+    answers = [session.shown[panel.id].answer for panel in recipe.document.panels]
+    return _opened(ExportDialog(recipe, surfaces, answers, version(), window), window)
 
 
 def export_movie(window) -> MovieDialog | None:
@@ -36,11 +37,7 @@ def _complete_recipe(window) -> Recipe | None:
     if not window.session.is_complete:
         window.failed("The panels are not complete yet; a figure can be exported once they are.")
         return None
-    try:
-        return shown_recipe(window)
-    except BihdistError as error:
-        window.failed(str(error))
-        return None
+    return shown_recipe(window)
 
 
 def _opened(dialog: JobDialog, window) -> JobDialog:
@@ -51,21 +48,9 @@ def _opened(dialog: JobDialog, window) -> JobDialog:
 
 
 def shown_recipe(window) -> Recipe:
-    """What the window shows; looks (size, style, ...) from the recipe that was opened last."""
-    state = window.session.state
-    seen = camera_seen(window.camera, window.aspect)
-    return replace(
-        window.recipe or Recipe("", ()),
-        mesh=window.session.path,
-        sha256=checksum(window.session.path),
-        panels=tuple(RecipePanel(panel, state.source) for panel in state.panels),
-        areas=state.areas,
-        isolines=state.isolines,
-        views=(RecipeCamera(seen.position, seen.focal_point, seen.up, seen.extent),),
-        zooms=(),
-        anchors=(),
-        height=0.0,
-    )
+    """What the window shows; on the page of the recipe that was opened last, but seen as it is seen now."""
+    document = replace(window.session.document, camera=window.grid.seen())
+    return Recipe(document, replace(window.page, views=()))
 
 
 def choose_recipe(window) -> None:
@@ -75,31 +60,23 @@ def choose_recipe(window) -> None:
 
 
 def open_recipe(window, path: str) -> None:
-    """Show a recipe's mesh, distances, first source and first view; a sentence where that cannot be."""
+    """Show a recipe's document, and keep its page for what is exported; a sentence where that cannot be."""
     try:
         recipe = read_recipe(path)
-        mesh = mesh_path(recipe.mesh)
-        found = checksum(mesh)
+        document = recipe.document
+        for mesh in document.surfaces:
+            if mesh.sha256 and mesh.path and checksum(mesh_path(mesh.path)) != mesh.sha256:
+                window.failed(
+                    f"The mesh {mesh.path} is not what it was when the recipe was written; it is shown all the same."
+                )
+                meshes = tuple(replace(m, sha256="") if m == mesh else m for m in document.surfaces)
+                document = replace(document, surfaces=meshes)
     except BihdistError as error:
         window.failed(str(error))
         return
-    if recipe.sha256 and found != recipe.sha256:
-        window.failed(
-            f"The mesh {recipe.mesh} is not what it was when the recipe was written; it is shown all the same."
-        )
 
     def arrived() -> None:
-        window.recipe = recipe
-        window.show_isolines(recipe.isolines)
-        for panel, chosen in zip(window.panels, recipe.panels, strict=False):
-            panel.controls.show_spec(chosen.spec)
-        first = recipe.views[0] if recipe.views else "home"
-        if isinstance(first, RecipeCamera):
-            camera = Camera(first.position, first.focal_point, first.up, first.extent)
-            window.look_from(lambda: show_camera(window.camera, camera, window.aspect))
-        else:
-            window.reset_view(first)
+        window.page = recipe.page
 
-    source = recipe.panels[0].source if recipe.panels else None
     # Nothing changes before the mesh is there: it may not open.
-    window.open(mesh, source, areas=recipe.areas, panels=[chosen.spec for chosen in recipe.panels], arrived=arrived)
+    window.show_document(document, arrived)

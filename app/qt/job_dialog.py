@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from ..figure_job import FigureJob
+from ..figures.job import FigureJob
 
 
 class JobDialog(QtWidgets.QDialog):

@@ -1,4 +1,4 @@
-"""The window: panels side by side with one camera, a status line, menus.  Shows a `Session`; decides nothing itself.
+"""The window: shows what a `Session` shows, and hands on what the user does.  Decides nothing itself.
 
 It opens at once and imports what draws (VTK, pyvista) only then.
 """
@@ -11,43 +11,45 @@ from typing import Any
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import BihdistError, OutputError
+from bihdist_core.distances.kinds import Spec
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..prepared import prepare
-from ..samples import mesh_path, sample_names, thumbnail
-from ..session import Session
-from ..state import ViewerState
-from .look import STYLE_SHEET, LargeIcons
+from ..document.document import Document
+from ..document.edits import move_source, show_in
+from ..document.page import Page
+from ..drawing.prepared import prepare
+from ..session.opened import Opened
+from ..session.session import Session
+from .bars import fill_menus, fill_tool_bar
+from .look import STYLE_SHEET
 from .status_bar import StatusBar
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
-HOVER_DELAY_MS = 25
 PROGRESS_MS = 200
 """How often progress is shown at most, and from when on."""
-ANY_VERTEX = 2**31 - 1
-"""The box takes every id, and the session refuses those that are none: a box that knows the largest one silently makes
-999 of 99999."""
 
 
 class MainWindow(QtWidgets.QMainWindow):
-    """`complete` is emitted whenever every panel has been painted with its final answer."""
+    """`complete` is emitted whenever every panel has been painted with its final answer.
+
+    page: of the recipe that was opened last, for the figures that are exported.
+    """
 
     complete = QtCore.Signal()
     refused = QtCore.Signal(str)  # a message the user was shown
     _posted = QtCore.Signal(object)
 
-    def __init__(self, state: ViewerState | None = None) -> None:
+    def __init__(self, document: Document | None = None) -> None:
         super().__init__()
         self.setWindowTitle("Biharmonic distance")
         self.setAcceptDrops(True)
         self.resize(1322, 660)
         self.setStyleSheet(STYLE_SHEET)
         self._posted.connect(lambda function: function())
-        self.session = Session(self, self._posted.emit, state, prepare=prepare)
-        self.panels: list = []
-        self._camera = None
-        self._extent: tuple[float, float] | None = None  # what the camera is to see in panels of any shape
-        self.recipe = None  # the one opened last
+        self.session = Session(self, self._posted.emit, prepare, document)
+        self.page = Page()
+        self.grid: Any = None  # a PanelGrid, once what draws has been imported
+        self._opened: Opened | None = None  # the surface in the panels
         self._hovered: int | None = None
         self._waiting: list[Callable[[], None]] = []
         self.quiet = False
@@ -56,8 +58,8 @@ class MainWindow(QtWidgets.QMainWindow):
         self.setStatusBar(self.status)
         self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
         self._progress_soon.timeout.connect(self._show_progress)
-        self._fill_tool_bar()
-        self._fill_menus()
+        self.source_box, self.isolines_box = fill_tool_bar(self)
+        fill_menus(self)
         placeholder = QtWidgets.QLabel("Opening …", objectName="hint")
         placeholder.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
         self.setCentralWidget(placeholder)
@@ -65,80 +67,75 @@ class MainWindow(QtWidgets.QMainWindow):
     # ------------------------------------------------------------------ start and end
     def build_panels(self) -> None:
         """Import what draws and make the panels; called once, after the window is on the screen."""
-        from vtkmodules.vtkRenderingCore import vtkCamera
+        from .panel_grid import PanelGrid
 
-        from .panel import DistancePanel
-
-        self._camera = vtkCamera()
-        middle = QtWidgets.QWidget()
-        row = QtWidgets.QHBoxLayout(middle)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(1)
-        for index, spec in enumerate(self.session.state.panels):
-            panel = DistancePanel(spec, middle)
-            panel.clicked.connect(self.session.select_source)
-            panel.hovered.connect(self._hover)
-            panel.moved.connect(self._repaint)
-            panel.resized.connect(self._keep_in_view)
-            panel.changed.connect(lambda chosen, index=index: self.session.set_panel(index, chosen))
-            panel.scene.show_isolines(self.session.state.isolines)
-            panel.renderer.SetActiveCamera(self._camera)
-            row.addWidget(panel, 1)
-            self.panels.append(panel)
-        self.setCentralWidget(middle)
-        self._repaint_soon = QtCore.QTimer(self, singleShot=True, interval=HOVER_DELAY_MS)
-        self._repaint_soon.timeout.connect(self._repaint)
-        self._leave_boxes()
+        self.grid = PanelGrid(self.session)
+        self.grid.clicked.connect(self._click)
+        self.grid.dragged.connect(self._drag)
+        self.grid.released.connect(lambda: self.session.show(self.session.document))
+        self.grid.chosen.connect(self._choose_distance)
+        self.grid.hovered.connect(self._hover)
+        self.grid.looked.connect(self.session.look)
+        self.setCentralWidget(self.grid)
+        self.leave_boxes()
         waiting, self._waiting = self._waiting, []
         for function in waiting:
             function()
 
-    def open(self, path: str, source: int | None = None, **chosen: Any) -> None:
-        """Open a mesh, also before the panels are made; chosen: see `Session.open`."""
-        if self.panels:
-            self.session.open(path, source, **chosen)
-        else:
-            self._waiting.append(lambda: self.session.open(path, source, **chosen))
+    def open(self, path: str, source: int | None = None) -> None:
+        """Open a mesh, also before the panels are made."""
+        self._once_built(lambda: self.session.open(path, source))
 
-    def look_from(self, place: Callable[[], None]) -> None:
-        """Let the camera be placed, and keep what is then seen in view."""
-        place()
-        self._remember_extent()
-        self._repaint()
+    def show_document(self, document: Document, arrived: Callable[[], None] = lambda: None) -> None:
+        """Show a document, also before the panels are made; arrived: called when it is there."""
+        self._once_built(lambda: self.session.show(document, arrived=arrived))
+
+    def _once_built(self, function: Callable[[], None]) -> None:
+        if self.grid is None:
+            self._waiting.append(function)
+        else:
+            function()
 
     def closeEvent(self, event: QtGui.QCloseEvent) -> None:
         self.session.close()
-        for panel in self.panels:
-            panel.interactor.close()
+        if self.grid is not None:
+            self.grid.close_views()
         super().closeEvent(event)
 
     # ------------------------------------------------------------------ what the session tells
-    def mesh_changed(self) -> None:
-        surface, prepared = self.session.surface, self.session.prepared
-        self.setWindowTitle(f"{surface.name} - Biharmonic distance")
-        for panel in self.panels:
-            panel.show_surface(prepared.mesh, prepared.picker, self._camera)
-        self._hovered = None
-        self.reset_view()
-        self._say(_summary(surface))
+    def document_changed(self, before: Document) -> None:
+        document, opened = self.session.document, self.session.opened()
+        self.grid.show_panels(document)
+        is_other = opened is not self._opened
+        if is_other:
+            self._show_surface(opened)
+        self.grid.mark_points(document)
+        with QtCore.QSignalBlocker(self.source_box):
+            self.source_box.setValue(document.sources[0] if document.sources else 0)
+        with QtCore.QSignalBlocker(self.isolines_box):
+            self.isolines_box.setValue(document.isolines)
+        self.grid.show_isolines(document.isolines)
+        for panel in document.panels:
+            if self.session.is_answered(panel.id):
+                self.answer_changed(panel.id)
+        if is_other or document.camera != before.camera:
+            self.grid.look(document.camera)
+        self.grid.repaint_views()
 
-    def source_changed(self) -> None:
-        source = self.session.state.source
-        with QtCore.QSignalBlocker(self._source_box):
-            self._source_box.setValue(source)
-        for panel in self.panels:
-            panel.scene.mark_source(self.session.surface.vertices[source])
-        self._repaint()
+    def _show_surface(self, opened: Opened) -> None:
+        self._opened, self._hovered = opened, None
+        self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
+        self.grid.show_surface()
+        self.say(_summary(opened.surface))
 
-    def answer_changed(self, index: int) -> None:
-        panel, answer = self.panels[index], self.session.answers[index]
-        panel.show_answer(answer)
-        panel.show_value(self._hovered)
-        self._note(index)
+    def answer_changed(self, panel: int) -> None:
+        self.grid.show_answer(panel)
+        self.grid.panel(panel).show_value(self._hovered)
+        self._note(panel)
 
-    def certificate_changed(self, index: int) -> None:
-        self.panels[index].show_certificate(self.session.answers[index])
-        self._note(index)
+    def certificate_changed(self, panel: int) -> None:
+        self.grid.show_certificate(panel)
+        self._note(panel)
         if self.session.is_complete and not self.session.progress:
             QtCore.QTimer.singleShot(0, self._announce)
 
@@ -150,24 +147,25 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def _show_progress(self) -> None:
         self._progress_soon.stop()
-        going = [self.session.progress[name] for name in sorted(self.session.progress)]
+        going = [self.session.progress[name] for name in sorted(self.session.progress, key=str)]
         self.status.show_progress(going)
-        for index in range(len(self.panels)):
-            self._note(index)
+        for panel in self.session.document.panels if self.grid is not None else ():
+            self._note(panel.id)
         if self.session.is_complete and not going:
             # Once the repaints that are queued have been done.
             QtCore.QTimer.singleShot(0, self._announce)
 
-    def _note(self, index: int) -> None:
+    def _note(self, panel: int) -> None:
         """Say in a panel what it is waiting for; how far that is, the status bar says, which is cheap to paint."""
-        _, text = self.session.progress.get(f"panel {index}", (0, ""))
+        session = self.session
+        _, text = session.progress.get(panel, (0, ""))
         if text:
             text = f"{text.partition(':')[0]} …"
-        elif self.session.is_stopped and not self.session.is_answered(index):
+        elif session.is_stopped and not session.is_answered(panel):
             text = "stopped; click a point to ask again"
-        elif self.session.surface and self.session.answers[index] is None and self.session.progress:
+        elif session.surface and panel not in session.shown and session.progress:
             text = "waiting …"
-        self.panels[index].show_note(text)
+        self.grid.panel(panel).show_note(text)
 
     def failed(self, message: str) -> None:
         self.refused.emit(message)
@@ -180,88 +178,78 @@ class MainWindow(QtWidgets.QMainWindow):
             box.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
             box.open()
 
-    # ------------------------------------------------------------------ views
-    @property
-    def camera(self):
-        """The camera of all panels."""
-        return self._camera
-
-    @property
-    def aspect(self) -> float:
-        """Width / height of a panel."""
-        size = self.panels[0].interactor.size()
-        return size.width() / max(size.height(), 1)
-
-    def show_isolines(self, count: int) -> None:
-        """Choose a number of isolines, as the box in the tool bar does."""
-        self._isolines_box.setValue(count)
-
-    def reset_view(self, view: str = "home") -> None:
-        from ..camera import place_camera
-
-        surface = self.session.surface
-        if surface is None:
-            return
-        place_camera(self._camera, self.session.prepared.points, self.aspect, view)
-        self._remember_extent()
-        self._repaint()
-
-    def _remember_extent(self) -> None:
-        from ..camera import camera_seen
-
-        self._extent = camera_seen(self._camera, self.aspect).extent
-
-    def _keep_in_view(self) -> None:
-        """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""
-        from ..camera import camera_seen, show_camera
-
-        if self._extent is not None:
-            show_camera(self._camera, replace(camera_seen(self._camera, self.aspect), extent=self._extent), self.aspect)
-            self._repaint()
-
-    def _repaint(self) -> None:
-        if self.session.prepared:
-            # The panels have one camera.  Left to itself VTK would go over all vertices to find the bounds.
-            self.panels[0].renderer.ResetCameraClippingRange(self.session.prepared.bounds)
-        for panel in self.panels:
-            panel.repaint_view()
-
     def _announce(self) -> None:
         if self.session.is_complete and not self.session.progress:
             self.complete.emit()
+
+    # ------------------------------------------------------------------ gestures
+    def _click(self, panel: int, vertex: int) -> None:
+        self.session.show(move_source(self.session.document, panel, vertex))
+
+    def _drag(self, panel: int, vertex: int) -> None:
+        self.session.show(move_source(self.session.document, panel, vertex), key=f"drag in {panel}", live=True)
+
+    def _choose_distance(self, panel: int, spec: Spec) -> None:
+        """Another distance is a step; the values that its slider passes are one."""
+        shows = self.session.document.panel(panel).shows
+        key = f"{spec.word} in {panel}" if spec.word == shows.spec.word else ""
+        self.session.show(show_in(self.session.document, panel, replace(shows, spec=spec)), key)
+
+    def choose_isolines(self, count: int) -> None:
+        self.session.show(replace(self.session.document, isolines=count), key="isolines")
+
+    def choose_source(self, vertex: int) -> None:
+        """The vertex that the first panel's field starts from."""
+        document = self.session.document
+        if self.session.surface is None or not document.panels:
+            return
+        try:
+            self.session.show(move_source(document, document.panels[0].id, vertex))
+        except BihdistError as error:
+            self.failed(str(error))
+            self.source_box.setValue(document.sources[0])
+
+    def _hover(self, vertex: int | None) -> None:
+        if vertex == self._hovered or self.session.surface is None:
+            return
+        self._hovered = vertex
+        self.grid.point_at(vertex)
+        if vertex is None:
+            self.status.pointer.setText("")
+        else:
+            x, y, z = self.session.surface.vertices[vertex]
+            self.status.pointer.setText(f"vertex {vertex}   ({x:.4g}, {y:.4g}, {z:.4g})")
+
+    def dragEnterEvent(self, event: QtGui.QDragEnterEvent) -> None:
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QtGui.QDropEvent) -> None:
+        self.open(event.mimeData().urls()[0].toLocalFile())
+
+    # ------------------------------------------------------------------ the user's commands
+    def reset_view(self, view: str = "home") -> None:
+        """See the surface from a standard view."""
+        if self.session.surface is not None:
+            self.grid.look(view)
+
+    def leave_boxes(self) -> None:
+        """A box that has the keyboard takes digits and Ctrl+E for itself."""
+        if self.grid.panels:
+            self.grid.panels[0].interactor.setFocus()
+
+    def choose_file(self) -> None:
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Open a mesh", "", MESH_FILES)
+        if path:
+            self.open(path)
 
     def picture(self) -> QtGui.QImage:
         """The whole window as it is on the screen."""
         picture = self.grab().toImage()
         painter = QtGui.QPainter(picture)
-        for panel in self.panels:
-            corner = panel.interactor.mapTo(self, QtCore.QPoint(0, 0))
-            painter.drawImage(QtCore.QRect(corner, panel.interactor.size()), panel.picture())
+        self.grid.paint_into(painter, self)
         painter.end()
         return picture
-
-    # ------------------------------------------------------------------ the pointer
-    def _hover(self, vertex: int | None) -> None:
-        if vertex == self._hovered or self.session.surface is None:
-            return
-        self._hovered = vertex
-        surface = self.session.surface
-        position = None if vertex is None else surface.vertices[vertex]
-        for panel in self.panels:
-            panel.scene.mark_pointer(position)
-            panel.show_value(vertex)
-        if vertex is None:
-            self.status.pointer.setText("")
-        else:
-            x, y, z = position
-            self.status.pointer.setText(f"vertex {vertex}   ({x:.4g}, {y:.4g}, {z:.4g})")
-        self._repaint_soon.start()
-
-    # ------------------------------------------------------------------ the user's commands
-    def choose_file(self) -> None:
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Open a mesh", "", MESH_FILES)
-        if path:
-            self.open(path)
 
     def choose_screenshot(self) -> None:
         dialog = QtWidgets.QFileDialog(self, "Save a picture of the window", "bihdist.png", "Pictures (*.png)")
@@ -279,7 +267,7 @@ class MainWindow(QtWidgets.QMainWindow):
         with whole_file(path) as temporary:
             if not self.picture().save(str(temporary), "PNG"):
                 raise OutputError(f"{path} could not be written.")
-        self._say(f"Saved {os.path.basename(path)}")
+        self.say(f"Saved {os.path.basename(path)}")
 
     def export_figure(self) -> None:
         from .figure_actions import export_figure
@@ -296,101 +284,9 @@ class MainWindow(QtWidgets.QMainWindow):
 
         choose_recipe(self)
 
-    def _choose_source(self, vertex: int) -> None:
-        try:
-            self.session.select_source(vertex)
-        except BihdistError as error:
-            self.failed(str(error))
-            self.source_changed()
-
-    def _leave_boxes(self) -> None:
-        """A box that has the keyboard takes digits and Ctrl+E for itself."""
-        self.panels[0].interactor.setFocus()
-
-    def _choose_isolines(self, count: int) -> None:
-        self.session.set_isolines(count)
-        for panel in self.panels:
-            panel.scene.show_isolines(count)
-        self._repaint()
-
-    def dragEnterEvent(self, event: QtGui.QDragEnterEvent) -> None:
-        if event.mimeData().hasUrls():
-            event.acceptProposedAction()
-
-    def dropEvent(self, event: QtGui.QDropEvent) -> None:
-        self.open(event.mimeData().urls()[0].toLocalFile())
-
-    # ------------------------------------------------------------------ how it is made
-    def _fill_tool_bar(self) -> None:
-        bar = self.addToolBar("Main")
-        bar.setMovable(False)
-        bar.addAction("Open …", self.choose_file)
-        bar.addSeparator()
-        bar.addWidget(QtWidgets.QLabel(" Source vertex "))
-        self._source_box = QtWidgets.QSpinBox()
-        self._source_box.setKeyboardTracking(False)
-        self._source_box.setRange(0, ANY_VERTEX)
-        self._source_box.setMinimumWidth(100)
-        self._source_box.setToolTip("Type a vertex id and press Enter")
-        self._source_box.valueChanged.connect(self._choose_source)
-        self._source_box.lineEdit().returnPressed.connect(self._leave_boxes)
-        bar.addWidget(self._source_box)
-        bar.addSeparator()
-        bar.addWidget(QtWidgets.QLabel(" Isolines "))
-        self._isolines_box = QtWidgets.QSpinBox()
-        self._isolines_box.setRange(0, 200)
-        self._isolines_box.setValue(self.session.state.isolines)
-        self._isolines_box.setToolTip("Equal steps from 0 to each panel's maximum; 0 for no lines")
-        self._isolines_box.valueChanged.connect(self._choose_isolines)
-        self._isolines_box.lineEdit().returnPressed.connect(self._leave_boxes)
-        bar.addWidget(self._isolines_box)
-        bar.addSeparator()
-        bar.addAction("Reset view", self.reset_view)
-        bar.addAction("Screenshot …", self.choose_screenshot)
-
-    def _fill_menus(self) -> None:
-        file = self.menuBar().addMenu("&File")
-        _action(file, "&Open …", self.choose_file, QtGui.QKeySequence.StandardKey.Open)
-        samples = file.addMenu("&Samples")
-        self._large_icons = LargeIcons()
-        samples.setStyle(self._large_icons)
-        for name in sample_names():
-            action = samples.addAction(QtGui.QIcon(str(thumbnail(name))), name.replace("_", " "))
-            action.triggered.connect(lambda *_, name=name: self.open(mesh_path(name)))
-        _action(file, "S&creenshot …", self.choose_screenshot, "Ctrl+P")
-        _action(file, "&Export figure …", self.export_figure, "Ctrl+E")
-        _action(file, "Export &movie …", self.export_movie, "Ctrl+M")
-        _action(file, "Open &recipe …", self.choose_recipe, "Ctrl+R")
-        file.addSeparator()
-        _action(file, "&Quit", self.close, QtGui.QKeySequence.StandardKey.Quit)
-        view = self.menuBar().addMenu("&View")
-        _action(view, "&Reset", self.reset_view, "R")
-        for key, name in enumerate(("front", "back", "left", "right", "top", "bottom"), 1):
-            _action(view, f"&{name.capitalize()}", lambda *_, name=name: self.reset_view(name), str(key))
-        go = self.menuBar().addMenu("&Source")
-        _action(go, "&Type a vertex id", lambda *_: (self._source_box.setFocus(), self._source_box.selectAll()), "G")
-        _action(go, "&Cancel what is being computed", self.session.cancel, "Esc")
-        about = self.menuBar().addMenu("&Help")
-        _action(about, "&Mouse and keys", self._show_help, "F1")
-
-    def _say(self, text: str) -> None:
+    def say(self, text: str) -> None:
+        """In the status bar."""
         self.status.message.setText(text)
-
-    def _show_help(self) -> None:
-        QtWidgets.QMessageBox.information(self, "Mouse and keys", HELP)
-
-
-HELP = """\
-Click a point: distances are measured from the nearest vertex.
-Drag: rotate all panels.  Shift-drag or middle button: move.  Wheel: zoom.
-Point at the surface: its value in every panel.
-
-Ctrl+O  open a mesh (or drop it on the window)
-G  type the source's vertex id
-R  reset the view      1 … 6  front, back, left, right, top, bottom
-Ctrl+P  save a picture of the window      Ctrl+E  export a figure      Ctrl+M  a movie
-Ctrl+R  open a figure's recipe
-Esc  cancel what is being computed"""
 
 
 def _summary(surface) -> str:
@@ -400,9 +296,3 @@ def _summary(surface) -> str:
     if surface.unreferenced_count:
         words.append(f"{surface.unreferenced_count:,} vertices without a face")
     return "  ·  ".join([*words, *surface.remarks])
-
-
-def _action(menu: QtWidgets.QMenu, text: str, slot: Callable, key: object) -> None:
-    action = menu.addAction(text)
-    action.setShortcut(QtGui.QKeySequence(key))
-    action.triggered.connect(lambda *_: slot())

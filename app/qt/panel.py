@@ -6,18 +6,24 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
+from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.kinds import Spec
 
-from ..picking import Picker
-from ..scene import PanelScene
-from ..session import PanelAnswer
+from ..drawing.picking import Picker, pixel_of
+from ..drawing.scene import PanelScene
+from ..session.session import Shown
 from .controls import PanelControls
+
+MARK_SLACK = 4.0
+"""Pixels beside the mark of the source at which it can still be taken hold of."""
 
 
 class DistancePanel(QtWidgets.QWidget):
     """Controls above, the picture, and the value under the pointer below."""
 
     clicked = QtCore.Signal(int)  # a vertex, clicked without dragging
+    dragged = QtCore.Signal(int)  # the mark of the source, over a vertex
+    released = QtCore.Signal()  # the mark
     hovered = QtCore.Signal(object)  # a vertex, or None beside the surface
     moved = QtCore.Signal()  # the camera
     resized = QtCore.Signal()  # the picture
@@ -53,7 +59,10 @@ class DistancePanel(QtWidgets.QWidget):
         self._picker: Picker | None = None
         self._press: QtCore.QPoint | None = None
         self._dragging = False
-        self.answer: PanelAnswer | None = None
+        self._holds_mark = False
+        self._source: np.ndarray | None = None
+        self.answer: Answer | None = None
+        self._is_preview = False
 
     @property
     def renderer(self) -> vtkRenderer:
@@ -62,7 +71,7 @@ class DistancePanel(QtWidgets.QWidget):
     # ------------------------------------------------------------------ state into pixels
     def show_surface(self, mesh: vtkPolyData, picker: Picker, camera: vtkCamera) -> None:
         self._picker = picker
-        self.answer = None
+        self.answer = self._source = None
         self.scene.show_surface(mesh)
         self.renderer.SetActiveCamera(camera)
         self.renderer.camera_set = True
@@ -70,27 +79,33 @@ class DistancePanel(QtWidgets.QWidget):
         self.value.setText("")
         self.repaint_view()
 
-    def show_answer(self, answer: PanelAnswer) -> None:
-        self.answer = answer
+    def mark_source(self, position: np.ndarray) -> None:
+        """Where (3,) the field starts."""
+        self._source = position
+        self.scene.mark_source(position)
+
+    def show_answer(self, shown: Shown, maximum: float | None = None) -> None:
+        """A field with its colour bar up to `maximum`, its own if None; or why there is none."""
+        answer = shown.answer
         if answer.field is None:
             self.scene.show_failure(answer.failure)
         else:
-            self.scene.show_field(answer.field, answer.unit)
+            self.scene.show_field(answer.field, answer.unit, maximum)
         self.title.setText(answer.label)
-        self.show_certificate(answer)
+        self.show_certificate(shown)
         self.repaint_view()
 
-    def show_certificate(self, answer: PanelAnswer) -> None:
+    def show_certificate(self, shown: Shown) -> None:
         """How accurate the field is, for who points at its name; `show_note` says it where it is poor."""
-        self.answer = answer
-        self.title.setToolTip(answer.certificate.text)
+        self.answer, self._is_preview = shown.answer, shown.is_preview
+        self.title.setToolTip(shown.answer.accuracy.text)
 
     def show_note(self, text: str) -> None:
         """What is being computed, in place of the hint; an empty text brings the hint back."""
-        if self.answer is not None and self.answer.preview:
+        if self.answer is not None and self._is_preview:
             text = text or "a better one is on its way"
-        if self.answer is not None and self.answer.certificate.is_poor:
-            text = text or f"not exact here: only {self.answer.certificate.text}"
+        if self.answer is not None and self.answer.accuracy.is_poor:
+            text = text or f"not exact here: only {self.answer.accuracy.text}"
         self.hint.setText(text or self.controls.spec.kind.hint)
 
     def show_value(self, vertex: int | None) -> None:
@@ -116,28 +131,17 @@ class DistancePanel(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ gestures into intents
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
-        """Tell a click from a drag: moves shorter than a drag are not passed on to VTK."""
+        """Tell clicks, drags of the source's mark and drags of the view apart; only these last reach VTK."""
         kind = event.type()
-        if kind == QtCore.QEvent.Type.MouseButtonPress and event.button() == QtCore.Qt.MouseButton.LeftButton:
-            self._press, self._dragging = event.pos(), False
-        elif kind == QtCore.QEvent.Type.MouseMove:
-            if event.buttons() == QtCore.Qt.MouseButton.NoButton:
-                self.hovered.emit(self._vertex_at(event.pos()))
-                return True
-            if self._press is not None and not self._dragging:
-                path = (event.pos() - self._press).manhattanLength()
-                if path < QtWidgets.QApplication.startDragDistance():
-                    return True
-                self._dragging = True
+        left = QtCore.Qt.MouseButton.LeftButton
+        if kind == QtCore.QEvent.Type.MouseButtonPress and event.button() == left:
+            return self._pressed(event)
+        if kind == QtCore.QEvent.Type.MouseMove:
+            return self._moved(event)
+        if kind == QtCore.QEvent.Type.MouseButtonRelease and event.button() == left:
+            return self._let_go()
+        if kind == QtCore.QEvent.Type.Wheel:
             self._camera_may_move()
-        elif kind == QtCore.QEvent.Type.Wheel:
-            self._camera_may_move()
-        elif kind == QtCore.QEvent.Type.MouseButtonRelease and event.button() == QtCore.Qt.MouseButton.LeftButton:
-            press, self._press = self._press, None
-            if press is not None and not self._dragging:
-                vertex = self._vertex_at(press)
-                if vertex is not None:
-                    self.clicked.emit(vertex)
         elif kind == QtCore.QEvent.Type.Leave:
             self.hovered.emit(None)
         elif kind == QtCore.QEvent.Type.Resize:
@@ -145,6 +149,58 @@ class DistancePanel(QtWidgets.QWidget):
             QtCore.QTimer.singleShot(0, self._fit_failure)
             self.resized.emit()
         return False
+
+    def _pressed(self, event: QtGui.QMouseEvent) -> bool:
+        self._press, self._dragging = event.pos(), False
+        plain = event.modifiers() == QtCore.Qt.KeyboardModifier.NoModifier
+        self._holds_mark = plain and self._is_on_mark(event.pos())
+        if self._holds_mark:
+            self.interactor.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
+        return self._holds_mark
+
+    def _moved(self, event: QtGui.QMouseEvent) -> bool:
+        if event.buttons() == QtCore.Qt.MouseButton.NoButton:
+            self.hovered.emit(self._vertex_at(event.pos()))
+            shape = QtCore.Qt.CursorShape.OpenHandCursor if self._is_on_mark(event.pos()) else None
+            self.interactor.unsetCursor() if shape is None else self.interactor.setCursor(shape)
+            return True
+        if self._press is not None and not self._dragging:
+            # A hand that trembles still clicks.
+            path = (event.pos() - self._press).manhattanLength()
+            if path < QtWidgets.QApplication.startDragDistance():
+                return True
+            self._dragging = True
+        if self._holds_mark:
+            vertex = self._vertex_at(event.pos())
+            if vertex is not None:
+                self.dragged.emit(vertex)
+            return True
+        self._camera_may_move()
+        return False
+
+    def _let_go(self) -> bool:
+        press, self._press = self._press, None
+        held, self._holds_mark = self._holds_mark, False
+        if held:
+            self.interactor.unsetCursor()
+        if held and self._dragging:
+            self.released.emit()
+        elif press is not None and not self._dragging:
+            vertex = self._vertex_at(press)
+            if vertex is not None:
+                self.clicked.emit(vertex)
+        return held
+
+    def _is_on_mark(self, position: QtCore.QPoint) -> bool:
+        """Whether the mark of the source is seen under a point of the view."""
+        if self._picker is None or self._source is None:
+            return False
+        x, y = self._pixel(position)
+        at = pixel_of(self.renderer, self._source)
+        reach = (self.scene.style.marker_size / 2 + MARK_SLACK) * self.interactor.devicePixelRatioF()
+        if np.hypot(x - at[0], y - at[1]) > reach:
+            return False
+        return self._picker.sees(self.renderer, self._source)
 
     def _fit_failure(self) -> None:
         if self.answer is not None and self.answer.failure:
@@ -156,9 +212,9 @@ class DistancePanel(QtWidgets.QWidget):
         QtCore.QTimer.singleShot(0, self.moved.emit)
 
     def _vertex_at(self, position: QtCore.QPoint) -> int | None:
-        if self._picker is None:
-            return None
+        return None if self._picker is None else self._picker.vertex_at(self.renderer, *self._pixel(position))
+
+    def _pixel(self, position: QtCore.QPoint) -> tuple[float, float]:
+        """Device pixels, y up."""
         ratio = self.interactor.devicePixelRatioF()
-        x = (position.x() + 0.5) * ratio
-        y = (self.interactor.height() - position.y() - 0.5) * ratio
-        return self._picker.vertex_at(self.renderer, x, y)
+        return (position.x() + 0.5) * ratio, (self.interactor.height() - position.y() - 0.5) * ratio

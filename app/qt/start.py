@@ -11,14 +11,14 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError
 
-from ..state import ViewerState
+from ..document.document import Document
 from .main_window import MainWindow
 
 PAINTED_MS = 50
 
 
-def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: str | None) -> int:
-    """Run the window until it is closed; with `screenshot`, until its picture is saved.  Returns the exit status."""
+def run_viewer(document: Document, screenshot: str | None) -> int:
+    """Show a document in the window until that is closed, or until its picture is saved; returns the exit status."""
     _check_screen()
     if os.environ.get("DISPLAY") and os.environ.get("WAYLAND_DISPLAY"):
         os.environ.setdefault("QT_QPA_PLATFORM", "xcb")  # VTK draws through X only
@@ -26,7 +26,7 @@ def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: st
     application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(sys.argv[:1])
     # PyQt5 ends the process on an exception in a slot unless there is a hook.
     sys.excepthook = lambda *error: traceback.print_exception(*error)
-    window = MainWindow(state)
+    window = MainWindow(document)
     failures: list[str] = []
     if screenshot:
         window.quiet = True
@@ -45,13 +45,14 @@ def run_viewer(state: ViewerState, path: str, source: int | None, screenshot: st
         window.refused.connect(refuse)
         window.complete.connect(save)
     window.show()
-    window.open(path, source)
+    window.show_document(document)
     # Once the window has been painted: the imports take a second.
     QtCore.QTimer.singleShot(PAINTED_MS, lambda: build_panels(window))
     application.exec()
     for message in failures:
         print(f"bihdist: {message}", file=sys.stderr)
-    failed = dict.fromkeys(f"{a.label}: {a.failure}" for a in window.session.answers if a is not None and a.failure)
+    answers = [shown.answer for shown in window.session.shown.values()]
+    failed = dict.fromkeys(f"{answer.label}: {answer.failure}" for answer in answers if answer.failure)
     if screenshot and not failures:
         for message in failed:
             print(f"bihdist: {message}", file=sys.stderr)

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 import pyvista
 
-from app.camera import Margins, aim
-from app.field_actor import FieldActor, drawable, light
-from app.style import PAPER
+from app.drawing.camera import Margins, aim
+from app.drawing.field_actor import FieldActor, drawable, light
+from app.drawing.style import PAPER
 from bihdist_core import Surface
 
 MARGINS = Margins(side=0.04, top=0.04, bottom=0.04)

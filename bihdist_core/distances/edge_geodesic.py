@@ -4,11 +4,12 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
+from ..errors import ParameterError
 from ..surface import Surface
 
 
 class EdgeGeodesic:
-    """Lengths of shortest edge paths on one connected surface; any mesh, manifold or not.
+    """Shortest paths along edges and their lengths; any mesh, manifold or not.
 
     Edges of length 0 (coincident vertices) are kept: they connect their ends at no cost.
     """
@@ -36,3 +37,16 @@ class EdgeGeodesic:
             return dijkstra(self._graph, indices=self.surface.check_vertices(sources)[0])
         ids = self.surface.check_vertices(sources)
         return np.ascontiguousarray(dijkstra(self._graph, indices=ids).T)
+
+    def path(self, start: int, stop: int) -> np.ndarray:
+        """(k,) vertices of a shortest path, both ends included; ParameterError where there is none."""
+        from scipy.sparse.csgraph import dijkstra
+
+        start, stop = (int(v) for v in self.surface.check_vertices([start, stop]))
+        before = dijkstra(self._graph, indices=start, return_predecessors=True)[1]
+        path = [stop]
+        while path[-1] != start:
+            path.append(int(before[path[-1]]))
+            if path[-1] < 0:
+                raise ParameterError(f"There is no way from vertex {start} to vertex {stop} along edges.")
+        return np.array(path[::-1])

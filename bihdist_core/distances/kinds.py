@@ -8,7 +8,7 @@ the distance's word and leads to a `Kind`.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
@@ -146,13 +146,17 @@ class Spec:
         return Spec.of(kind.word, **values)
 
     def __str__(self) -> str:
+        return self._with([name for name, value in self.values if value != self.kind.parameter(name).default])
+
+    @property
+    def in_full(self) -> str:
+        """The same with every parameter, which stays true should a default change."""
+        return self._with([name for name, _ in self.values])
+
+    def _with(self, names: Sequence[str]) -> str:
         kind = self.kind
-        said = [
-            f"{name}={kind.parameter(name).written(value)}"
-            for name, value in self.values
-            if value != kind.parameter(name).default
-        ]
-        return f"{self.word}({', '.join(said)})" if said else self.word
+        said = ", ".join(f"{name}={kind.parameter(name).written(self[name])}" for name in names)
+        return f"{self.word}({said})" if said else self.word
 
     def __getitem__(self, name: str) -> Value:
         return dict(self.values)[self.kind.parameter(name).name]

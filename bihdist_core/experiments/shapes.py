@@ -6,11 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..distances.biharmonic import BiharmonicDistance
-from ..distances.diffusion import DiffusionDistance
+from ..distances.answers import Distances
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
-from ..distances.geodesic import GeodesicDistance
+from ..distances.kinds import Spec
 from ..errors import ParameterError
 from ..formats.mesh_io import read_surface
 from ..laplacian import Laplacian
@@ -81,23 +80,15 @@ DISTANCES = ("biharmonic", "geodesic", "diffusion t = 1")
 
 
 def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) -> Distance:
-    """A distance by the words of the experiments: "biharmonic", "geodesic", "diffusion t = 1" (1/5, 0.125, ...).
+    """A distance by the words of the experiments: "biharmonic", "diffusion t = 1/4" stands for "diffusion(t=1/4)".
 
     Geodesic is exact on manifold surfaces of up to 20,000 vertices, else by the heat method; the label says which.
     SolverError if it cannot be had, or not accurately.
     """
-    made = _made(laplacian, kind, progress)
+    word, _, parameters = kind.partition(" ")
+    made = Distances(laplacian).get(Spec.parse(f"{word}({parameters})"), progress)
     made.certificate()
     return made
-
-
-def _made(laplacian: Laplacian, kind: str, progress: Progress | None) -> Distance:
-    if kind == "biharmonic":
-        return BiharmonicDistance(laplacian, progress)
-    if kind == "geodesic":
-        return GeodesicDistance(laplacian, "auto", progress)
-    over, _, under = kind.removeprefix("diffusion t = ").partition("/")
-    return DiffusionDistance(laplacian, float(over) / float(under or 1), progress=progress)
 
 
 def start_vertex(surface: Surface, seed: str = "vertex 0") -> int:

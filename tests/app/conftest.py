@@ -5,7 +5,9 @@ import time
 
 import pytest
 
-from app.session import Session
+from app.document.document import COMPARISON, comparison
+from app.document.edits import move_source
+from app.session.session import Session
 
 
 class RecordingView:
@@ -15,16 +17,13 @@ class RecordingView:
         self.told, self.unexpected = [], []
         self.failures_are_expected = False
 
-    def mesh_changed(self):
-        self.told.append("mesh")
+    def document_changed(self, before):
+        self.told.append("document")
 
-    def source_changed(self):
-        self.told.append("source")
+    def answer_changed(self, panel):
+        self.told.append(f"answer {panel}")
 
-    def answer_changed(self, index):
-        self.told.append(f"answer {index}")
-
-    def certificate_changed(self, index):
+    def certificate_changed(self, panel):
         pass
 
     def progress_changed(self):
@@ -39,10 +38,11 @@ class RecordingView:
 class Desk:
     """A session with its view; `until` runs posted functions on this thread, as a window's event loop would."""
 
-    def __init__(self, state=None, prepare=lambda surface: None):
+    def __init__(self, specs=COMPARISON, prepare=lambda surface: None):
+        self.specs = tuple(specs)
         self.view = RecordingView()
         self.posted = queue.Queue()
-        self.session = Session(self.view, self.posted.put, state, prepare)
+        self.session = Session(self.view, self.posted.put, prepare)
 
     def until_told(self, words):
         """Wait until the view is told of a failure with these words."""
@@ -59,10 +59,36 @@ class Desk:
             except queue.Empty:
                 continue
 
-    def opened(self, path, source=None):
-        self.session.open(path, source)
+    def complete(self):
         self.until(lambda: self.session.is_complete)
         return self.session
+
+    def show(self, path, source=None):
+        """Ask for a mesh with the desk's distances, and do not wait."""
+        self.session.show(comparison(path, self.specs, (source,)))
+
+    def opened(self, path, source=None):
+        self.show(path, source)
+        return self.complete()
+
+    def click(self, vertex, panel=0, **options):
+        """A source, as a click chooses it."""
+        self.session.show(move_source(self.session.document, panel, vertex), **options)
+
+    @property
+    def source(self):
+        return self.session.document.point("source").at
+
+    @property
+    def answers(self):
+        """In the order of the panels; None where there is none yet."""
+        shown = self.session.shown
+        return [shown[p.id].answer if p.id in shown else None for p in self.session.document.panels]
+
+    @property
+    def sources_shown(self):
+        shown = self.session.shown
+        return [shown[p.id].asked.at if p.id in shown else None for p in self.session.document.panels]
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 
-from app.field_actor import drawable, point_normals
+from app.drawing.field_actor import drawable, point_normals
 from bihdist_core import Surface
 from tests.shapes import bumpy, fin, grid, slivers, torus, two_pieces
 

@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from app.lane import NICE, Lane
+from app.session.lane import NICE, Lane
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="threads have priorities of their own on Linux only")

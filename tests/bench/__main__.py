@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from datetime import date
 
-from . import exact_rows, growth_rows, machine, other_rows, peers, window_rows
+from . import drag_row, exact_rows, growth_rows, machine, other_rows, peers, window_rows
 from .size import FULL, QUICK, Size
 from .table import Line, as_json, render
 
@@ -30,6 +30,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     12: window_rows.start,
     13: window_rows.drawing,
     14: window_rows.stalls,
+    15: drag_row.drag,
 }
 
 

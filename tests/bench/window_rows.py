@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from bihdist_core.distances.kinds import Spec
+
 from .case import EXACT, main_case
 from .child import in_child
 from .meshes import bumpy_sphere
@@ -22,6 +24,7 @@ from .table import Line, compared
 from .timing import alternate
 
 ROOT = Path(__file__).resolve().parents[2]
+COMPARED = Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("diffusion")
 PATIENCE = 600.0
 """Seconds after which something has gone wrong."""
 TICK_MS = 2
@@ -29,16 +32,15 @@ TICK_MS = 2
 
 
 # ---------------------------------------------------------------------- the session, without drawing
-class _Viewless:
+class Viewless:
     """The side of a window that a session talks to, with nothing behind it."""
 
     def __init__(self) -> None:
         self.posted: queue.Queue[Callable[[], None]] = queue.Queue()
 
-    def mesh_changed(self) -> None: ...
-    def source_changed(self) -> None: ...
-    def answer_changed(self, index: int) -> None: ...
-    def certificate_changed(self, index: int) -> None: ...
+    def document_changed(self, before: Any) -> None: ...
+    def answer_changed(self, panel: int) -> None: ...
+    def certificate_changed(self, panel: int) -> None: ...
     def progress_changed(self) -> None: ...
 
     def failed(self, message: str) -> None:
@@ -47,35 +49,34 @@ class _Viewless:
 
 def click(size: Size) -> Iterator[Line]:
     """Biharmonic, heat geodesic and diffusion, asked for at once as a click does."""
-    from app.session import Session
-    from app.state import ViewerState
-    from bihdist_core.distances.kinds import Spec
+    from app.document.document import comparison
+    from app.document.edits import move_source
+    from app.session.session import Session
 
     case = main_case(size)
-    panels = (Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("diffusion"))
-    view = _Viewless()
-    session = Session(view, view.posted.put, ViewerState(panels))
+    view = Viewless()
+    session = Session(view, view.posted.put)
 
     def answered() -> None:
         while not session.is_complete:
             view.posted.get(timeout=PATIENCE)()
 
-    sources = iter(np.tile(case.sources, 100))
+    # Each once: what has been asked before is kept.
+    sources = iter(np.random.default_rng(1).permutation(len(case.arrays[0])))
 
-    def ask() -> None:
-        session.select_source(int(next(sources)))
+    def ask(source: int | None = None) -> None:
+        session.show(move_source(session.document, 0, int(next(sources)) if source is None else source))
         answered()
 
     try:
-        with _mesh_file(*case.arrays) as path:
-            session.open(path, case.source)
+        with mesh_file(*case.arrays) as path:
+            session.show(comparison(path, COMPARED, (case.source,)))
             answered()
         ask()
         peer = case.heat_peer
         result = alternate(ask, lambda: peer.compute_distance(case.source), 3 * size.rounds, size.repeat)
-        session.select_source(case.source)
-        answered()
-        values = session.answers[0].field[case.targets]
+        ask(case.source)
+        values = session.shown[0].answer.field[case.targets]
     finally:
         session.close()
     yield compared(
@@ -166,10 +167,10 @@ def stalls(size: Size) -> Iterator[Line]:
 
 def _drawing(size: Size) -> tuple[float, float, float, int]:
     vertices, faces = bumpy_sphere(size.window[0])
-    with _mesh_file(vertices, faces) as path, _window(path) as (application, window):
+    with mesh_file(vertices, faces) as path, _window(path) as (application, window):
         _wait(application, lambda: window.session.is_complete)
         _wait_a_while(application, 0.5)
-        session, panels = window.session, window.panels
+        session, panels = window.session, window.grid.panels
         painted = [0] * len(panels)
         for index, panel in enumerate(panels):
             panel.interactor.render_window.AddObserver("EndEvent", lambda *_, i=index: _count_up(painted, i))
@@ -179,9 +180,10 @@ def _drawing(size: Size) -> tuple[float, float, float, int]:
 
         def show() -> None:
             before, k = list(painted), next(turn)
-            for index, answer in enumerate(session.answers):
-                session.answers[index] = replace(answer, field=np.roll(answer.field, k))
-                window.answer_changed(index)
+            for id, shown in list(session.shown.items()):
+                rolled = replace(shown.answer, field=np.roll(shown.answer.field, k))
+                session.shown[id] = replace(shown, answer=rolled)
+                window.answer_changed(id)
             _wait(application, lambda: all(now > old for now, old in zip(painted, before, strict=True)))
 
         def render() -> None:
@@ -198,7 +200,7 @@ def _stalls(size: Size) -> tuple[float, float, int]:
     from qtpy import QtCore
 
     vertices, faces = bumpy_sphere(size.window[1])
-    with _mesh_file(vertices, faces) as path, _window(path) as (application, window):
+    with mesh_file(vertices, faces) as path, _window(path) as (application, window):
         rendering = _Stopwatch()
         gaps: list[float] = []
         last = [time.perf_counter()]
@@ -211,7 +213,7 @@ def _stalls(size: Size) -> tuple[float, float, int]:
         timer = QtCore.QTimer(interval=TICK_MS)
         timer.timeout.connect(tick)
         # From the first picture on, for which VTK also compiles its shaders.
-        rendering.watch([panel.interactor.render_window for panel in window.panels])
+        rendering.watch([panel.interactor.render_window for panel in window.grid.panels])
         timer.start()
         last[0] = time.perf_counter()
         _wait(application, lambda: window.session.is_complete)
@@ -253,21 +255,20 @@ def _window(path: str):
     os.environ.setdefault("QT_API", "pyqt5")
     from qtpy import QtWidgets
 
+    from app.document.document import comparison
     from app.qt.main_window import MainWindow
     from app.qt.start import build_panels
-    from app.state import ViewerState
-    from bihdist_core.distances.kinds import Spec
 
     application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bench"])
-    panels = (Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("diffusion"))
-    window = MainWindow(ViewerState(panels))
+    document = comparison(path, COMPARED)
+    window = MainWindow(document)
     window.quiet = True
     window.show()
     application.processEvents()
     build_panels(window)
     # The first pictures, of nothing: the start has a row of its own.
     application.processEvents()
-    window.open(path)
+    window.show_document(document)
     try:
         yield application, window
     finally:
@@ -290,7 +291,7 @@ def _wait_a_while(application: Any, seconds: float) -> None:
 
 
 @contextmanager
-def _mesh_file(vertices: np.ndarray, faces: np.ndarray) -> Iterator[str]:
+def mesh_file(vertices: np.ndarray, faces: np.ndarray) -> Iterator[str]:
     from bihdist_core import Surface
     from bihdist_core.formats.field_output import write_fields
 

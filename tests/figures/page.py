@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from app.figure_size import Size
-from app.figures import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
+from app.drawing.style import STYLES
+from app.figures.draw import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
+from app.figures.size import Size
 from app.samples import mesh_path
-from app.session import first_source
-from app.style import STYLES
+from app.session.session import first_source
 from bihdist_core import BiharmonicDistance, DiffusionDistance, GeodesicDistance, Laplacian, Surface, read_surface
 from tests.shapes import bumpy, torus
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.figure_size import Size
-from app.figures import Figure, FigurePanel, Mark, check_offscreen, draw_figure
-from app.style import PAPER
+from app.drawing.style import PAPER
+from app.figures.draw import Figure, FigurePanel, Mark, check_offscreen, draw_figure
+from app.figures.size import Size
 from bihdist_core import BihdistError
 from tests.shapes import bumpy, grid, two_pieces
 
@@ -94,7 +94,7 @@ def test_views_show_other_sides():
 
 
 def test_missing_libraries_are_named(monkeypatch):
-    import app.figure_raster as figures
+    import app.figures.raster as figures
 
     def missing(name):
         raise OSError(name)

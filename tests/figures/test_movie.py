@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.document.document import comparison
+from app.document.page import Page, Recipe
+from app.figures.movie import Movie, route, write_movie
 from app.main import main
-from app.movie import Movie, route, write_movie
-from app.recipe import Recipe, RecipePanel
 from bihdist_core import Cancelled, ParameterError
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid, two_pieces
@@ -18,7 +19,9 @@ from tests.shapes import bumpy, grid, two_pieces
 
 @pytest.fixture
 def recipe(mesh_file):
-    return Recipe(mesh_file(bumpy(200)), (RecipePanel(Spec.of("biharmonic"), 4),), size="121x141@96dpi", hints=False)
+    return Recipe(
+        comparison(mesh_file(bumpy(200)), (Spec.of("biharmonic"),), (4,)), Page(size="121x141@96dpi", hints=False)
+    )
 
 
 def gif_frames(path):

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from app import figure_raster
-from app.camera import Camera
-from app.figure_layout import lay_out
-from app.figure_size import Size
-from app.figures import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
-from app.style import DARK, STYLES
+from app.drawing.camera import Camera
+from app.drawing.style import DARK, STYLES
+from app.figures import raster
+from app.figures.draw import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
+from app.figures.layout import lay_out
+from app.figures.size import Size
 from bihdist_core import ParameterError
 from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces
 
@@ -27,7 +27,7 @@ def ball():
 def test_a_picture_drawn_in_tiles_has_no_seams(ball, monkeypatch):
     field = ball.vertices[:, 1] + 2
     whole = one(ball, field, Size(500, 500, dpi=96)).astype(int)
-    monkeypatch.setattr(figure_raster, "TILE", 97)
+    monkeypatch.setattr(raster, "TILE", 97)
     tiled = one(ball, field, Size(500, 500, dpi=96)).astype(int)
     # A sample at an edge may fall to its other side; a seam would be whole rows of them.
     different = np.abs(whole - tiled).max(axis=2) > 16

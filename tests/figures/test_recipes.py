@@ -3,13 +3,18 @@
 import json
 import os
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from app.document.camera import Camera
+from app.document.document import Anchor, MeshFile, Place, Zoom, comparison
+from app.document.edits import put_point
+from app.document.file import read_recipe, recipe_text
+from app.document.page import Page, Recipe
 from app.main import main
-from app.recipe import Recipe, RecipeCamera, RecipePanel, RecipeZoom, read_recipe, recipe_text
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 
@@ -43,41 +48,100 @@ def test_a_recipe_draws_the_same_bytes(mesh, tmp_path):
 
 
 def test_a_recipe_is_read_as_it_was_written(tmp_path):
-    panels = tuple(
-        RecipePanel(state, k, maximum)
-        for k, (state, maximum) in enumerate(
-            [
-                (Spec.of("biharmonic"), None),
-                (Spec.of("diffusion", t=1 / 15), 0.1),
-                (Spec.of("power", alpha=2.5, k=7), 3.0),
-                (Spec.of("truncated", k=11), None),
-                (Spec.of("geodesic", method="heat"), None),
-                (Spec.of("commute-time"), None),
-            ]
-        )
+    specs = (
+        Spec.of("biharmonic"),
+        Spec.of("diffusion", t=1 / 15),
+        Spec.of("power", alpha=2.5, k=7),
+        Spec.of("truncated", k=11),
+        Spec.of("geodesic", method="heat"),
+        Spec.of("commute-time"),
     )
-    camera = RecipeCamera((1 / 3, 2.0, 3.0), (0.0, 0.0, 0.1), (0.0, 1.0, 0.0), (0.2, 0.3))
-    recipe = Recipe(
-        "mesh.off",
-        panels,
-        "ab" * 32,
-        areas="barycentric",
+    document = put_point(comparison("mesh.off", specs, (3, None), "barycentric"), "tip", Place(3, (0.25, 0.5, 0.25)))
+    document = replace(
+        document,
+        surfaces=(MeshFile("A", "mesh.off", "ab" * 32),),
+        panels=tuple(replace(panel, maximum=0.1 * panel.id or None) for panel in document.panels),
         isolines=7,
         shared_range=True,
-        views=("home", camera),
-        zooms=(RecipeZoom(3, 2.5, "top left"),),
-        anchors=((4, 0.5), (5, None)),
+        camera=Camera((1 / 3, 2.0, 3.0), (0.0, 0.0, 0.1), (0.0, 1.0, 0.0), (0.2, 0.3)),
+        zooms=(Zoom(3, 2.5, "top left"),),
+        anchors=(Anchor("tip", 0.5), Anchor("source", None)),
         height=0.25,
-        hints=False,
+        next_id=99,
+    )
+    page = Page("160mm@300dpi", "dark", "svg", ("home", document.camera), 2, False, True, True)
+    path = tmp_path / "recipe.json"
+    path.write_text(recipe_text(Recipe(document, page), "0.1"))
+    again = read_recipe(path)
+    assert again == Recipe(document, page)
+    assert hash(again) == hash(Recipe(document, page))
+    assert recipe_text(again, "0.1") == path.read_text()
+
+
+def of_version_0_1(mesh):
+    """What the first version wrote."""
+    return {
+        "format": 1,
+        "program": "bihdist 0.1.0",
+        "mesh": {"path": mesh},
+        "areas": "voronoi",
+        "panels": [{"distance": "diffusion", "t": 1.0, "source": 4, "maximum": None}],
+        "views": ["home"],
+        "zooms": [],
+        "anchors": [],
+        "isolines": 20,
+        "shared_range": False,
+        "height": 0.0,
+        "hints": True,
+        "columns": None,
+        "size": "",
+        "style": "paper",
+        "transparent": False,
+        "crop": False,
+    }
+
+
+def test_a_recipe_of_version_0_1_means_what_it_meant(tmp_path):
+    camera = {"position": [1, 2, 3], "focal_point": [0, 0, 0], "up": [0, 1, 0], "extent": [0.2, 0.3]}
+    data = of_version_0_1("mesh.off")
+    data.update(
+        panels=[
+            {"distance": "power", "alpha": 2.5, "k": 7, "source": 4, "maximum": 3.0},
+            {"distance": "geodesic", "method": "heat", "source": 9, "maximum": None},
+            {"distance": "biharmonic", "source": 4, "maximum": None},
+        ],
+        areas="barycentric",
+        views=["left", camera],
+        zooms=[{"vertex": 3, "factor": 2.5, "corner": "top left"}],
+        anchors=[{"vertex": 4, "value": 0.5}, {"vertex": 5, "value": None}],
+        isolines=7,
+        height=0.25,
         columns=2,
         size="160mm@300dpi",
         style="dark",
-        transparent=True,
         crop=True,
     )
-    path = tmp_path / "recipe.json"
-    path.write_text(recipe_text(recipe, "0.1"))
-    assert read_recipe(path) == recipe
+    (tmp_path / "old.json").write_text(json.dumps(data))
+    recipe = read_recipe(tmp_path / "old.json")
+    document, page = recipe.document, recipe.page
+    shown = [(str(p.shows.spec), document.point(p.shows.point).at, p.maximum) for p in document.panels]
+    assert shown == [("power(alpha=2.5, k=7)", 4, 3.0), ("geodesic(method=heat)", 9, None), ("biharmonic", 4, None)]
+    assert (document.areas, document.isolines, document.height) == ("barycentric", 7, 0.25)
+    assert document.zooms == (Zoom(3, 2.5, "top left"),)
+    assert anchors(document) == [(4, 0.5), (5, None)]
+    assert page.views[0] == document.camera == "left"
+    assert page.views[1].position == (1, 2, 3)
+    assert (page.columns, page.size, page.style, page.crop, page.hints) == (2, "160mm@300dpi", "dark", True, True)
+
+
+def test_a_recipe_of_version_0_1_draws_the_same_figure(mesh, tmp_path):
+    data = of_version_0_1("mesh.off")
+    data.update(size="300x200@96dpi", views=["left"], zooms=[{"vertex": 9, "factor": 4}], isolines=12)
+    (tmp_path / "old.json").write_text(json.dumps(data))
+    words = ["--distance", "diffusion", "--source", "4", "--view", "left", "--zoom", "9,4", "--isolines", "12"]
+    assert main(["figure", mesh, *words, *SMALL, "-o", str(tmp_path / "new.png")]) == 0
+    assert main(["figure", "--recipe", str(tmp_path / "old.json"), "-o", str(tmp_path / "again.png")]) == 0
+    assert (tmp_path / "new.png").read_bytes() == (tmp_path / "again.png").read_bytes()
 
 
 def test_a_recipe_and_its_mesh_may_move_together_and_meet_another_mesh(mesh, mesh_file, tmp_path, capsys):
@@ -92,12 +156,13 @@ def test_a_recipe_and_its_mesh_may_move_together_and_meet_another_mesh(mesh, mes
     pictures = [np.asarray(Image.open(tmp_path / name)) for name in ("f.png", "g.png", "h.png")]
     assert (pictures[0] == pictures[1]).all()
     assert (pictures[0] != pictures[2]).any()
-    assert read_recipe(tmp_path / "h.json").mesh == str(tmp_path / "other.off")
+    assert read_recipe(tmp_path / "h.json").document.mesh().path == str(tmp_path / "other.off")
     small = mesh_file(bumpy(300).__class__([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), "small.off")
     said = refused(capsys, "figure", "--recipe", moved / "f.json", "--mesh", small, "-o", tmp_path / "i.png")
     assert "no vertex 4" in said
     (moved / "mesh.off").write_text((moved / "mesh.off").read_text().replace("OFF", "OFF #", 1))
-    assert "checksum" in refused(capsys, "figure", "--recipe", moved / "f.json", "-o", tmp_path / "i.png")
+    said = refused(capsys, "figure", "--recipe", moved / "f.json", "-o", tmp_path / "i.png")
+    assert "checksum differs). Name the mesh" in said
 
 
 @pytest.mark.parametrize(
@@ -128,14 +193,145 @@ def test_a_recipe_and_its_mesh_may_move_together_and_meet_another_mesh(mesh, mes
         (lambda r: r.update(height=0.3), "flat surface"),
     ],
 )
-def test_a_bad_recipe_gets_a_sentence(mesh, tmp_path, capsys, change, words):
-    recipe = Recipe(mesh, (RecipePanel(Spec.of("diffusion", t=1.0), 4),))
-    data = json.loads(recipe_text(recipe, "0.1"))
+def test_a_bad_recipe_of_version_0_1_gets_a_sentence(mesh, tmp_path, capsys, change, words):
+    data = of_version_0_1(mesh)
     change(data)
     path, out = tmp_path / "bad.json", tmp_path / "out.png"
     path.write_text(json.dumps(data))
     assert words in refused(capsys, "figure", "--recipe", path, "-o", out)
     assert not out.exists()
+
+
+PANEL = "document.panels[0]"
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda r: r.pop("document"), "no format and document"),
+        (lambda r: r.update(colour="red"), "the recipe has the unknown key 'colour'"),
+        (lambda r: r.update(format=3, program="bihdist 9.0"), "newer program (bihdist 9.0, format 3)"),
+        (lambda r: r["document"].pop("points"), "document has no 'points'"),
+        (lambda r: r["document"].update(surfaces=[]), "document: There is no surface 'A'"),
+        (lambda r: r["document"].update(surfaces=[], points=[], panels=[]), "names no mesh"),
+        (lambda r: r["document"]["surfaces"][0].update(path=""), "is not there"),
+        (lambda r: r["document"]["surfaces"][0].update(sha256=5), "document.surfaces[0].sha256 must be a text"),
+        (lambda r: r["document"]["points"][0].update(at=5000), "no vertex 5000"),
+        (lambda r: r["document"]["points"][0].update(at={"face": 10**6, "weights": [1, 0, 0]}), "no face 1000000"),
+        (lambda r: r["document"]["points"][0].update(at={"face": 0, "weights": [2, 0, 0]}), "add up to 1"),
+        (lambda r: r["document"]["points"].append(r["document"]["points"][0]), "two points 'source'"),
+        (lambda r: shows(r).update({"from": "here"}), "no point 'here'"),
+        (
+            lambda r: shows(r).update(distance="diffusion(t=-1)"),
+            f"{PANEL}.shows.distance: t",
+        ),
+        (
+            lambda r: shows(r).update(distance=f"diffusion(t={10**400})"),
+            "t must be a number",
+        ),
+        (lambda r: r["document"]["panels"][0].update(maximum=1e308), f"{PANEL}: A colour bar ends at"),
+        (lambda r: r["document"]["panels"][0].update(maximum=1e-300), f"{PANEL}: A colour bar ends at"),
+        (lambda r: r["document"]["panels"][0].update(maximum=10**400), "a number of many digits"),
+        (lambda r: r["document"]["panels"][0].update(id=7), "next_id is 1, and there is a panel 7"),
+        (lambda r: r["document"].update(camera="inside"), "document: There is no view 'inside'"),
+        (lambda r: r["document"].update(camera=camera_at(1e308)), "none beyond 1e+100"),
+        (lambda r: r["document"].update(camera=camera_at(0)), "a focal point elsewhere"),
+        (lambda r: r["document"].update(camera=camera_at(1e-300)), "a focal point elsewhere"),
+        (lambda r: r["document"].update(camera={**camera_at(1), "extent": [1e-300, 1]}), "extent is from"),
+        (lambda r: r["document"].update(camera={**camera_at(1), "up": [0, 0, 1]}), "an up direction across"),
+        (lambda r: r["document"].update(zooms=[{"vertex": 3, "factor": 1e308}]), "at most 100 times"),
+        (lambda r: r["document"].update(areas="round"), "no areas 'round'"),
+        (lambda r: r["document"].update(tool="hammer"), "no tool 'hammer'"),
+        (lambda r: r["document"].update(isolines=10**6), "0 to 1000 steps"),
+        (lambda r: r["page"].update(format="bmp"), "page: There is no format 'bmp'"),
+        (lambda r: r["page"].update(columns=0), "at least one column"),
+        (lambda r: r["page"].update(views=["inside"]), "no view 'inside'"),
+    ],
+)
+def test_a_bad_recipe_gets_a_sentence(mesh, tmp_path, capsys, change, words):
+    data = json.loads(recipe_text(Recipe(comparison(mesh, (Spec.of("diffusion"),), (4,))), "0.1"))
+    change(data)
+    path, out = tmp_path / "bad.json", tmp_path / "out.png"
+    path.write_text(json.dumps(data))
+    assert words in refused(capsys, "figure", "--recipe", path, "-o", out)
+    assert not out.exists()
+
+
+def shows(recipe):
+    return recipe["document"]["panels"][0]["shows"]
+
+
+def anchors(document):
+    return [(document.point(anchor.point).at, anchor.value) for anchor in document.anchors]
+
+
+def camera_at(z):
+    return {"position": [0, 0, z], "focal_point": [0, 0, 0], "up": [0, 1, 0], "extent": [0.5, 0.5]}
+
+
+# ---------------------------------------------------------------------- options beside a recipe
+def changed(tmp_path, *words):
+    """The recipe that is written when one is drawn with options beside it."""
+    out = tmp_path / "changed.png"
+    assert main(["figure", "--recipe", str(tmp_path / "f.json"), *words, "-o", str(out)]) == 0
+    return read_recipe(tmp_path / "changed.json")
+
+
+@pytest.fixture
+def drawn(mesh, tmp_path):
+    words = ["--distance", "biharmonic", "--distance", "diffusion", "--source", "4", "--isolines", "9", "--crop"]
+    assert main(["figure", mesh, *words, *SMALL, "-o", str(tmp_path / "f.png")]) == 0
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("words", "found", "wanted"),
+    [
+        (["--isolines", "3"], lambda r: r.document.isolines, 3),
+        (["--source", "8"], lambda r: r.document.sources, (8,)),
+        (["--t", "1/4"], lambda r: [str(p.shows.spec) for p in r.document.panels], ["biharmonic", "diffusion(t=1/4)"]),
+        (["--distance", "commute-time"], lambda r: [str(p.shows.spec) for p in r.document.panels], ["commute-time"]),
+        (["--areas", "barycentric"], lambda r: r.document.areas, "barycentric"),
+        (["--view", "top"], lambda r: (r.document.camera, r.page.views), ("top", ())),
+        (["--two-views"], lambda r: r.page.views, ("front", "back")),
+        (["--camera=0,0,9,0,0,0,0,1,0,0.4,0.3"], lambda r: getattr(r.document.camera, "position", None), (0, 0, 9)),
+        (["--columns", "1"], lambda r: r.page.columns, 1),
+        (["--zoom", "7,5"], lambda r: r.document.zooms, (Zoom(7, 5.0),)),
+        (
+            ["--anchors", "3=0.2"],
+            lambda r: anchors(r.document),
+            [(3, 0.2)],
+        ),
+        (["--no-hints"], lambda r: r.page.hints, False),
+        (["--no-crop"], lambda r: r.page.crop, False),
+        (["--transparent"], lambda r: r.page.transparent, True),
+        (["--size", "200x150"], lambda r: r.page.size, "200x150"),
+        (["--style", "dark"], lambda r: r.page.style, "dark"),
+    ],
+)
+def test_options_beside_a_recipe_change_it_and_leave_the_rest(drawn, words, found, wanted):
+    before, after = read_recipe(drawn / "f.json"), changed(drawn, *words)
+    assert found(before) != wanted
+    assert found(after) == wanted
+    if "--isolines" not in words:
+        assert after.document.isolines == 9
+
+
+def test_sources_beside_a_recipe_make_rows_as_they_do_without(drawn):
+    recipe = changed(drawn, "--source", "8", "--source", "9")
+    shown = [(p.shows.spec.word, recipe.document.point(p.shows.point).at) for p in recipe.document.panels]
+    assert shown == [("biharmonic", 8), ("diffusion", 8), ("biharmonic", 9), ("diffusion", 9)]
+    assert recipe.page.columns == 2
+
+
+def test_options_that_cannot_apply_are_refused_by_name(drawn, mesh, capsys):
+    figure = ["figure", "--recipe", drawn / "f.json", "-o", drawn / "x.png"]
+    assert "--k 5 is no parameter of biharmonic, diffusion" in refused(capsys, *figure, "--k", "5")
+    assert "cannot share a range" in refused(capsys, *figure, "--shared-range")
+    assert "another mesh is named as --mesh" in refused(capsys, *figure, mesh)
+    assert "flat surface" in refused(capsys, *figure, "--height")
+    field = ["field", mesh, "--source", "3", "-o", drawn / "f.npy"]
+    assert "--t 0.5 is no parameter of biharmonic" in refused(capsys, *field, "--t", "0.5")
 
 
 def test_what_is_no_recipe_at_all_gets_a_sentence(tmp_path, capsys):

@@ -7,10 +7,10 @@ import pytest
 from scipy.spatial import cKDTree
 from scipy.special import eval_legendre
 
-from app.camera import Camera, Projection, standard_camera
-from app.field_actor import drawable, isoline_values
-from app.vector_crossings import chains, crossings, simplified
-from app.vector_sight import Curve, Sight
+from app.drawing.camera import Camera, Projection, standard_camera
+from app.drawing.field_actor import drawable, isoline_values
+from app.figures.crossings import chains, crossings, simplified
+from app.figures.sight import Curve, Sight
 from bihdist_core import Surface
 from bihdist_core.analysis.isoline_tracing import isolines
 from tests.shapes import grid, sphere, torus

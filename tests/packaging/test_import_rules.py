@@ -55,12 +55,25 @@ def test_the_core_loads_nothing_before_a_name_is_asked_for():
     assert said.strip() == "True"
 
 
-def test_the_session_loads_nothing_that_draws():
-    assert not loaded("app.session", "app.state", "app.lane") & (DRAWING | QT)
+def modules(*folders: str) -> list[str]:
+    """All modules of folders of the application."""
+    found = [path for folder in folders for path in (ROOT / "app" / folder).glob("*.py")]
+    return [".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__") for path in found]
 
 
-def test_figures_load_no_qt():
-    assert not loaded("app.figures", "app.scene", "app.camera", "app.picking") & QT
+def test_document_and_session_load_nothing_that_draws():
+    assert not loaded(*modules("document", "session")) & (DRAWING | QT)
+
+
+def test_only_the_window_loads_qt():
+    folders = {path.parent.name for path in (ROOT / "app").glob("*/__init__.py")}
+    assert {"document", "session", "drawing", "figures", "paper", "qt", "commands"} <= folders
+    assert not loaded(*modules(*folders - {"qt"})) & QT
+
+
+def test_the_library_has_one_name():
+    said = run("import app, sys; print('numpy' in sys.modules, app.Surface.__module__)")
+    assert said.split() == ["False", "bihdist_core.surface"]
 
 
 @pytest.mark.parametrize("module", ["app.main", "app.samples"])

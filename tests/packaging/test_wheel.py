@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
-PACKAGES = {"bihdist_core": "bihdist_core", "bihdist_app": "app"}
+PACKAGES = {"bihdist_core": "bihdist_core", "bihdist": "app"}
 """Installed name: folder of the checkout."""
 
 
@@ -90,13 +90,13 @@ def test_holds_the_sample_meshes_and_not_how_they_were_made(names):
 
 
 def test_is_imported_from_where_it_was_installed(installed, environment, tmp_path):
-    code = "import bihdist_app, bihdist_core; print(bihdist_app.__file__, bihdist_core.__file__, sep='\\n')"
+    code = "import bihdist, bihdist_core; print(bihdist.__file__, bihdist_core.__file__, sep='\\n')"
     said = run(sys.executable, "-c", code, cwd=tmp_path, env=environment)
     assert [Path(line).parent for line in said.splitlines()] == [installed / package for package in PACKAGES][::-1]
 
 
 def test_runs_under_its_installed_name(wheel, environment, tmp_path):
-    said = run(sys.executable, "-m", "bihdist_app", "--version", cwd=tmp_path, env=environment)
+    said = run(sys.executable, "-m", "bihdist", "--version", cwd=tmp_path, env=environment)
     assert said == f"bihdist {wheel.name.split('-')[1]}\n"
 
 
@@ -107,14 +107,14 @@ def test_installs_the_command(installed, environment, tmp_path):
 
 
 def test_opens_a_sample_by_its_name(environment, tmp_path):
-    said = run(sys.executable, "-m", "bihdist_app", "info", "figure", cwd=tmp_path, env=environment)
+    said = run(sys.executable, "-m", "bihdist", "info", "figure", cwd=tmp_path, env=environment)
     rows = dict(line.rsplit(maxsplit=1) for line in said.splitlines())
     assert rows["components"] == "1"
     assert int(rows["vertices"]) > 1000
 
 
 def test_writes_a_field(environment, tmp_path):
-    command = [sys.executable, "-m", "bihdist_app", "field", "figure", "--source", "0", "-o", "field.csv"]
+    command = [sys.executable, "-m", "bihdist", "field", "figure", "--source", "0", "-o", "field.csv"]
     run(*command, cwd=tmp_path, env=environment)
     assert (tmp_path / "field.csv").stat().st_size > 10_000
 

@@ -5,6 +5,8 @@ import time
 
 import pytest
 
+from app.document.document import COMPARISON, comparison
+
 
 @pytest.fixture(scope="session")
 def application():
@@ -18,22 +20,34 @@ def application():
 class Screen:
     """A window with the event loop in the test's hands."""
 
-    def __init__(self, application, state=None):
+    def __init__(self, application, specs=COMPARISON):
         from app.qt.main_window import MainWindow
 
         self.application = application
-        self.window = MainWindow(state)
+        self.window = MainWindow(comparison("", tuple(specs)))
         self.window.quiet = True
         self.refusals, self.completions = [], []
         self.window.refused.connect(self.refusals.append)
-        self.window.complete.connect(lambda: self.completions.append(self.window.session.state))
+        self.window.complete.connect(lambda: self.completions.append(self.source))
         self.window.show()
         self.window.build_panels()
         self.session = self.window.session
 
     @property
     def panels(self):
-        return self.window.panels
+        return self.window.grid.panels
+
+    @property
+    def document(self):
+        return self.session.document
+
+    @property
+    def source(self):
+        return self.document.point("source").at
+
+    @property
+    def answers(self):
+        return [self.session.shown[panel.id].answer for panel in self.document.panels]
 
     def until(self, condition, seconds=60):
         end = time.monotonic() + seconds
@@ -72,8 +86,8 @@ class Screen:
 def screen(application):
     screens = []
 
-    def make(state=None):
-        screens.append(Screen(application, state))
+    def make(specs=COMPARISON):
+        screens.append(Screen(application, specs))
         return screens[-1]
 
     yield make

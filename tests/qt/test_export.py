@@ -1,11 +1,14 @@
 """Figures from the window: the same pixels as the command line's, cancelled without a trace, recipes opened."""
 
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from app.recipe import Recipe, RecipePanel, read_recipe, recipe_text
+from app.document.document import comparison
+from app.document.file import read_recipe, recipe_text
+from app.document.page import Page, Recipe
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 
@@ -32,15 +35,16 @@ def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tm
 
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
-    s.window.camera.Azimuth(40)
+    s.window.grid.camera.Azimuth(40)
     exported(s, tmp_path / "window.png", size_text="600x300")
     assert main(["figure", "--recipe", str(tmp_path / "window.json"), "-o", str(tmp_path / "again.png")]) == 0
     window, again = ((tmp_path / name).read_bytes() for name in ("window.png", "again.png"))
     assert window == again
     recipe = read_recipe(tmp_path / "window.json")
-    numbers = [*recipe.views[0].position, *recipe.views[0].focal_point, *recipe.views[0].up, *recipe.views[0].extent]
-    words = ["figure", recipe.mesh, "--source", "5", "--camera=" + ",".join(map(repr, numbers)), "--size", "600x300"]
-    assert main([*words, "-o", str(tmp_path / "options.png")]) == 0
+    camera = recipe.document.camera
+    numbers = [*camera.position, *camera.focal_point, *camera.up, *camera.extent]
+    words = ["--source", "5", "--camera=" + ",".join(map(repr, numbers)), "--size", "600x300"]
+    assert main(["figure", recipe.document.mesh().path, *words, "-o", str(tmp_path / "options.png")]) == 0
     assert (tmp_path / "options.png").read_bytes() == window
 
 
@@ -121,16 +125,16 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     s = screen()
     s.open(mesh_file(bumpy(400), "other.off"))
     open_recipe(s.window, str(tmp_path / "f.json"))
-    s.until(lambda: s.session.path == mesh and s.session.is_complete)
+    s.until(lambda: s.document.mesh().path == mesh and s.session.is_complete)
     assert [p.title.text() for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
-    assert s.session.state.source == 7
-    assert s.session.state.isolines == 12
-    assert np.allclose(s.window.camera.GetPosition(), (3, 1, 2))
+    assert s.source == 7
+    assert s.document.isolines == 12
+    assert np.allclose(s.window.grid.camera.GetPosition(), (3, 1, 2))
     exported(s, tmp_path / "again.png")
     again = read_recipe(tmp_path / "again.json")
-    assert again.style == "dark"
-    assert np.allclose(again.views[0].position, (3, 1, 2))
-    assert np.all(np.array(again.views[0].extent) >= np.array([0.4, 0.3]) - 1e-9)
+    assert again.page.style == "dark"
+    assert np.allclose(again.document.camera.position, (3, 1, 2))
+    assert np.all(np.array(again.document.camera.extent) >= np.array([0.4, 0.3]) - 1e-9)
     open_recipe(s.window, str(tmp_path / "none.json"))
     assert "cannot be read" in s.refusals[-1]
 
@@ -140,18 +144,16 @@ def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tm
 
     s = screen()
     s.open(mesh_file(bumpy(200)), source=5)
-    before, lines = s.session.state, s.window._isolines_box.value()
+    before, lines = s.document, s.window.isolines_box.value()
     (tmp_path / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
-    recipe = Recipe(
-        "bad.off", (RecipePanel(Spec.of("commute-time"), 0),), areas="barycentric", isolines=7, views=("top",)
-    )
-    (tmp_path / "bad.json").write_text(recipe_text(recipe, "0"))
+    document = comparison("bad.off", (Spec.of("commute-time"),), (0,), "barycentric")
+    (tmp_path / "bad.json").write_text(recipe_text(Recipe(replace(document, isolines=7, camera="top")), "0"))
     open_recipe(s.window, str(tmp_path / "bad.json"))
     s.until(lambda: any("bad.off" in words for words in s.refusals))
     s.settle()
-    assert s.session.state == before
-    assert s.window.recipe is None
-    assert s.window._isolines_box.value() == lines
-    assert s.panels[0].controls.spec == before.panels[0]
+    assert s.document == before
+    assert s.window.page == Page()
+    assert s.window.isolines_box.value() == lines
+    assert s.panels[0].controls.spec == before.panels[0].shows.spec
     s.open(mesh_file(grid(3, 3), "other.off"))
-    assert s.session.state.panels == before.panels
+    assert s.document.panels == before.panels

@@ -53,7 +53,7 @@ def test_click_selects_and_drag_only_rotates_all_panels(opened):
     point = s.point_of(panel, target)
     run("mousemove", x0 + point.x(), y0 + point.y())
     run("click", 1)
-    s.until(lambda: s.session.is_complete and s.session.state.source == target)
+    s.until(lambda: s.session.is_complete and s.source == target)
     s.settle()
 
     for panel in s.panels:
@@ -62,7 +62,7 @@ def test_click_selects_and_drag_only_rotates_all_panels(opened):
         middle = x0 + panel.interactor.width() // 2, y0 + panel.interactor.height() // 2
         drag(*middle, 90)
         s.settle(0.5)
-        assert s.session.state.source == target
+        assert s.source == target
         assert np.linalg.norm(np.array(panel.renderer.GetActiveCamera().GetPosition()) - camera) > 0.1
         assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
 
@@ -77,7 +77,7 @@ def test_a_hand_that_trembles_still_clicks(opened):
     run("mousedown", 1)
     run("mousemove_relative", 2, 1)
     run("mouseup", 1)
-    s.until(lambda: s.session.is_complete and s.session.state.source == target)
+    s.until(lambda: s.session.is_complete and s.source == target)
     assert panel.renderer.GetActiveCamera().GetPosition() == camera
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.state import ViewerState
+from app.document.edits import move_source
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, fin, grid, two_pieces
 
@@ -19,7 +19,7 @@ def test_shows_the_same_source_in_three_different_panels(screen, mesh_file):
     assert first.std() > 20
     for other in (second, third):
         assert (first != other).mean() > 0.01
-    assert s.completions[-1].source == 5
+    assert s.completions[-1] == 5
 
 
 def test_a_click_selects_the_vertex_under_the_pointer(screen, mesh_file):
@@ -31,9 +31,9 @@ def test_a_click_selects_the_vertex_under_the_pointer(screen, mesh_file):
     target = int(s.session.surface.vertices[:, 2].argmax())
     before = s.pictures()
     QTest.mouseClick(s.panels[1].interactor, Qt.MouseButton.LeftButton, pos=s.point_of(s.panels[1], target))
-    s.until(lambda: s.session.is_complete and s.session.state.source == target)
+    s.until(lambda: s.session.is_complete and s.source == target)
     s.settle()
-    assert s.window._source_box.value() == target
+    assert s.window.source_box.value() == target
     assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
 
 
@@ -45,7 +45,7 @@ def test_a_click_beside_the_surface_does_nothing(screen, mesh_file):
     s.open(mesh_file(bumpy(800)), 5)
     QTest.mouseClick(s.panels[0].interactor, Qt.MouseButton.LeftButton, pos=QPoint(3, 3))
     s.settle()
-    assert s.session.state.source == 5
+    assert s.source == 5
 
 
 def test_pointing_shows_the_values_of_the_same_vertex_everywhere(screen, mesh_file):
@@ -59,7 +59,7 @@ def test_pointing_shows_the_values_of_the_same_vertex_everywhere(screen, mesh_fi
     s.until(lambda: s.window._hovered == target)
     s.settle()
     assert f"vertex {target} " in s.window.status.pointer.text()
-    for panel, answer in zip(s.panels, s.session.answers, strict=True):
+    for panel, answer in zip(s.panels, s.answers, strict=True):
         assert panel.value.text().startswith(f"{answer.field[target]:.5g} ")
         assert f"{answer.field[target] / answer.maximum:.1%}" in panel.value.text()
     assert all((a != b).any() for a, b in zip(before, s.pictures(), strict=True))
@@ -90,7 +90,7 @@ def test_the_slider_changes_the_diffusion_time(screen, mesh_file):
     assert time.isVisible()
     time.widget.setValue(step_of_value(time.parameter, 1 / 4))
     s.until(lambda: s.session.is_complete)
-    assert s.session.answers[2].panel == Spec.of("diffusion", t=1 / 4)
+    assert s.document.panels[2].shows.spec == Spec.of("diffusion", t=1 / 4)
     assert time._label.text() == "t = 1/4"
     assert s.panels[2].title.text() == "diffusion, t = 0.25"
     assert value_of_step(time.parameter, time.widget.minimum()) == 1 / 15
@@ -121,7 +121,7 @@ def test_isolines_can_be_changed_and_left_out(screen, mesh_file):
 
     counts = []
     for number in (0, 20, 60):
-        s.window._isolines_box.setValue(number)
+        s.window.isolines_box.setValue(number)
         s.settle()
         counts.append(white())
     assert counts[0] < counts[1] < counts[2]
@@ -144,10 +144,10 @@ def test_a_bad_file_is_refused_and_nothing_changes(screen, mesh_file, tmp_path):
 def test_a_typed_vertex_that_cannot_be_a_source_is_refused(screen, mesh_file):
     s = screen()
     s.open(mesh_file(two_pieces()), 3)
-    s.window._source_box.setValue(60)
+    s.window.source_box.setValue(60)
     s.until(lambda: s.refusals)
     assert "vertex 60 belongs to no face" in s.refusals[0]
-    assert s.window._source_box.value() == 3
+    assert s.window.source_box.value() == 3
 
 
 def test_a_typed_vertex_id_is_taken_as_it_was_typed_and_the_keys_go_back_to_the_panels(screen, mesh_file):
@@ -155,14 +155,14 @@ def test_a_typed_vertex_id_is_taken_as_it_was_typed_and_the_keys_go_back_to_the_
 
     s = screen()
     s.open(mesh_file(bumpy(800)), 3)
-    box, panel = s.window._source_box, s.panels[0].interactor
+    box, panel = s.window.source_box, s.panels[0].interactor
     s.until(lambda: s.window.focusWidget() is panel)
     for typed, source in (("99999", 3), ("42", 42)):
         box.setFocus()
         box.selectAll()
         QTest.keyClicks(box, typed + "\r")
         s.settle()
-        assert s.session.state.source == box.value() == source
+        assert s.source == box.value() == source
         assert s.window.focusWidget() is panel
     assert len(s.refusals) == 1
     assert "no vertex 99999" in s.refusals[0]
@@ -200,7 +200,7 @@ def test_views_turn_all_panels_together(screen, mesh_file):
 def test_what_was_seen_stays_in_view_when_the_window_changes_its_shape(screen, mesh_file, size):
     s = screen()
     s.open(mesh_file(bumpy(800)))
-    camera = s.window.camera
+    camera = s.window.grid.camera
     before = s.window.size(), camera.GetViewAngle(), camera.GetPosition()
     s.window.resize(*size)
     s.settle()
@@ -251,7 +251,7 @@ def test_a_failed_screenshot_leaves_the_old_file(screen, mesh_file, tmp_path):
 
 
 def test_progress_and_cancel_are_shown_while_something_is_computed(screen, mesh_file):
-    s = screen(ViewerState(panels=(Spec.of("diffusion", t=1 / 15),)))
+    s = screen((Spec.of("diffusion", t=1 / 15),))
     s.window.open(mesh_file(bumpy(12000)))
     s.until(lambda: s.window.status.progress.isVisible() and s.window.status.doing.text())
     assert s.window.status.cancel.isVisible()
@@ -281,7 +281,7 @@ def test_quick_answers_change_no_panel_s_words(screen, mesh_file, monkeypatch):
     notes = []
     for panel in s.panels:
         monkeypatch.setattr(panel, "show_note", notes.append)
-    s.session.select_source(42)
+    s.session.show(move_source(s.document, 0, 42))
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert set(notes) == {""}
@@ -291,13 +291,13 @@ def test_the_status_bar_tells_how_far_everything_is_and_a_panel_what_it_waits_fo
     s = screen()
     window = s.window
     s.open(mesh_file(bumpy(800)))
-    window.session.answers[2] = None
-    window.session.progress.update({"panel 0": (0.2, "Factoring"), "panel 1": (0.4, "eigenpairs: solving")})
+    del window.session.shown[2]
+    window.session.progress.update({0: (0.2, "Factoring"), 1: (0.4, "eigenpairs: solving")})
     window.progress_changed()
     s.until(window.status.doing.text)
     assert window.status.doing.text() == "Factoring 20%   ·   eigenpairs: solving 40%"
     assert window.status.progress.value() == 300
-    assert [panel.hint.text() for panel in window.panels] == ["Factoring …", "eigenpairs …", "waiting …"]
+    assert [panel.hint.text() for panel in s.panels] == ["Factoring …", "eigenpairs …", "waiting …"]
 
 
 def test_a_panel_s_words_do_not_change_the_size_of_its_picture(screen, mesh_file):
@@ -336,7 +336,7 @@ def test_samples_are_listed_with_their_pictures_and_open(screen):
 
 
 def test_a_panel_that_fails_says_so_in_its_own_place(screen, mesh_file):
-    s = screen(ViewerState(panels=(Spec.of("geodesic", method="exact"), Spec.of("biharmonic"))))
+    s = screen((Spec.of("geodesic", method="exact"), Spec.of("biharmonic")))
     s.open(mesh_file(fin()), source=0)
     failed, answered = s.panels
     assert "is not manifold" in " ".join(failed.scene._failure.GetInput().split())
@@ -358,6 +358,6 @@ def test_long_words_do_not_make_the_window_wider(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(200)))
     width = s.window.width()
-    s.window._say("repaired " * 200)
+    s.window.say("repaired " * 200)
     s.settle()
     assert s.window.width() == width

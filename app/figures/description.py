@@ -6,11 +6,11 @@ import numpy as np
 
 from bihdist_core import ParameterError, Surface
 
-from .camera import VIEWS, Camera, is_flat
-from .figure_size import Size
-from .style import PAPER, Style
-
-CORNERS = ("auto", "top right", "top left", "bottom right", "bottom left")
+from ..document.camera import View, checked_view
+from ..document.document import Zoom
+from ..drawing.camera import is_flat
+from ..drawing.style import PAPER, Style
+from .size import Size
 
 
 @dataclass(frozen=True)
@@ -22,32 +22,14 @@ class Mark:
     text: str = ""
 
 
-@dataclass(frozen=True)
-class Zoom:
-    """A part of a panel's first picture around a vertex, enlarged in a corner of it.
-
-    corner: "auto" (where the least is hidden), "top left", "top right", "bottom left" or "bottom right".
-    """
-
-    vertex: int
-    factor: float = 3.0
-    corner: str = "auto"
-
-    def __post_init__(self) -> None:
-        if not 1 < self.factor <= 100:
-            raise ParameterError(f"A zoom enlarges by more than 1 and at most 100 times, not {self.factor:g}.")
-        if self.corner not in CORNERS:
-            raise ParameterError(f"There is no corner {self.corner!r}; choose one of {', '.join(CORNERS)}.")
-
-
 @dataclass(frozen=True, eq=False)
 class FigurePanel:
     """One panel: a surface, a field (n,) on it with NaN where undefined, or None for the bare shape, and its words.
 
     label and unit stand at the colour bar, heading and hint above.  maximum: the end of the colour bar, the field's
-    own if None.  isolines: equal steps from 0 to the maximum.  views: pictures of the same side by side, each a name
-    from `camera.VIEWS` or a camera.  height: a flat surface becomes a relief, raised by the field so that its maximum
-    is this share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
+    own if None.  isolines: equal steps from 0 to the maximum.  views: pictures of the same side by side, each a
+    standard one or a camera.  height: a flat surface becomes a relief, raised by the field so that its maximum is this
+    share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
     """
 
     surface: Surface
@@ -58,7 +40,7 @@ class FigurePanel:
     unit: str = ""
     maximum: float | None = None
     isolines: int = 20
-    views: tuple[str | Camera, ...] = ("home",)
+    views: tuple[View, ...] = ("home",)
     marks: tuple[Mark, ...] = ()
     zooms: tuple[Zoom, ...] = ()
     height: float = 0.0
@@ -73,8 +55,7 @@ class FigurePanel:
         if not self.views:
             raise ParameterError("A panel needs at least one view.")
         for view in self.views:
-            if isinstance(view, str) and view not in VIEWS:
-                raise ParameterError(f"There is no view {view!r}; choose one of {', '.join(VIEWS)}.")
+            checked_view(view)
         if self.height and not is_flat(self.surface.vertices[self.surface.component_of_vertex >= 0]):
             raise ParameterError("A relief needs a flat surface, with the same z everywhere.")
         if not 0 <= self.height <= 10:

@@ -11,12 +11,14 @@ from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.isoline_tracing import isolines
 from bihdist_core.progress import Progress, part
 
-from .camera import Camera, Margins, Projection, standard_camera
-from .field_actor import drawable, isoline_values
-from .figure_description import Figure, FigurePanel, Zoom
-from .figure_layout import Box, Layout
-from .figure_raster import Rectangle, Studio
-from .vector_sight import Curve, Sight
+from ..document.camera import Camera, View
+from ..document.document import Zoom
+from ..drawing.camera import Margins, Projection, standard_camera
+from ..drawing.field_actor import drawable, isoline_values
+from .description import Figure, FigurePanel
+from .layout import Box, Layout
+from .raster import Rectangle, Studio
+from .sight import Curve, Sight
 
 FREE = 0.03
 """The share of a view left free along each side."""
@@ -85,7 +87,7 @@ def lifted(panel: FigurePanel, top: float) -> Surface:
     return Surface(np.column_stack([x[:, :2], x[:, 2] + panel.height * extent * share]), panel.surface.faces)
 
 
-def _camera(view: str | Camera, panel: FigurePanel, surface: Surface, box: Box) -> Camera:
+def _camera(view: View, panel: FigurePanel, surface: Surface, box: Box) -> Camera:
     if isinstance(view, Camera):
         return view
     name = "relief" if panel.height and view == "home" else view

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
-from .figure_description import Figure
+from .description import Figure
 
 PANEL = (560.0, 640.0)
 """The usual size of a panel with one view."""

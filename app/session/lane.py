@@ -65,11 +65,15 @@ class Lane(Generic[Request]):
 
         return report
 
-    def close(self, timeout: float = 5.0) -> None:
-        """Stop the work and the thread."""
+    def end(self) -> None:
+        """Stop the work and, soon, the thread."""
         with self._changed:
             self._closed = True
             self._changed.notify()
+
+    def close(self, timeout: float = 5.0) -> None:
+        """The same, and wait for it."""
+        self.end()
         self._thread.join(timeout)
 
     def _run(self) -> None:

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from bihdist_core import ParameterError
+from ..document.camera import Camera, Vector, checked_view
 
 VIEW_ANGLE = 25.0
 
-VIEWS = {
+DIRECTIONS = {
     "home": ((0.45, 0.25, 1.0), (0, 1, 0)),
     "front": ((0, 0, 1), (0, 1, 0)),
     "back": ((0, 0, -1), (0, 1, 0)),
@@ -19,9 +19,7 @@ VIEWS = {
     "bottom": ((0, -1, 0), (0, 0, 1)),
     "relief": ((-0.35, -1.0, 0.75), (0, 0, 1)),
 }
-"""Name: direction from the shape to the camera, and which way is up.  `relief` is for height fields over x and y."""
-
-Vector = tuple[float, float, float]
+"""Of the standard views: from the shape to the camera, and which way is up."""
 
 
 @dataclass(frozen=True)
@@ -33,44 +31,25 @@ class Margins:
     bottom: float = 0.12
 
 
-@dataclass(frozen=True)
-class Camera:
-    """A camera that can be written down.
+def frame(camera: Camera) -> np.ndarray:
+    """(3, 3) columns: right, up, and back to the camera."""
+    back = np.subtract(camera.position, camera.focal_point)
+    back = back / np.linalg.norm(back)
+    right = np.cross(np.array(camera.up) / np.linalg.norm(camera.up), back)
+    right /= np.linalg.norm(right)
+    return np.stack([right, np.cross(back, right), back], 1)
 
-    extent: how far it sees at least, to each side and up and down, at distance 1: what lies inside is seen in a
-    picture of any shape.
-    """
 
-    position: Vector
-    focal_point: Vector
-    up: Vector
-    extent: tuple[float, float]
+def turned(camera: Camera, degrees: float, axis: np.ndarray) -> Camera:
+    """The camera gone round its focal point, about an axis (3,)."""
+    a, axis = np.radians(degrees), np.asarray(axis, float) / np.linalg.norm(axis)
 
-    def __post_init__(self) -> None:
-        numbers = np.array([*self.position, *self.focal_point, *self.up, *self.extent], float)
-        back = numbers[:3] - numbers[3:6]
-        if not np.isfinite(numbers).all() or not np.cross(numbers[6:9], back).any() or min(self.extent) <= 0:
-            raise ParameterError(
-                "A camera needs a position, a focal point elsewhere, an up direction across, and an extent above 0."
-            )
+    def turn(arm: np.ndarray) -> np.ndarray:
+        return arm * np.cos(a) + np.cross(axis, arm) * np.sin(a) + axis * (axis @ arm) * (1 - np.cos(a))
 
-    def frame(self) -> np.ndarray:
-        """(3, 3) columns: right, up, and back to the camera."""
-        back = np.subtract(self.position, self.focal_point)
-        back = back / np.linalg.norm(back)
-        right = np.cross(self.up, back)
-        right /= np.linalg.norm(right)
-        return np.stack([right, np.cross(back, right), back], 1)
-
-    def turned(self, degrees: float, axis: np.ndarray) -> "Camera":
-        """The camera gone round its focal point, about an axis (3,)."""
-        a, axis = np.radians(degrees), np.asarray(axis, float) / np.linalg.norm(axis)
-
-        def turn(arm: np.ndarray) -> np.ndarray:
-            return arm * np.cos(a) + np.cross(axis, arm) * np.sin(a) + axis * (axis @ arm) * (1 - np.cos(a))
-
-        arm = turn(np.subtract(self.position, self.focal_point))
-        return replace(self, position=_vector(np.add(self.focal_point, arm)), up=_vector(turn(np.array(self.up))))
+    arm = turn(np.subtract(camera.position, camera.focal_point))
+    up = turn(np.array(camera.up))
+    return replace(camera, position=_vector(np.add(camera.focal_point, arm)), up=_vector(up))
 
 
 class Projection:
@@ -81,10 +60,10 @@ class Projection:
     """
 
     def __init__(self, camera: Camera, aspect: float, points: np.ndarray, free: float = 0.0) -> None:
-        frame, self.position = camera.frame(), np.array(camera.position, float)
+        axes, self.position = frame(camera), np.array(camera.position, float)
         self.view = np.eye(4)
-        self.view[:3, :3], self.view[:3, 3] = frame.T, -frame.T @ self.position
-        depth = -(points @ frame[:, 2] - self.position @ frame[:, 2])
+        self.view[:3, :3], self.view[:3, 3] = axes.T, -axes.T @ self.position
+        depth = -(points @ axes[:, 2] - self.position @ axes[:, 2])
         far = max(float(depth.max()), 1e-12) * 1.01
         near = max(float(depth.min()) * 0.99, far * 1e-4)
         high = max(camera.extent[1], camera.extent[0] / aspect) / (1 - 2 * free)
@@ -114,9 +93,8 @@ class Projection:
 
 def standard_camera(points: np.ndarray, aspect: float, view: str = "home", margins: Margins | None = None) -> Camera:
     """The camera that sees points (n, 3) from a standard view so that they just fill a panel of this aspect."""
-    if view not in VIEWS:
-        raise ParameterError(f"There is no view {view!r}; choose one of {', '.join(VIEWS)}.")
-    direction, up = (np.array(v, float) for v in VIEWS[view])
+    checked_view(view)
+    direction, up = (np.array(v, float) for v in DIRECTIONS[view])
     if view == "home" and is_flat(points):
         direction = np.array([0.0, 0, 1])  # a flat domain is looked at straight
     return _aim(points, aspect, direction, up, margins or Margins())

@@ -7,19 +7,22 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import dijkstra
 
-from bihdist_core import BihdistError, Laplacian, ParameterError, Surface
+from bihdist_core import BihdistError, ParameterError, Surface
+from bihdist_core.distances.answers import Answer
+from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
-from .answers import Answer
-from .camera import VIEWS, Camera, Projection, standard_camera
-from .figure_export import asked, figure_of, load_mesh, refuse_if_nothing
-from .figure_layout import lay_out
-from .figures import Figure, draw_figure
-from .recipe import Recipe, RecipeCamera
+from ..document.camera import Camera, View
+from ..document.document import Document, Panel
+from ..document.edits import put_point
+from ..document.page import Recipe
+from ..drawing.camera import DIRECTIONS, Projection, standard_camera, turned
+from ..session.questions import Question, questions
+from .draw import Figure, draw_figure
+from .export import Surfaces, figure_of, open_document, refuse_if_nothing
+from .layout import lay_out
 
 MOVIE_FORMATS = (".mp4", ".gif")
 
@@ -65,11 +68,10 @@ def check_movie(path: str | os.PathLike[str]) -> None:
 def write_movie(movie: Movie, path: str | os.PathLike[str], progress: Progress | None = None) -> list[Answer]:
     """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel."""
     check_movie(path)
-    surface, recipe = load_mesh(movie.recipe)
-    movie = replace(movie, recipe=recipe)
-    sources = _sources(movie, surface)
-    fields = _Fields(movie, surface, sources, part(progress, 0.0, 0.3))
-    pictures = _pictures(movie, surface, sources, fields, part(progress, 0.3, 1.0))
+    document, surfaces = open_document(movie.recipe.document)
+    movie = replace(movie, recipe=replace(movie.recipe, document=document))
+    fields = _Fields(movie, surfaces, part(progress, 0.0, 0.3))
+    pictures = _pictures(movie, fields, part(progress, 0.3, 1.0))
     with whole_file(path) as temporary:
         (_write_mp4 if temporary.suffix.lower() == ".mp4" else _write_gif)(temporary, pictures, movie)
     return fields.examples
@@ -77,111 +79,104 @@ def write_movie(movie: Movie, path: str | os.PathLike[str], progress: Progress |
 
 def route(surface: Surface, stops: tuple[int, ...]) -> np.ndarray:
     """(k,) vertices of the shortest way along edges through the stops; ParameterError where there is none."""
-    surface.check_vertices(stops)
-    i, j = surface.edges.T
-    length = np.linalg.norm(surface.vertices[i] - surface.vertices[j], axis=1)
-    count = len(surface.vertices)
-    graph = coo_matrix((np.maximum(length, 1e-300), (i, j)), shape=(count, count)).tocsr()
-    way = [stops[0]]
-    for start, stop in pairwise(stops):
-        before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)[1]
-        leg = [stop]
-        while leg[-1] != start:
-            leg.append(int(before[leg[-1]]))
-            if leg[-1] < 0:
-                raise ParameterError(f"There is no way from vertex {start} to vertex {stop} along edges.")
-        way += leg[-2::-1]
-    return np.array(way)
+    edges = EdgeGeodesic(surface)
+    legs = [edges.path(start, stop) for start, stop in pairwise(stops)]
+    return np.concatenate([legs[0][:1], *(leg[1:] for leg in legs)])
 
 
 # ---------------------------------------------------------------------- what each frame shows
-def _sources(movie: Movie, surface: Surface) -> list[int] | None:
-    """The source of each frame; None if it does not move."""
+def _documents(movie: Movie, surface: Surface) -> list[Document]:
+    """What each frame shows, but for where it is seen from."""
+    document = movie.recipe.document
     if not movie.path:
-        return None
+        return [document] * movie.frames
     way = route(surface, movie.path)
     steps = np.linalg.norm(np.diff(surface.vertices[way], axis=0), axis=1)
     at = np.append(0.0, np.cumsum(steps))
     places = np.linspace(0, at[-1], movie.frames)
     nearest = np.abs(at[None] - places[:, None]).argmin(axis=1)
-    return [int(v) for v in way[nearest]]
+    return [_from(document, int(vertex)) for vertex in way[nearest]]
+
+
+def _from(document: Document, vertex: int) -> Document:
+    """The document with every field from one vertex."""
+    for name in dict.fromkeys(name for panel in document.panels for name in panel.shows.points):
+        document = put_point(document, name, vertex, document.point(name).surface)
+    return document
 
 
 class _Fields:
-    """For each panel and source its answer, and one end of the colour bar for all frames.
+    """The answers to all that the frames ask, and one end of the colour bar for all of them.
 
     examples: an answer of each panel.
     """
 
-    def __init__(self, movie: Movie, surface: Surface, sources: list[int] | None, progress: Progress) -> None:
-        panels = movie.recipe.panels
-        laplacian = Laplacian(surface, movie.recipe.areas)
-        self._answers: list[dict[int, Answer]] = []
+    def __init__(self, movie: Movie, surfaces: Surfaces, progress: Progress) -> None:
+        self._recipe, self._surfaces = movie.recipe, surfaces
+        self.surface = surfaces[movie.recipe.document.panels[0].surface].surface
+        self.documents = _documents(movie, self.surface)
+        self._answers: dict[Question, Answer] = {}
+        self._tops: dict[int, float] = {}
         self.examples: list[Answer] = []
-        self.recipe = movie.recipe
-        kept = []
+        panels = movie.recipe.document.panels
         for k, panel in enumerate(panels):
+            wanted = list(dict.fromkeys(questions(document)[panel.id] for document in self.documents))
             step = part(progress, k / len(panels), (k + 1) / len(panels))
-            distance = asked(laplacian, panel.spec)
-            wanted = sorted(set(sources or [panel.source]))
-            surface.check_vertices(wanted)
-            answers = {}
-            for number, source in enumerate(wanted):
-                answer = distance.answer(source, part(step, number / len(wanted), (number + 1) / len(wanted)))
-                if answer.field is not None:
-                    answer = replace(answer, field=answer.field.astype(np.float32))
-                answers[source] = answer
-            # One failure is that of all: the distance could not be made.
-            failed = next((answer for answer in answers.values() if answer.failure), None)
-            if failed is not None:
-                answers = dict.fromkeys(answers, failed)
-            self.examples.append(answers[wanted[0]])
-            self._answers.append(answers)
-            top = max(answer.maximum for answer in answers.values())
-            kept.append(replace(panel, maximum=panel.maximum or top or None))
+            self._answer(panel, wanted, step)
+            self.examples.append(self._answers[wanted[0]])
         refuse_if_nothing(self.examples)
-        self.recipe = replace(movie.recipe, panels=tuple(kept))
 
-    def figure(self, surface: Surface, source: int | None, views: tuple) -> Figure:
-        panels = tuple(p if source is None else replace(p, source=source) for p in self.recipe.panels)
-        recipe = replace(self.recipe, panels=panels, views=views, crop=False, transparent=False)
-        return figure_of(recipe, surface, [a[p.source] for a, p in zip(self._answers, panels, strict=True)])
+    def _answer(self, panel: Panel, wanted: list[Question], progress: Progress) -> None:
+        answers = {}
+        for number, question in enumerate(wanted):
+            step = part(progress, number / len(wanted), (number + 1) / len(wanted))
+            answer = self._surfaces[panel.surface].answer(question, step)
+            if answer.field is not None:
+                answer = replace(answer, field=answer.field.astype(np.float32))
+            answers[question] = answer
+        # One failure is that of all: the distance could not be made.
+        failed = next((answer for answer in answers.values() if answer.failure), None)
+        self._answers |= answers if failed is None else dict.fromkeys(answers, failed)
+        self._tops[panel.id] = max(self._answers[question].maximum for question in wanted)
+
+    def figure(self, frame: int, views: tuple[View, ...]) -> Figure:
+        document = self.documents[frame]
+        panels = tuple(replace(p, maximum=p.maximum or self._tops[p.id] or None) for p in document.panels)
+        recipe = Recipe(
+            replace(document, panels=panels), replace(self._recipe.page, views=views, crop=False, transparent=False)
+        )
+        return figure_of(recipe, self._surfaces, [self._answers[q] for q in questions(document).values()])
 
 
-def _pictures(
-    movie: Movie, surface: Surface, sources: list[int] | None, fields: _Fields, progress: Progress
-) -> Iterator[np.ndarray]:
-    first = fields.figure(surface, sources[0] if sources else None, movie.recipe.views)
+def _pictures(movie: Movie, fields: _Fields, progress: Progress) -> Iterator[np.ndarray]:
+    first = fields.figure(0, movie.recipe.views)
     # Seen from everywhere it keeps its size, so it must fit from everywhere.
     box = lay_out(first).cells[0].views[0]
-    axis, start = _start(movie.recipe.views[0], surface, box.width / box.height)
+    axis, start = _start(movie.recipe.views[0], fields.surface, box.width / box.height)
     if movie.turn:
-        start = _roomy(start, axis, surface)
+        start = _roomy(start, axis, fields.surface)
     for k in range(movie.frames):
         progress(k / movie.frames, f"frame {k + 1} of {movie.frames}")
         # A whole turn ends one step before where it began: shown again and again, it does not halt.
-        seen = start.turned(movie.turn * k / movie.frames, axis)
-        view = RecipeCamera(seen.position, seen.focal_point, seen.up, seen.extent)
-        picture = draw_figure(fields.figure(surface, sources[k] if sources else None, (view,)))
+        picture = draw_figure(fields.figure(k, (turned(start, movie.turn * k / movie.frames, axis),)))
         # The usual kind of MP4 has an even number of rows and columns.
         yield np.pad(picture, [(0, picture.shape[0] % 2), (0, picture.shape[1] % 2), (0, 0)], mode="edge")
     progress(1.0, "")
 
 
-def _start(view: str | RecipeCamera, surface: Surface, aspect: float) -> tuple[np.ndarray, Camera]:
+def _start(view: View, surface: Surface, aspect: float) -> tuple[np.ndarray, Camera]:
     if isinstance(view, str):
         shown = surface.vertices[surface.component_of_vertex >= 0]
-        return np.array(VIEWS[view][1], float), standard_camera(shown, aspect, view)
-    return np.array(view.up), Camera(view.position, view.focal_point, view.up, view.extent)
+        return np.array(DIRECTIONS[view][1], float), standard_camera(shown, aspect, view)
+    return np.array(view.up), view
 
 
 def _roomy(camera: Camera, axis: np.ndarray, surface: Surface) -> Camera:
     """The camera with an extent that holds the shape from all sides it will be seen from."""
     wide, high = camera.extent
     for degrees in range(0, 360, 10):
-        turned = camera.turned(degrees, axis)
-        projection = Projection(replace(turned, extent=(1.0, 1.0)), 1.0, surface.vertices)
-        seen = np.abs(projection(surface.vertices[surface.component_of_vertex >= 0])[:, :2])
+        whole = replace(turned(camera, degrees, axis), extent=(1.0, 1.0))
+        seen = np.abs(Projection(whole, 1.0, surface.vertices)(surface.vertices[surface.component_of_vertex >= 0]))
         wide, high = max(wide, float(np.nanmax(seen[:, 0]))), max(high, float(np.nanmax(seen[:, 1])))
     return replace(camera, extent=(wide, high))
 

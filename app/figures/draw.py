@@ -11,12 +11,13 @@ from bihdist_core import OutputError
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
-from .figure_description import Figure, FigurePanel, Mark, Zoom
-from .figure_drawing import Page
-from .figure_layout import lay_out
-from .figure_page import crop, page_pixels, write_vector
-from .figure_raster import check_offscreen
-from .figure_shots import take_shots
+from ..document.document import Zoom
+from .canvas import Composition
+from .composition import crop, page_pixels, write_vector
+from .description import Figure, FigurePanel, Mark
+from .layout import lay_out
+from .raster import check_offscreen
+from .shots import take_shots
 
 __all__ = ["FIGURE_FORMATS", "Figure", "FigurePanel", "Mark", "Zoom", "check_offscreen", "draw_figure", "save_figure"]
 
@@ -64,6 +65,6 @@ def described(figure: Figure) -> str:
     return f"{count} {'panel' if count == 1 else 'panels'} on {width} x {height} pixels"
 
 
-def _page(figure: Figure, vector: bool, progress: Progress | None) -> Page:
+def _page(figure: Figure, vector: bool, progress: Progress | None) -> Composition:
     layout = lay_out(figure, VECTOR_DPI / 96 if vector else 0.0)
-    return Page(figure, layout, take_shots(figure, layout, vector, part(progress, 0.0, 0.95)))
+    return Composition(figure, layout, take_shots(figure, layout, vector, part(progress, 0.0, 0.95)))

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from .figure_drawing import Page, drawn, matplotlib_settings
-from .figure_layout import Box
+from .canvas import Composition, drawn, matplotlib_settings
+from .layout import Box
 
 CROP_MARGIN = 6.0
 """Units left around what is drawn."""
 
 
-def page_pixels(page: Page) -> np.ndarray:
+def page_pixels(page: Composition) -> np.ndarray:
     """(height, width, 3) uint8, or (height, width, 4) if it is transparent."""
     layout, background = page.layout, page.figure.style.background
     width, height = layout.page
@@ -41,13 +41,13 @@ def page_pixels(page: Page) -> np.ndarray:
     return pixels
 
 
-def crop(page: Page, pixels: np.ndarray) -> np.ndarray:
+def crop(page: Composition, pixels: np.ndarray) -> np.ndarray:
     """The pixels without the empty margins."""
     x, y, width, height = content(page).pixels(page.layout.scale)
     return pixels[y : y + height, x : x + width].copy()
 
 
-def content(page: Page) -> Box:
+def content(page: Composition) -> Box:
     """The part of the page on which something is drawn, with a narrow margin."""
     scale = page.layout.scale
     boxes = [Box(s.box.x, s.box.y, s.box.width, s.box.height) for s in page.shots if s.source is not None]
@@ -66,7 +66,7 @@ def content(page: Page) -> Box:
     return Box(x, y, right - x, bottom - y).snapped(scale)
 
 
-def write_vector(page: Page, path: Path) -> None:
+def write_vector(page: Composition, path: Path) -> None:
     """A .pdf or .svg file: one image per picture; isolines, outlines, text and bars as what they are."""
     from matplotlib.transforms import Bbox
 
@@ -80,7 +80,7 @@ def write_vector(page: Page, path: Path) -> None:
         drawn(page, vector=True).savefig(path, metadata={"Creator": "bihdist", **dates}, **options)
 
 
-def _notes(page: Page) -> np.ndarray:
+def _notes(page: Composition) -> np.ndarray:
     """(height, width, 4) uint8: words, bars, marks and frames on nothing; colours not multiplied by alpha."""
     width, height = page.layout.page
     with matplotlib_settings():

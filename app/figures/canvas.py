@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .figure_description import Figure
-from .figure_layout import FONT, Box, Cell, Layout, bar_words, text_width, wrapped
-from .figure_shots import Line, Shot
-from .style import Colour
-from .vector_crossings import simplified
+from ..drawing.style import Colour
+from .crossings import simplified
+from .description import Figure
+from .layout import FONT, Box, Cell, Layout, bar_words, text_width, wrapped
+from .shots import Line, Shot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +37,7 @@ BAR_STEPS = 256
 
 
 @dataclass(frozen=True, eq=False)
-class Page:
+class Composition:
     """A figure, where everything stands, and its pictures in the order in which they lie on each other."""
 
     figure: Figure
@@ -66,7 +66,7 @@ def matplotlib_settings() -> Iterator[None]:
         yield
 
 
-def drawn(page: Page, vector: bool) -> Canvas:
+def drawn(page: Composition, vector: bool) -> Canvas:
     """The page in matplotlib; not `vector`: without what is there as pixels already."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as Canvas
@@ -88,7 +88,7 @@ def drawn(page: Page, vector: bool) -> Canvas:
 
 
 # ---------------------------------------------------------------------- pictures
-def _draw_shot(axes: Axes, page: Page, number: int, shot: Shot, vector: bool) -> None:
+def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: bool) -> None:
     from matplotlib.patches import Rectangle
     from matplotlib.transforms import TransformedPath
 
@@ -180,7 +180,7 @@ def _silhouette(shot: Shot, scale: float) -> Path | None:
     return _path([(simplified(loop, EDGE_FINENESS), True) for loop in loops if len(loop) > 3])
 
 
-def _draw_marks(axes: Axes, page: Page, shot: Shot, order: int, frame) -> None:
+def _draw_marks(axes: Axes, page: Composition, shot: Shot, order: int, frame) -> None:
     from matplotlib.patches import Circle
 
     style, panel = page.figure.style, page.figure.panels[shot.panel]
@@ -227,7 +227,7 @@ def _draw_frames(axes: Axes, shot: Shot, colour, order: int) -> None:
 
 
 # ---------------------------------------------------------------------- words and bars
-def _draw_words(axes: Axes, page: Page) -> None:
+def _draw_words(axes: Axes, page: Composition) -> None:
     layout, style = page.layout, page.figure.style
     tops = page.figure.tops()
     for panel, cell, top in zip(page.figure.panels, layout.cells, tops, strict=True):
@@ -246,7 +246,7 @@ def _draw_words(axes: Axes, page: Page) -> None:
         _draw_bar(axes, page, layout.shared_bar, max(tops), bar_words(label, shown[0].unit), shown[0].isolines)
 
 
-def _draw_failure(axes: Axes, page: Page, failure: str, cell: Cell) -> None:
+def _draw_failure(axes: Axes, page: Composition, failure: str, cell: Cell) -> None:
     """Why there is no field, in lines on the shape."""
     from matplotlib.patches import Rectangle
 
@@ -264,7 +264,7 @@ def _draw_failure(axes: Axes, page: Page, failure: str, cell: Cell) -> None:
         _write(axes, line, area.x + area.width / 2, y, size, style.text)
 
 
-def _draw_bar(axes: Axes, page: Page, bar: Box, top: float, words: str, isolines: int) -> None:
+def _draw_bar(axes: Axes, page: Composition, bar: Box, top: float, words: str, isolines: int) -> None:
     from matplotlib.patches import Rectangle
 
     style, size = page.figure.style, page.layout.label

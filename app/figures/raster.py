@@ -9,8 +9,8 @@ import numpy as np
 from bihdist_core import BihdistError
 from bihdist_core.progress import Progress, silent
 
-from .camera import Projection
-from .style import Style
+from ..drawing.camera import Projection
+from ..drawing.style import Style
 
 FINER = 2
 """Pixels drawn for each pixel of the picture, along each side; each of them is multisampled besides."""
@@ -35,7 +35,7 @@ class Studio:
         import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the classes below are abstract without it)
         from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
-        from .field_actor import FieldActor, light
+        from ..drawing.field_actor import FieldActor, light
 
         self.shown = FieldActor(style)
         self._renderer = vtkRenderer()

@@ -16,8 +16,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStaticCellLocator
 
 from bihdist_core import Surface
 
-from .camera import Projection
-from .vector_crossings import chains, crossings
+from ..drawing.camera import Projection
+from .crossings import chains, crossings
 
 RAY_EVERY = 5.0
 """Pixels between the rays that decide about a piece."""

@@ -1,0 +1,28 @@
+"""`bihdist figure`: the window's comparison as a picture, without a window."""
+
+import argparse
+
+from ..version import version
+from .figure_options import add_figure_options, chosen_recipe
+from .terminal import judged, progress_line, tell_repairs
+
+WORDS = "the window's comparison as a picture, without a window"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    add_figure_options(parser, "a .png, .pdf or .svg file")
+
+
+def run(options: argparse.Namespace) -> int:
+    from ..figures.draw import described
+    from ..figures.export import check_export, export
+
+    check_export(options.output)
+    recipe = chosen_recipe(options)
+    with progress_line() as progress:
+        figure, recipe, answers = export(recipe, options.output, version(), progress)
+    surface = figure.panels[0].surface
+    tell_repairs(surface)
+    sources = ", ".join(str(vertex) for vertex in recipe.document.sources)
+    print(f"{options.output}: {described(figure)}, source vertex {sources}")
+    return judged(answers, surface.name)

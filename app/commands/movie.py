@@ -1,0 +1,42 @@
+"""`bihdist movie`: a figure in motion."""
+
+import argparse
+import os
+
+from .figure_options import add_figure_options, chosen_recipe
+from .terminal import judged, progress_line
+
+WORDS = "a figure that turns, or whose source wanders, as MP4 or GIF"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    add_figure_options(parser, "a .mp4 or .gif file")
+    parser.add_argument(
+        "--turn", type=float, metavar="DEGREES", help="how far the shape turns (default: 360, or 0 with --path)"
+    )
+    parser.add_argument(
+        "--path", type=_path, default=(), metavar="V,W,…", help="the source goes through these vertices"
+    )
+    parser.add_argument("--frames", type=int, default=120, metavar="N", help="how many pictures (default: 120)")
+    parser.add_argument("--fps", type=float, default=25.0, metavar="N", help="how many of them a second (default: 25)")
+
+
+def run(options: argparse.Namespace) -> int:
+    from ..figures.movie import Movie, check_movie, write_movie
+    from ..figures.raster import check_offscreen
+
+    check_movie(options.output)
+    check_offscreen()
+    turn = options.turn if options.turn is not None else 0.0 if options.path else 360.0
+    movie = Movie(chosen_recipe(options), turn, options.path, options.frames, options.fps)
+    with progress_line() as progress:
+        answers = write_movie(movie, options.output, progress)
+    print(f"{options.output}: {movie.frames} frames, {movie.frames / movie.fps:.3g} s")
+    return judged(answers, os.path.basename(movie.recipe.document.surfaces[0].path))
+
+
+def _path(text: str) -> tuple[int, ...]:
+    try:
+        return tuple(int(word) for word in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not vertex ids with commas between them") from None

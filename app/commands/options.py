@@ -1,0 +1,82 @@
+"""Options that several commands have: the distance with its parameters, the vertex areas, vertex ids."""
+
+import argparse
+from collections.abc import Sequence
+
+from bihdist_core.distances.kinds import OURS, Spec, Value, kinds
+from bihdist_core.errors import ParameterError
+
+from ..document.document import AREAS, COMPARISON
+
+PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
+PARAMETERS = {p.name: p for kind in OURS for p in kind.parameters}
+"""By name: the parameters of our distances, each of which is an option."""
+
+
+def add_distance(parser: argparse.ArgumentParser, several: str = "") -> None:
+    """`--distance`, and an option for each parameter of ours, which holds where the distance does not say otherwise."""
+    words = f"{', '.join(kinds())}; with parameters like 'diffusion(t=1/4)'"
+    if several:
+        parser.add_argument("--distance", metavar="NAME", action="append", help=f"{words}: {several}")
+    else:
+        text = f"{words} (default: biharmonic)"
+        parser.add_argument("--distance", metavar="NAME", default="biharmonic", help=text)
+    for name, parameter in PARAMETERS.items():
+        of = ", ".join(kind.word for kind in OURS if parameter in kind.parameters)
+        parser.add_argument(
+            f"--{name}",
+            metavar="{" + ",".join(parameter.choices) + "}" if parameter.choices else name.upper()[:1],
+            help=f"{parameter.meaning}, for {of} (default: {parameter.written(parameter.default)})",
+        )
+
+
+def add_areas(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--areas", choices=AREAS, help="vertex areas (default: voronoi)")
+
+
+def spec(options: argparse.Namespace, text: str) -> Spec:
+    """The distance that a text means with the options beside it."""
+    return Spec.parse(text, **given_parameters(options))
+
+
+def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
+    """The same for several; ParameterError for an option that none of them has."""
+    found = [spec(options, text) for text in texts]
+    check_parameters(options, found)
+    return found
+
+
+def given_parameters(options: argparse.Namespace) -> dict[str, Value]:
+    """The parameters that have been named, by option."""
+    given = {name: getattr(options, name) for name in PARAMETERS}
+    return {name: PARAMETERS[name].parsed(text) for name, text in given.items() if text is not None}
+
+
+def check_parameters(options: argparse.Namespace, specs: Sequence[Spec]) -> None:
+    """ParameterError for a parameter that none of the distances has: it would be ignored."""
+    known = {parameter.name for each in specs for parameter in each.kind.parameters}
+    for name in given_parameters(options):
+        if name not in known:
+            shown = ", ".join(dict.fromkeys(each.word for each in specs))
+            raise ParameterError(f"--{name} {getattr(options, name)} is no parameter of {shown}.")
+
+
+def vertex(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a vertex id (a whole number)") from None
+
+
+def vertices(text: str) -> list[int]:
+    return [vertex(word) for word in text.split(",")]
+
+
+def positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
+    return value

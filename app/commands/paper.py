@@ -1,0 +1,27 @@
+"""`bihdist paper`: the paper's figures, tables and claims, computed anew."""
+
+import argparse
+
+from ..samples import mesh_path
+from .terminal import progress_line
+
+WORDS = "every figure and table of the paper, computed anew, as one page"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--out", metavar="DIR", required=True, help="folder for index.html, pictures and numbers")
+    parser.add_argument("--only", metavar="IDS", default="", help="a choice, such as fig4,table2")
+    parser.add_argument(
+        "--mesh", metavar="PATH", help="your own mesh, or a folder of meshes (claims and a picture each)"
+    )
+    parser.add_argument("--quick", action="store_true", help="smaller meshes and fewer samples, for a first look")
+
+
+def run(options: argparse.Namespace) -> None:
+    from ..paper.reproduce import reproduce
+
+    only = [word for word in options.only.split(",") if word]
+    mesh = mesh_path(options.mesh) if options.mesh else None
+    with progress_line() as progress:
+        page = reproduce(options.out, only, mesh, options.quick, progress, say=lambda line: print(line, flush=True))
+    print(f"{page}: open it in a browser")

@@ -1,0 +1,70 @@
+"""What a command says beside its result: progress, what was repaired, how accurate it is, what failed."""
+
+import os
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bihdist_core import Distance, Surface
+    from bihdist_core.distances.answers import Answer
+    from bihdist_core.progress import Progress
+
+
+@contextmanager
+def progress_line() -> "Iterator[Progress | None]":
+    """A line of progress on a terminal, nothing elsewhere."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    last = 0.0
+
+    def report(fraction: float, text: str) -> None:
+        nonlocal last
+        if time.monotonic() - last > 0.1:
+            last = time.monotonic()
+            width = os.get_terminal_size(sys.stderr.fileno()).columns
+            print(f"\r\x1b[K{fraction:4.0%} {text}"[: width + 3], end="", file=sys.stderr, flush=True)
+
+    try:
+        yield report
+    finally:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def warn(text: str) -> None:
+    print(f"bihdist: warning: {text}", file=sys.stderr)
+
+
+def tell_repairs(surface: "Surface") -> None:
+    """Say on standard error what was done to a mesh."""
+    for text in surface.remarks:
+        print(f"{surface.name}: {text}", file=sys.stderr)
+
+
+def accuracy(distance: "Distance", everywhere: bool = False) -> str:
+    """What to add to the words on an answer: how accurate it is, with a warning where that is poor.
+
+    everywhere: on all components, also those not asked about.
+    """
+    certificate = distance.certificate(range(distance.surface.component_count) if everywhere else None)
+    if certificate.is_poor:
+        warn(f"{distance.label} on {distance.surface.name} is only {certificate.text}.")
+    return f", {certificate.text}" if certificate.text else ""
+
+
+def judged(answers: "Iterable[Answer]", name: str) -> int:
+    """Warn of answers that are poor, name those that failed; the exit status: 1 if there is one."""
+    answers = list(answers)
+    failures = dict.fromkeys(f"{answer.label}: {answer.failure}" for answer in answers if answer.failure)
+    for failure in failures:
+        print(f"bihdist: {failure}", file=sys.stderr)
+    for label, text in dict.fromkeys((a.label, a.accuracy.text) for a in answers if a.accuracy.is_poor):
+        warn(f"{label} on {name} is only {text}.")
+    return 1 if failures else 0
+
+
+def counted(count: int, noun: str) -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"

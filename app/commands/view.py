@@ -1,0 +1,37 @@
+"""`bihdist view`: the window."""
+
+import argparse
+import os
+
+from .options import PANELS, add_areas, add_distance, specs, vertex
+
+WORDS = "open the viewer"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", nargs="?", help="mesh file, or the name of a sample (default: figure)")
+    parser.add_argument("--source", type=vertex, metavar="V", help="vertex id the distances start from")
+    parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
+    add_distance(parser, PANELS)
+    add_areas(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    from ..document.document import AREAS, COMPARISON, comparison
+    from ..samples import mesh_path
+
+    path = mesh_path(options.mesh or "figure")
+    # Not in the window, where a script would wait for ever.
+    if not os.path.exists(path):
+        from bihdist_core import MeshError
+
+        raise MeshError(f"There is no file {path}.")
+    if options.screenshot:
+        from bihdist_core.whole_file import check_output
+
+        check_output(options.screenshot, (".png",))
+    chosen = specs(options, options.distance or [spec.word for spec in COMPARISON])
+    document = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
+    from ..qt.start import run_viewer
+
+    return run_viewer(document, options.screenshot)

@@ -1,0 +1,1 @@
+"""What is shown, as plain data: the document, its edits, its history, its files.  Neither Qt nor VTK."""

@@ -1,0 +1,64 @@
+"""A camera as numbers that can be written down, and the names of the standard views."""
+
+import math
+from dataclasses import dataclass
+
+from bihdist_core.errors import ParameterError
+
+VIEWS = ("home", "front", "back", "left", "right", "top", "bottom", "relief")
+"""Standard views; `relief` is for height fields over x and y."""
+
+LARGEST = 1e100
+"""No number of a camera is larger, and no direction shorter than one over this: then nothing overflows."""
+
+WIDEST = 1e6
+"""The tangent of the widest half angle, and one over that of the narrowest."""
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Where a camera is, what it looks at, and which way is up.
+
+    extent: how far it sees at least, to each side and up and down, at distance 1: what lies inside is seen in a
+    picture of any shape.  ParameterError for numbers that make no camera.
+    """
+
+    position: Vector
+    focal_point: Vector
+    up: Vector
+    extent: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        numbers = (*self.position, *self.focal_point, *self.up, *self.extent)
+        if len(numbers) != 11 or not all(math.isfinite(x) and abs(x) <= LARGEST for x in numbers):
+            raise ParameterError(f"A camera is eleven numbers, none beyond {LARGEST:g}, not {_shown(numbers)}.")
+        back = tuple(a - b for a, b in zip(self.position, self.focal_point, strict=True))
+        if min(math.hypot(*back), math.hypot(*self.up)) < 1 / LARGEST or not any(_cross(self.up, back)):
+            raise ParameterError(
+                "A camera needs a focal point elsewhere, and an up direction across the line of sight."
+            )
+        if not all(1 / WIDEST <= x <= WIDEST for x in self.extent):
+            raise ParameterError(f"A camera's extent is from {1 / WIDEST:g} to {WIDEST:g}, not {_shown(self.extent)}.")
+
+
+View = str | Camera
+"""The name of a standard view, fitted closely around the shape, or a camera."""
+
+
+def checked_view(view: View) -> View:
+    """The view; ParameterError for a name that none has."""
+    if isinstance(view, str) and view not in VIEWS:
+        raise ParameterError(f"There is no view {view!r}; choose one of {', '.join(VIEWS)}.")
+    return view
+
+
+def _cross(a: tuple[float, ...], b: tuple[float, ...]) -> Vector:
+    # Of unit vectors, so that nothing small vanishes.
+    (ax, ay, az), (bx, by, bz) = (tuple(x / math.hypot(*v) for x in v) for v in (a, b))
+    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+
+
+def _shown(numbers: tuple[float, ...]) -> str:
+    return ", ".join(f"{x:g}" for x in numbers)

@@ -1,0 +1,237 @@
+"""What is shown, all of it, as one frozen value: the state of the window, a saved recipe, a step of the history.
+
+A document says what is wanted and holds nothing that is computed.  It is hashable, pickles, and is written as JSON
+(`file`); the functions in `edits` lead from one to the next.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
+
+from .camera import View, checked_view
+
+COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
+"""The panels of the window and of figures where nothing else is asked for."""
+
+AREAS = ("voronoi", "barycentric")
+CORNERS = ("auto", "top right", "top left", "bottom right", "bottom left")
+TOOLS = ("source",)
+"""What a click does; `source` moves the point that the panel's field starts from."""
+
+MOST_PANELS = 1000
+MOST_ISOLINES = 1000
+LARGEST = 1e100
+"""Of values at which a colour bar ends; their inverses are the smallest."""
+
+
+@dataclass(frozen=True)
+class MeshFile:
+    """A surface by where it comes from, under a name of its own in the document.
+
+    path: a file, or the name of a sample; empty for a surface in memory.  sha256: of the file's bytes, or of the arrays
+    in memory; empty as long as any content will do.
+    """
+
+    name: str
+    path: str
+    sha256: str = ""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place in a face: its corners' weights, which are at least 0 and add up to 1."""
+
+    face: int
+    weights: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        if self.face < 0 or not all(w >= 0 for w in self.weights) or not math.isclose(sum(self.weights), 1):
+            raise ParameterError(f"A place in a face has weights that add up to 1, not {self.weights}.")
+
+
+@dataclass(frozen=True)
+class Point:
+    """A named point: a vertex, a place in a face, or None for the highest vertex of the largest component.
+
+    None becomes that vertex once the surface is there.
+    """
+
+    name: str
+    at: int | Place | None
+    surface: str = "A"
+
+    def __post_init__(self) -> None:
+        if isinstance(self.at, int) and self.at < 0:
+            raise ParameterError(f"Vertex ids start at 0; {self.at} is none.")
+
+
+@dataclass(frozen=True)
+class DistanceFrom:
+    """The distance of every vertex from a named point."""
+
+    spec: Spec
+    point: str = "source"
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return (self.point,)
+
+    @property
+    def hint(self) -> str:
+        """What to look for."""
+        return self.spec.kind.hint
+
+
+Quantity = DistanceFrom
+"""What a panel can show: something with a value at every vertex."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A quantity on a surface.  id: never another panel's; maximum: the end of its colour bar, its own if None."""
+
+    id: int
+    shows: Quantity
+    surface: str = "A"
+    maximum: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.maximum is not None and not 1 / LARGEST <= self.maximum <= LARGEST:
+            raise ParameterError(
+                f"A colour bar ends at a number from {1 / LARGEST:g} to {LARGEST:g}, not {self.maximum:g}."
+            )
+
+
+@dataclass(frozen=True)
+class Zoom:
+    """An inset: the place of a vertex enlarged, in a corner of each panel.
+
+    corner: "auto" (where the least is hidden), "top left", "top right", "bottom left" or "bottom right".
+    """
+
+    vertex: int
+    factor: float = 3.0
+    corner: str = "auto"
+
+    def __post_init__(self) -> None:
+        if not 1 < self.factor <= 100:
+            raise ParameterError(f"A zoom enlarges by more than 1 and at most 100 times, not {self.factor:g}.")
+        if self.corner not in CORNERS:
+            raise ParameterError(f"There is no corner {self.corner!r}; choose one of {', '.join(CORNERS)}.")
+
+
+@dataclass(frozen=True)
+class Anchor:
+    """A marked point, filled with the colour of a value; of the field's own there if it is None."""
+
+    point: str
+    value: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.value is not None and not abs(self.value) <= LARGEST:
+            raise ParameterError(f"The value of an anchor is a number up to {LARGEST:g}, not {self.value:g}.")
+
+
+@dataclass(frozen=True)
+class Document:
+    """See the module; ParameterError for parts that do not fit together.
+
+    areas: which vertex areas the operators have.  isolines: equal steps from 0 to each panel's maximum.  shared_range:
+    one colour bar for all panels.  height: a flat surface becomes a relief whose highest point is this share of its
+    extent.  next_id: of the panel that is added next.
+    """
+
+    surfaces: tuple[MeshFile, ...] = ()
+    points: tuple[Point, ...] = ()
+    panels: tuple[Panel, ...] = ()
+    areas: str = "voronoi"
+    isolines: int = 20
+    shared_range: bool = False
+    camera: View = "home"
+    zooms: tuple[Zoom, ...] = ()
+    anchors: tuple[Anchor, ...] = ()
+    height: float = 0.0
+    tool: str = "source"
+    next_id: int = 0
+
+    def __post_init__(self) -> None:
+        surfaces = _unlike([mesh.name for mesh in self.surfaces], "surface")
+        points = _unlike([point.name for point in self.points], "point")
+        ids = _unlike([panel.id for panel in self.panels], "panel")
+        _known([point.surface for point in self.points], surfaces, "surface")
+        _known([panel.surface for panel in self.panels], surfaces, "surface")
+        _known([name for panel in self.panels for name in panel.shows.points], points, "point")
+        _known([anchor.point for anchor in self.anchors], points, "point")
+        if ids and max(ids) >= self.next_id:
+            raise ParameterError(f"next_id is {self.next_id}, and there is a panel {max(ids)}.")
+        if len(self.panels) > MOST_PANELS:
+            raise ParameterError(f"There are at most {MOST_PANELS} panels, not {len(self.panels)}.")
+        if self.areas not in AREAS:
+            raise ParameterError(f"There are no areas {self.areas!r}; choose one of {', '.join(AREAS)}.")
+        if self.tool not in TOOLS:
+            raise ParameterError(f"There is no tool {self.tool!r}; choose one of {', '.join(TOOLS)}.")
+        if not 0 <= self.isolines <= MOST_ISOLINES:
+            raise ParameterError(f"There are 0 to {MOST_ISOLINES} steps between isolines, not {self.isolines}.")
+        if not 0 <= self.height <= 10:
+            raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
+        checked_view(self.camera)
+
+    def mesh(self, name: str = "A") -> MeshFile:
+        return _named(self.surfaces, name, "surface")
+
+    def point(self, name: str = "source") -> Point:
+        return _named(self.points, name, "point")
+
+    def panel(self, id: int) -> Panel:
+        for panel in self.panels:
+            if panel.id == id:
+                return panel
+        raise ParameterError(f"There is no panel {id}.")
+
+    @property
+    def sources(self) -> tuple[int | Place | None, ...]:
+        """Where the panels' fields start, each place once, in order."""
+        return tuple(dict.fromkeys(self.point(name).at for panel in self.panels for name in panel.shows.points))
+
+
+def comparison(
+    path: str, specs: tuple[Spec, ...] = COMPARISON, sources: tuple[int | None, ...] = (None,), areas: str = "voronoi"
+) -> Document:
+    """A mesh with a panel for each distance from each source: the panels of one source after another."""
+    names = [f"source {k}" if k > 1 else "source" for k in range(1, len(sources) + 1)]
+    shown = [DistanceFrom(spec, name) for name in names for spec in specs]
+    return Document(
+        surfaces=(MeshFile("A", path),),
+        points=tuple(Point(name, at) for name, at in zip(names, sources, strict=True)),
+        panels=tuple(Panel(k, shows) for k, shows in enumerate(shown)),
+        areas=areas,
+        next_id=len(shown),
+    )
+
+
+def without_camera(document: Document) -> Document:
+    """What two documents have in common that differ in nothing but where they are seen from."""
+    return replace(document, camera="home")
+
+
+def _unlike(names: list, what: str) -> set:
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            raise ParameterError(f"There are two {what}s {name!r}.")
+    return set(names)
+
+
+def _known(names: list[str], known: set[str], what: str) -> None:
+    for name in names:
+        if name not in known:
+            raise ParameterError(f"There is no {what} {name!r}.")
+
+
+def _named(items: tuple, name: str, what: str) -> Any:
+    for item in items:
+        if item.name == name:
+            return item
+    raise ParameterError(f"There is no {what} {name!r}.")

@@ -1,0 +1,130 @@
+"""Recipes as JSON files, written and read strictly.
+
+A recipe is `{"format": 2, "program": ..., "document": {...}, "page": {...}}`.  Those of format 1, which version 0.1
+wrote, are read by `recipe_1`.
+"""
+
+import hashlib
+import json
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from bihdist_core.errors import ParameterError
+
+from .form import document_data, document_from, plain, read_view, view_data
+from .json_values import Reader, flag, listed, or_none, placed, record, text, whole
+from .page import Page, Recipe
+from .recipe_1 import recipe_of_format_1
+
+FORMAT = 2
+"""Goes up when a file could not be understood by older programs."""
+
+PROGRAM = "bihdist"
+
+
+def checksum(path: str | os.PathLike[str]) -> str:
+    """The SHA-256 of a file's bytes; ParameterError if it cannot be read."""
+    try:
+        with open(path, "rb") as file:
+            digest = hashlib.sha256()
+            while block := file.read(1 << 20):
+                digest.update(block)
+    except OSError as error:
+        raise ParameterError(f"{path} cannot be read: {error.strerror or error}.") from None
+    return digest.hexdigest()
+
+
+# ---------------------------------------------------------------------- writing
+def recipe_text(recipe: Recipe, version: str) -> str:
+    """The recipe as JSON."""
+    data = {
+        "format": FORMAT,
+        "program": f"{PROGRAM} {version}",
+        "document": document_data(recipe.document),
+        "page": {**plain(recipe.page), "views": [view_data(view) for view in recipe.page.views]},
+    }
+    return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
+    """How a file at a path names a mesh: from its own folder where it can, so that both may move together."""
+    if not os.path.exists(mesh):
+        return mesh  # a sample's name
+    try:
+        return Path(os.path.relpath(mesh, Path(file).resolve().parent)).as_posix()
+    except ValueError:  # on another drive
+        return str(Path(mesh).resolve())
+
+
+def with_meshes_from(recipe: Recipe, file: str | os.PathLike[str]) -> Recipe:
+    """The recipe as it is written at a path."""
+    meshes = tuple(replace(mesh, path=mesh_reference(mesh.path, file)) for mesh in recipe.document.surfaces)
+    return replace(recipe, document=replace(recipe.document, surfaces=meshes))
+
+
+# ---------------------------------------------------------------------- reading
+def read_recipe(path: str | os.PathLike[str]) -> Recipe:
+    """Read a recipe; its meshes are then paths from here, or samples' names.
+
+    Raises ParameterError, with a sentence that names the file and what is wrong.
+    """
+    try:
+        data = json.loads(Path(path).read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise ParameterError(f"The recipe {path} cannot be read: {error.strerror or error}.") from None
+    except (ValueError, RecursionError):
+        raise ParameterError(f"{path} is not a recipe: it is not JSON.") from None
+    try:
+        recipe = _recipe(data)
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {error}") from None
+    meshes = []
+    for mesh in recipe.document.surfaces:
+        beside = Path(path).parent / mesh.path
+        # os.path, which takes a path that is too long for one that is not there.
+        meshes.append(replace(mesh, path=str(beside)) if mesh.path and os.path.exists(beside) else mesh)
+    return replace(recipe, document=replace(recipe.document, surfaces=tuple(meshes)))
+
+
+def is_recipe(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is a recipe, perhaps of another version: whether it may be replaced by one."""
+    try:
+        data = json.loads(Path(path).read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError, RecursionError):
+        return False
+    return isinstance(data, dict) and str(data.get("program", "")).startswith(PROGRAM) and "format" in data
+
+
+def _recipe(data: Any) -> Recipe:
+    if not isinstance(data, dict) or "format" not in data or not {"panels", "document"} & data.keys():
+        raise ParameterError("this is not a recipe: it has no format and document.")
+    version = whole(data["format"], "format")
+    made_with = text(data.get("program", ""), "program")
+    if version > FORMAT:
+        raise ParameterError(
+            f"the recipe was made by a newer program ({made_with or 'unknown'}, format {version}); "
+            f"this one reads formats up to {FORMAT}."
+        )
+    if version < FORMAT:
+        return replace(recipe_of_format_1(data), made_with=made_with)
+    parts = {"format": whole, "program": text, "document": document_from, "page": _page}
+    values = record(data, "the recipe", parts, {"format", "document"})
+    if not values["document"].surfaces:
+        raise ParameterError("the recipe names no mesh.")
+    return Recipe(values["document"], values.get("page", Page()), made_with)
+
+
+def _page(data: Any, where: str) -> Page:
+    readers: dict[str, Reader] = {
+        "size": text,
+        "style": text,
+        "format": text,
+        "views": listed(read_view),
+        "columns": or_none(whole),
+        "hints": flag,
+        "transparent": flag,
+        "crop": flag,
+    }
+    return placed(Page, where, **record(data, where, readers, set()))

@@ -1,0 +1,106 @@
+"""A document as JSON: records, lists, texts and numbers, written and read strictly."""
+
+from dataclasses import fields
+from typing import Any
+
+from bihdist_core.distances.kinds import Spec
+
+from .camera import Camera, View
+from .document import Anchor, DistanceFrom, Document, MeshFile, Panel, Place, Point, Zoom
+from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
+
+
+def document_data(document: Document) -> dict[str, Any]:
+    """The document as records, lists, texts and numbers; `document_from` reads it back, equal."""
+    own: dict[str, Any] = {
+        "surfaces": [plain(mesh) for mesh in document.surfaces],
+        "points": [{**plain(point), "at": _place_data(point.at)} for point in document.points],
+        "panels": [{**plain(panel), "shows": _quantity_data(panel.shows)} for panel in document.panels],
+        "camera": view_data(document.camera),
+        "zooms": [plain(zoom) for zoom in document.zooms],
+        "anchors": [plain(anchor) for anchor in document.anchors],
+    }
+    return {f.name: own.get(f.name, getattr(document, f.name)) for f in fields(document)}
+
+
+def plain(value: Any) -> dict[str, Any]:
+    """The fields of a dataclass by name."""
+    return {f.name: getattr(value, f.name) for f in fields(value)}
+
+
+def view_data(view: View) -> str | dict[str, Any]:
+    if isinstance(view, str):
+        return view
+    return {name: list(values) for name, values in plain(view).items()}
+
+
+def _place_data(at: int | Place | None) -> int | dict[str, Any] | None:
+    return {"face": at.face, "weights": list(at.weights)} if isinstance(at, Place) else at
+
+
+def _quantity_data(shows: DistanceFrom) -> dict[str, Any]:
+    return {"distance": shows.spec.in_full, "from": shows.point}
+
+
+def document_from(data: Any, where: str = "document") -> Document:
+    """The document that `document_data` has written; ParameterError, with the place, for anything else."""
+    readers = {
+        "surfaces": listed(_mesh),
+        "points": listed(_point),
+        "panels": listed(_panel),
+        "areas": text,
+        "isolines": whole,
+        "shared_range": flag,
+        "camera": read_view,
+        "zooms": listed(read_zoom),
+        "anchors": listed(_anchor),
+        "height": number,
+        "tool": text,
+        "next_id": whole,
+    }
+    return placed(Document, where, **record(data, where, readers))
+
+
+def _mesh(data: Any, where: str) -> MeshFile:
+    return MeshFile(**record(data, where, {"name": text, "path": text, "sha256": text}))
+
+
+def _point(data: Any, where: str) -> Point:
+    return placed(Point, where, **record(data, where, {"name": text, "at": or_none(_place), "surface": text}))
+
+
+def _place(data: Any, where: str) -> int | Place:
+    if isinstance(data, dict):
+        return placed(Place, where, **record(data, where, {"face": whole, "weights": numbers(3)}))
+    return whole(data, where)
+
+
+def _panel(data: Any, where: str) -> Panel:
+    readers = {"id": whole, "shows": _quantity, "surface": text, "maximum": or_none(number)}
+    return placed(Panel, where, **record(data, where, readers))
+
+
+def _quantity(data: Any, where: str) -> DistanceFrom:
+    values = record(data, where, {"distance": _spec, "from": text})
+    return DistanceFrom(values["distance"], values["from"])
+
+
+def _spec(data: Any, where: str) -> Spec:
+    return placed(Spec.parse, where, text=text(data, where))
+
+
+def _anchor(data: Any, where: str) -> Anchor:
+    return placed(Anchor, where, **record(data, where, {"point": text, "value": or_none(number)}))
+
+
+def read_view(data: Any, where: str) -> View:
+    """A standard view's name or a camera."""
+    if isinstance(data, str):
+        return data
+    sizes = {"position": 3, "focal_point": 3, "up": 3, "extent": 2}
+    return placed(Camera, where, **record(data, where, {name: numbers(count) for name, count in sizes.items()}))
+
+
+def read_zoom(data: Any, where: str) -> Zoom:
+    readers = {"vertex": whole, "factor": number, "corner": text}
+    return placed(Zoom, where, **record(data, where, readers, {"vertex"}))

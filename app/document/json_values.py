@@ -1,0 +1,91 @@
+"""JSON read strictly: every value has the type and the range it must have, or a sentence names its place.
+
+A reader is a function of the value and its place, such as `document.panels[2].maximum`.
+"""
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from bihdist_core.errors import ParameterError
+
+Reader = Callable[[Any, str], Any]
+
+
+def record(data: Any, where: str, readers: Mapping[str, Reader], needed: set[str] | None = None) -> dict[str, Any]:
+    """The values of a record by name; those needed must be there (all, if not given), others must not."""
+    if not isinstance(data, dict):
+        raise ParameterError(f"{where} must be a record in braces, not {shown(data)}.")
+    unknown = sorted(set(data) - set(readers))
+    if unknown:
+        raise ParameterError(f"{where} has the unknown key {unknown[0]!r}.")
+    missing = sorted((set(readers) if needed is None else needed) - set(data))
+    if missing:
+        raise ParameterError(f"{where} has no {missing[0]!r}.")
+    return {name: readers[name](value, f"{where}.{name}") for name, value in data.items()}
+
+
+def listed(read: Reader) -> Reader:
+    def reader(data: Any, where: str) -> tuple:
+        if not isinstance(data, list):
+            raise ParameterError(f"{where} must be a list, not {shown(data)}.")
+        return tuple(read(value, f"{where}[{k}]") for k, value in enumerate(data))
+
+    return reader
+
+
+def numbers(count: int) -> Reader:
+    def reader(data: Any, where: str) -> tuple:
+        values = listed(number)(data, where)
+        if len(values) != count:
+            raise ParameterError(f"{where} must be {count} numbers, not {len(values)}.")
+        return values
+
+    return reader
+
+
+def or_none(read: Reader) -> Reader:
+    return lambda data, where: None if data is None else read(data, where)
+
+
+def placed(make: Callable[..., Any], where: str, **values: Any) -> Any:
+    """What is made of values; what is wrong with them gets their place."""
+    try:
+        return make(**values)
+    except ParameterError as error:
+        raise ParameterError(f"{where}: {error}") from None
+
+
+def text(data: Any, where: str) -> str:
+    if not isinstance(data, str):
+        raise ParameterError(f"{where} must be a text, not {shown(data)}.")
+    return data
+
+
+def flag(data: Any, where: str) -> bool:
+    if not isinstance(data, bool):
+        raise ParameterError(f"{where} must be true or false, not {shown(data)}.")
+    return data
+
+
+def whole(data: Any, where: str) -> int:
+    if not isinstance(data, int) or isinstance(data, bool) or not 0 <= data < 2**63:
+        raise ParameterError(f"{where} must be a whole number of at least 0, not {shown(data)}.")
+    return data
+
+
+def number(data: Any, where: str) -> float:
+    # A whole number of many digits is no float.
+    fits = isinstance(data, float) or (isinstance(data, int) and abs(data) < 10**300)
+    if isinstance(data, bool) or not fits or not math.isfinite(data):
+        raise ParameterError(f"{where} must be a number, not {shown(data)}.")
+    return float(data)
+
+
+def shown(data: Any) -> str:
+    """A value as it stands in a sentence."""
+    if isinstance(data, int) and abs(data) >= 10**30:
+        return "a number of many digits"
+    words = json.dumps(data, ensure_ascii=False)
+    return words if len(words) <= 40 else f"{words[:37]}..."

@@ -1,0 +1,51 @@
+"""A page for a document, and the two together: a recipe, from which a figure is drawn again."""
+
+from dataclasses import dataclass, field
+
+from bihdist_core.errors import ParameterError
+
+from .camera import View, checked_view
+from .document import Document
+
+FORMATS = ("png", "pdf", "svg")
+
+
+@dataclass(frozen=True)
+class Page:
+    """How a document is put on paper.
+
+    size: as it is written, "" for the usual one.  style: a word of the drawing's styles.  format: of the file.  views:
+    pictures of each panel side by side, the document's camera if empty.  columns: panels side by side, all in one row
+    if None.  hints: what to look for, under the headings.  crop: without the empty margins.
+    """
+
+    size: str = ""
+    style: str = "paper"
+    format: str = "png"
+    views: tuple[View, ...] = ()
+    columns: int | None = None
+    hints: bool = True
+    transparent: bool = False
+    crop: bool = False
+
+    def __post_init__(self) -> None:
+        if self.format not in FORMATS:
+            raise ParameterError(f"There is no format {self.format!r}; choose one of {', '.join(FORMATS)}.")
+        if self.columns is not None and self.columns < 1:
+            raise ParameterError(f"A figure has at least one column, not {self.columns}.")
+        for view in self.views:
+            checked_view(view)
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A figure: a document on a page.  made_with: the program that wrote it."""
+
+    document: Document
+    page: Page = Page()
+    made_with: str = field(default="", compare=False)
+
+    @property
+    def views(self) -> tuple[View, ...]:
+        """The pictures of each panel."""
+        return self.page.views or (self.document.camera,)

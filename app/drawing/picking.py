@@ -1,0 +1,54 @@
+"""From a point of the screen to a vertex: a ray, the first face it meets, that face's nearest corner."""
+
+import numpy as np
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from bihdist_core import Surface
+
+from .face_blocks import FaceBlocks
+
+
+class Picker:
+    """Made once for a surface, on any thread; a pick takes about a millisecond."""
+
+    def __init__(self, surface: Surface) -> None:
+        self._surface = surface
+        self._blocks = FaceBlocks(surface)
+
+    def vertex_at(self, renderer: vtkRenderer, x: float, y: float) -> int | None:
+        """The vertex nearest to where the surface is met at device pixel (x, y), y up; None beside the surface."""
+        met = self._first_met(renderer, x, y)
+        if met is None:
+            return None
+        face, where = met
+        corners = self._surface.faces[face]
+        nearest = np.linalg.norm(self._surface.vertices[corners] - where, axis=1).argmin()
+        return int(corners[nearest])
+
+    def sees(self, renderer: vtkRenderer, point: np.ndarray) -> bool:
+        """Whether nothing but faces about it stands before a point (3,) of the surface."""
+        met = self._first_met(renderer, *pixel_of(renderer, point))
+        if met is None:
+            return True  # at a silhouette the way may pass it by
+        eye = np.array(renderer.GetActiveCamera().GetPosition())
+        nearer = np.linalg.norm(point - eye) - np.linalg.norm(met[1] - eye)
+        return bool(nearer <= 2 * self._surface.mean_edge_length)
+
+    def _first_met(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, np.ndarray] | None:
+        ends = []
+        for depth in (0.0, 1.0):
+            renderer.SetDisplayPoint(x, y, depth)
+            renderer.DisplayToWorld()
+            *point, weight = renderer.GetWorldPoint()
+            if weight == 0:
+                return None
+            ends.append(np.array(point) / weight)
+        return self._blocks.first_met(*ends)
+
+
+def pixel_of(renderer: vtkRenderer, point: np.ndarray) -> tuple[float, float]:
+    """Where a point (3,) is drawn: device pixels, y up."""
+    renderer.SetWorldPoint(*point, 1.0)
+    renderer.WorldToDisplay()
+    x, y, _ = renderer.GetDisplayPoint()
+    return x, y

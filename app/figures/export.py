@@ -1,0 +1,148 @@
+"""From a recipe to a file: the fields computed, the figure drawn, and the recipe written beside it."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from bihdist_core import OutputError, ParameterError, SolverError
+from bihdist_core.distances.answers import Answer
+from bihdist_core.progress import Progress, part
+from bihdist_core.whole_file import check_output, whole_file
+
+from ..document.document import Anchor, Document, Panel
+from ..document.file import is_recipe, recipe_text, with_meshes_from
+from ..document.page import Recipe
+from ..drawing.style import STYLES
+from ..session.opened import Opened, open_mesh
+from ..session.questions import questions, vertex_at
+from .description import Figure, FigurePanel, Mark
+from .draw import FIGURE_FORMATS, check_offscreen, save_figure
+from .size import Size
+
+Surfaces = dict[str, Opened]
+"""The surfaces of a document, by their names in it."""
+
+
+def check_export(path: str | os.PathLike[str]) -> Path:
+    """Before long work: that a figure and its recipe can be written; the recipe's path.  OutputError if not."""
+    check_output(path, FIGURE_FORMATS)
+    check_offscreen()
+    recipe_path = Path(path).with_suffix(".json")
+    check_output(recipe_path, (".json",))
+    if recipe_path.exists() and not is_recipe(recipe_path):
+        raise OutputError(f"{recipe_path}, where the recipe would go, is another file; give the figure another name.")
+    return recipe_path
+
+
+def open_document(document: Document) -> tuple[Document, Surfaces]:
+    """The document with checksums and vertices, and its surfaces.
+
+    Raises ParameterError if one is missing or has changed since the document was written.
+    """
+    surfaces = {}
+    for mesh in document.surfaces:
+        surfaces[mesh.name] = opened = open_mesh(mesh, "Name the mesh that is to be drawn with --mesh.")
+        document = opened.settled(document)
+    return document, surfaces
+
+
+def compute(document: Document, surfaces: Surfaces, progress: Progress | None = None) -> list[Answer]:
+    """For each panel its answer; SolverError if all of them are failures."""
+    asked = [(document.panel(id), question) for id, question in questions(document).items()]
+    answers = []
+    for k, (panel, question) in enumerate(asked):
+        step = part(progress, k / len(asked), (k + 1) / len(asked))
+        answers.append(surfaces[panel.surface].answer(question, step))
+    refuse_if_nothing(answers)
+    return answers
+
+
+def refuse_if_nothing(answers: Sequence[Answer]) -> None:
+    """SolverError if all of them are failures: a figure of bare shapes helps nobody."""
+    if answers and all(answer.failure for answer in answers):
+        raise SolverError(" ".join(dict.fromkeys(answer.failure for answer in answers)))
+
+
+def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> Figure:
+    """The figure a recipe describes, from its panels' answers."""
+    document, page = recipe.document, recipe.page
+    if page.style not in STYLES:
+        raise ParameterError(f"There is no style {page.style!r}; choose one of {', '.join(STYLES)}.")
+    if not document.panels:
+        raise ParameterError("The recipe has no panels.")
+    panels = tuple(
+        _figure_panel(recipe, panel, surfaces[panel.surface], answer)
+        for panel, answer in zip(document.panels, answers, strict=True)
+    )
+    return Figure(
+        panels,
+        columns=page.columns,
+        size=Size.parse(page.size) if page.size else Size(),
+        style=STYLES[page.style],
+        shared_range=document.shared_range,
+        transparent=page.transparent,
+        crop=page.crop,
+    )
+
+
+def write_figure(figure: Figure, recipe: Recipe, path: str, version: str, progress: Progress | None = None) -> None:
+    """The figure at `path` and its recipe beside it, both or neither."""
+    recipe_path = check_export(path)
+    page = replace(recipe.page, format=Path(path).suffix.lower().removeprefix("."))
+    written = with_meshes_from(replace(recipe, page=page), recipe_path)
+    with whole_file(recipe_path) as temporary:
+        temporary.write_text(recipe_text(written, version), encoding="utf-8")
+        save_figure(figure, path, progress)
+
+
+def export(
+    recipe: Recipe, path: str, version: str, progress: Progress | None = None
+) -> tuple[Figure, Recipe, list[Answer]]:
+    """Everything: read, compute, draw, write.  Returns the figure, the recipe with its sources, and the answers."""
+    check_export(path)
+    document, surfaces = open_document(recipe.document)
+    recipe = replace(recipe, document=document)
+    # What cannot be drawn is refused before the long work.
+    figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
+    answers = compute(document, surfaces, part(progress, 0.0, 0.6))
+    figure = figure_of(recipe, surfaces, answers)
+    write_figure(figure, recipe, path, version, part(progress, 0.6, 1.0))
+    return figure, recipe, answers
+
+
+def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) -> FigurePanel:
+    document, surface = recipe.document, opened.surface
+    starts = [vertex_at(document.point(name).at, surface) for name in panel.shows.points]
+    heading = answer.label
+    if len(document.sources) > 1:
+        heading += f", from {', '.join(map(str, starts))}"
+    return FigurePanel(
+        surface,
+        answer.field,
+        heading=heading,
+        hint=panel.shows.hint if recipe.page.hints else "",
+        label="" if answer.failure else answer.label,
+        unit=answer.unit,
+        failure=answer.failure,
+        maximum=panel.maximum,
+        isolines=document.isolines,
+        views=recipe.views,
+        marks=(*map(Mark, starts), *_anchor_marks(document, panel, opened, answer)),
+        zooms=document.zooms,
+        height=0.0 if answer.failure else document.height,
+    )
+
+
+def _anchor_marks(document: Document, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:
+    points = [(anchor, document.point(anchor.point)) for anchor in document.anchors]
+    mine = [(anchor, vertex_at(p.at, opened.surface)) for anchor, p in points if p.surface == panel.surface]
+    return [Mark(vertex, _anchor_value(anchor, vertex, answer)) for anchor, vertex in mine]
+
+
+def _anchor_value(anchor: Anchor, vertex: int, answer: Answer) -> float:
+    """An anchor without a value of its own shows the field's."""
+    if anchor.value is not None:
+        return anchor.value
+    known = answer.field is not None and answer.field[vertex] > 0
+    return float(answer.field[vertex]) if known and answer.field is not None else 0.0

@@ -1,0 +1,89 @@
+"""The window's tool bar and menus."""
+
+from collections.abc import Callable
+
+from qtpy import QtGui, QtWidgets
+
+from ..samples import mesh_path, sample_names, thumbnail
+from .look import LargeIcons
+
+ANY_VERTEX = 2**31 - 1
+"""The box takes every id, and the session refuses those that are none: a box that knows the largest one silently makes
+999 of 99999."""
+
+
+def fill_tool_bar(window) -> tuple[QtWidgets.QSpinBox, QtWidgets.QSpinBox]:
+    """Gives the boxes for the source and for the number of isolines."""
+    bar = window.addToolBar("Main")
+    bar.setMovable(False)
+    bar.addAction("Open …", window.choose_file)
+    bar.addSeparator()
+    bar.addWidget(QtWidgets.QLabel(" Source vertex "))
+    source = QtWidgets.QSpinBox()
+    source.setKeyboardTracking(False)
+    source.setRange(0, ANY_VERTEX)
+    source.setMinimumWidth(100)
+    source.setToolTip("Type a vertex id and press Enter")
+    source.valueChanged.connect(window.choose_source)
+    source.lineEdit().returnPressed.connect(window.leave_boxes)
+    bar.addWidget(source)
+    bar.addSeparator()
+    bar.addWidget(QtWidgets.QLabel(" Isolines "))
+    isolines = QtWidgets.QSpinBox()
+    isolines.setRange(0, 200)
+    isolines.setValue(window.session.document.isolines)
+    isolines.setToolTip("Equal steps from 0 to each panel's maximum; 0 for no lines")
+    isolines.valueChanged.connect(window.choose_isolines)
+    isolines.lineEdit().returnPressed.connect(window.leave_boxes)
+    bar.addWidget(isolines)
+    bar.addSeparator()
+    bar.addAction("Reset view", window.reset_view)
+    bar.addAction("Screenshot …", window.choose_screenshot)
+    return source, isolines
+
+
+def fill_menus(window) -> None:
+    file = window.menuBar().addMenu("&File")
+    _action(file, "&Open …", window.choose_file, QtGui.QKeySequence.StandardKey.Open)
+    samples = file.addMenu("&Samples")
+    large_icons = LargeIcons()
+    large_icons.setParent(samples)
+    samples.setStyle(large_icons)
+    for name in sample_names():
+        action = samples.addAction(QtGui.QIcon(str(thumbnail(name))), name.replace("_", " "))
+        action.triggered.connect(lambda *_, name=name: window.open(mesh_path(name)))
+    _action(file, "S&creenshot …", window.choose_screenshot, "Ctrl+P")
+    _action(file, "&Export figure …", window.export_figure, "Ctrl+E")
+    _action(file, "Export &movie …", window.export_movie, "Ctrl+M")
+    _action(file, "Open &recipe …", window.choose_recipe, "Ctrl+R")
+    file.addSeparator()
+    _action(file, "&Quit", window.close, QtGui.QKeySequence.StandardKey.Quit)
+    view = window.menuBar().addMenu("&View")
+    _action(view, "&Reset", window.reset_view, "R")
+    for key, name in enumerate(("front", "back", "left", "right", "top", "bottom"), 1):
+        _action(view, f"&{name.capitalize()}", lambda *_, name=name: window.reset_view(name), str(key))
+    go = window.menuBar().addMenu("&Source")
+    _action(go, "&Type a vertex id", lambda *_: (window.source_box.setFocus(), window.source_box.selectAll()), "G")
+    _action(go, "&Cancel what is being computed", window.session.cancel, "Esc")
+    about = window.menuBar().addMenu("&Help")
+    _action(about, "&Mouse and keys", lambda: QtWidgets.QMessageBox.information(window, "Mouse and keys", HELP), "F1")
+
+
+def _action(menu: QtWidgets.QMenu, text: str, slot: Callable, key: object) -> None:
+    action = menu.addAction(text)
+    action.setShortcut(QtGui.QKeySequence(key))
+    action.triggered.connect(lambda *_: slot())
+
+
+HELP = """\
+Click a point: distances are measured from the nearest vertex.
+Drag the mark of the source: it wanders, and the fields follow.
+Drag: rotate all panels.  Shift-drag or middle button: move.  Wheel: zoom.
+Point at the surface: its value in every panel.
+
+Ctrl+O  open a mesh (or drop it on the window)
+G  type the source's vertex id
+R  reset the view      1 … 6  front, back, left, right, top, bottom
+Ctrl+P  save a picture of the window      Ctrl+E  export a figure      Ctrl+M  a movie
+Ctrl+R  open a figure's recipe
+Esc  cancel what is being computed"""

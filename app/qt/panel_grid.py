@@ -1,0 +1,198 @@
+"""The panels of the window, equal in size and seen from one camera.  Shows what a session knows; decides nothing."""
+
+from dataclasses import replace
+
+from qtpy import QtCore, QtGui, QtWidgets
+from vtkmodules.vtkRenderingCore import vtkCamera
+
+from bihdist_core.distances.kinds import Spec
+
+from ..document.camera import Camera, View
+from ..document.document import Document
+from ..drawing.camera import camera_seen, place_camera, show_camera
+from ..session.questions import vertex_at
+from ..session.session import Session
+from .panel import DistancePanel
+
+HOVER_DELAY_MS = 25
+SIDE_BY_SIDE = 3
+"""Panels in a row at most; more stand in rows as even as can be."""
+
+
+class PanelGrid(QtWidgets.QWidget):
+    """A panel for each of the document's, by its id; gestures come out as signals that name the panel."""
+
+    clicked = QtCore.Signal(int, int)  # panel, vertex
+    dragged = QtCore.Signal(int, int)  # the source's mark, over a vertex
+    released = QtCore.Signal()
+    chosen = QtCore.Signal(int, Spec)
+    hovered = QtCore.Signal(object)  # a vertex, or None beside the surface
+    looked = QtCore.Signal(Camera)  # where the user has turned or moved the camera to
+
+    def __init__(self, session: Session, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.camera = vtkCamera()
+        self._panels: dict[int, DistancePanel] = {}
+        self._layout = QtWidgets.QGridLayout(self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout.setSpacing(1)
+        self._repaint_soon = QtCore.QTimer(self, singleShot=True, interval=HOVER_DELAY_MS)
+        self._repaint_soon.timeout.connect(self.repaint_views)
+        self.show_panels(session.document)
+
+    @property
+    def panels(self) -> list[DistancePanel]:
+        """In the order of the document."""
+        return list(self._panels.values())
+
+    def panel(self, id: int) -> DistancePanel:
+        return self._panels[id]
+
+    @property
+    def aspect(self) -> float:
+        """Width / height of a panel."""
+        size = self.panels[0].interactor.size()
+        return size.width() / max(size.height(), 1)
+
+    # ------------------------------------------------------------------ the document
+    def show_panels(self, document: Document) -> None:
+        """Make, leave out and put in order the panels, and let their controls say what they show."""
+        wanted = {panel.id: panel for panel in document.panels}
+        for id in self._panels.keys() - wanted.keys():
+            gone = self._panels.pop(id)
+            self._layout.removeWidget(gone)
+            gone.interactor.close()
+            gone.deleteLater()
+        for id, panel in wanted.items():
+            if id not in self._panels:
+                self._panels[id] = self._new_panel(id, panel.shows.spec)
+            self._panels[id].controls.show_spec(panel.shows.spec)
+        self._panels = {id: self._panels[id] for id in wanted}
+        self._arrange()
+
+    def _arrange(self) -> None:
+        count = len(self._panels)
+        rows = -(-count // SIDE_BY_SIDE)
+        columns = -(-count // rows) if rows else 0
+        for number, panel in enumerate(self._panels.values()):
+            place = divmod(number, columns)
+            index = self._layout.indexOf(panel)
+            if index < 0 or self._layout.getItemPosition(index)[:2] != place:
+                self._layout.addWidget(panel, *place)
+        for row in range(self._layout.rowCount()):
+            self._layout.setRowStretch(row, int(row < rows))
+        for column in range(self._layout.columnCount()):
+            self._layout.setColumnStretch(column, int(column < columns))
+
+    def _new_panel(self, id: int, spec: Spec) -> DistancePanel:
+        panel = DistancePanel(spec, self)
+        panel.clicked.connect(lambda vertex: self.clicked.emit(id, vertex))
+        panel.dragged.connect(lambda vertex: self.dragged.emit(id, vertex))
+        panel.released.connect(self.released)
+        panel.hovered.connect(self.hovered)
+        panel.moved.connect(self._looked)
+        panel.resized.connect(self._keep_in_view)
+        panel.changed.connect(lambda chosen: self.chosen.emit(id, chosen))
+        panel.scene.show_isolines(self._session.document.isolines)
+        panel.renderer.SetActiveCamera(self.camera)
+        opened = self._session.opened() if self._session.surface is not None else None
+        if opened is not None:
+            self._show_surface(panel, opened.prepared)
+        return panel
+
+    def show_surface(self) -> None:
+        """Another surface is there."""
+        prepared = self._session.opened().prepared
+        for panel in self.panels:
+            self._show_surface(panel, prepared)
+
+    def _show_surface(self, panel: DistancePanel, prepared) -> None:
+        panel.show_surface(prepared.mesh, prepared.picker, self.camera)
+
+    def mark_points(self, document: Document) -> None:
+        """Put the mark of each panel where its field starts."""
+        for panel in document.panels:
+            opened = self._session.opened(panel.surface)
+            start = document.point(panel.shows.points[0])
+            self._panels[panel.id].mark_source(opened.surface.vertices[vertex_at(start.at, opened.surface)])
+
+    def show_isolines(self, count: int) -> None:
+        for panel in self.panels:
+            panel.scene.show_isolines(count)
+
+    # ------------------------------------------------------------------ answers
+    def show_answer(self, id: int) -> None:
+        """The answer that the session has now for a panel."""
+        for other in self._session.shown if self._session.document.shared_range else (id,):
+            if other in self._panels:
+                self._panels[other].show_answer(self._session.shown[other], self._maximum(other))
+
+    def show_certificate(self, id: int) -> None:
+        self._panels[id].show_certificate(self._session.shown[id])
+
+    def _maximum(self, id: int) -> float | None:
+        """The end of a panel's colour bar; None for the field's own maximum."""
+        document, shown = self._session.document, self._session.shown
+        if not document.shared_range:
+            return document.panel(id).maximum
+        unit = shown[id].answer.unit
+        ends = [
+            document.panel(other).maximum or shown[other].answer.maximum
+            for other in shown
+            if shown[other].answer.unit == unit
+        ]
+        return max(ends)
+
+    # ------------------------------------------------------------------ the camera
+    def look(self, view: View) -> None:
+        """See the surface from a standard view, fitted closely, or as a camera saw it; told by `looked`."""
+        prepared = self._session.opened().prepared
+        if isinstance(view, Camera):
+            show_camera(self.camera, view, self.aspect)
+        else:
+            place_camera(self.camera, prepared.points, self.aspect, view)
+        self._looked()
+
+    def seen(self) -> Camera:
+        """What the camera sees."""
+        return camera_seen(self.camera, self.aspect)
+
+    def _looked(self) -> None:
+        if self._session.surface is not None:
+            self.looked.emit(self.seen())
+        self.repaint_views()
+
+    def _keep_in_view(self) -> None:
+        """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""
+        known = self._session.document.camera
+        if isinstance(known, Camera) and self._session.surface is not None:
+            show_camera(self.camera, replace(self.seen(), extent=known.extent), self.aspect)
+            self.repaint_views()
+
+    # ------------------------------------------------------------------ pictures
+    def point_at(self, vertex: int | None) -> None:
+        """Mark the vertex under the pointer in every panel, and show its values."""
+        position = None if vertex is None else self._session.surface.vertices[vertex]
+        for panel in self.panels:
+            panel.scene.mark_pointer(position)
+            panel.show_value(vertex)
+        self._repaint_soon.start()
+
+    def repaint_views(self) -> None:
+        opened = self._session.opened() if self._session.surface is not None else None
+        if opened is not None and self._panels:
+            # The panels have one camera.  Left to itself VTK would go over all vertices to find the bounds.
+            self.panels[0].renderer.ResetCameraClippingRange(opened.prepared.bounds)
+        for panel in self.panels:
+            panel.repaint_view()
+
+    def paint_into(self, painter: QtGui.QPainter, window: QtWidgets.QWidget) -> None:
+        """The views, which are no part of a picture that Qt takes of the window."""
+        for panel in self.panels:
+            corner = panel.interactor.mapTo(window, QtCore.QPoint(0, 0))
+            painter.drawImage(QtCore.QRect(corner, panel.interactor.size()), panel.picture())
+
+    def close_views(self) -> None:
+        for panel in self.panels:
+            panel.interactor.close()

@@ -1,0 +1,39 @@
+"""Answers that are kept by their questions, as many as a memory holds."""
+
+import threading
+from collections import OrderedDict
+
+from bihdist_core.distances.answers import Answer
+
+from .questions import Question
+
+MEMORY = 256_000_000
+"""Bytes of fields that are kept: 320 of 100,000 vertices, 32 of a million."""
+
+
+class KeptAnswers:
+    """The final answers given last, for any thread: what comes back, by undo or in another panel, costs nothing."""
+
+    def __init__(self, memory: int = MEMORY) -> None:
+        self._memory = memory
+        self._bytes = 0
+        self._answers: OrderedDict[Question, Answer] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def get(self, question: Question) -> Answer | None:
+        with self._lock:
+            if question in self._answers:
+                self._answers.move_to_end(question)
+            return self._answers.get(question)
+
+    def put(self, question: Question, answer: Answer) -> None:
+        """Keep an answer with a field; those not asked for the longest go."""
+        if answer.field is None:
+            return
+        with self._lock:
+            old = self._answers.pop(question, None)
+            self._bytes += answer.field.nbytes - (0 if old is None or old.field is None else old.field.nbytes)
+            self._answers[question] = answer
+            while self._bytes > self._memory and len(self._answers) > 1:
+                _, gone = self._answers.popitem(last=False)
+                self._bytes -= 0 if gone.field is None else gone.field.nbytes

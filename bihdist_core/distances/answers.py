@@ -1,0 +1,169 @@
+"""Where questions become answers: the distances of a Laplacian, each built once for whoever asks.
+
+The window, figures, movies, the command line and the experiments all ask here, so that they agree about what is
+computed, how accurate it is, and what is said where it cannot be done.
+"""
+
+import threading
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..errors import BihdistError, Cancelled, VertexError
+from ..laplacian import Laplacian
+from ..progress import Progress, part, silent
+from .accuracy import Certificate
+from .distance import Distance
+from .kinds import Spec
+
+REPORT_EVERY = 0.1
+"""Seconds between two reports while another thread builds the same distance, hence until a cancellation acts."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Answer:
+    """A field (n,) with NaN where undefined, or None and the failure in words.
+
+    label and unit: the distance's; certificate: how accurate the field is, None as long as that is not known.
+    """
+
+    label: str
+    unit: str = ""
+    field: np.ndarray | None = None
+    failure: str = ""
+    certificate: Certificate | None = None
+
+    @property
+    def maximum(self) -> float:
+        return 0.0 if self.field is None else float(np.nanmax(self.field, initial=0.0))
+
+    @property
+    def is_final(self) -> bool:
+        """Whether nothing more is to come: it failed, or its accuracy is known."""
+        return bool(self.failure) or self.certificate is not None
+
+    @property
+    def accuracy(self) -> Certificate:
+        """The certificate, or an empty one."""
+        return self.certificate or Certificate()
+
+
+def failed(label: str, error: Exception) -> Answer:
+    """The answer that says why there is none."""
+    return Answer(label=label, failure=failure_in_words(error))
+
+
+def failure_in_words(error: Exception) -> str:
+    """A sentence for the user."""
+    if isinstance(error, BihdistError):
+        return str(error)
+    if isinstance(error, MemoryError):
+        return "There is not enough memory for this mesh."
+    return f"Something went wrong that should not have: {type(error).__name__}: {error}"
+
+
+class Distances:
+    """The distances of one Laplacian, made when first asked for, by any number of threads."""
+
+    def __init__(self, laplacian: Laplacian) -> None:
+        self.laplacian = laplacian
+        self._known: dict[Spec, Distance] = {}
+        self._unbuilt: dict[Spec, BihdistError] = {}
+        self._failures: dict[tuple[Spec, int], str] = {}
+        self._turns: dict[Spec, threading.Lock] = {}
+        self._lock = threading.Lock()
+
+    def get(self, spec: Spec, progress: Progress | None = None) -> Distance:
+        """The distance, ready to be asked on the largest component; whoever asks meanwhile waits for it.
+
+        BihdistError if it cannot be had, at once where that is known.
+        """
+        with self._turn(spec, progress):
+            with self._lock:
+                distance = self._known.pop(spec, None)
+                failure = self._unbuilt.get(spec)
+            if failure is not None:
+                raise type(failure)(str(failure))
+            if distance is None:
+                distance = self._built(spec, progress)
+            with self._lock:
+                # Asked for last stands last, see `keep`.
+                self._known[spec] = distance
+        return distance
+
+    def _built(self, spec: Spec, progress: Progress | None) -> Distance:
+        try:
+            return spec.build(self.laplacian, progress)
+        except Cancelled:
+            raise
+        except BihdistError as error:
+            # It would be the same again, after as long.
+            self._unbuilt[spec] = error
+            raise
+
+    def stand_in(self, spec: Spec, progress: Progress | None = None) -> Spec | None:
+        """A distance that is quick and resembles this one, or None if it is quick itself."""
+        return spec.quick(self.get(spec, progress))
+
+    def answer(
+        self,
+        spec: Spec,
+        source: int,
+        progress: Progress | None = None,
+        at_once: Callable[[Answer], None] | None = None,
+    ) -> Answer:
+        """The field from a vertex, with its certificate on the component of that vertex.
+
+        What cannot be done becomes an answer that says so; Cancelled and VertexError are raised.  at_once: gets the
+        answer without its certificate where that has still to be made.
+        """
+        component = self.laplacian.component_of(source)
+        known_failure = self._failures.get((spec, component.index))
+        if known_failure:
+            return Answer(label=str(spec), failure=known_failure)
+        try:
+            distance = self.get(spec, part(progress, 0, 0.8))
+            with self._turn(spec, progress):
+                distance.prepare(component, part(progress, 0.8, 0.9))
+            field = distance.from_source(source, part(progress, 0.9, 1))
+            field.flags.writeable = False
+            answer = Answer(label=distance.label, unit=distance.unit, field=field)
+            if at_once is not None and not distance.is_judged(component.index):
+                at_once(answer)
+                # Whoever has a newer question need not wait for the certificate of this one.
+                (progress or silent)(1.0, distance.label)
+            return replace(answer, certificate=distance.certificate([component.index]))
+        except (Cancelled, VertexError):
+            raise
+        except BihdistError as error:
+            # The same for every source of the component: what fails is the distance.
+            self._failures[spec, component.index] = str(error)
+            return failed(str(spec), error)
+        except MemoryError as error:
+            return failed(str(spec), error)
+
+    def keep(self, wanted: Collection[Spec]) -> None:
+        """Forget all but what is wanted, its stand-ins, and the last of each word: a slider leaves one at every step.
+
+        What is expensive about most of them, the factor and the eigenpairs, stays with the Laplacian.
+        """
+        with self._lock:
+            quick = {spec.quick(self._known[spec]) for spec in wanted if spec in self._known}
+            wanted = {*wanted, *(spec for spec in quick if spec is not None)}
+            last = {spec.word: spec for spec in self._known if spec not in wanted}
+            spared = {*wanted, *last.values()}
+            self._known = {spec: distance for spec, distance in self._known.items() if spec in spared}
+
+    @contextmanager
+    def _turn(self, spec: Spec, progress: Progress | None) -> Iterator[None]:
+        """Nobody else builds or prepares this distance meanwhile."""
+        with self._lock:
+            turn = self._turns.setdefault(spec, threading.Lock())
+        while not turn.acquire(timeout=REPORT_EVERY):
+            (progress or silent)(0.0, f"waiting for {spec}")
+        try:
+            yield
+        finally:
+            turn.release()
