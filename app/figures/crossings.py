@@ -1,4 +1,4 @@
-"""Lines in the plane: where two sets of segments cross, edges put end to end, lines with fewer points."""
+"""Lines in the plane: where two sets of segments cross, lines with fewer points."""
 
 import numpy as np
 
@@ -60,32 +60,6 @@ def _cells(ends: np.ndarray, length: np.ndarray, low: np.ndarray, cell: float) -
         for y in (False, True)
     ]
     return np.tile(index, 4), np.concatenate(cells)
-
-
-def chains(edges: np.ndarray) -> list[tuple[np.ndarray, bool]]:
-    """Edges (m, 2) of ids put end to end: ids (k,) of each chain, and whether it is closed (its first id once)."""
-    at: dict[int, list[tuple[int, int]]] = {}
-    for k, (a, b) in enumerate(edges.tolist()):
-        at.setdefault(a, []).append((k, b))
-        at.setdefault(b, []).append((k, a))
-    used = np.zeros(len(edges), bool)
-    found = []
-    # Open chains begin where not just two edges meet; what is left after them is closed.
-    for start in sorted(at, key=lambda v: len(at[v]) == 2):
-        for edge, following in at[start]:
-            if used[edge]:
-                continue
-            used[edge] = True
-            chain = [start, following]
-            while len(at[chain[-1]]) == 2:
-                rest = [(k, v) for k, v in at[chain[-1]] if not used[k]]
-                if not rest:
-                    break
-                used[rest[0][0]] = True
-                chain.append(rest[0][1])
-            closed = chain[0] == chain[-1] and len(chain) > 3
-            found.append((np.array(chain[:-1] if closed else chain), closed))
-    return found
 
 
 def simplified(points: np.ndarray, tolerance: float) -> np.ndarray:

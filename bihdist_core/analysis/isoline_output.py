@@ -6,6 +6,7 @@ from typing import BinaryIO
 
 import numpy as np
 
+from ..formats.vtp_output import write_poly_data
 from ..whole_file import check_output, whole_file
 from .isoline_tracing import Isoline
 
@@ -39,32 +40,8 @@ def _write_obj(file: BinaryIO, lines: Sequence[Isoline]) -> None:
 
 
 def _write_vtp(file: BinaryIO, lines: Sequence[Isoline]) -> None:
-    corners = _corners(lines)
-    arrays = {
-        "value": np.array([line.value for line in lines], "<f8"),
-        "Points": np.concatenate([np.empty((0, 3)), *(line.points for line in lines)]).astype("<f8"),
-        "connectivity": np.concatenate([np.empty(0, np.int64), *corners]).astype("<i8"),
-        "offsets": np.cumsum([len(c) for c in corners], dtype="<i8"),
-    }
-    offset, tags, blocks = 0, {}, []
-    for name, array in arrays.items():
-        kind = "Float64" if array.dtype.kind == "f" else "Int64"
-        size = ' NumberOfComponents="3"' if array.ndim == 2 else ""
-        tags[name] = f'<DataArray type="{kind}" Name="{name}"{size} format="appended" offset="{offset}"/>'
-        content = array.tobytes()
-        blocks += [len(content).to_bytes(8, "little"), content]
-        offset += 8 + len(content)
-    file.write(
-        '<?xml version="1.0" encoding="UTF-8"?>\n'
-        '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-        f'<Piece NumberOfPoints="{len(arrays["Points"])}" NumberOfVerts="0" NumberOfLines="{len(lines)}" '
-        'NumberOfStrips="0" NumberOfPolys="0">\n'
-        f"<CellData>{tags['value']}</CellData>\n<Points>{tags['Points']}</Points>\n"
-        f"<Lines>{tags['connectivity']}{tags['offsets']}</Lines>\n"
-        '</Piece>\n</PolyData>\n<AppendedData encoding="raw">\n_'.encode()
-    )
-    file.write(b"".join(blocks))
-    file.write(b"\n</AppendedData>\n</VTKFile>\n")
+    points = np.concatenate([np.empty((0, 3)), *(line.points for line in lines)])
+    write_poly_data(file, points, lines=_corners(lines), cell_data={"value": np.array([line.value for line in lines])})
 
 
 def _corners(lines: Sequence[Isoline]) -> list[np.ndarray]:

@@ -1,6 +1,5 @@
 """Isolines of a field on a surface, as ordered polylines."""
 
-from collections import defaultdict
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,6 +7,7 @@ import numpy.typing as npt
 
 from ..errors import ParameterError
 from ..surface import Surface
+from .chains import chains
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,9 +86,7 @@ def _joined(surface: Surface, f: np.ndarray, level: float, edges: np.ndarray, se
     x = surface.vertices
     points = (1 - t)[:, None] * x[edges[:, 0]] + t[:, None] * x[edges[:, 1]]
     lines = []
-    for path in _paths(segments, len(edges)):
-        closed = len(path) > 2 and path[0] == path[-1]
-        chosen = np.array(path[:-1] if closed else path)
+    for chosen, closed in chains(segments):
         here = points[chosen]
         # A curve through a vertex meets several of its edges there, all in the same point.
         new = np.ones(len(chosen), bool)
@@ -99,30 +97,3 @@ def _joined(surface: Surface, f: np.ndarray, level: float, edges: np.ndarray, se
             chosen = chosen[new]
             lines.append(Isoline(level, points[chosen], edges[chosen], t[chosen], closed and len(chosen) > 2))
     return lines
-
-
-def _paths(segments: np.ndarray, count: int) -> list[list[int]]:
-    """The segments (m, 2) among `count` nodes put end to end; a closed path ends with its first node."""
-    at: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
-    for s, (i, j) in enumerate(segments.tolist()):
-        at[i].append((s, j))
-        at[j].append((s, i))
-    used = [False] * len(segments)
-    degree = np.bincount(segments.ravel(), minlength=count)
-    # Open paths begin where not exactly two segments meet; what is left after them are loops.
-    starts = np.concatenate([np.flatnonzero(degree != 2), np.flatnonzero(degree == 2)]).tolist()
-    paths = []
-    for start in starts:
-        for first, following in at[start]:
-            if used[first]:
-                continue
-            used[first] = True
-            path, node = [start, following], following
-            while len(at[node]) == 2 and node != start:
-                segment, node = next(((s, k) for s, k in at[node] if not used[s]), (-1, -1))
-                if segment < 0:
-                    break
-                used[segment] = True
-                path.append(node)
-            paths.append(path)
-    return paths

@@ -175,7 +175,9 @@ class Spec:
         if isinstance(make, str):
             module, _, name = make.partition(":")
             make = getattr(import_module(module), name)
-        return make(laplacian, **dict(self.values), progress=progress)
+        distance = make(laplacian, **dict(self.values), progress=progress)
+        distance.spec = self
+        return distance
 
     def quick(self, distance: "Distance") -> "Spec | None":
         """A fast stand-in for the distance that this spec has made, or None."""

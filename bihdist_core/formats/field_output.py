@@ -5,7 +5,6 @@ import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import BinaryIO
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +12,7 @@ import numpy.typing as npt
 from ..errors import ParameterError
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
+from .vtp_output import write_poly_data
 
 Columns = dict[str, np.ndarray]
 """(n,) float64 arrays by name, in order."""
@@ -139,30 +139,7 @@ def _write_ply(file: BinaryIO, surface: Surface, columns: Columns) -> None:
 
 
 def _write_vtp(file: BinaryIO, surface: Surface, columns: Columns) -> None:
-    blocks: list[bytes] = []
-
-    def array(name: str, values: np.ndarray, components: int = 1) -> str:
-        offset = sum(map(len, blocks))
-        kind = "Float64" if values.dtype.kind == "f" else "Int64"
-        content = values.astype("<f8" if kind == "Float64" else "<i8").tobytes()
-        blocks.append(len(content).to_bytes(8, "little") + content)
-        size = f' NumberOfComponents="{components}"' if components > 1 else ""
-        return f'<DataArray type="{kind}" Name={quoteattr(name)}{size} format="appended" offset="{offset}"/>\n'
-
-    fields = "".join(array(name, values) for name, values in columns.items())
-    points = array("Points", surface.vertices, components=3)
-    polygons = array("connectivity", surface.faces) + array("offsets", 3 * np.arange(1, len(surface.faces) + 1))
-    file.write(
-        '<?xml version="1.0" encoding="UTF-8"?>\n'
-        '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-        f'<Piece NumberOfPoints="{len(surface.vertices)}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" '
-        f'NumberOfPolys="{len(surface.faces)}">\n'
-        f"<PointData>\n{fields}</PointData>\n<Points>\n{points}</Points>\n<Polys>\n{polygons}</Polys>\n"
-        '</Piece>\n</PolyData>\n<AppendedData encoding="raw">\n_'.encode()
-    )
-    for block in blocks:
-        file.write(block)
-    file.write(b"\n</AppendedData>\n</VTKFile>\n")
+    write_poly_data(file, surface.vertices, polygons=surface.faces, point_data=columns)
 
 
 _FIELD_WRITERS: dict[str, Callable[[BinaryIO, Surface, Columns], None]] = {

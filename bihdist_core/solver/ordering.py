@@ -16,6 +16,7 @@ import scipy.sparse as sp
 from ..progress import Progress, part
 from .separators import separate
 from .worker_threads import Job
+from .z_order import z_order
 
 LANDMARKS = 4
 LEAST_SHARE = 0.4
@@ -83,11 +84,8 @@ def _along_a_curve(box: list[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]]
 
     However a file numbers its vertices, neighbours then lie near each other in memory, for all that is done here.
     """
-    code = np.zeros(len(box[0]), np.uint16)
-    for k, x in enumerate(box):
-        cell = ((x + 1) * (1 << CELL_BITS - 1)).clip(0, (1 << CELL_BITS) - 1).astype(np.uint16)
-        for bit in range(CELL_BITS):
-            code |= (cell >> bit & 1) << bit * len(box) + k
+    last = (1 << CELL_BITS) - 1
+    code = z_order([((x + 1) * (last + 1) / 2).clip(0, last).astype(np.uint8) for x in box], CELL_BITS)
     order = np.argsort(code, kind="stable")
     return order, [x.take(order) for x in box]
 

@@ -6,8 +6,9 @@ from collections import namedtuple
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, DiffusionDistance, GeodesicDistance
+from bihdist_core import BiharmonicDistance, DiffusionDistance, GeodesicDistance, Laplacian
 from bihdist_core.analysis.all_pairs import write_all_pairs
+from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import Cancelled, OutputError, ParameterError
 from tests.shapes import bumpy, two_pieces
 
@@ -68,6 +69,16 @@ def test_goes_on_where_it_was_stopped(distance, tmp_path, monkeypatch):
     assert asked == list(range(89, 150))
     assert np.array_equal(np.load(path), distance.from_sources(np.arange(150)).T.astype(np.float32))
     assert [p.name for p in tmp_path.iterdir()] == ["D.npy"]
+
+
+def test_what_was_begun_is_taken_up_by_another_distance_of_the_same_spec(distance, tmp_path, monkeypatch):
+    path, spec = tmp_path / "D.npy", Spec.of("diffusion", t=0.3)
+    with pytest.raises(Cancelled):
+        write_all_pairs(spec.build(distance.laplacian), path, memory=10 * 150 * 40, progress=stop_after(0.6))
+    again = spec.build(Laplacian(bumpy(150)))
+    asked = counted(again, monkeypatch)
+    write_all_pairs(again, path)
+    assert asked == list(range(90, 150))
 
 
 def test_takes_up_nothing_that_is_not_the_same(distance, tmp_path, monkeypatch):

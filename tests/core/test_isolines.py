@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import BiharmonicDistance, OutputError, ParameterError, Surface, isolines, write_isolines
+from bihdist_core.analysis.chains import chains
 from tests.shapes import bumpy, fin, grid, sphere, torus
 
 
@@ -210,3 +211,19 @@ def test_unreferenced_vertices_play_no_part():
     other = Surface(np.concatenate([s.vertices, [[9, 9, 9]]]), s.faces)
     (line,) = isolines(other, np.append(s.vertices[:, 0], -5.0), [1.5])
     assert line.length == pytest.approx(3)
+
+
+def test_chains_use_each_edge_once():
+    edges = np.array([[0, 1], [2, 1], [2, 3], [5, 6], [6, 7], [7, 5], [8, 1]])
+    found = chains(edges)
+    pairs = []
+    for chain, closed in found:
+        ring = [*chain.tolist(), *([int(chain[0])] if closed else [])]
+        pairs += [tuple(sorted(pair)) for pair in pairwise(ring)]
+    assert sorted(pairs) == sorted(tuple(sorted(edge)) for edge in edges.tolist())
+    assert sorted(closed for _, closed in found) == [False, False, False, True]
+
+
+def test_two_segments_between_the_same_ends_are_no_loop():
+    ((chain, closed),) = chains(np.array([[4, 9], [9, 4]]))
+    assert (chain.tolist(), closed) == ([4, 9], False)

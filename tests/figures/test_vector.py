@@ -9,7 +9,7 @@ from scipy.special import eval_legendre
 
 from app.drawing.camera import Camera, Projection, standard_camera
 from app.drawing.field_actor import drawable, isoline_values
-from app.figures.crossings import chains, crossings, simplified
+from app.figures.crossings import crossings, simplified
 from app.figures.sight import Curve, Sight
 from bihdist_core import Surface
 from bihdist_core.analysis.isoline_tracing import isolines
@@ -151,17 +151,6 @@ def test_crossings_agree_with_every_pair_tried():
             assert ((a, b) in found) == bool(((t > 0) & (t < 1)).all())
     at = ours[i, 0] + s[:, None] * (ours[i, 1] - ours[i, 0])
     assert np.allclose(at, others[j, 0] + r[:, None] * (others[j, 1] - others[j, 0]))
-
-
-def test_chains_use_each_edge_once():
-    edges = np.array([[0, 1], [2, 1], [2, 3], [5, 6], [6, 7], [7, 5], [8, 1]])
-    found = chains(edges)
-    pairs = []
-    for chain, closed in found:
-        ring = [*chain.tolist(), *([int(chain[0])] if closed else [])]
-        pairs += [tuple(sorted(pair)) for pair in pairwise(ring)]
-    assert sorted(pairs) == sorted(tuple(sorted(edge)) for edge in edges.tolist())
-    assert sorted(closed for _, closed in found) == [False, False, False, True]
 
 
 def test_simplified_lines_stay_within_their_tolerance():

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.document.edits import move_source
 from tests.shapes import bumpy
 
 ROOT = Path(__file__).parents[2]
@@ -65,6 +66,43 @@ def test_click_selects_and_drag_only_rotates_all_panels(opened):
         assert s.source == target
         assert np.linalg.norm(np.array(panel.renderer.GetActiveCamera().GetPosition()) - camera) > 0.1
         assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
+
+
+def test_dragging_the_mark_moves_the_source_and_not_the_view(opened):
+    s, panel = opened, opened.panels[0]
+    front = int(s.session.surface.vertices[:, 2].argmax())
+    s.session.show(move_source(s.document, 0, front))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    x0, y0 = corner(panel)
+    point, camera = s.point_of(panel, front), panel.renderer.GetActiveCamera().GetPosition()
+    titles = []
+    s.panels[1].title.setText = lambda text: titles.append(text)
+    drag(x0 + point.x(), y0 + point.y(), 70)
+    s.until(lambda: s.session.is_complete and s.source != front)
+    assert panel.renderer.GetActiveCamera().GetPosition() == camera
+    there = s.point_of(panel, s.source)
+    assert abs(there.x() - point.x() - 70) < 25
+    assert abs(there.y() - point.y() - 8) < 25
+    assert "geodesic, heat method" in titles
+    assert titles[-1] == "geodesic, exact"
+    s.session.undo()
+    assert s.source == front
+
+
+def test_the_mark_behind_the_surface_is_not_taken_hold_of(opened):
+    s, panel = opened, opened.panels[0]
+    back = int(s.session.surface.vertices[:, 2].argmin())
+    s.window.reset_view("front")
+    s.session.show(move_source(s.document, 0, back))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    x0, y0 = corner(panel)
+    point, camera = s.point_of(panel, back), panel.renderer.GetActiveCamera().GetPosition()
+    drag(x0 + point.x(), y0 + point.y(), 70)
+    s.settle(0.5)
+    assert s.source == back
+    assert panel.renderer.GetActiveCamera().GetPosition() != camera
 
 
 def test_a_hand_that_trembles_still_clicks(opened):

@@ -1,9 +1,12 @@
 """The window's behaviour with Qt's own events; `test_mouse` repeats the most important with a real pointer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from app.document.edits import move_source
+from app.document.document import DistanceFrom
+from app.document.edits import add_panel, move_source, remove_panel
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, fin, grid, two_pieces
 
@@ -361,3 +364,68 @@ def test_long_words_do_not_make_the_window_wider(screen, mesh_file):
     s.window.say("repaired " * 200)
     s.settle()
     assert s.window.width() == width
+
+
+# ---------------------------------------------------------------------- documents
+def test_as_many_panels_as_the_document_has_of_equal_size(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    document = s.document
+    for word in ("commute-time", "truncated", "power"):
+        document = add_panel(document, DistanceFrom(Spec.of(word)))
+    first = s.panels[0]
+    s.session.show(document)
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert len(s.panels) == 6
+    assert s.panels[0] is first
+    sizes = {(panel.width() // 2, panel.height() // 2) for panel in s.panels}
+    assert len(sizes) == 1
+    assert {panel.y() for panel in s.panels[3:]} == {s.panels[3].y()} != {first.y()}
+    assert all(picture.std() > 20 for picture in s.pictures())
+    s.session.show(remove_panel(remove_panel(document, 0), 4))
+    s.settle()
+    assert [panel.title.text() for panel in s.panels][-1].startswith("1/λ")
+    assert len(s.panels) == 4
+    assert first not in s.panels
+    s.session.undo()
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert all(picture.std() > 20 for picture in s.pictures())
+
+
+def test_colour_bars_end_where_the_document_says(screen, mesh_file):
+    s = screen((Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("commute-time")))
+    s.open(mesh_file(bumpy(300)), 5)
+    own = [panel.scene._field.maximum for panel in s.panels]
+    panels = tuple(replace(panel, maximum=2 * own[0]) if panel.id == 0 else panel for panel in s.document.panels)
+    s.session.show(replace(s.document, panels=panels))
+    assert [panel.scene._field.maximum for panel in s.panels] == [2 * own[0], *own[1:]]
+    s.session.undo()
+    s.session.show(replace(s.document, shared_range=True))
+    largest = max(own[:2])
+    assert [panel.scene._field.maximum for panel in s.panels] == [largest, largest, own[2]]
+    s.session.undo()
+    assert [panel.scene._field.maximum for panel in s.panels] == own
+
+
+def test_undo_brings_back_source_controls_and_lines_but_not_the_view(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    before = s.pictures()
+    s.window.isolines_box.setValue(7)
+    s.session.show(move_source(s.document, 0, 9))
+    s.panels[2].controls.changed.emit(Spec.of("diffusion", t=0.25))
+    s.until(lambda: s.session.is_complete)
+    for _ in range(3):
+        s.session.undo()
+    assert (s.window.source_box.value(), s.window.isolines_box.value()) == (5, 20)
+    assert s.panels[2].controls.spec == Spec.of("diffusion")
+    s.settle()
+    assert all(np.array_equal(a, b) for a, b in zip(before, s.pictures(), strict=True))
+    s.window.reset_view("back")
+    turned = s.window.grid.camera.GetPosition()
+    s.session.redo()
+    s.settle()
+    assert s.window.grid.camera.GetPosition() == turned
+    assert s.source in (5, 9)
