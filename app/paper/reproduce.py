@@ -5,14 +5,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from bihdist_core import (
-    BiharmonicDistance,
     BihdistError,
     Cancelled,
+    Laplacian,
     OutputError,
     ParameterError,
     Surface,
     read_surface,
 )
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.kinds import Spec
 from bihdist_core.experiments import EXPERIMENTS, Experiment, Shapes
 from bihdist_core.formats.mesh_io import MESH_FORMATS
 from bihdist_core.progress import Progress, part
@@ -159,14 +161,9 @@ def _contact_sheets(folder: Path, surfaces: Sequence[Surface]) -> Section:
         panels = []
         for surface in surfaces[start : start + SHEET]:
             source = first_source(surface)
-            field, failure = None, ""
-            try:
-                distance = BiharmonicDistance(surface)
-                field = distance.from_source(source)
-                distance.certificate()
-            except BihdistError as error:
-                field, failure = None, str(error)
-            panels.append(FigurePanel(surface, field, surface.name, marks=(Mark(source),), failure=failure))
+            answer = Distances(Laplacian(surface)).answer(Spec.of("biharmonic"), source)
+            mark = Mark(source)
+            panels.append(FigurePanel(surface, answer.field, surface.name, marks=(mark,), failure=answer.failure))
         columns = min(SHEET_COLUMNS, len(panels))
         sheet = Figure(tuple(panels), columns=columns, size=Size(width=260 * columns))
         pictures.append(("", _picture(folder, f"contact-sheet-{start // SHEET + 1}", sheet)))

@@ -23,9 +23,10 @@ SOURCES = 32
 class Distance(ABC):
     """A distance between the vertices of a surface.
 
-    `spec`, where the distance was made from one, is its identity.  `label` says what it is and how it was computed; `length_power` how it scales: a surface s times as large has
-    distances s ** length_power times as large.  Distances between components, and of vertices that belong to no
-    face, are NaN.  A vertex asked for that does not exist or belongs to no face is a VertexError.
+    `spec`, where it was made from one, is its identity.  `label` says what it is and how it was computed;
+    `length_power` how it scales: a surface s times as large has distances s ** length_power times as large.  Distances
+    between components, and of vertices that belong to no face, are NaN.  A vertex asked for that does not exist or
+    belongs to no face is a VertexError.
 
     Constructing a distance does its long work on the largest component; on another, the first question does.
     """

@@ -6,12 +6,11 @@ from time import perf_counter
 import numpy as np
 
 from ..distances.biharmonic import BiharmonicDistance
-from ..distances.commute_time import CommuteTimeDistance
 from ..laplacian import Laplacian
 from ..progress import Progress
 from .measures import percent
 from .result import Chart, Claim, Series, Table
-from .shapes import Shapes
+from .shapes import Shapes, distance
 from .spheres import icosphere, moebius
 
 SIZES = (5_000, 10_000, 20_000, 40_000, 80_000)
@@ -29,12 +28,12 @@ def cost(shapes: Shapes, name: str, quick: bool, progress: Progress) -> tuple[li
     for k, n in enumerate(sizes):
         surface = shapes.sized(name, n)
         start = perf_counter()
-        distance = BiharmonicDistance(Laplacian(surface))
+        biharmonic = BiharmonicDistance(Laplacian(surface))
         set_up = perf_counter() - start
         columns = []
         for vertex in range(COLUMNS):
             start = perf_counter()
-            distance.from_source(vertex)
+            biharmonic.from_source(vertex)
             columns.append(perf_counter() - start)
         rows.append((n, set_up, float(np.median(columns))))
         progress((k + 1) / len(sizes), f"cost at {n:,} vertices")
@@ -84,8 +83,8 @@ def refinement(quick: bool, progress: Progress) -> tuple[list[Table], list[Chart
         laplacian = Laplacian(icosphere(times))
         # Antipodes of the icosahedron, whose vertices all levels share.
         far = int(np.argmin(laplacian.surface.vertices[:12] @ laplacian.surface.vertices[0]))
-        commute = CommuteTimeDistance(laplacian).between(0, far)
-        biharmonic = BiharmonicDistance(laplacian).between(0, far)
+        commute = distance(laplacian, "commute-time").between(0, far)
+        biharmonic = distance(laplacian, "biharmonic").between(0, far)
         rows.append((len(laplacian.surface.vertices), commute, commute**2, biharmonic))
         progress((times - 1) / len(levels), "finer spheres")
     n = np.array([row[0] for row in rows])
@@ -128,8 +127,8 @@ def conformal(quick: bool, progress: Progress) -> tuple[list[Table], list[Claim]
     pair = [Laplacian(s) for s in (sphere, moebius(sphere, STRETCH))]
     points = np.random.default_rng(0).choice(len(sphere.vertices), 200, replace=False)
     rows = []
-    for label, kind in (("commute-time", CommuteTimeDistance), ("biharmonic", BiharmonicDistance)):
-        one, two = (kind(laplacian).pairwise(points) for laplacian in pair)
+    for label in ("commute-time", "biharmonic"):
+        one, two = (distance(laplacian, label).pairwise(points) for laplacian in pair)
         apart = one > 0
         change = np.abs(two[apart] / one[apart] - 1)
         rows.append((label, float(change.mean()), float(change.max())))

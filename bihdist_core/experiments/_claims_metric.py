@@ -3,15 +3,12 @@
 import numpy as np
 
 from ..analysis.diagnostics import smallest_distance, triangle_violations
-from ..distances.biharmonic import BiharmonicDistance
 from ..distances.diffusion import DiffusionDistance
 from ..distances.distance import Distance
-from ..distances.geodesic import GeodesicDistance
-from ..distances.spectral import TruncatedBiharmonicDistance
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
 from .result import Claim, Table
-from .shapes import Shapes
+from .shapes import Shapes, distance
 
 FEW = 5
 """Eigenpairs of a strongly truncated diffusion distance."""
@@ -25,20 +22,20 @@ def metric(shapes: Shapes, name: str, quick: bool, progress: Progress) -> tuple[
     n = len(surface.vertices)
     points = np.random.default_rng(0).choice(n, min(among, n), replace=False)
     distances: dict[str, Distance] = {
-        "biharmonic": BiharmonicDistance(laplacian),
-        "geodesic along edges": GeodesicDistance(laplacian, "dijkstra"),
-        "diffusion t = 1": DiffusionDistance(laplacian, 1),
-        "diffusion t = 4": DiffusionDistance(laplacian, 4),
+        "biharmonic": distance(laplacian, "biharmonic"),
+        "geodesic along edges": distance(laplacian, "geodesic method = dijkstra"),
+        "diffusion t = 1": distance(laplacian, "diffusion t = 1"),
+        "diffusion t = 4": distance(laplacian, "diffusion t = 4"),
         f"diffusion t = 1, {FEW} eigenpairs": _Truncated(laplacian, 1, FEW),
-        "biharmonic, 200 eigenpairs": TruncatedBiharmonicDistance(laplacian),
+        "biharmonic, 200 eigenpairs": distance(laplacian, "truncated"),
     }
     rows = []
-    for k, (label, distance) in enumerate(distances.items()):
+    for k, (label, each) in enumerate(distances.items()):
         step = part(progress, 0.1 + 0.9 * k / len(distances), 0.1 + 0.9 * (k + 1) / len(distances))
-        among_points = distance.pairwise(points)
+        among_points = each.pairwise(points)
         sample = triangle_violations(among_points, count)
         step(0.3, f"all pairs, {label}")
-        least = smallest_distance(distance, part(step, 0.3, 1))[0]
+        least = smallest_distance(each, part(step, 0.3, 1))[0]
         rows.append((label, sample.triples, sample.violations, sample.worst, least / float(among_points.max())))
     table = Table("metric", ("distance", "triples", "violations", "worst violation", "smallest distance"), tuple(rows))
     broken = sum(row[2] for row in rows)

@@ -6,14 +6,11 @@ distance measure"; biharmonic distance (alpha = 2) balances between too local an
 
 import numpy as np
 
-from ..distances.biharmonic import BiharmonicDistance
-from ..distances.geodesic import GeodesicDistance
-from ..distances.spectral import PowerDistance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from .measures import FIELD_COLUMNS, field_row, marks, percent
 from .result import Chart, Claim, Panel, Result, Series, Table
-from .shapes import Shapes, vertex_at
+from .shapes import Shapes, distance, vertex_at
 
 TITLE = "The family of weights 1/λ^α"
 ALPHAS = (1.25, 1.5, 2.0, 3.0, 4.0)
@@ -28,15 +25,15 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     everything = len(surface.vertices) - 1
     laplacian.components[0].spectrum(everything, part(progress, 0.1, 0.9))
     source = vertex_at(surface, 0.5, 0.72, "back")
-    geodesic = GeodesicDistance(laplacian).from_source(source)
+    geodesic = distance(laplacian, "geodesic").from_source(source)
     rows, panels = [], []
     for alpha in ALPHAS:
         label = f"α = {alpha:g}"
-        field = PowerDistance(laplacian, alpha, everything).from_source(source)
+        field = distance(laplacian, f"power alpha = {alpha}, k = {everything}").from_source(source)
         rows.append(field_row(surface, name, "upper back", source, label, field, geodesic))
         panels.append(Panel(label, name, field, "family", marks(surface, field, source), ("front", "back")))
         if alpha == 2:
-            exact = BiharmonicDistance(laplacian).from_source(source)
+            exact = distance(laplacian, "biharmonic").from_source(source)
             difference = float(np.abs(field - exact).max() / exact.max())
     table = Table("fields", FIELD_COLUMNS, tuple(rows))
     ratio = np.array([float(v or 0) for v in table.values("isotropy ratio")])

@@ -9,7 +9,6 @@ from scipy.spatial import cKDTree
 
 from ..analysis.correspondence import correspondence_prediction
 from ..distances.edge_geodesic import EdgeGeodesic
-from ..distances.geodesic import GeodesicDistance
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import percent
@@ -32,7 +31,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     targets = np.random.default_rng(0).choice(len(one.vertices), 40 if quick else TARGETS, replace=False)
     mirrored = _mirror(one)[targets]
     unit = float(np.sqrt(two.face_areas.sum()))
-    truth = GeodesicDistance(shapes.laplacian("figure_pose2"), "heat")
+    truth = distance(shapes.laplacian("figure_pose2"), "geodesic method = heat")
     part(progress, 0, 1)(0.05, "distances from the right answers")
     off = truth.from_sources(targets, part(progress, 0.05, 0.4)) / unit
     off_mirrored = np.minimum(off, truth.from_sources(mirrored, part(progress, 0.4, 0.7)) / unit)

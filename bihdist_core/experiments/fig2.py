@@ -6,8 +6,6 @@ geodesic field has a kink and isolines that are not aware of the shape far away;
 
 import numpy as np
 
-from ..distances.biharmonic import BiharmonicDistance
-from ..distances.geodesic import GeodesicDistance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
@@ -106,9 +104,10 @@ def _under_refinement(surface: Surface, source: int, fields: dict[str, np.ndarra
     radius = small_radius(surface)
     finer = refined(surface)
     laplacian = Laplacian(finer)
+    method = "exact" if finer.is_manifold else "heat"
     finer_fields = {
-        "geodesic": GeodesicDistance(laplacian, "exact" if finer.is_manifold else "heat").from_source(source),
-        "biharmonic": BiharmonicDistance(laplacian).from_source(source),
+        "geodesic": distance(laplacian, f"geodesic method = {method}").from_source(source),
+        "biharmonic": distance(laplacian, "biharmonic").from_source(source),
     }
     rows = []
     for kind, field in fields.items():

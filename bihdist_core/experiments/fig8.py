@@ -6,12 +6,12 @@ bound is (generally) linear in 1/K".
 
 import numpy as np
 
-from ..distances.biharmonic import BiharmonicDistance
+from ..distances.distance import Distance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from .measures import percent
 from .result import Chart, Claim, Result, Series, Table
-from .shapes import Shapes
+from .shapes import Shapes, distance
 
 TITLE = "Error of the first K eigenvectors"
 PAIRS, COUNT, K = 200_000, 5_000, 200
@@ -24,8 +24,8 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     n, count = (1_500, 20_000) if quick else (COUNT, PAIRS)
     surface = shapes.sized(name, min(n, len(shapes[name].vertices)), part(progress, 0, 0.1))
     laplacian = Laplacian(surface)
-    distance = BiharmonicDistance(laplacian, part(progress, 0.1, 0.2))
-    i, j, exact, largest = _pairs(distance, count, part(progress, 0.2, 0.5))
+    biharmonic = distance(laplacian, "biharmonic", part(progress, 0.1, 0.2))
+    i, j, exact, largest = _pairs(biharmonic, count, part(progress, 0.2, 0.5))
     k = min(K, len(surface.vertices) - 1)
     spectrum = laplacian.components[0].spectrum(k, part(progress, 0.5, 0.8))
     worst, mean = np.zeros(k), np.zeros(k)
@@ -85,9 +85,7 @@ def _named(worst: np.ndarray, mean: np.ndarray) -> tuple[tuple[str, np.ndarray],
     return ("largest", worst), ("mean", mean)
 
 
-def _pairs(
-    distance: BiharmonicDistance, count: int, progress: Progress
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+def _pairs(distance: Distance, count: int, progress: Progress) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
     """(count,) first and second vertices of random pairs and their distances, and the largest of all pairs."""
     n = len(distance.surface.vertices)
     rng = np.random.default_rng(0)

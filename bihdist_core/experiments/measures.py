@@ -7,7 +7,6 @@ from scipy.spatial import cKDTree
 
 from ..analysis.diagnostics import FieldChange, field_change, gradient_jumps, isotropy_ratio
 from ..analysis.persistence import Extrema, extrema
-from ..distances.geodesic import GeodesicDistance
 from ..laplacian import Laplacian
 from ..surface import Surface
 from .resizing import refined
@@ -94,7 +93,7 @@ def isotropy_chart(surface: Surface, source: int, kinds: Sequence[str], heading:
     laplacian = Laplacian(fine)
     exact = fine.is_manifold and len(fine.vertices) <= 4 * REFINED_UP_TO
     method = "exact" if exact else "heat"
-    geodesic = GeodesicDistance(laplacian, method).from_source(source)
+    geodesic = distance(laplacian, f"geodesic method = {method}").from_source(source)
     unit = float(np.sqrt(surface.face_areas.sum()))
     radii = CIRCLES * fine.mean_edge_length
     series = []

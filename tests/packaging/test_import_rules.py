@@ -1,5 +1,6 @@
 """Who may import whom: the contracts in pyproject.toml, and what really is loaded in a fresh interpreter."""
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -28,6 +29,33 @@ def loaded(*modules: str) -> set[str]:
 def test_contracts_are_kept():
     said = run("from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))")
     assert "0 broken" in said
+
+
+@pytest.mark.parametrize(
+    ("module", "line", "contract"),
+    [
+        ("app/document/edits.py", "from ..session import lane", "The layers of the application"),
+        ("app/session/lane.py", "import vtkmodules.vtkCommonCore", "Only these folders draw"),
+        ("app/figures/draw.py", "from qtpy import QtCore", "Only the window knows Qt"),
+        ("app/paper/page.py", "from ..qt import look", "The layers of the application"),
+        ("app/new/thing.py", "", "The layers of the application"),
+        ("bihdist_core/solver/factor.py", "from .. import surface", "The layers of the core"),
+        ("bihdist_core/surface.py", "import app", "The core draws nothing and knows no application"),
+    ],
+)
+def test_contracts_fail_when_they_are_broken(tmp_path, module, line, contract):
+    for folder in ("app", "bihdist_core"):
+        shutil.copytree(ROOT / folder, tmp_path / folder, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    path = tmp_path / module
+    if not path.exists():
+        path.parent.mkdir()
+        (path.parent / "__init__.py").touch()
+    with path.open("a") as file:
+        file.write(f"\n{line}\n")
+    code = "from importlinter.cli import lint_imports; lint_imports(no_cache=True)"
+    said = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True).stdout
+    assert f"{contract} BROKEN" in said
 
 
 @pytest.fixture(scope="module")

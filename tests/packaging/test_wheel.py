@@ -100,6 +100,15 @@ def test_runs_under_its_installed_name(wheel, environment, tmp_path):
     assert said == f"bihdist {wheel.name.split('-')[1]}\n"
 
 
+def test_the_library_has_the_name_of_the_package(environment, tmp_path):
+    code = (
+        "import sys, bihdist; print('numpy' in sys.modules); import bihdist_core; "
+        "print(all(getattr(bihdist, name) is getattr(bihdist_core, name) for name in bihdist.__all__)); "
+        "from bihdist import BiharmonicDistance, Surface"
+    )
+    assert run(sys.executable, "-c", code, cwd=tmp_path, env=environment).split() == ["False", "True"]
+
+
 def test_installs_the_command(installed, environment, tmp_path):
     command = shutil.which("bihdist", path=installed / ("Scripts" if os.name == "nt" else "bin"))
     assert command, "there is no command"
