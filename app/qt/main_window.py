@@ -115,9 +115,11 @@ class MainWindow(QtWidgets.QMainWindow):
         with QtCore.QSignalBlocker(self.isolines_box):
             self.isolines_box.setValue(document.isolines)
         self.grid.show_isolines(document.isolines)
-        for panel in document.panels:
-            if self.session.is_answered(panel.id):
-                self.answer_changed(panel.id)
+        ranges = (document.panels, document.shared_range)
+        if is_other or ranges != (before.panels, before.shared_range):
+            for panel in document.panels:
+                if self.session.is_answered(panel.id):
+                    self.answer_changed(panel.id)
         if is_other or document.camera != before.camera:
             self.grid.look(document.camera)
         self.grid.repaint_views()

@@ -11,7 +11,7 @@ from bihdist_core.distances.kinds import Spec
 
 from ..drawing.picking import Picker, pixel_of
 from ..drawing.scene import PanelScene
-from ..session.session import Shown
+from ..session.answering import Shown
 from .controls import PanelControls
 
 MARK_SLACK = 4.0

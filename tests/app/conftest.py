@@ -42,7 +42,8 @@ class Desk:
         self.specs = tuple(specs)
         self.view = RecordingView()
         self.posted = queue.Queue()
-        self.session = Session(self.view, self.posted.put, prepare)
+        self.post = self.posted.put
+        self.session = Session(self.view, lambda function: self.post(function), prepare)
 
     def until_told(self, words):
         """Wait until the view is told of a failure with these words."""

@@ -336,7 +336,7 @@ def test_an_answer_that_comes_late_is_dropped(desk, mesh_file):
     kept, after = post_later(d)
     d.click(2)
     d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
-    d.session._post = after
+    d.post = after
     d.click(3)
     for function in kept:
         function()
@@ -363,7 +363,7 @@ def test_in_a_drag_what_was_computed_is_shown_though_the_source_has_moved_on(des
     kept, after = post_later(d)
     d.click(2, key="drag", live=True)
     d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
-    d.session._post = after
+    d.post = after
     d.click(3, key="drag", live=True)
     for function in kept:
         function()
@@ -484,7 +484,7 @@ def test_answers_are_kept_within_a_memory():
 def post_later(d):
     """What the session posts is kept until the test lets it go."""
     kept = []
-    d.session._post, after = kept.append, d.session._post
+    d.post, after = kept.append, d.post
     return kept, after
 
 
@@ -494,7 +494,7 @@ def test_a_mesh_that_was_cancelled_is_not_shown_when_it_comes(desk, mesh_file):
     d.show(mesh_file(bumpy(60)))
     d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
     d.session.cancel()
-    d.session._post = after
+    d.post = after
     for function in kept:
         function()
     assert d.session.surface is None
@@ -506,7 +506,7 @@ def test_of_two_meshes_the_later_is_shown_with_its_own_source(desk, mesh_file):
     kept, after = post_later(d)
     d.show(mesh_file(bumpy(60)), source=5)
     d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
-    d.session._post = after
+    d.post = after
     d.show(mesh_file(grid(3, 3), "other.off"), source=7)
     for function in kept:
         function()
@@ -523,7 +523,7 @@ def test_a_click_while_another_mesh_is_read_does_not_keep_it_away(desk, mesh_fil
     kept, after = post_later(d)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
     d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
-    d.session._post = after
+    d.post = after
     d.click(9)
     assert d.source == 9
     for function in kept:

@@ -267,12 +267,12 @@ def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows
     s = screen()
     window = s.window
     for percent in range(50):
-        window.session.progress["something"] = (percent / 100, "solving")
+        window.session._answering.progress[7] = (percent / 100, "solving")
         window.progress_changed()
     assert window.status.doing.text() == ""
     s.until(lambda: window.status.doing.text() == "solving 49%")
     assert window.status.progress.value() == 490
-    window.session.progress.clear()
+    window.session._answering.progress.clear()
     window.progress_changed()
     assert window.status.doing.text() == ""
     assert not window.status.progress.isVisible()
@@ -295,7 +295,7 @@ def test_the_status_bar_tells_how_far_everything_is_and_a_panel_what_it_waits_fo
     window = s.window
     s.open(mesh_file(bumpy(800)))
     del window.session.shown[2]
-    window.session.progress.update({0: (0.2, "Factoring"), 1: (0.4, "eigenpairs: solving")})
+    window.session._answering.progress.update({0: (0.2, "Factoring"), 1: (0.4, "eigenpairs: solving")})
     window.progress_changed()
     s.until(window.status.doing.text)
     assert window.status.doing.text() == "Factoring 20%   ·   eigenpairs: solving 40%"

@@ -1,0 +1,207 @@
+"""The answers of all panels: what is known is shown at once, the rest is worked on by lanes, one for each panel.
+
+`ask` is called on the view's thread, and answers come back to it through `post`.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from bihdist_core import SolverError
+from bihdist_core.distances.answers import Answer, failed
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.progress import Progress, part
+
+from .kept import KeptAnswers
+from .lane import Lane
+from .opened import Opened
+from .questions import Question
+
+
+class AnswerView(Protocol):
+    """Who is told, on the view's thread, by the ids of the panels."""
+
+    def answer_changed(self, panel: int) -> None: ...
+    def certificate_changed(self, panel: int) -> None: ...
+    def progress_changed(self) -> None: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """What a panel shows: the answer to a question.
+
+    asked: what the panel was asked, which is another question while a quick stand-in is shown (`is_preview`).
+    """
+
+    asked: Question
+    answer: Answer
+    serial: int
+    is_preview: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class _Request:
+    """A question for a lane.  live: a drag goes on, so a stand-in will do and nobody is in the way of the next."""
+
+    question: Question
+    opened: Opened
+    serial: int
+    live: bool
+
+
+class Answering:
+    """See the module.
+
+    shown: what each panel shows; progress: what is going on for it, as a share done and a text; is_stopped: whether the
+    user has cancelled what was asked last.
+    """
+
+    def __init__(self, view: AnswerView, post: Callable[[Callable[[], None]], None]) -> None:
+        self.shown: dict[int, Shown] = {}
+        self.progress: dict[int, tuple[float, str]] = {}
+        self.is_stopped = False
+        self._view = view
+        self._post = post
+        self._asked: dict[int, Question] = {}
+        self._kept = KeptAnswers()
+        self._serial = 0
+        self._lanes: dict[int, Lane[_Request]] = {}
+
+    # ------------------------------------------------------------------ asking
+    def ask(self, asked: Mapping[int, tuple[Question, Opened]], live: bool) -> None:
+        """The questions of all panels, each with its surface: from now on nobody wants any others.
+
+        live: a drag goes on; stand-ins will do, and what is computed is shown though it is late.
+        """
+        for id, (question, opened) in asked.items():
+            self._serial += 1
+            if self.is_answered(id) and self.shown[id].answer.is_final:
+                self._stop(id)
+                continue
+            known = self._kept.get(question)
+            if known is not None:
+                self._stop(id)
+                self._show(id, Shown(question, known, self._serial))
+                continue
+            self.is_stopped = False
+            if id not in self._lanes:
+                self._lanes[id] = self._new_lane(id)
+            self._lanes[id].submit(_Request(question, opened, self._serial, live))
+
+    def expect(self, asked: Mapping[int, Question]) -> None:
+        """These are the panels and their questions now; what is shown of other panels or meshes is forgotten."""
+        self._asked = dict(asked)
+        for id in self._lanes.keys() - asked.keys():
+            self._lanes.pop(id).end()
+            self.progress.pop(id, None)
+        self.shown = {id: s for id, s in self.shown.items() if id in asked and s.asked.mesh == asked[id].mesh}
+
+    def is_answered(self, panel: int) -> bool:
+        """Whether a panel shows the final answer to its question, be its accuracy known or not."""
+        shown = self.shown.get(panel)
+        return shown is not None and not shown.is_preview and shown.asked == self._asked.get(panel)
+
+    def cancel(self) -> None:
+        """Stop everything; what is asked next is answered."""
+        self.is_stopped = True
+        for id in self._lanes:
+            self._stop(id)
+
+    def end(self) -> None:
+        """Stop everything, and soon the threads."""
+        for lane in self._lanes.values():
+            lane.end()
+
+    def close(self) -> None:
+        """The same, and wait for it."""
+        for lane in self._lanes.values():
+            lane.close()
+
+    def _stop(self, id: int) -> None:
+        if id in self._lanes:
+            self._lanes[id].submit(None)
+
+    # ------------------------------------------------------------------ answering
+    def _new_lane(self, id: int) -> "Lane[_Request]":
+        return Lane(
+            f"panel {id}",
+            lambda request, lane: self._work(id, request, lane),
+            self._reporter(id),
+            lambda request, error: self._deliver(id, request, failed(str(request.question.spec), error)),
+        )
+
+    def _work(self, id: int, request: _Request, lane: Lane[_Request]) -> None:
+        question, opened = request.question, request.opened
+
+        def is_wanted(latest: _Request) -> bool:
+            same = latest.question.is_about_the_same(question)
+            return latest.question == question or (latest.live and same)
+
+        known = self._kept.get(question)
+        if known is not None:
+            self._deliver(id, request, known)
+            return
+        # The source may move while the distance is made ready: then the next question has it.
+        preparing = lane.progress(lambda latest: latest.question.is_about_the_same(question))
+        asking = lane.progress(is_wanted)
+        distances = opened.distances(question.areas)
+        distances.get(question.spec, part(preparing, 0, 0.9))
+        asking(0.9, str(question.spec))
+        stand_in = distances.stand_in(question.spec)
+        if stand_in is not None and self._preview(id, request, stand_in, preparing, asking) and request.live:
+            return
+        answer = opened.answer(question, asking, at_once=lambda first: self._deliver(id, request, first))
+        self._kept.put(question, answer)
+        self._deliver(id, request, answer)
+
+    def _preview(self, id: int, request: _Request, stand_in: Spec, preparing: Progress, asking: Progress) -> bool:
+        """Hand on what a quick distance answers; whether it did: its failure must not cost the answer."""
+        question = replace(request.question, spec=stand_in)
+        answer = self._kept.get(question)
+        if answer is None:
+            try:
+                request.opened.distances(question.areas).get(stand_in, preparing)
+            except (SolverError, MemoryError):
+                return False
+            answer = request.opened.answer(question, asking)
+            self._kept.put(question, answer)
+        if not answer.failure:
+            self._deliver(id, request, answer, is_preview=True)
+        return not answer.failure
+
+    def _deliver(self, id: int, request: _Request, answer: Answer, is_preview: bool = False) -> None:
+        """Hand an answer on, from any thread."""
+        shown = Shown(request.question, answer, request.serial, is_preview)
+        self._post(lambda: self._answered(id, shown, request.live))
+
+    def _answered(self, id: int, new: Shown, live: bool) -> None:
+        """Show an answer unless nobody asks for it any more, or something newer is shown."""
+        now = self._asked.get(id)
+        if now is None or not (new.asked == now or (live and new.asked.is_about_the_same(now))):
+            return
+        old = self.shown.get(id)
+        if old is None or not old.asked.is_about_the_same(new.asked) or old.serial <= new.serial:
+            self._show(id, new)
+
+    def _show(self, id: int, new: Shown) -> None:
+        old = self.shown.get(id)
+        self.shown[id] = new
+        same_field = old is not None and new.answer.field is not None and old.answer.field is new.answer.field
+        if same_field and old is not None and old.is_preview == new.is_preview:
+            self._view.certificate_changed(id)
+        else:
+            self._view.answer_changed(id)
+
+    # ------------------------------------------------------------------ progress
+    def _reporter(self, id: int) -> Callable[[float | None, str], None]:
+        def report(fraction: float | None, text: str) -> None:
+            def note() -> None:
+                if fraction is None:
+                    self.progress.pop(id, None)
+                elif id in self._lanes:
+                    self.progress[id] = (fraction, text)
+                self._view.progress_changed()
+
+            self._post(note)
+
+        return report
