@@ -103,7 +103,7 @@ class DistancePanel(QtWidgets.QWidget):
     def show_note(self, text: str) -> None:
         """What is being computed, in place of the hint; an empty text brings the hint back."""
         if self.answer is not None and self._is_preview:
-            text = text or "a better one is on its way"
+            text = text or "a quick look; the exact one follows"
         if self.answer is not None and self.answer.accuracy.is_poor:
             text = text or f"not exact here: only {self.answer.accuracy.text}"
         self.hint.setText(text or self.controls.spec.kind.hint)
@@ -170,6 +170,7 @@ class DistancePanel(QtWidgets.QWidget):
             if path < QtWidgets.QApplication.startDragDistance():
                 return True
             self._dragging = True
+            self.hovered.emit(None)
         if self._holds_mark:
             vertex = self._vertex_at(event.pos())
             if vertex is not None:

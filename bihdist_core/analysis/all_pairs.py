@@ -95,10 +95,9 @@ def _partial_path(distance: Distance, target: Path, dtype: np.dtype) -> Path:
     """Where the rows stand until all are there."""
     digest = hashlib.sha256()
     laplacian, surface = distance.laplacian, distance.surface
-    # A label rounds its numbers; a spec does not, nor do the distance's own plain attributes where it has none.
+    # A label rounds its numbers; a spec does not, nor do the distance's own plain attributes where there is none.
     own = sorted((key, value) for key, value in vars(distance).items() if isinstance(value, (int, float, str)))
-    identity = repr(own) if distance.spec is None else distance.spec.in_full
-    for text in (distance.label, identity, laplacian.areas_kind, dtype.str, target.name):
+    for text in (distance.label, distance.identity or repr(own), laplacian.areas_kind, dtype.str, target.name):
         digest.update(text.encode() + b"\0")
     for array in (surface.vertices, surface.faces):
         digest.update(array.tobytes())

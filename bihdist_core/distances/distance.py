@@ -11,7 +11,6 @@ from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress
 from ..surface import Surface
 from .accuracy import REFUSE, Certificate, rounded_up
-from .kinds import Spec
 
 ROUNDING = 1e-7
 """Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""
@@ -23,7 +22,7 @@ SOURCES = 32
 class Distance(ABC):
     """A distance between the vertices of a surface.
 
-    `spec`, where it was made from one, is its identity.  `label` says what it is and how it was computed;
+    `identity` is the spec it was made from, in full, if any.  `label` says what it is and how it was computed;
     `length_power` how it scales: a surface s times as large has distances s ** length_power times as large.  Distances
     between components, and of vertices that belong to no face, are NaN.  A vertex asked for that does not exist or
     belongs to no face is a VertexError.
@@ -33,7 +32,7 @@ class Distance(ABC):
 
     label: str
     length_power: float
-    spec: "Spec | None" = None
+    identity = ""
     is_symmetric = True
 
     def __init__(self, laplacian: Laplacian | Surface) -> None:

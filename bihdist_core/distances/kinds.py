@@ -176,7 +176,7 @@ class Spec:
             module, _, name = make.partition(":")
             make = getattr(import_module(module), name)
         distance = make(laplacian, **dict(self.values), progress=progress)
-        distance.spec = self
+        distance.identity = self.in_full
         return distance
 
     def quick(self, distance: "Distance") -> "Spec | None":
