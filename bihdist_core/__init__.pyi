@@ -41,6 +41,7 @@ from .analysis.persistence import (
 from .analysis.sampling import farthest_points as farthest_points
 from .distances.biharmonic import BiharmonicDistance as BiharmonicDistance
 from .distances.commute_time import CommuteTimeDistance as CommuteTimeDistance
+from .distances.difference import difference as difference
 from .distances.diffusion import DiffusionDistance as DiffusionDistance
 from .distances.distance import Distance as Distance
 from .distances.geodesic import GeodesicDistance as GeodesicDistance

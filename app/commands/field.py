@@ -2,8 +2,9 @@
 
 import argparse
 
+from ..document.document import Difference
 from .mesh import read_laplacian
-from .options import add_areas, add_distance, specs, vertex
+from .options import add_areas, add_distance, quantities, vertex
 from .terminal import accuracy, counted, progress_line
 
 WORDS = "distances of all vertices from one or more sources"
@@ -19,18 +20,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     from bihdist_core.distances.answers import Distances
+    from bihdist_core.distances.difference import check_units, difference
     from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
     from bihdist_core.whole_file import check_output
 
     check_output(options.output, FIELD_FORMATS)
-    (chosen,) = specs(options, [options.distance])
+    (chosen,) = quantities(options, [options.distance])
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         laplacian.surface.check_vertices(options.source)
-        distance = Distances(laplacian).get(chosen, progress)
-        columns = distance.from_sources(options.source, progress)
-        said = accuracy(distance)
-    names = [f"{chosen.word}_from_{v}" for v in options.source]
+        distances = Distances(laplacian)
+        known = [distances.get(spec, progress) for spec in chosen.specs]
+        fields = [distance.from_sources(options.source, progress) for distance in known]
+        said = "".join(dict.fromkeys(accuracy(distance) for distance in known))
+    columns, label = fields[0], " − ".join(distance.label for distance in known)
+    if isinstance(chosen, Difference):
+        if chosen.raw:
+            check_units(*(distance.unit for distance in known))
+        columns = difference(*fields, raw=chosen.raw)
+    word = "_minus_".join(spec.word for spec in chosen.specs)
+    names = [f"{word}_from_{v}" for v in options.source]
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
     size = f"{columns.shape[0]} vertices, {counted(columns.shape[1], 'source')}"
-    print(f"{options.output}: {distance.label}, {size}{said}")
+    print(f"{options.output}: {label}, {size}{said}")

@@ -16,6 +16,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from ..figures.draw import described
     from ..figures.export import check_export, export
+    from ..session.questions import vertex_at
 
     check_export(options.output)
     recipe = chosen_recipe(options)
@@ -23,6 +24,6 @@ def run(options: argparse.Namespace) -> int:
         figure, recipe, answers = export(recipe, options.output, version(), progress)
     surface = figure.panels[0].surface
     tell_repairs(surface)
-    sources = ", ".join(str(vertex) for vertex in recipe.document.sources)
+    sources = ", ".join(str(vertex_at(at, surface)) for at in recipe.document.sources)
     print(f"{options.output}: {described(figure)}, source vertex {sources}")
     return judged(answers, surface.name)

@@ -6,12 +6,13 @@ same way: no option is ignored.
 
 import argparse
 from dataclasses import replace
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from .options import PANELS, add_areas, add_distance, check_parameters, given_parameters, spec
+from .options import PANELS, add_areas, add_distance, check_parameters, given_parameters, quantities
 
 if TYPE_CHECKING:
-    from ..document.document import Document
+    from ..document.document import Document, Quantity
     from ..document.page import Recipe
 
 
@@ -96,10 +97,11 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
         document = replace(document, zooms=tuple(Zoom(*zoom) for zoom in options.zoom))
     document = replace(document, **_given(options, "areas", "isolines", "height", "shared_range"))
     page = replace(page, **_given(options, "size", "style", "hints", "transparent", "crop"))
+    columns = options.columns if options.columns is not None else rows or page.columns
     if views:
         document = replace(document, camera=views[0])
         page = replace(page, views=tuple(views) if len(views) > 1 else ())
-    return replace(recipe, document=document, page=replace(page, columns=options.columns or rows or page.columns))
+    return replace(recipe, document=document, page=replace(page, columns=columns))
 
 
 def _given(options: argparse.Namespace, *names: str) -> dict[str, Any]:
@@ -117,23 +119,31 @@ def _with_other_mesh(document: "Document", path: str) -> "Document":
 
 def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Document, int | None]":
     """Other distances, parameters or sources; and how many panels a row then has, if they stand in rows."""
-    from ..document.document import comparison
+    from bihdist_core import ParameterError
+
+    from ..document.document import Panel, Point, free_names, from_point
     from ..document.edits import put_point, show_in
 
     if options.distance or (options.source and len(options.source) != len(document.sources)):
         words = options.distance
-        specs = tuple(spec(options, word) for word in words) if words else ()
-        specs = specs or tuple(dict.fromkeys(_respecified(p.shows.spec, options) for p in document.panels))
-        sources = tuple(options.source or document.sources)
-        new = comparison(document.surfaces[0].path, specs, sources)
+        shows = tuple(quantities(options, words)) if words else ()
+        shows = shows or tuple(
+            dict.fromkeys(from_point(_respecified(panel.shows, options), "") for panel in document.panels)
+        )
+        if len(document.surfaces) != 1:
+            what = "--distance" if words else f"{len(options.source)} times --source"
+            raise ParameterError(f"{what} makes the panels of one mesh, and this recipe has {len(document.surfaces)}.")
+        surface, sources = document.surfaces[0].name, tuple(options.source or document.sources)
         kept = [point for point in document.points if point.name in {anchor.point for anchor in document.anchors}]
-        document = replace(document, points=(*new.points, *kept), panels=new.panels, next_id=new.next_id)
-        check_parameters(options, [panel.shows.spec for panel in document.panels])
-        return document, len(specs) if len(sources) > 1 else None
+        names = free_names("source", len(sources), [point.name for point in kept])
+        points = [Point(name, at, surface) for name, at in zip(names, sources, strict=True)]
+        panels = [Panel(k, from_point(each, name), surface) for k, (name, each) in enumerate(product(names, shows))]
+        document = replace(document, points=(*points, *kept), panels=tuple(panels), next_id=len(panels))
+        check_parameters(options, [spec for panel in document.panels for spec in panel.shows.specs])
+        return document, len(shows) if len(sources) > 1 else None
     for panel in document.panels:
-        shows = replace(panel.shows, spec=_respecified(panel.shows.spec, options))
-        document = show_in(document, panel.id, shows)
-    check_parameters(options, [panel.shows.spec for panel in document.panels])
+        document = show_in(document, panel.id, _respecified(panel.shows, options))
+    check_parameters(options, [spec for panel in document.panels for spec in panel.shows.specs])
     if options.source:
         moved = dict(zip(document.sources, options.source, strict=True))
         names = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
@@ -142,18 +152,30 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
     return document, None
 
 
-def _respecified(chosen: Any, options: argparse.Namespace) -> Any:
-    """A spec with those parameters that the options name and it has."""
-    own = {parameter.name for parameter in chosen.kind.parameters}
-    return chosen.changed(**{name: v for name, v in given_parameters(options).items() if name in own})
+def _respecified(shows: "Quantity", options: argparse.Namespace) -> "Quantity":
+    """The quantity with those parameters that the options name and its distances have."""
+    given = given_parameters(options)
+    return shows.with_specs(
+        tuple(
+            spec.changed(**{p.name: given[p.name] for p in spec.kind.parameters if p.name in given})
+            for spec in shows.specs
+        )
+    )
 
 
 def _with_anchors(document: "Document", anchors: tuple[tuple[int, float | None], ...]) -> "Document":
-    from ..document.document import Anchor, Point
+    from bihdist_core import ParameterError
 
-    gone = {anchor.point for anchor in document.anchors}
+    from ..document.document import Anchor, Point, free_names
+
+    if len(document.surfaces) != 1:
+        raise ParameterError(f"--anchors are on one mesh, and this recipe has {len(document.surfaces)}.")
+    shown = {name for panel in document.panels for name in panel.shows.points}
+    gone = {anchor.point for anchor in document.anchors} - shown
     kept = [point for point in document.points if point.name not in gone]
-    new = [Point(f"anchor {k}", vertex) for k, (vertex, _) in enumerate(anchors, 1)]
+    names = free_names("anchor", len(anchors), [point.name for point in kept])
+    surface = document.surfaces[0].name
+    new = [Point(name, vertex, surface) for name, (vertex, _) in zip(names, anchors, strict=True)]
     values = tuple(Anchor(point.name, value) for point, (_, value) in zip(new, anchors, strict=True))
     return replace(document, points=(*kept, *new), anchors=values)
 

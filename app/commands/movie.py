@@ -22,11 +22,21 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from bihdist_core import ParameterError
+
     from ..figures.movie import Movie, check_movie, write_movie
     from ..figures.raster import check_offscreen
 
     check_movie(options.output)
     check_offscreen()
+    for given, name in (
+        (options.path and options.source, "--source beside --path, whose first vertex is the source"),
+        (options.transparent, "--transparent"),
+        (options.crop, "--crop"),
+        (options.two_views or len(options.view or ()) > 1, "more than one view"),
+    ):
+        if given:
+            raise ParameterError(f"A movie takes no {name.removeprefix('no ')}.")
     turn = options.turn if options.turn is not None else 0.0 if options.path else 360.0
     movie = Movie(chosen_recipe(options), turn, options.path, options.frames, options.fps)
     with progress_line() as progress:

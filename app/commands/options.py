@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from bihdist_core.distances.kinds import OURS, Spec, Value, kinds
 from bihdist_core.errors import ParameterError
 
-from ..document.document import AREAS, COMPARISON
+from ..document.document import AREAS, COMPARISON, Quantity, quantity
 
 PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
 PARAMETERS = {p.name: p for kind in OURS for p in kind.parameters}
@@ -15,7 +15,7 @@ PARAMETERS = {p.name: p for kind in OURS for p in kind.parameters}
 
 def add_distance(parser: argparse.ArgumentParser, several: str = "") -> None:
     """`--distance`, and an option for each parameter of ours, which holds where the distance does not say otherwise."""
-    words = f"{', '.join(kinds())}; with parameters like 'diffusion(t=1/4)'"
+    words = f"{', '.join(kinds())}; with parameters like 'diffusion(t=1/4)', or two like 'biharmonic - geodesic'"
     if several:
         parser.add_argument("--distance", metavar="NAME", action="append", help=f"{words}: {several}")
     else:
@@ -41,8 +41,18 @@ def spec(options: argparse.Namespace, text: str) -> Spec:
 
 def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
     """The same for several; ParameterError for an option that none of them has."""
+    for text in texts:
+        if " - " in text:
+            raise ParameterError(f"{text!r} is a field, and has no value between two vertices; name a distance.")
     found = [spec(options, text) for text in texts]
     check_parameters(options, found)
+    return found
+
+
+def quantities(options: argparse.Namespace, texts: Sequence[str]) -> list[Quantity]:
+    """The same for distances and differences."""
+    found = [quantity(text, **given_parameters(options)) for text in texts]
+    check_parameters(options, [spec for shows in found for spec in shows.specs])
     return found
 
 

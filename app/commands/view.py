@@ -3,7 +3,7 @@
 import argparse
 import os
 
-from .options import PANELS, add_areas, add_distance, specs, vertex
+from .options import PANELS, add_areas, add_distance, quantities, vertex
 
 WORDS = "open the viewer"
 
@@ -30,7 +30,7 @@ def run(options: argparse.Namespace) -> int:
         from bihdist_core.whole_file import check_output
 
         check_output(options.screenshot, (".png",))
-    chosen = specs(options, options.distance or [spec.word for spec in COMPARISON])
+    chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
     document = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
     from ..qt.start import run_viewer
 

@@ -75,9 +75,22 @@ class DistanceFrom:
     spec: Spec
     point: str = "source"
 
+    def __str__(self) -> str:
+        return str(self.spec)
+
     @property
     def points(self) -> tuple[str, ...]:
         return (self.point,)
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        """The distances it is made of."""
+        return (self.spec,)
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "DistanceFrom":
+        """The same of other distances."""
+        (spec,) = specs
+        return replace(self, spec=spec)
 
     @property
     def hint(self) -> str:
@@ -85,7 +98,41 @@ class DistanceFrom:
         return self.spec.kind.hint
 
 
-Quantity = DistanceFrom
+@dataclass(frozen=True)
+class Difference:
+    """One distance less another: each as a share of its maximum, or, if raw, as it is (in equal units)."""
+
+    minuend: DistanceFrom
+    subtrahend: DistanceFrom
+    raw: bool = False
+
+    def __str__(self) -> str:
+        return f"{'raw ' if self.raw else ''}{self.minuend} - {self.subtrahend}"
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys((*self.minuend.points, *self.subtrahend.points)))
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        """The distances it is made of."""
+        return (self.minuend.spec, self.subtrahend.spec)
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "Difference":
+        """The same of other distances."""
+        first, second = specs
+        return replace(
+            self, minuend=replace(self.minuend, spec=first), subtrahend=replace(self.subtrahend, spec=second)
+        )
+
+    @property
+    def hint(self) -> str:
+        """What to look for."""
+        first, second = (part.spec.kind.name.lower() for part in (self.minuend, self.subtrahend))
+        return f"positive where {first} is larger, negative where {second} is"
+
+
+Quantity = DistanceFrom | Difference
 """What a panel can show: something with a value at every vertex."""
 
 
@@ -197,19 +244,55 @@ class Document:
         return tuple(dict.fromkeys(self.point(name).at for panel in self.panels for name in panel.shows.points))
 
 
+def quantity(text: str, point: str = "source", **parameters: object) -> Quantity:
+    """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
+
+    parameters: values of those not named in the text.  ParameterError for what is neither.
+    """
+    words = text.strip()
+    # A hyphen in a word has no spaces about it.
+    parts = words.removeprefix("raw ").split(" - ")
+    if len(parts) > 2:
+        raise ParameterError(f"{text!r} has {len(parts)} distances; a difference has two.")
+    fields = [DistanceFrom(Spec.parse(part, **parameters), point) for part in parts]
+    if len(fields) == 1:
+        if words.startswith("raw "):
+            raise ParameterError(f"{text!r} is no difference, which alone may be raw.")
+        return fields[0]
+    return Difference(fields[0], fields[1], words.startswith("raw "))
+
+
+def from_point(shows: "Spec | Quantity", point: str) -> Quantity:
+    """The same quantity from another point."""
+    if isinstance(shows, Difference):
+        return replace(
+            shows, minuend=replace(shows.minuend, point=point), subtrahend=replace(shows.subtrahend, point=point)
+        )
+    return DistanceFrom(shows if isinstance(shows, Spec) else shows.spec, point)
+
+
 def comparison(
-    path: str, specs: tuple[Spec, ...] = COMPARISON, sources: tuple[int | None, ...] = (None,), areas: str = "voronoi"
+    path: str,
+    shows: "tuple[Spec | Quantity, ...]" = COMPARISON,
+    sources: tuple[int | None, ...] = (None,),
+    areas: str = "voronoi",
 ) -> Document:
-    """A mesh with a panel for each distance from each source: the panels of one source after another."""
-    names = [f"source {k}" if k > 1 else "source" for k in range(1, len(sources) + 1)]
-    shown = [DistanceFrom(spec, name) for name in names for spec in specs]
+    """A mesh with a panel for each quantity from each source: the panels of one source after another."""
+    names = free_names("source", len(sources), [])
+    shown = [from_point(each, name) for name in names for each in shows]
     return Document(
         surfaces=(MeshFile("A", path),),
         points=tuple(Point(name, at) for name, at in zip(names, sources, strict=True)),
-        panels=tuple(Panel(k, shows) for k, shows in enumerate(shown)),
+        panels=tuple(Panel(k, each) for k, each in enumerate(shown)),
         areas=areas,
         next_id=len(shown),
     )
+
+
+def free_names(base: str, count: int, taken: list[str]) -> list[str]:
+    """So many names: "source", "source 2", ..., but for those that are taken."""
+    numbered = (f"{base} {k}" if k > 1 else base for k in range(1, count + len(taken) + 1))
+    return [name for name in numbered if name not in taken][:count]
 
 
 def without_camera(document: Document) -> Document:

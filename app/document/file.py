@@ -31,8 +31,8 @@ def checksum(path: str | os.PathLike[str]) -> str:
             digest = hashlib.sha256()
             while block := file.read(1 << 20):
                 digest.update(block)
-    except OSError as error:
-        raise ParameterError(f"{path} cannot be read: {error.strerror or error}.") from None
+    except (OSError, ValueError) as error:  # ValueError: a path with a zero in it
+        raise ParameterError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
     return digest.hexdigest()
 
 

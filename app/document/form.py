@@ -4,9 +4,10 @@ from dataclasses import fields
 from typing import Any
 
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
 
 from .camera import Camera, View
-from .document import Anchor, DistanceFrom, Document, MeshFile, Panel, Place, Point, Zoom
+from .document import Anchor, Difference, DistanceFrom, Document, MeshFile, Panel, Place, Point, Quantity, Zoom
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 
 
@@ -38,7 +39,9 @@ def _place_data(at: int | Place | None) -> int | dict[str, Any] | None:
     return {"face": at.face, "weights": list(at.weights)} if isinstance(at, Place) else at
 
 
-def _quantity_data(shows: DistanceFrom) -> dict[str, Any]:
+def _quantity_data(shows: Quantity) -> dict[str, Any]:
+    if isinstance(shows, Difference):
+        return {"difference": [_quantity_data(part) for part in (shows.minuend, shows.subtrahend)], "raw": shows.raw}
     return {"distance": shows.spec.in_full, "from": shows.point}
 
 
@@ -80,7 +83,16 @@ def _panel(data: Any, where: str) -> Panel:
     return placed(Panel, where, **record(data, where, readers))
 
 
-def _quantity(data: Any, where: str) -> DistanceFrom:
+def _quantity(data: Any, where: str) -> Quantity:
+    if isinstance(data, dict) and "difference" in data:
+        values = record(data, where, {"difference": listed(_distance_from), "raw": flag})
+        if len(values["difference"]) != 2:
+            raise ParameterError(f"{where}.difference must be two distances, not {len(values['difference'])}.")
+        return Difference(values["difference"][0], values["difference"][1], values["raw"])
+    return _distance_from(data, where)
+
+
+def _distance_from(data: Any, where: str) -> DistanceFrom:
     values = record(data, where, {"distance": _spec, "from": text})
     return DistanceFrom(values["distance"], values["from"])
 

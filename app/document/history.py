@@ -2,8 +2,9 @@
 
 from collections import deque
 from dataclasses import replace
+from typing import Generic, TypeVar
 
-from .document import Document, without_camera
+from .document import Document, Point, without_camera
 
 LONGEST = 10_000
 """Steps that are kept; a document takes some kilobytes."""
@@ -33,10 +34,14 @@ class History:
     def change(self, document: Document, key: str = "") -> Document:
         """Make this the present: a step, unless only the camera differs.  Without a key a row of equal ones ends."""
         if without_camera(document) != without_camera(self.present):
+            self._future.clear()
             if not key or key != self._key:
                 self._past.append(self.present)
-            self._future.clear()
-            self._key = key
+                self._key = key
+            elif self._past and without_camera(document) == without_camera(self._past[-1]):
+                # Back where the row of changes began: nothing is left of the step.
+                self._past.pop()
+                self._key = ""
         elif not key:
             self._key = ""  # a drag is over: the next is a step of its own
         self.present = document
@@ -49,6 +54,14 @@ class History:
     def after(self) -> Document | None:
         """What `redo` would show."""
         return _seen_from(self._future[-1], self.present) if self._future else None
+
+    def trail_of_points(self) -> "Trail[tuple[Point, ...]]":
+        """Where the points of the present surfaces have been, step by step, up to where they are."""
+        trail: Trail[tuple[Point, ...]] = Trail()
+        for document in (*self._past, self.present):
+            if document.surfaces == self.present.surfaces:
+                trail.visit(document.points)
+        return trail
 
     def undo(self) -> Document:
         """One step back; nothing where there is none."""
@@ -67,6 +80,41 @@ class History:
             self._past.append(self.present)
             self.present, self._key = document, ""
         return self.present
+
+
+Place = TypeVar("Place")
+
+
+class Trail(Generic[Place]):
+    """Places that were visited, to go back and on among them; a new one follows the present one."""
+
+    def __init__(self) -> None:
+        self._places: list[Place] = []
+        self._at = -1
+
+    def visit(self, place: Place) -> None:
+        """The same place again is no other visit."""
+        if self._at < 0 or self._places[self._at] != place:
+            self._places = [*self._places[: self._at + 1], place][-LONGEST:]
+            self._at = len(self._places) - 1
+
+    def correct(self, place: Place) -> None:
+        """The present place by other numbers, which rounding has changed."""
+        self._places[self._at] = place
+
+    def back(self) -> Place | None:
+        """The place before; None at the first."""
+        return self._go(-1)
+
+    def on(self) -> Place | None:
+        """The place after; None at the last."""
+        return self._go(1)
+
+    def _go(self, step: int) -> Place | None:
+        if not 0 <= self._at + step < len(self._places):
+            return None
+        self._at += step
+        return self._places[self._at]
 
 
 def _seen_from(document: Document, present: Document) -> Document:

@@ -21,16 +21,20 @@ UNDEFINED = -1.0
 _DECLARE = "//VTK::PositionVC::Dec"
 _PASS_ON = "//VTK::PositionVC::Impl"
 _LIT = "//VTK::Light::Impl"
+BOLD = 2.0
+"""By how much the line at 0 of a signed field is wider than the others."""
+
 _PAINT = """//VTK::Light::Impl
   float steps = isolineValue / isolineStep;
   float perPixel = length(vec2(dFdx(steps), dFdy(steps)));
   float fromLine = abs(fract(steps - 0.5) - 0.5) / max(perPixel, 1e-12);
-  float paint = 1.0 - smoothstep(isolineHalfWidth - 0.6, isolineHalfWidth + 0.6, fromLine);
+  float halfWidth = isolineHalfWidth * (abs(floor(steps + 0.5) - isolineBold) < 0.5 ? BOLD : 1.0);
+  float paint = 1.0 - smoothstep(halfWidth - 0.6, halfWidth + 0.6, fromLine);
   paint *= 1.0 - smoothstep(0.25, 0.5, perPixel);  // fade where lines would merge
   paint *= step(0.5, steps);                       // none at the source itself, none where undefined
   paint *= step(steps, isolineLast + 0.5);         // none at the farthest point itself
   fragOutput0.rgb = mix(fragOutput0.rgb, isolineColour, paint);
-"""
+""".replace("BOLD", str(BOLD))
 
 
 def drawable(surface: Surface) -> vtkPolyData:
@@ -68,14 +72,23 @@ def _to_length_one(vectors: list[np.ndarray]) -> None:
         np.divide(x, length, out=x, where=length > 0)
 
 
-def isoline_values(field: np.ndarray, maximum: float, count: int) -> np.ndarray:
-    """(k,) the values that get a line: multiples of maximum / count, above 0 and below the field's own maximum."""
-    own = float(np.nanmax(field, initial=0.0))
+def isoline_values(field: np.ndarray, maximum: float, count: int, signed: bool = False) -> np.ndarray:
+    """(k,) the values that get a line: multiples of maximum / count, above 0 and below the field's own maximum.
+
+    signed: of count steps from -maximum to maximum, an even number of them, so that 0 has a line.
+    """
+    own = float(np.nanmax(np.abs(field) if signed else field, initial=0.0))
     if not count or maximum <= 0 or own <= 0:
         return np.empty(0)
-    step = maximum / count
+    step = maximum / (half_steps(count) if signed else count)
     # A millionth of a step: at the farthest point itself a line would be a blot.
-    return step * np.arange(1, int(np.ceil(own / step - 1e-6)))
+    last = int(np.ceil(own / step - 1e-6)) - 1
+    return step * np.arange(-last if signed else 1, last + 1)
+
+
+def half_steps(count: int) -> int:
+    """Steps on each side of 0."""
+    return max(1, round(count / 2))
 
 
 class FieldActor:
@@ -84,6 +97,7 @@ class FieldActor:
     def __init__(self, style: Style, scale: float = 1.0) -> None:
         self.style = style
         self.table = lookup_table(style)
+        self.is_signed = False
         self.actor = vtkActor()
         self.maximum = 1.0
         self._mapper = vtkPolyDataMapper()
@@ -108,13 +122,21 @@ class FieldActor:
         )
         self.actor.VisibilityOn()
 
-    def show_field(self, field: np.ndarray, maximum: float | None = None) -> None:
-        """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey."""
-        own = float(np.nanmax(field, initial=0.0))
+    def show_field(self, field: np.ndarray, maximum: float | None = None, signed: bool = False) -> None:
+        """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey.
+
+        signed: from -maximum to maximum, in the diverging colours, with a bold line at 0.
+        """
+        own = float(np.nanmax(np.abs(field) if signed else field, initial=0.0))
         top = own if maximum is None else maximum
-        self._values[:] = np.where(np.isnan(field), UNDEFINED, field / top if top > 0 else 0)
+        shares = field / top if top > 0 else np.zeros_like(field)
+        self._values[:] = np.where(np.isnan(field), UNDEFINED, (shares + 1) / 2 if signed else shares)
         self._array.Modified()
         self.maximum, self._own_maximum = top, own
+        if signed != self.is_signed:
+            self.is_signed, self.table = signed, lookup_table(self.style, signed)
+            self._mapper.SetLookupTable(self.table)
+            self._uniforms.SetUniform3f("isolineColour", self.style.line(signed))
         self.show_isolines(self._count)
 
     def show_bare(self) -> None:
@@ -128,9 +150,13 @@ class FieldActor:
         """So many equal steps from 0 to the maximum; 0 for no lines."""
         self._count = count
         share = self._own_maximum / self.maximum if self.maximum > 0 else 0.0
-        lines = isoline_values(np.array([share]), 1.0, count)
-        self._uniforms.SetUniformf("isolineStep", 1 / count if count else 1e9)
-        self._uniforms.SetUniformf("isolineLast", float(len(lines)))
+        lines = isoline_values(np.array([share]), 1.0, count, self.is_signed)
+        half = half_steps(count)
+        steps = 2 * half if self.is_signed else count
+        last = half + len(lines) // 2 if self.is_signed else len(lines)
+        self._uniforms.SetUniformf("isolineStep", 1 / steps if count else 1e9)
+        self._uniforms.SetUniformf("isolineLast", float(last))
+        self._uniforms.SetUniformf("isolineBold", float(half) if self.is_signed else -1.0)
 
     def set_scale(self, scale: float) -> None:
         """Device pixels per pixel have changed."""
@@ -167,9 +193,9 @@ class FieldActor:
         self._uniforms.SetUniform3f("isolineColour", self.style.isoline)
 
 
-def lookup_table(style: Style) -> vtkLookupTable:
-    """The style's colours from 0 to 1, and what is undefined below."""
-    colours = style.colours()
+def lookup_table(style: Style, signed: bool = False) -> vtkLookupTable:
+    """The style's colours from 0 to 1, or those of a signed field, and what is undefined below."""
+    colours = style.colours(signed=signed)
     table = vtkLookupTable()
     table.SetNumberOfTableValues(len(colours))
     for k, colour in enumerate(colours):

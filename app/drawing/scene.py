@@ -27,6 +27,7 @@ class PanelScene:
         self.scale = scale
         self._field = FieldActor(style, scale)
         self._source = _mark(renderer, style.source, style.marker_size * scale)
+        self._largest = _mark(renderer, style.largest, 0.8 * style.marker_size * scale)
         self._pointer = _mark(renderer, style.pointer, 0.7 * style.marker_size * scale)
         self._bar = _colour_bar(self._field.table, style, scale)
         self._bar.VisibilityOff()
@@ -60,11 +61,12 @@ class PanelScene:
         self._unit.SetInput("")
         self._failure.SetInput("")
         self.mark_source(None)
+        self.mark_largest(None)
         self.mark_pointer(None)
 
-    def show_field(self, field: np.ndarray, unit: str = "", maximum: float | None = None) -> None:
-        """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey."""
-        self._field.show_field(field, maximum)
+    def show_field(self, field: np.ndarray, unit: str = "", maximum: float | None = None, signed: bool = False) -> None:
+        """Colour the surface by a field (n,), see `FieldActor.show_field`."""
+        self._field.show_field(field, maximum, signed)
         self._failure.SetInput("")
         self._bar.VisibilityOn()
         self._label_bar()
@@ -91,6 +93,10 @@ class PanelScene:
     def mark_source(self, position: np.ndarray | None) -> None:
         _move(self._source, position)
 
+    def mark_largest(self, position: np.ndarray | None) -> None:
+        """Where a signed field is largest."""
+        _move(self._largest, position)
+
     def mark_pointer(self, position: np.ndarray | None) -> None:
         _move(self._pointer, position)
 
@@ -98,7 +104,7 @@ class PanelScene:
     def _label_bar(self) -> None:
         table = vtkLookupTable()
         table.DeepCopy(self._field.table)
-        table.SetRange(0.0, self._field.maximum)
+        table.SetRange(-self._field.maximum if self._field.is_signed else 0.0, self._field.maximum)
         table.UseBelowRangeColorOff()
         self._bar.SetLookupTable(table)
 

@@ -7,6 +7,19 @@ import numpy as np
 Colour = tuple[float, float, float]
 
 
+DIVERGING: tuple[tuple[float, Colour], ...] = (
+    (-1.0, (0.05, 0.16, 0.42)),
+    (-0.6, (0.16, 0.42, 0.72)),
+    (-0.25, (0.62, 0.78, 0.90)),
+    (0.0, (0.95, 0.95, 0.94)),
+    (0.25, (0.97, 0.80, 0.58)),
+    (0.6, (0.84, 0.46, 0.13)),
+    (1.0, (0.45, 0.18, 0.02)),
+)
+"""For values on both sides of 0: blue below and orange above, equally dark at equal distances, which also those who
+confuse red and green tell apart."""
+
+
 @dataclass(frozen=True)
 class Style:
     """Colours are RGB from 0 to 1; widths are in pixels at scale 1, which are 1/96 of an inch.
@@ -28,18 +41,26 @@ class Style:
     undefined: Colour = (0.72, 0.72, 0.7)
     source: Colour = (1.0, 0.86, 0.1)
     pointer: Colour = (1, 1, 1)
+    largest: Colour = (0.10, 0.72, 0.50)
     marker_size: float = 15.0
     mark_edge: Colour = (0.1, 0.1, 0.12)
+    diverging: tuple[tuple[float, Colour], ...] = DIVERGING
+    signed_isoline: Colour = (0.30, 0.31, 0.34)
 
-    def colours(self, count: int = 512) -> np.ndarray:
-        """(count, 3) the colour map from the source to the farthest point."""
-        return self.colours_at(np.linspace(0, 1, count))
+    def colours(self, count: int = 512, signed: bool = False) -> np.ndarray:
+        """(count, 3) the colour map from 0 to the maximum; signed: from -maximum to maximum."""
+        return self.colours_at(np.linspace(-1 if signed else 0, 1, count), signed)
 
-    def colours_at(self, shares: np.ndarray) -> np.ndarray:
-        """(k, 3) colours of values given as shares (k,) of the maximum."""
-        at = np.array([s for s, _ in self.stops])
-        colours = np.array([c for _, c in self.stops])
+    def colours_at(self, shares: np.ndarray, signed: bool = False) -> np.ndarray:
+        """(k, 3) colours of values given as shares (k,) of the maximum, 0 to 1, or -1 to 1 if signed."""
+        stops = self.diverging if signed else self.stops
+        at = np.array([s for s, _ in stops])
+        colours = np.array([c for _, c in stops])
         return np.stack([np.interp(shares, at, colours[:, k]) for k in range(3)], 1)
+
+    def line(self, signed: bool = False) -> Colour:
+        """The colour of isolines; the middle of a diverging map is too light for white ones."""
+        return self.signed_isoline if signed else self.isoline
 
 
 def _even(*colours: Colour) -> tuple[tuple[float, Colour], ...]:
@@ -90,6 +111,8 @@ LINES = Style(
     outline=1.6,
     shading=False,
     coloured=False,
+    diverging=((-1.0, (1, 1, 1)), (1.0, (1, 1, 1))),
+    signed_isoline=(0, 0, 0),
     text=(0, 0, 0),
     quiet_text=(0.25, 0.25, 0.25),
     undefined=(0.86, 0.86, 0.86),

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..drawing.field_actor import BOLD, half_steps
 from ..drawing.style import Colour
 from .crossings import simplified
-from .description import Figure
+from .description import Figure, FigurePanel
 from .layout import FONT, Box, Cell, Layout, bar_words, text_width, wrapped
 from .shots import Line, Shot
 
@@ -102,8 +103,10 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         edge = _silhouette(shot, page.layout.scale)
         # One object for all curves: it is then written once.
         shape = edge and TransformedPath(edge, axes.transData)
-    for k, (_, lines) in enumerate(shot.isolines if vector else ()):
-        curve = _curve(lines, style.isoline, style.isoline_width * stroke, "butt", order + 2, f"isoline-{number}-{k}")
+    signed = page.figure.panels[shot.panel].signed
+    for k, (value, lines) in enumerate(shot.isolines if vector else ()):
+        width = style.isoline_width * stroke * (BOLD if signed and value == 0 else 1)
+        curve = _curve(lines, style.line(signed), width, "butt", order + 2, f"isoline-{number}-{k}")
         axes.add_artist(curve)
         # The stroke is cut where the shape ends, which its middle line does already.
         curve.set_clip_path(shape)
@@ -190,8 +193,8 @@ def _draw_marks(axes: Axes, page: Composition, shot: Shot, order: int, frame) ->
         mark = panel.marks[k]
         colour = style.source
         if mark.value is not None:
-            share = np.clip(mark.value / top, 0, 1) if top > 0 else 0.0
-            colour = style.colours_at(np.array([share]))[0]
+            share = np.clip(mark.value / top, -1 if panel.signed else 0, 1) if top > 0 else 0.0
+            colour = style.colours_at(np.array([share]), panel.signed)[0]
         circle = Circle(
             (x, y),
             radius,
@@ -238,12 +241,12 @@ def _draw_words(axes: Axes, page: Composition) -> None:
         if panel.failure:
             _draw_failure(axes, page, panel.failure, cell)
         if cell.bar:
-            _draw_bar(axes, page, cell.bar, top, bar_words(panel.label, panel.unit), panel.isolines)
+            _draw_bar(axes, page, cell.bar, top, bar_words(panel.label, panel.unit), panel)
     if layout.shared_bar:
         shown = [p for p in page.figure.panels if p.field is not None]
         labels = {p.label for p in shown}
         label = labels.pop() if len(labels) == 1 else "distance"
-        _draw_bar(axes, page, layout.shared_bar, max(tops), bar_words(label, shown[0].unit), shown[0].isolines)
+        _draw_bar(axes, page, layout.shared_bar, max(tops), bar_words(label, shown[0].unit), shown[0])
 
 
 def _draw_failure(axes: Axes, page: Composition, failure: str, cell: Cell) -> None:
@@ -264,39 +267,47 @@ def _draw_failure(axes: Axes, page: Composition, failure: str, cell: Cell) -> No
         _write(axes, line, area.x + area.width / 2, y, size, style.text)
 
 
-def _draw_bar(axes: Axes, page: Composition, bar: Box, top: float, words: str, isolines: int) -> None:
+def _draw_bar(axes: Axes, page: Composition, bar: Box, top: float, words: str, panel: FigurePanel) -> None:
+    """A colour bar from 0, or from -top, to top."""
     from matplotlib.patches import Rectangle
 
-    style, size = page.figure.style, page.layout.label
+    style, size, signed = page.figure.style, page.layout.label, panel.signed
     if style.coloured:
         edges = np.linspace(bar.x, bar.right, BAR_STEPS + 1)
-        for left, colour in zip(edges[:-1], style.colours(BAR_STEPS), strict=True):
+        for left, colour in zip(edges[:-1], style.colours(BAR_STEPS, signed), strict=True):
             # Each runs to the end of the bar, under the next ones: side by side they would show seams.
             axes.add_artist(Rectangle((left, bar.y), bar.right - left, bar.height, facecolor=colour, linewidth=0))
-    step = bar.width / isolines if isolines else 0.0
+    steps = 2 * half_steps(panel.isolines) if signed else panel.isolines
+    step = bar.width / steps if panel.isolines else 0.0
     if step >= 4:
-        for k in range(1, isolines):
+        for k in range(1, steps):
             width = min(style.isoline_width * page.layout.stroke, step / 4)
-            _stroke(axes, bar.x + k * step, bar.y, bar.y + bar.height, style.isoline, width)
+            width *= BOLD if signed and 2 * k == steps else 1
+            _stroke(axes, bar.x + k * step, bar.y, bar.y + bar.height, style.line(signed), width)
     if not style.coloured:
         axes.add_artist(
             Rectangle((bar.x, bar.y), bar.width, bar.height, fill=False, edgecolor=style.text, linewidth=0.8 * POINT)
         )
-    for value in ticks(top):
-        x = bar.x + bar.width * value / top
+    low = -top if signed else 0.0
+    for value in ticks(top, low):
+        x = bar.x + bar.width * (value - low) / (top - low)
         _stroke(axes, x, bar.bottom, bar.bottom + 3, style.quiet_text, 0.8)
         _write(axes, f"{value:.6g}", x, bar.bottom + 4 + size, size, style.text)
     middle = bar.x + bar.width / 2
-    words = f"{words}, maximum {top:.4g}" if words else f"maximum {top:.4g}"
+    end = f"maximum {top:.4g}"
+    if signed and panel.field is not None:
+        vertex = int(np.nanargmax(np.abs(panel.field)))
+        end = f"largest {panel.field[vertex]:+.4g} at vertex {vertex}"
+    words = f"{words}, {end}" if words else end
     _write(axes, words, middle, bar.bottom + 5 + 2.25 * size, size, style.quiet_text)
 
 
-def ticks(top: float) -> list[float]:
-    """Round numbers from 0 to `top`, for a colour bar."""
+def ticks(top: float, low: float = 0.0) -> list[float]:
+    """Round numbers from `low` to `top`, for a colour bar."""
     from matplotlib.ticker import MaxNLocator
 
-    values = MaxNLocator(nbins=5, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, top)
-    return [float(v) for v in values if 0 <= v <= top * (1 + 1e-9)]
+    values = MaxNLocator(nbins=5, steps=[1, 2, 2.5, 5, 10]).tick_values(low, top)
+    return [float(v) for v in values if low * (1 + 1e-9) <= v <= top * (1 + 1e-9)]
 
 
 def _stroke(axes: Axes, x: float, top: float, bottom: float, colour, width: float) -> None:

@@ -29,7 +29,8 @@ class FigurePanel:
     label and unit stand at the colour bar, heading and hint above.  maximum: the end of the colour bar, the field's
     own if None.  isolines: equal steps from 0 to the maximum.  views: pictures of the same side by side, each a
     standard one or a camera.  height: a flat surface becomes a relief, raised by the field so that its maximum is this
-    share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
+    share of the surface's extent.  failure: why there is no field, to be read on the bare shape.  signed: the field has
+    values on both sides of 0, and its colour bar goes from -maximum to maximum.
     """
 
     surface: Surface
@@ -45,6 +46,7 @@ class FigurePanel:
     zooms: tuple[Zoom, ...] = ()
     height: float = 0.0
     failure: str = ""
+    signed: bool = False
 
     def __post_init__(self) -> None:
         count = len(self.surface.vertices)
@@ -69,7 +71,9 @@ class FigurePanel:
         """The end of the colour bar; 0 if there is no field, or none that is more than 0 anywhere."""
         if self.maximum is not None:
             return self.maximum
-        return 0.0 if self.field is None else float(np.nanmax(self.field, initial=0.0))
+        if self.field is None:
+            return 0.0
+        return float(np.nanmax(np.abs(self.field) if self.signed else self.field, initial=0.0))
 
 
 USUAL = Size()

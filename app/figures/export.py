@@ -35,14 +35,15 @@ def check_export(path: str | os.PathLike[str]) -> Path:
     return recipe_path
 
 
-def open_document(document: Document) -> tuple[Document, Surfaces]:
-    """The document with checksums and vertices, and its surfaces.
+def open_document(recipe: Recipe) -> tuple[Document, Surfaces]:
+    """The recipe's document with checksums and vertices, and its surfaces.
 
     Raises ParameterError if one is missing or has changed since the document was written.
     """
-    surfaces = {}
+    surfaces, document = {}, recipe.document
+    remedy = "Name the mesh that is to be drawn with --mesh." if recipe.made_with else ""
     for mesh in document.surfaces:
-        surfaces[mesh.name] = opened = open_mesh(mesh, "Name the mesh that is to be drawn with --mesh.")
+        surfaces[mesh.name] = opened = open_mesh(mesh, remedy)
         document = opened.settled(document)
     return document, surfaces
 
@@ -101,7 +102,7 @@ def export(
 ) -> tuple[Figure, Recipe, list[Answer]]:
     """Everything: read, compute, draw, write.  Returns the figure, the recipe with its sources, and the answers."""
     check_export(path)
-    document, surfaces = open_document(recipe.document)
+    document, surfaces = open_document(recipe)
     recipe = replace(recipe, document=document)
     # What cannot be drawn is refused before the long work.
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
@@ -128,10 +129,20 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         maximum=panel.maximum,
         isolines=document.isolines,
         views=recipe.views,
-        marks=(*map(Mark, starts), *_anchor_marks(document, panel, opened, answer)),
+        marks=(*map(Mark, starts), *_anchor_marks(document, panel, opened, answer), *_largest(answer)),
         zooms=document.zooms,
         height=0.0 if answer.failure else document.height,
+        signed=answer.is_signed,
     )
+
+
+def _largest(answer: Answer) -> list[Mark]:
+    """The place of the largest difference, with its value and name."""
+    vertex = answer.largest
+    if vertex is None or answer.field is None:
+        return []
+    value = float(answer.field[vertex])
+    return [Mark(vertex, value, f"{value:+.3g} at {vertex}")]
 
 
 def _anchor_marks(document: Document, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:

@@ -68,7 +68,9 @@ def check_movie(path: str | os.PathLike[str]) -> None:
 def write_movie(movie: Movie, path: str | os.PathLike[str], progress: Progress | None = None) -> list[Answer]:
     """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel."""
     check_movie(path)
-    document, surfaces = open_document(movie.recipe.document)
+    if not movie.recipe.document.panels:
+        raise ParameterError("The recipe has no panels.")
+    document, surfaces = open_document(movie.recipe)
     movie = replace(movie, recipe=replace(movie.recipe, document=document))
     fields = _Fields(movie, surfaces, part(progress, 0.0, 0.3))
     pictures = _pictures(movie, fields, part(progress, 0.3, 1.0))

@@ -63,7 +63,7 @@ def take_shots(figure: Figure, layout: Layout, vector: bool, progress: Progress)
             meshes[key] = mesh
             studio.shown.show_surface(mesh)
             if panel.field is not None:
-                studio.shown.show_field(panel.field, tops[index])
+                studio.shown.show_field(panel.field, tops[index], panel.signed)
             studio.shown.show_isolines(0 if vector or panel.field is None else panel.isolines)
             for number, (view, box) in enumerate(zip(panel.views, cell.views, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
@@ -187,7 +187,9 @@ class _Taker:
         panel = self._panel
         if panel.field is None:
             return []
-        found = isolines(self._surface, panel.field, isoline_values(panel.field, self._top, panel.isolines))
+        found = isolines(
+            self._surface, panel.field, isoline_values(panel.field, self._top, panel.isolines, panel.signed)
+        )
         parts = self._sight.visible(Curve(line.points, line.edges, line.closed) for line in found)
         return [(line.value, p) for line, p in zip(found, parts, strict=True) if p]
 

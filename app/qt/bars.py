@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from qtpy import QtGui, QtWidgets
 
+from ..document.document import MOST_ISOLINES
 from ..samples import mesh_path, sample_names, thumbnail
 from .look import LargeIcons
 
@@ -30,7 +31,7 @@ def fill_tool_bar(window) -> tuple[QtWidgets.QSpinBox, QtWidgets.QSpinBox]:
     bar.addSeparator()
     bar.addWidget(QtWidgets.QLabel(" Isolines "))
     isolines = QtWidgets.QSpinBox()
-    isolines.setRange(0, 200)
+    isolines.setRange(0, MOST_ISOLINES)
     isolines.setValue(window.session.document.isolines)
     isolines.setToolTip("Equal steps from 0 to each panel's maximum; 0 for no lines")
     isolines.valueChanged.connect(window.choose_isolines)
@@ -58,12 +59,22 @@ def fill_menus(window) -> None:
     _action(file, "Open &recipe …", window.choose_recipe, "Ctrl+R")
     file.addSeparator()
     _action(file, "&Quit", window.close, QtGui.QKeySequence.StandardKey.Quit)
+    edit = window.menuBar().addMenu("&Edit")
+    _action(edit, "&Undo", window.session.undo, "Ctrl+Z")
+    _action(edit, "&Redo", window.session.redo, "Ctrl+Shift+Z")
+    edit.addSeparator()
+    _action(edit, "&Add a panel", window.add_panel, "Ctrl+T")
     view = window.menuBar().addMenu("&View")
     _action(view, "&Reset", window.reset_view, "R")
     for key, name in enumerate(("front", "back", "left", "right", "top", "bottom"), 1):
         _action(view, f"&{name.capitalize()}", lambda *_, name=name: window.reset_view(name), str(key))
+    view.addSeparator()
+    _action(view, "The view be&fore", window.view_back, "Ctrl+[")
+    _action(view, "The view af&ter", window.view_on, "Ctrl+]")
     go = window.menuBar().addMenu("&Source")
     _action(go, "&Type a vertex id", lambda *_: (window.source_box.setFocus(), window.source_box.selectAll()), "G")
+    _action(go, "The source be&fore", lambda: window.session.walk_sources(-1), "Alt+Left")
+    _action(go, "The source af&ter", lambda: window.session.walk_sources(1), "Alt+Right")
     _action(go, "&Cancel what is being computed", window.session.cancel, "Esc")
     about = window.menuBar().addMenu("&Help")
     _action(about, "&Mouse and keys", lambda: QtWidgets.QMessageBox.information(window, "Mouse and keys", HELP), "F1")
@@ -82,6 +93,8 @@ Drag: rotate all panels.  Shift-drag or middle button: move.  Wheel: zoom.
 Point at the surface: its value in every panel.
 
 Ctrl+O  open a mesh (or drop it on the window)
+Ctrl+Z, Ctrl+Shift+Z  undo, redo      Ctrl+T  add a panel (⋯ over a panel: duplicate, move, remove)
+Ctrl+[, Ctrl+]  the view before, after      Alt+Left, Alt+Right  the source before, after
 G  type the source's vertex id
 R  reset the view      1 … 6  front, back, left, right, top, bottom
 Ctrl+P  save a picture of the window      Ctrl+E  export a figure      Ctrl+M  a movie

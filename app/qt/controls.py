@@ -1,6 +1,7 @@
 """The controls over a panel: which distance, and its parameters.  All of it comes from the table of distances."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import exp, log
 
 from qtpy import QtCore, QtWidgets
@@ -8,21 +9,114 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Parameter, Spec, Value, kind_of, kinds
 
+from ..document.document import COMPARISON, Difference, Quantity
+
 STEPS = 240
 """Positions of a slider, in equal steps of the parameter's logarithm."""
 
 SYMBOLS = {"alpha": "α"}
 
+MOST_PANELS = 6
+"""Up to which panels can be added; a recipe may have more."""
+
+PANEL_EDITS = {
+    "add": "Add a panel",
+    "duplicate": "Duplicate this panel",
+    "back": "Move it back",
+    "on": "Move it on",
+    "remove": "Remove it",
+}
+
 
 class PanelControls(QtWidgets.QWidget):
-    """Emits `changed(Spec)` for each choice.  A distance chosen again has the parameters it had before."""
+    """Which quantity a panel shows; emits `changed(Quantity)` for each choice.
+
+    One distance with its parameters, or two and a minus between them; the button after the second takes it away.
+    """
 
     changed = QtCore.Signal(object)
+    asked = QtCore.Signal(str)  # a word of PANEL_EDITS
 
-    def __init__(self, spec: Spec, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, shows: Quantity, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
-        self.spec = spec
+        self.shows = shows
+        self.first = DistanceControl(self, offers_difference=True)
+        self.minus = QtWidgets.QLabel("−", self)
+        self.second = DistanceControl(self)
+        self.alone = QtWidgets.QToolButton(self, text="×", autoRaise=True)
+        self.alone.setToolTip("Show the first distance alone")
+        row = QtWidgets.QHBoxLayout(self)
+        row.setContentsMargins(8, 6, 8, 2)
+        self.more = QtWidgets.QToolButton(self, text="⋯", autoRaise=True)
+        self.more.setToolTip("Add, duplicate, move or remove panels")
+        self.more.setPopupMode(QtWidgets.QToolButton.ToolButtonPopupMode.InstantPopup)
+        menu = QtWidgets.QMenu(self.more)
+        self.edits = {word: menu.addAction(text) for word, text in PANEL_EDITS.items()}
+        for word, action in self.edits.items():
+            action.triggered.connect(lambda *_, word=word: self.asked.emit(word))
+        self.more.setMenu(menu)
+        for widget in (self.first, self.minus, self.second, self.alone):
+            row.addWidget(widget)
+        row.addStretch(0)
+        row.addWidget(self.more)
+        self._controls_row = row
+        self.first.chosen.connect(lambda spec: self._choose(spec, 0))
+        self.second.chosen.connect(lambda spec: self._choose(spec, 1))
+        self.first.difference_wanted.connect(self._subtract)
+        self.alone.clicked.connect(self._leave_alone)
+        self.show_quantity(shows)
+
+    def show_quantity(self, shows: Quantity) -> None:
+        """Make the controls say what is shown, without emitting."""
+        self.shows = shows
+        self.first.show_spec(shows.specs[0])
+        is_difference = isinstance(shows, Difference)
+        for widget in (self.minus, self.second, self.alone):
+            widget.setVisible(is_difference)
+        if is_difference:
+            self.second.show_spec(shows.specs[1])
+        for control in (self.first, self.second):
+            # A slider takes the room there is.
+            is_wide = any(parameter.logarithmic for parameter in control.spec.kind.parameters)
+            self._controls_row.setStretchFactor(control, int(is_wide))
+
+    def allow(self, words: set[str]) -> None:
+        """Which of the panel's edits are possible."""
+        for word, action in self.edits.items():
+            action.setEnabled(word in words)
+
+    def _choose(self, spec: Spec, place: int) -> None:
+        specs = list(self.shows.specs)
+        specs[place] = spec
+        self._emit(self.shows.with_specs(tuple(specs)))
+
+    def _subtract(self) -> None:
+        """From the distance that is shown the first other one of those usually compared."""
+        if isinstance(self.shows, Difference):
+            self.first.show_spec(self.shows.specs[0])
+            return
+        other = next(spec for spec in COMPARISON if spec.word != self.shows.spec.word)
+        self._emit(Difference(self.shows, replace(self.shows, spec=other)))
+
+    def _leave_alone(self) -> None:
+        if isinstance(self.shows, Difference):
+            self._emit(self.shows.minuend)
+
+    def _emit(self, shows: Quantity) -> None:
+        self.show_quantity(shows)
+        self.changed.emit(shows)
+
+
+class DistanceControl(QtWidgets.QWidget):
+    """One distance: a menu and its parameters.  `chosen(Spec)` by the user; chosen again, it has its old parameters."""
+
+    chosen = QtCore.Signal(object)
+    difference_wanted = QtCore.Signal()
+
+    def __init__(self, parent: QtWidgets.QWidget | None = None, offers_difference: bool = False) -> None:
+        super().__init__(parent)
+        self.spec = COMPARISON[0]
         self._before: dict[str, Spec] = {}
         self.distance = QtWidgets.QComboBox(self)
         for word in kinds():
@@ -30,14 +124,16 @@ class PanelControls(QtWidgets.QWidget):
                 self.distance.addItem(kind_of(word).name, word)
             except ParameterError:
                 continue  # somebody else's that cannot be loaded; asked for by its word it says why
+        if offers_difference:
+            self.distance.insertSeparator(self.distance.count())
+            self.distance.addItem("Difference of two", None)
         self.distance.setToolTip("The distance this panel shows")
         self._row = QtWidgets.QHBoxLayout(self)
-        self._row.setContentsMargins(8, 6, 8, 2)
+        self._row.setContentsMargins(0, 0, 0, 0)
         self._row.addWidget(self.distance)
         self._row.addStretch(0)
         self._of_word = ""
         self.parameters: dict[str, ParameterControl] = {}
-        self.show_spec(spec)
         self.distance.currentIndexChanged.connect(self._choose_distance)
 
     def show_spec(self, spec: Spec) -> None:
@@ -62,12 +158,15 @@ class PanelControls(QtWidgets.QWidget):
 
     def _choose_distance(self) -> None:
         word = self.distance.currentData()
+        if word is None:
+            self.difference_wanted.emit()
+            return
         self.show_spec(self._before.get(word) or Spec.of(word))
-        self.changed.emit(self.spec)
+        self.chosen.emit(self.spec)
 
     def _choose(self, **choice: object) -> None:
         self.show_spec(self.spec.changed(**choice))
-        self.changed.emit(self.spec)
+        self.chosen.emit(self.spec)
 
 
 class ParameterControl(QtWidgets.QWidget):

@@ -9,6 +9,7 @@ from qtpy import QtWidgets
 from bihdist_core import BihdistError, ParameterError
 from bihdist_core.distances.answers import Answer
 
+from ..document.document import MOST_PANELS
 from ..document.page import Recipe
 from ..drawing.style import STYLES
 from ..figures.export import Surfaces, check_export, figure_of, write_figure
@@ -42,7 +43,7 @@ class _Looks(JobDialog):
         for word in STYLES:
             self.style_box.addItem(STYLE_NAMES.get(word, word), word)
         self.style_box.setCurrentIndex(max(self.style_box.findData(recipe.page.style), 0))
-        self.columns = QtWidgets.QSpinBox(maximum=12, specialValueText="all in one row")
+        self.columns = QtWidgets.QSpinBox(maximum=MOST_PANELS, specialValueText="all in one row")
         self.columns.setValue(recipe.page.columns or 0)
         self.shared = QtWidgets.QCheckBox("One colour bar for all panels", checked=recipe.document.shared_range)
         self.hints = QtWidgets.QCheckBox("What to look for, under the headings", checked=recipe.page.hints)

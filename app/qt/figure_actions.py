@@ -4,10 +4,11 @@ from dataclasses import replace
 
 from qtpy import QtWidgets
 
-from bihdist_core import BihdistError
+from bihdist_core import BihdistError, ParameterError
 
 from ..document.file import checksum, read_recipe
 from ..document.page import Recipe
+from ..drawing.style import STYLES
 from ..samples import mesh_path
 from ..version import version
 from .export_dialog import ExportDialog, MovieDialog
@@ -37,6 +38,9 @@ def _complete_recipe(window) -> Recipe | None:
     if not window.session.is_complete:
         window.failed("The panels are not complete yet; a figure can be exported once they are.")
         return None
+    if not window.session.document.panels:
+        window.failed("There are no panels; add one first.")
+        return None
     return shown_recipe(window)
 
 
@@ -64,6 +68,10 @@ def open_recipe(window, path: str) -> None:
     try:
         recipe = read_recipe(path)
         document = recipe.document
+        if len(document.surfaces) > 1:
+            raise ParameterError(f"The window shows one mesh, and {path} has {len(document.surfaces)}.")
+        if recipe.page.style not in STYLES:
+            raise ParameterError(f"{path}: there is no style {recipe.page.style!r}; choose one of {', '.join(STYLES)}.")
         for mesh in document.surfaces:
             if mesh.sha256 and mesh.path and checksum(mesh_path(mesh.path)) != mesh.sha256:
                 window.failed(

@@ -11,20 +11,26 @@ from typing import Any
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import BihdistError, OutputError
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..document.document import Document
-from ..document.edits import move_source, show_in
+from ..document.camera import Camera
+from ..document.document import COMPARISON, DistanceFrom, Document, Quantity
+from ..document.edits import add_panel, move_panel, move_source, remove_panel, show_in
+from ..document.history import Trail
 from ..document.page import Page
 from ..drawing.prepared import prepare
 from ..session.opened import Opened
+from ..session.questions import vertex_at
 from ..session.session import Session
 from .bars import fill_menus, fill_tool_bar
+from .controls import MOST_PANELS
 from .look import STYLE_SHEET
 from .status_bar import StatusBar
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
+STILL_MS = 500
+"""When the camera has not moved for so long, what is seen is a view that one can come back to."""
 PROGRESS_MS = 200
 """How often progress is shown at most, and from when on."""
 
@@ -56,6 +62,9 @@ class MainWindow(QtWidgets.QMainWindow):
         self.status = StatusBar(self)
         self.status.cancelled.connect(self.session.cancel)
         self.setStatusBar(self.status)
+        self._views: Trail[Camera] = Trail()
+        self._still = QtCore.QTimer(self, singleShot=True, interval=STILL_MS)
+        self._still.timeout.connect(self._remember_view)
         self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
         self._progress_soon.timeout.connect(self._show_progress)
         self.source_box, self.isolines_box = fill_tool_bar(self)
@@ -73,9 +82,10 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.clicked.connect(self._click)
         self.grid.dragged.connect(self._drag)
         self.grid.released.connect(lambda: self.session.show(self.session.document))
-        self.grid.chosen.connect(self._choose_distance)
+        self.grid.chosen.connect(self._choose)
+        self.grid.asked.connect(self._edit_panels)
         self.grid.hovered.connect(self._hover)
-        self.grid.looked.connect(self.session.look)
+        self.grid.looked.connect(self._look)
         self.setCentralWidget(self.grid)
         self.leave_boxes()
         waiting, self._waiting = self._waiting, []
@@ -111,7 +121,7 @@ class MainWindow(QtWidgets.QMainWindow):
             self._show_surface(opened)
         self.grid.mark_points(document)
         with QtCore.QSignalBlocker(self.source_box):
-            self.source_box.setValue(document.sources[0] if document.sources else 0)
+            self.source_box.setValue(self._first_source())
         with QtCore.QSignalBlocker(self.isolines_box):
             self.isolines_box.setValue(document.isolines)
         self.grid.show_isolines(document.isolines)
@@ -125,7 +135,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.repaint_views()
 
     def _show_surface(self, opened: Opened) -> None:
-        self._opened, self._hovered = opened, None
+        self._opened, self._hovered, self._views = opened, None, Trail()
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
         self.grid.show_surface()
         self.say(_summary(opened.surface))
@@ -191,11 +201,36 @@ class MainWindow(QtWidgets.QMainWindow):
     def _drag(self, panel: int, vertex: int) -> None:
         self.session.show(move_source(self.session.document, panel, vertex), key=f"drag in {panel}", live=True)
 
-    def _choose_distance(self, panel: int, spec: Spec) -> None:
-        """Another distance is a step; the values that its slider passes are one."""
-        shows = self.session.document.panel(panel).shows
-        key = f"{spec.word} in {panel}" if spec.word == shows.spec.word else ""
-        self.session.show(show_in(self.session.document, panel, replace(shows, spec=spec)), key)
+    def _choose(self, panel: int, shows: Quantity) -> None:
+        """Another quantity is a step; the values that a slider passes are one."""
+        before = self.session.document.panel(panel).shows
+        words = [tuple(spec.word for spec in each.specs) for each in (before, shows)]
+        key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
+        self.session.show(show_in(self.session.document, panel, shows), key)
+
+    def add_panel(self) -> None:
+        """One more, with a distance that is not shown yet."""
+        document = self.session.document
+        if self.session.surface is None or len(document.panels) >= MOST_PANELS:
+            return
+        shown = {spec.word for panel in document.panels for spec in panel.shows.specs}
+        words = [*(spec.word for spec in COMPARISON), *kinds()]
+        word = next((word for word in words if word not in shown), words[0])
+        self.session.show(add_panel(document, DistanceFrom(Spec.of(word))))
+
+    def _edit_panels(self, panel: int, word: str) -> None:
+        document = self.session.document
+        place = [each.id for each in document.panels].index(panel)
+        shown = document.panel(panel)
+        if word == "add":
+            self.add_panel()
+        elif word == "duplicate":
+            more = add_panel(document, shown.shows, shown.surface)
+            self.session.show(move_panel(more, document.next_id, place + 1))
+        elif word == "remove":
+            self.session.show(remove_panel(document, panel))
+        else:
+            self.session.show(move_panel(document, panel, place + (1 if word == "on" else -1)))
 
     def choose_isolines(self, count: int) -> None:
         self.session.show(replace(self.session.document, isolines=count), key="isolines")
@@ -203,13 +238,15 @@ class MainWindow(QtWidgets.QMainWindow):
     def choose_source(self, vertex: int) -> None:
         """The vertex that the first panel's field starts from."""
         document = self.session.document
-        if self.session.surface is None or not document.panels:
-            return
-        try:
+        if self.session.surface is not None and document.panels:
             self.session.show(move_source(document, document.panels[0].id, vertex))
-        except BihdistError as error:
-            self.failed(str(error))
-            self.source_box.setValue(document.sources[0])
+            with QtCore.QSignalBlocker(self.source_box):
+                self.source_box.setValue(self._first_source())
+
+    def _first_source(self) -> int:
+        """The vertex that the first panel's field starts from."""
+        document = self.session.document
+        return vertex_at(document.sources[0], self.session.surface) if document.sources else 0
 
     def _hover(self, vertex: int | None) -> None:
         if vertex == self._hovered or self.session.surface is None:
@@ -228,6 +265,29 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def dropEvent(self, event: QtGui.QDropEvent) -> None:
         self.open(event.mimeData().urls()[0].toLocalFile())
+
+    # ------------------------------------------------------------------ back and forth
+    def _look(self, camera: Camera) -> None:
+        self.session.look(camera)
+        self._still.start()
+
+    def _remember_view(self) -> None:
+        if isinstance(self.session.document.camera, Camera):
+            self._views.visit(self.session.document.camera)
+
+    def view_back(self) -> None:
+        """Look from where one looked before."""
+        self._remember_view()
+        self._see_again(self._views.back())
+
+    def view_on(self) -> None:
+        self._see_again(self._views.on())
+
+    def _see_again(self, camera: Camera | None) -> None:
+        if camera is not None:
+            self.grid.look(camera)
+            self._still.stop()
+            self._views.correct(self.session.document.camera)
 
     # ------------------------------------------------------------------ the user's commands
     def reset_view(self, view: str = "home") -> None:

@@ -7,8 +7,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from bihdist_core.distances.answers import Answer
-from bihdist_core.distances.kinds import Spec
 
+from ..document.document import Quantity
 from ..drawing.picking import Picker, pixel_of
 from ..drawing.scene import PanelScene
 from ..session.answering import Shown
@@ -27,12 +27,12 @@ class DistancePanel(QtWidgets.QWidget):
     hovered = QtCore.Signal(object)  # a vertex, or None beside the surface
     moved = QtCore.Signal()  # the camera
     resized = QtCore.Signal()  # the picture
-    changed = QtCore.Signal(object)  # the distance chosen with the controls: a Spec
+    changed = QtCore.Signal(object)  # the quantity chosen with the controls
 
-    def __init__(self, spec: Spec, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, shows: Quantity, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
-        self.controls = PanelControls(spec, self)
+        self.controls = PanelControls(shows, self)
         self.controls.changed.connect(self.changed)
         self.title = QtWidgets.QLabel("", self, objectName="title")
         self.hint = QtWidgets.QLabel("", self, objectName="hint")
@@ -57,6 +57,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.renderer.UseFXAAOn()
         self.scene = PanelScene(self.renderer, scale=self.interactor.devicePixelRatioF())
         self._picker: Picker | None = None
+        self._positions = np.empty((0, 3))
         self._press: QtCore.QPoint | None = None
         self._dragging = False
         self._holds_mark = False
@@ -69,8 +70,9 @@ class DistancePanel(QtWidgets.QWidget):
         return self.interactor.renderer
 
     # ------------------------------------------------------------------ state into pixels
-    def show_surface(self, mesh: vtkPolyData, picker: Picker, camera: vtkCamera) -> None:
-        self._picker = picker
+    def show_surface(self, mesh: vtkPolyData, picker: Picker, positions: np.ndarray, camera: vtkCamera) -> None:
+        """positions: (n, 3) of the vertices."""
+        self._picker, self._positions = picker, positions
         self.answer = self._source = None
         self.scene.show_surface(mesh)
         self.renderer.SetActiveCamera(camera)
@@ -90,7 +92,8 @@ class DistancePanel(QtWidgets.QWidget):
         if answer.field is None:
             self.scene.show_failure(answer.failure)
         else:
-            self.scene.show_field(answer.field, answer.unit, maximum)
+            self.scene.show_field(answer.field, answer.unit, maximum, answer.is_signed)
+        self.scene.mark_largest(None if answer.largest is None else self._positions[answer.largest])
         self.title.setText(answer.label)
         self.show_certificate(shown)
         self.repaint_view()
@@ -104,9 +107,17 @@ class DistancePanel(QtWidgets.QWidget):
         """What is being computed, in place of the hint; an empty text brings the hint back."""
         if self.answer is not None and self._is_preview:
             text = text or "a quick look; the exact one follows"
+        self.hint.setText(text or "   ·   ".join(self._remarks()) or self.controls.shows.hint)
+
+    def _remarks(self) -> list[str]:
+        """What there is to say about the answer itself."""
+        said = []
+        if self.answer is not None and self.answer.largest is not None:
+            vertex = self.answer.largest
+            said.append(f"largest {self.answer.field[vertex]:+.3g} at vertex {vertex}")
         if self.answer is not None and self.answer.accuracy.is_poor:
-            text = text or f"not exact here: only {self.answer.accuracy.text}"
-        self.hint.setText(text or self.controls.spec.kind.hint)
+            said.append(f"not exact here: only {self.answer.accuracy.text}")
+        return said
 
     def show_value(self, vertex: int | None) -> None:
         """The field's value at a vertex, raw and as a share of the maximum."""
@@ -116,6 +127,8 @@ class DistancePanel(QtWidgets.QWidget):
         d, top = float(self.answer.field[vertex]), self.answer.maximum
         if np.isnan(d):
             self.value.setText("not connected to the source")
+        elif self.answer.is_signed:
+            self.value.setText(f"{d:+.5g} {self.answer.unit}")
         else:
             self.value.setText(f"{d:.5g}   ·   {d / top:.1%} of the maximum" if top > 0 else f"{d:.5g}")
 

@@ -5,13 +5,13 @@ from dataclasses import replace
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from bihdist_core.distances.kinds import Spec
-
 from ..document.camera import Camera, View
-from ..document.document import Document
+from ..document.document import Document, Quantity
 from ..drawing.camera import camera_seen, place_camera, show_camera
+from ..session.opened import Opened
 from ..session.questions import vertex_at
 from ..session.session import Session
+from .controls import MOST_PANELS
 from .panel import DistancePanel
 
 HOVER_DELAY_MS = 25
@@ -25,7 +25,8 @@ class PanelGrid(QtWidgets.QWidget):
     clicked = QtCore.Signal(int, int)  # panel, vertex
     dragged = QtCore.Signal(int, int)  # the source's mark, over a vertex
     released = QtCore.Signal()
-    chosen = QtCore.Signal(int, Spec)
+    chosen = QtCore.Signal(int, object)  # panel, quantity
+    asked = QtCore.Signal(int, str)  # panel, a word of PANEL_EDITS
     hovered = QtCore.Signal(object)  # a vertex, or None beside the surface
     looked = QtCore.Signal(Camera)  # where the user has turned or moved the camera to
 
@@ -52,6 +53,8 @@ class PanelGrid(QtWidgets.QWidget):
     @property
     def aspect(self) -> float:
         """Width / height of a panel."""
+        if not self._panels:
+            return 1.0
         size = self.panels[0].interactor.size()
         return size.width() / max(size.height(), 1)
 
@@ -66,10 +69,14 @@ class PanelGrid(QtWidgets.QWidget):
             gone.deleteLater()
         for id, panel in wanted.items():
             if id not in self._panels:
-                self._panels[id] = self._new_panel(id, panel.shows.spec)
-            self._panels[id].controls.show_spec(panel.shows.spec)
+                self._panels[id] = self._new_panel(id, panel.shows)
+            self._panels[id].controls.show_quantity(panel.shows)
         self._panels = {id: self._panels[id] for id in wanted}
         self._arrange()
+        for place, panel in enumerate(self._panels.values()):
+            possible = {"add": len(wanted) < MOST_PANELS, "duplicate": len(wanted) < MOST_PANELS, "back": place > 0}
+            possible |= {"on": place < len(wanted) - 1, "remove": len(wanted) > 1}
+            panel.controls.allow({word for word, is_possible in possible.items() if is_possible})
 
     def _arrange(self) -> None:
         count = len(self._panels)
@@ -85,8 +92,8 @@ class PanelGrid(QtWidgets.QWidget):
         for column in range(self._layout.columnCount()):
             self._layout.setColumnStretch(column, int(column < columns))
 
-    def _new_panel(self, id: int, spec: Spec) -> DistancePanel:
-        panel = DistancePanel(spec, self)
+    def _new_panel(self, id: int, shows: Quantity) -> DistancePanel:
+        panel = DistancePanel(shows, self)
         panel.clicked.connect(lambda vertex: self.clicked.emit(id, vertex))
         panel.dragged.connect(lambda vertex: self.dragged.emit(id, vertex))
         panel.released.connect(self.released)
@@ -94,21 +101,22 @@ class PanelGrid(QtWidgets.QWidget):
         panel.moved.connect(self._looked)
         panel.resized.connect(self._keep_in_view)
         panel.changed.connect(lambda chosen: self.chosen.emit(id, chosen))
+        panel.controls.asked.connect(lambda word: self.asked.emit(id, word))
         panel.scene.show_isolines(self._session.document.isolines)
         panel.renderer.SetActiveCamera(self.camera)
         opened = self._session.opened() if self._session.surface is not None else None
         if opened is not None:
-            self._show_surface(panel, opened.prepared)
+            self._show_surface(panel, opened)
         return panel
 
     def show_surface(self) -> None:
         """Another surface is there."""
-        prepared = self._session.opened().prepared
         for panel in self.panels:
-            self._show_surface(panel, prepared)
+            self._show_surface(panel, self._session.opened())
 
-    def _show_surface(self, panel: DistancePanel, prepared) -> None:
-        panel.show_surface(prepared.mesh, prepared.picker, self.camera)
+    def _show_surface(self, panel: DistancePanel, opened: Opened) -> None:
+        prepared = opened.prepared
+        panel.show_surface(prepared.mesh, prepared.picker, opened.surface.vertices, self.camera)
 
     def mark_points(self, document: Document) -> None:
         """Put the mark of each panel where its field starts."""

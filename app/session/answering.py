@@ -9,13 +9,12 @@ from typing import Protocol
 
 from bihdist_core import SolverError
 from bihdist_core.distances.answers import Answer, failed
-from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 
 from .kept import KeptAnswers
 from .lane import Lane
 from .opened import Opened
-from .questions import Question
+from .questions import Question, are_about_the_same
 
 
 class AnswerView(Protocol):
@@ -76,6 +75,8 @@ class Answering:
         for id, (question, opened) in asked.items():
             self._serial += 1
             if self.is_answered(id) and self.shown[id].answer.is_final:
+                # Asked anew: what is on its way from before is older.
+                self.shown[id] = replace(self.shown[id], serial=self._serial)
                 self._stop(id)
                 continue
             known = self._kept.get(question)
@@ -127,14 +128,14 @@ class Answering:
             f"panel {id}",
             lambda request, lane: self._work(id, request, lane),
             self._reporter(id),
-            lambda request, error: self._deliver(id, request, failed(str(request.question.spec), error)),
+            lambda request, error: self._deliver(id, request, failed(str(request.question), error)),
         )
 
     def _work(self, id: int, request: _Request, lane: Lane[_Request]) -> None:
         question, opened = request.question, request.opened
 
         def is_wanted(latest: _Request) -> bool:
-            same = latest.question.is_about_the_same(question)
+            same = are_about_the_same(latest.question, question)
             return latest.question == question or (latest.live and same)
 
         known = self._kept.get(question)
@@ -142,25 +143,26 @@ class Answering:
             self._deliver(id, request, known)
             return
         # The source may move while the distance is made ready: then the next question has it.
-        preparing = lane.progress(lambda latest: latest.question.is_about_the_same(question))
+        preparing = lane.progress(lambda latest: are_about_the_same(latest.question, question))
         asking = lane.progress(is_wanted)
         distances = opened.distances(question.areas)
-        distances.get(question.spec, part(preparing, 0, 0.9))
-        asking(0.9, str(question.spec))
-        stand_in = distances.stand_in(question.spec)
-        if stand_in is not None and self._preview(id, request, stand_in, preparing, asking) and request.live:
+        for spec in question.specs:
+            distances.get(spec, part(preparing, 0, 0.9))
+        asking(0.9, str(question))
+        quick = question.with_specs(tuple(distances.stand_in(spec) or spec for spec in question.specs))
+        if quick != question and self._preview(id, request, quick, preparing, asking) and request.live:
             return
         answer = opened.answer(question, asking, at_once=lambda first: self._deliver(id, request, first))
         self._kept.put(question, answer)
         self._deliver(id, request, answer)
 
-    def _preview(self, id: int, request: _Request, stand_in: Spec, preparing: Progress, asking: Progress) -> bool:
-        """Hand on what a quick distance answers; whether it did: its failure must not cost the answer."""
-        question = replace(request.question, spec=stand_in)
+    def _preview(self, id: int, request: _Request, question: Question, preparing: Progress, asking: Progress) -> bool:
+        """Hand on what quick distances answer; whether they did: their failure must not cost the answer."""
         answer = self._kept.get(question)
         if answer is None:
             try:
-                request.opened.distances(question.areas).get(stand_in, preparing)
+                for spec in question.specs:
+                    request.opened.distances(question.areas).get(spec, preparing)
             except (SolverError, MemoryError):
                 return False
             answer = request.opened.answer(question, asking)
@@ -177,10 +179,10 @@ class Answering:
     def _answered(self, id: int, new: Shown, live: bool) -> None:
         """Show an answer unless nobody asks for it any more, or something newer is shown."""
         now = self._asked.get(id)
-        if now is None or not (new.asked == now or (live and new.asked.is_about_the_same(now))):
+        if now is None or not (new.asked == now or (live and are_about_the_same(new.asked, now))):
             return
         old = self.shown.get(id)
-        if old is None or not old.asked.is_about_the_same(new.asked) or old.serial <= new.serial:
+        if old is None or not are_about_the_same(old.asked, new.asked) or old.serial <= new.serial:
             self._show(id, new)
 
     def _show(self, id: int, new: Shown) -> None:

@@ -3,21 +3,21 @@
 import hashlib
 import os
 import threading
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from bihdist_core import Laplacian, ParameterError, Surface, read_surface
-from bihdist_core.distances.answers import Answer, Distances
+from bihdist_core.distances.answers import Answer, Distances, difference_of
 from bihdist_core.distances.kinds import Spec
-from bihdist_core.progress import Progress
+from bihdist_core.progress import Progress, part
 
 from ..document.document import Document, MeshFile
 from ..document.file import checksum
 from ..samples import mesh_path
-from .questions import Question, vertex_at
+from .questions import DifferenceQuestion, Question, vertex_at
 
 
 class Opened:
@@ -37,10 +37,19 @@ class Opened:
                 self._distances[areas] = Distances(Laplacian(self.surface, areas))
             return self._distances[areas]
 
-    def answer(self, question: Question, progress: Progress | None = None, **options: Any) -> Answer:
+    def answer(
+        self,
+        question: Question,
+        progress: Progress | None = None,
+        at_once: Callable[[Answer], None] | None = None,
+    ) -> Answer:
         """See `Distances.answer`."""
+        if isinstance(question, DifferenceQuestion):
+            first = self.answer(question.minuend, part(progress, 0, 0.5))
+            second = self.answer(question.subtrahend, part(progress, 0.5, 1))
+            return difference_of(first, second, question.raw)
         vertex = vertex_at(question.at, self.surface)
-        return self.distances(question.areas).answer(question.spec, vertex, progress, **options)
+        return self.distances(question.areas).answer(question.spec, vertex, progress, at_once)
 
     def settled(self, document: Document) -> Document:
         """The document with this surface's checksum, and its points where there is a vertex.

@@ -1,17 +1,17 @@
 """From a document to its questions: for each panel all that its answer depends on, and nothing else."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.kinds import Spec
 
-from ..document.document import Document, MeshFile, Place
+from ..document.document import Difference, DistanceFrom, Document, MeshFile, Place, Quantity
 
 
 @dataclass(frozen=True)
-class Question:
+class DistanceQuestion:
     """The distance of every vertex from a place; equal questions have equal answers.
 
     mesh: the surface, by path and checksum; areas: of its operators.
@@ -22,19 +22,68 @@ class Question:
     spec: Spec
     at: int | Place | None
 
-    def is_about_the_same(self, other: "Question") -> bool:
-        """Whether the other asks for the same distance, perhaps from elsewhere."""
-        return (self.mesh, self.areas, self.spec) == (other.mesh, other.areas, other.spec)
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "DistanceQuestion":
+        (spec,) = specs
+        return replace(self, spec=spec)
+
+    def __str__(self) -> str:
+        return str(self.spec)
+
+
+@dataclass(frozen=True)
+class DifferenceQuestion:
+    """One answer less another, on the same surface."""
+
+    minuend: DistanceQuestion
+    subtrahend: DistanceQuestion
+    raw: bool = False
+
+    @property
+    def mesh(self) -> MeshFile:
+        return self.minuend.mesh
+
+    @property
+    def areas(self) -> str:
+        return self.minuend.areas
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.minuend.spec, self.subtrahend.spec)
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "DifferenceQuestion":
+        first, second = specs
+        return replace(
+            self, minuend=replace(self.minuend, spec=first), subtrahend=replace(self.subtrahend, spec=second)
+        )
+
+    def __str__(self) -> str:
+        return f"{self.minuend} - {self.subtrahend}"
+
+
+Question = DistanceQuestion | DifferenceQuestion
+
+
+def are_about_the_same(one: Question, other: Question) -> bool:
+    """Whether they ask for the same distances on the same surface, perhaps from elsewhere."""
+    return (type(one), one.mesh, one.areas, one.specs) == (type(other), other.mesh, other.areas, other.specs)
 
 
 def questions(document: Document) -> dict[int, Question]:
     """The question of each panel, by the panel's id."""
-    return {
-        panel.id: Question(
-            document.mesh(panel.surface), document.areas, panel.shows.spec, document.point(panel.shows.point).at
-        )
-        for panel in document.panels
-    }
+    return {panel.id: _question(document, panel.surface, panel.shows) for panel in document.panels}
+
+
+def _question(document: Document, surface: str, shows: Quantity) -> Question:
+    def distance(part: DistanceFrom) -> DistanceQuestion:
+        return DistanceQuestion(document.mesh(surface), document.areas, part.spec, document.point(part.point).at)
+
+    if isinstance(shows, Difference):
+        return DifferenceQuestion(distance(shows.minuend), distance(shows.subtrahend), shows.raw)
+    return distance(shows)
 
 
 def vertex_at(at: int | Place | None, surface: Surface) -> int:

@@ -13,9 +13,9 @@ from bihdist_core import BihdistError, Surface
 from bihdist_core.distances.answers import failure_in_words
 
 from ..document.camera import Camera
-from ..document.document import Document, MeshFile
+from ..document.document import Document, MeshFile, Point
 from ..document.edits import open_mesh as with_mesh
-from ..document.history import History
+from ..document.history import History, Trail
 from .answering import Answering, AnswerView, Shown
 from .lane import Lane
 from .opened import Opened, in_memory, is_same, open_mesh
@@ -39,6 +39,7 @@ class _Opening:
     meshes: tuple[MeshFile, ...]
     arrive: Callable[[], object]
     arrived: Callable[[], None] = lambda: None
+    is_wanted: Callable[[], bool] = lambda: True
 
 
 class Session:
@@ -63,7 +64,10 @@ class Session:
         self._opened: list[Opened] = []  # those shown last come last
         self._loading: tuple[float, str] | None = None
         self._opening: _Opening | None = None
-        self._is_begun = False
+        self._is_begun = False  # whether a document has been shown
+        self._tried = False  # whether surfaces have been asked for
+        self._walk: Trail[tuple[Point, ...]] | None = None
+        self._walk_end: tuple[Point, ...] = ()
         self._loader: Lane[_Opening] = Lane("load", self._load, self._report_loading, self._loading_failed)
 
     # ------------------------------------------------------------------ intents
@@ -76,16 +80,26 @@ class Session:
         are there.  live: a drag goes on; stand-ins will do, and what is computed is shown though it is late.  arrived:
         called once the document is shown.
         """
+        if not self._is_begun:
+            is_edit = document.surfaces == self.document.surfaces and self._tried
+            self.history = History(document)
+            if is_edit:
+                return  # shown with the mesh that is on its way, or with the next
         missing = self._missing(document)
         if missing:
-            self._start_opening(_Opening(missing, lambda: self._change(document, key), arrived))
-        else:
-            self._present(lambda: self._change(document, key), live)
+            self._start_opening(_Opening(missing, lambda: self._change(self._wanted(document), key), arrived))
+        elif self._present(lambda: self._change(document, key), live):
             arrived()
+
+    def _wanted(self, document: Document) -> Document:
+        """What was asked for, with what was chosen while its surfaces were on their way to be the first."""
+        is_same_mesh = not self._is_begun and self.document.surfaces == document.surfaces
+        return self.document if is_same_mesh else document
 
     def open(self, path: str, source: int | None = None) -> None:
         """Open another mesh in the place of the one that is shown, which stays until the new one is there."""
-        mesh = MeshFile("A", os.fspath(path))
+        names = [mesh.name for mesh in self.document.surfaces]
+        mesh = MeshFile(names[0] if names else "A", os.fspath(path))
 
         def arrive() -> None:
             # Until now the user went on with what is shown.
@@ -107,11 +121,21 @@ class Session:
 
     def undo(self) -> None:
         """One step back."""
-        self._step(self.history.before(), self.history.undo)
+        self._step(self.history.before, self.history.undo)
 
     def redo(self) -> None:
         """One step forward again."""
-        self._step(self.history.after(), self.history.redo)
+        self._step(self.history.after, self.history.redo)
+
+    def walk_sources(self, step: int) -> None:
+        """To the points before (-1) or after (1) in the history's walk; the walk as a whole is one step."""
+        if self._walk is None or self._walk_end != self.document.points:
+            self._walk = self.history.trail_of_points()
+        points = self._walk.back() if step < 0 else self._walk.on()
+        shown = {name for panel in self.document.panels for name in panel.shows.points}
+        if points is not None and shown <= {point.name for point in points}:
+            self.show(replace(self.document, points=points), key="walk")
+            self._walk_end = points
 
     def cancel(self) -> None:
         """Stop everything that is going on; the next click or change asks again."""
@@ -131,16 +155,15 @@ class Session:
         """What is shown."""
         return self.history.present
 
-    def opened(self, name: str = "A") -> Opened | None:
-        """A surface of the document; None before there is one."""
-        mesh = next((mesh for mesh in self.document.surfaces if mesh.name == name), None)
-        return None if mesh is None else self._found(mesh)
+    def opened(self, name: str | None = None) -> Opened | None:
+        """A surface of the document, the first if no name is given; None before there is one."""
+        meshes = [mesh for mesh in self.document.surfaces if name in (None, mesh.name)]
+        return self._found(meshes[0]) if meshes and self._is_begun else None
 
     @property
     def surface(self) -> Surface | None:
         """The first surface of the document; None before there is one."""
-        first = self.document.surfaces[:1]
-        opened = self.opened(first[0].name) if first and self._is_begun else None
+        opened = self.opened()
         return None if opened is None else opened.surface
 
     @property
@@ -179,7 +202,7 @@ class Session:
         return tuple(mesh for mesh in document.surfaces if not mesh.sha256 or self._found(mesh) is None)
 
     def _start_opening(self, opening: _Opening) -> None:
-        self._opening = opening
+        self._opening, self._tried = opening, True
         self._loader.submit(opening)
 
     def _load(self, opening: _Opening, lane: Lane[_Opening]) -> None:
@@ -201,15 +224,14 @@ class Session:
         if opening is not self._opening:
             return  # cancelled, or another mesh was asked for, while it was on its way here
         self._opening = None
+        if not opening.is_wanted():
+            return
         before = list(self._opened)
         self._opened += found
-        try:
-            self._present(opening.arrive)
-        except BihdistError as error:  # a source that the mesh does not have
-            self._opened = before
-            self.view.failed(failure_in_words(error))
-        else:
+        if self._present(opening.arrive):
             opening.arrived()
+        else:
+            self._opened = before
 
     def _loading_failed(self, opening: _Opening, error: Exception) -> None:
         def tell() -> None:
@@ -219,12 +241,15 @@ class Session:
 
         self._post(tell)
 
-    def _step(self, document: Document | None, step: Callable[[], Document]) -> None:
+    def _step(self, there: Callable[[], Document | None], step: Callable[[], Document]) -> None:
+        document = there()
         if document is None:
             return
         self._opening = None  # a mesh on its way was a step not yet done
-        if self._missing(document):
-            self._start_opening(_Opening(self._missing(document), step))
+        missing = self._missing(document)
+        if missing:
+            # Whatever is done meanwhile takes its place.
+            self._start_opening(_Opening(missing, step, is_wanted=lambda: there() == document))
         else:
             self._present(step)
 
@@ -245,14 +270,19 @@ class Session:
         else:
             self.history.change(document, key)
 
-    def _present(self, change: Callable[[], object], live: bool = False) -> None:
-        """Let the document change, tell the view, and ask what is new."""
+    def _present(self, change: Callable[[], object], live: bool = False) -> bool:
+        """Let the document change, tell the view, and ask what is new; False if there is no such place."""
         before = self.document
-        change()
+        try:
+            change()
+        except BihdistError as error:  # a source that the mesh does not have
+            self.view.failed(failure_in_words(error))
+            return False
         self._forget()
         self._answering.expect(questions(self.document))
         self.view.document_changed(before)
         self._ask(live)
+        return True
 
     def _forget(self) -> None:
         """Surfaces that are no longer shown and can be read again, the oldest first."""
@@ -269,7 +299,7 @@ class Session:
         there = {id: (question, opened) for id, (question, opened) in asked.items() if opened is not None}
         self._answering.ask(there, live)
         for opened in self._opened:
-            wanted = {question.spec for question, surface in there.values() if surface is opened}
+            wanted = {spec for question, surface in there.values() if surface is opened for spec in question.specs}
             opened.keep(self.document.areas, wanted)
 
     # ------------------------------------------------------------------ progress

@@ -47,17 +47,21 @@ BLOCK = 8192
 
 @dataclass(frozen=True)
 class Certificate:
-    """An accuracy in words, empty where there is none, and whether it is so poor that a user should be warned."""
+    """An accuracy in words, empty where there is none, and whether it is so poor that a user should be warned.
+
+    share: the accuracy, as a share of the maximum.
+    """
 
     text: str = ""
     is_poor: bool = False
+    share: float | None = None
 
     @classmethod
     def of(cls, accuracy: float | None) -> "Certificate":
         """Of a share of the maximum."""
         if accuracy is None:
             return cls()
-        return cls(f"accurate to {rounded_up(accuracy)} of the maximum", accuracy > WARN)
+        return cls(f"accurate to {rounded_up(accuracy)} of the maximum", accuracy > WARN, accuracy)
 
 
 def rounded_up(share: float) -> str:

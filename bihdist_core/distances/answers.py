@@ -11,10 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import BihdistError, Cancelled, VertexError
+from ..errors import BihdistError, Cancelled, ParameterError, VertexError
 from ..laplacian import Laplacian
 from ..progress import Progress, part, silent
 from .accuracy import Certificate
+from .difference import check_units, difference
 from .distance import Distance
 from .kinds import Spec
 
@@ -26,7 +27,8 @@ REPORT_EVERY = 0.1
 class Answer:
     """A field (n,) with NaN where undefined, or None and the failure in words.
 
-    label and unit: the distance's; certificate: how accurate the field is, None as long as that is not known.
+    label and unit: the distance's; certificate: how accurate the field is, None as long as that is not known.  A field
+    that is signed has values on both sides of 0, as differences have; its maximum is that of the absolute values.
     """
 
     label: str
@@ -34,10 +36,20 @@ class Answer:
     field: np.ndarray | None = None
     failure: str = ""
     certificate: Certificate | None = None
+    is_signed: bool = False
 
     @property
     def maximum(self) -> float:
-        return 0.0 if self.field is None else float(np.nanmax(self.field, initial=0.0))
+        if self.field is None:
+            return 0.0
+        return float(np.nanmax(np.abs(self.field) if self.is_signed else self.field, initial=0.0))
+
+    @property
+    def largest(self) -> int | None:
+        """The vertex with the largest absolute value, of a signed field."""
+        if self.field is None or not self.is_signed or np.isnan(self.field).all():
+            return None
+        return int(np.nanargmax(np.abs(self.field)))
 
     @property
     def is_final(self) -> bool:
@@ -48,6 +60,27 @@ class Answer:
     def accuracy(self) -> Certificate:
         """The certificate, or an empty one."""
         return self.certificate or Certificate()
+
+
+def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Answer:
+    """The difference of two answers (`difference`); a failure of either is its failure."""
+    label = f"{minuend.label} − {subtrahend.label}"
+    if minuend.field is None or subtrahend.field is None:
+        failures = dict.fromkeys(answer.failure for answer in (minuend, subtrahend) if answer.failure)
+        return Answer(label=label, failure=" ".join(failures))
+    if raw:
+        try:
+            check_units(minuend.unit, subtrahend.unit)
+        except ParameterError as error:
+            return failed(label, error)
+    field = difference(minuend.field, subtrahend.field, raw)
+    field.flags.writeable = False
+    unit = minuend.unit if raw else "difference of shares"
+    certificate = None
+    if minuend.certificate is not None and subtrahend.certificate is not None:
+        shares = [c.share for c in (minuend.certificate, subtrahend.certificate)]
+        certificate = Certificate() if None in shares else Certificate.of(sum(share for share in shares if share))
+    return Answer(label=label, unit=unit, field=field, certificate=certificate, is_signed=True)
 
 
 def failed(label: str, error: Exception) -> Answer:

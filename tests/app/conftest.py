@@ -38,12 +38,12 @@ class RecordingView:
 class Desk:
     """A session with its view; `until` runs posted functions on this thread, as a window's event loop would."""
 
-    def __init__(self, specs=COMPARISON, prepare=lambda surface: None):
+    def __init__(self, specs=COMPARISON, prepare=lambda surface: None, document=None):
         self.specs = tuple(specs)
         self.view = RecordingView()
         self.posted = queue.Queue()
         self.post = self.posted.put
-        self.session = Session(self.view, lambda function: self.post(function), prepare)
+        self.session = Session(self.view, lambda function: self.post(function), prepare, document)
 
     def until_told(self, words):
         """Wait until the view is told of a failure with these words."""

@@ -1,5 +1,6 @@
 """Documents: parts that fit, edits that change what they say and nothing else, a history that comes back."""
 
+import json
 import pickle
 from dataclasses import replace
 
@@ -17,8 +18,10 @@ from app.document.document import (
     Point,
     Zoom,
     comparison,
+    quantity,
 )
 from app.document.edits import add_panel, move_panel, move_source, open_mesh, put_point, remove_panel, show_in
+from app.document.form import document_data, document_from
 from app.document.history import LONGEST, History
 from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Spec
@@ -135,6 +138,15 @@ def test_equal_keys_in_a_row_are_one_step(document):
     assert history.undo() == document
 
 
+def test_a_drag_that_comes_back_is_no_step(document):
+    history = History(document)
+    for vertex in (1, 2, 5):
+        history.change(put_point(document, "source", vertex), "drag")
+    assert not history.can_undo
+    history.change(put_point(document, "source", 3), "drag")
+    assert history.undo() == document
+
+
 def test_the_camera_is_no_step_and_undo_leaves_it(document):
     history = History(document)
     history.change(put_point(document, "source", 1))
@@ -161,3 +173,40 @@ def test_only_so_many_steps_are_kept():
         history.undo()
         steps += 1
     assert steps == LONGEST
+
+
+# ---------------------------------------------------------------------- differences
+@pytest.mark.parametrize(
+    ("text", "written"),
+    [
+        ("biharmonic - diffusion(t=1/4)", "biharmonic - diffusion(t=1/4)"),
+        (" raw biharmonic  -  commute-time ", "raw biharmonic - commute-time"),
+        ("truncated(k=50)", "truncated(k=50)"),
+    ],
+)
+def test_quantities_are_read_as_they_are_written(text, written):
+    assert str(quantity(text)) == written
+    assert quantity(str(quantity(text))) == quantity(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("biharmonic - geodesic - diffusion", "a difference has two"),
+        ("raw biharmonic", "is no difference"),
+        ("biharmonic - euclidean", "no distance 'euclidean'"),
+        ("- biharmonic", "no distance"),
+    ],
+)
+def test_what_is_no_quantity_gets_a_sentence(text, words):
+    with pytest.raises(ParameterError, match=words):
+        quantity(text)
+
+
+def test_a_difference_is_written_and_read():
+    document = comparison("a.off", (quantity("raw biharmonic - diffusion(t=1/15)"),), (5,))
+    assert document_from(json.loads(json.dumps(document_data(document)))) == document
+    data = document_data(document)
+    data["panels"][0]["shows"]["difference"].pop()
+    with pytest.raises(ParameterError, match=r"panels\[0\].shows.difference must be two distances, not 1"):
+        document_from(data)

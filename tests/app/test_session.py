@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from app.document.document import DistanceFrom, MeshFile, comparison
+from app.document.document import DistanceFrom, MeshFile, comparison, quantity
 from app.document.edits import add_panel, remove_panel, show_in
 from app.session.kept import KeptAnswers
-from app.session.questions import Question
-from bihdist_core import BiharmonicDistance, Cancelled, ParameterError, SolverError, Surface, VertexError
+from app.session.questions import DistanceQuestion
+from bihdist_core import BiharmonicDistance, Cancelled, ParameterError, SolverError, Surface
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid, two_pieces
@@ -58,12 +58,14 @@ def test_a_click_asks_every_panel_anew(desk, mesh_file):
 def test_a_bad_vertex_changes_nothing(desk, mesh_file):
     d = desk()
     session = d.opened(mesh_file(two_pieces()), source=3)
-    for vertex in (60, 1000):
-        with pytest.raises(VertexError):
-            d.click(vertex)
+    d.view.failures_are_expected = True
+    for vertex, words in [(60, "belongs to no face"), (1000, "no vertex 1000")]:
+        d.click(vertex)
+        assert words in d.view.told[-1]
     with pytest.raises(ParameterError):
         d.click(-1)
     assert d.source == 3
+    assert not session.history.can_undo
     assert session.is_complete
 
 
@@ -207,6 +209,35 @@ def replace_last_face(surface):
     vertices = np.concatenate([surface.vertices, [[0.5, 0, 1], [0.5, 0.2, -1]]])
     n = len(surface.vertices)
     return Surface(vertices, np.concatenate([surface.faces, [[a, b, n], [a, b, n + 1]]]))
+
+
+# ---------------------------------------------------------------------- differences
+def test_a_difference_is_that_of_the_shares_or_of_the_values(desk, mesh_file):
+    d = desk([BIHARMONIC, Spec.of("geodesic")])
+    session = d.opened(mesh_file(bumpy(200)), source=3)
+    a, b = (answer.field for answer in d.answers)
+    session.show(add_panel(session.document, quantity("biharmonic - geodesic")))
+    session.show(add_panel(session.document, quantity("raw biharmonic - geodesic")))
+    d.complete()
+    assert np.allclose(d.answers[2].field, a / a.max() - b / b.max())
+    assert np.allclose(d.answers[3].field, a - b)
+    assert d.answers[2].is_signed
+    assert d.answers[2].largest == np.abs(d.answers[2].field).argmax()
+    # The heat method stands in for exact geodesic distance here, too.
+    assert d.view.told.count("answer 2") == 2
+
+
+def test_a_raw_difference_of_two_units_says_why_there_is_none(desk, mesh_file):
+    d = desk([quantity("raw biharmonic - diffusion"), quantity("biharmonic - diffusion")])
+    d.opened(mesh_file(bumpy(60)))
+    assert "mesh units and in 1 / mesh units have no difference" in d.answers[0].failure
+    assert d.answers[1].maximum > 0
+
+
+def test_a_difference_fails_with_either_of_its_distances(desk, mesh_file):
+    d = desk([quantity("biharmonic - geodesic(method=exact)")])
+    d.opened(mesh_file(replace_last_face(grid(3, 3))))
+    assert "is not manifold" in d.answers[0].failure
 
 
 # ---------------------------------------------------------------------- distances that take their time
@@ -415,6 +446,22 @@ def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh
     assert not started  # the process that computed the first field goes on
 
 
+def test_a_drag_that_comes_back_shows_the_field_it_began_with(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(200)), source=1)
+    kept, after = post_later(d)
+    d.click(2, key="drag", live=True)
+    d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
+    d.click(1, key="drag", live=True)
+    session.show(session.document)
+    d.post = after
+    for function in kept:
+        function()
+    assert d.sources_shown == [1]
+    assert session.is_complete
+    assert not session.history.can_undo
+
+
 def test_drags_are_steps_of_their_own(desk, mesh_file):
     d = desk([BIHARMONIC])
     session = d.opened(mesh_file(bumpy(60)), source=0)
@@ -471,9 +518,26 @@ def test_undo_to_a_mesh_that_is_gone_is_refused_and_nothing_changes(desk, mesh_f
     assert session.history.can_undo
 
 
+def test_a_click_while_the_mesh_of_an_undone_step_is_read_takes_its_place(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.session.SPARED", 0)
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    kept, after = post_later(d)
+    session.undo()
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.post = after
+    d.click(9)
+    for function in kept:
+        function()
+    d.complete()
+    assert (session.surface.name, d.source) == ("other.off", 9)
+
+
 def test_answers_are_kept_within_a_memory():
     kept = KeptAnswers(memory=2500)
-    asked = [Question(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(4)]
+    asked = [DistanceQuestion(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(4)]
     for question in asked:
         kept.put(question, Answer(label="", field=np.zeros(100)))
         kept.get(asked[0])
@@ -530,3 +594,46 @@ def test_a_click_while_another_mesh_is_read_does_not_keep_it_away(desk, mesh_fil
         function()
     d.complete()
     assert (session.surface.name, d.source) == ("other.off", 7)
+
+
+# ---------------------------------------------------------------------- before there is a mesh
+def begin_late(desk, document):
+    """A session that begins with a document, whose mesh is kept back by what `post_later` gives."""
+    d = desk(document=document)
+    kept, after = post_later(d)
+    d.session.show(document)
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.post = after
+    return d, kept
+
+
+def test_what_is_chosen_while_the_first_mesh_is_read_is_shown_with_it(desk, mesh_file):
+    d, kept = begin_late(desk, comparison(mesh_file(bumpy(60)), (BIHARMONIC,), (5,)))
+    choose(d, 0, COMMUTE)
+    d.session.show(replace(d.session.document, isolines=7))
+    for function in kept:
+        function()
+    d.complete()
+    assert (d.answers[0].label, d.session.document.isolines, d.source) == ("commute-time, exact", 7, 5)
+    assert not d.session.history.can_undo
+
+
+def test_what_is_chosen_while_another_first_mesh_is_read_does_not_keep_it_away(desk, mesh_file):
+    d, kept = begin_late(desk, comparison(mesh_file(bumpy(60)), (BIHARMONIC,), (5,)))
+    d.session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.session.show(replace(d.session.document, isolines=7))
+    for function in kept:
+        function()
+    d.complete()
+    assert (d.session.surface.name, d.source, d.session.document.isolines) == ("other.off", 7, 7)
+
+
+def test_what_is_chosen_after_the_first_mesh_failed_is_shown_with_the_next(desk, mesh_file):
+    d = desk(document=comparison("gone.off", (BIHARMONIC,)))
+    d.session.show(d.session.document)
+    d.until_told("gone.off is not there")
+    choose(d, 0, COMMUTE)
+    d.session.open(mesh_file(bumpy(60)))
+    d.complete()
+    assert d.answers[0].label == "commute-time, exact"
+    assert len([words for words in d.view.told if "gone.off" in words]) == 1

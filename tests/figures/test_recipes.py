@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from app.document.camera import Camera
-from app.document.document import Anchor, MeshFile, Place, Zoom, comparison
+from app.document.document import Anchor, DistanceFrom, MeshFile, Panel, Place, Point, Zoom, comparison
 from app.document.edits import put_point
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
@@ -328,10 +328,64 @@ def test_options_that_cannot_apply_are_refused_by_name(drawn, mesh, capsys):
     figure = ["figure", "--recipe", drawn / "f.json", "-o", drawn / "x.png"]
     assert "--k 5 is no parameter of biharmonic, diffusion" in refused(capsys, *figure, "--k", "5")
     assert "cannot share a range" in refused(capsys, *figure, "--shared-range")
+    assert "at least one column" in refused(capsys, *figure, "--columns", "0")
     assert "another mesh is named as --mesh" in refused(capsys, *figure, mesh)
     assert "flat surface" in refused(capsys, *figure, "--height")
     field = ["field", mesh, "--source", "3", "-o", drawn / "f.npy"]
     assert "--t 0.5 is no parameter of biharmonic" in refused(capsys, *field, "--t", "0.5")
+    movie = ["movie", "--recipe", drawn / "f.json", "-o", drawn / "m.gif"]
+    assert "--source beside --path" in refused(capsys, *movie, "--path", "1,5", "--source", "3")
+    assert "takes no --transparent" in refused(capsys, *movie, "--transparent")
+    assert "more than one view" in refused(capsys, *movie, "--two-views")
+
+
+def test_anchors_and_panels_may_have_a_point_in_common(drawn):
+    recipe = read_recipe(drawn / "f.json")
+    document = replace(recipe.document, anchors=(Anchor("source", 0.5),))
+    (drawn / "f.json").write_text(recipe_text(replace(recipe, document=document), "0.1"))
+    assert anchors(changed(drawn, "--anchors", "5").document) == [(5, None)]
+    other = changed(drawn, "--distance", "commute-time", "--source", "9").document
+    assert (anchors(other), other.sources) == ([(4, 0.5)], (9,))
+
+
+def two_meshes(mesh, mesh_file):
+    """A panel on each of two meshes, neither called A."""
+    other = mesh_file(bumpy(300, seed=5), "other.off")
+    document = comparison(mesh, (Spec.of("biharmonic"),), (4,))
+    return replace(
+        document,
+        surfaces=(MeshFile("left", mesh), MeshFile("right", other)),
+        points=(Point("one", 4, "left"), Point("two", 9, "right")),
+        panels=(
+            Panel(0, DistanceFrom(Spec.of("biharmonic"), "one"), "left"),
+            Panel(1, DistanceFrom(Spec.of("diffusion"), "two"), "right"),
+        ),
+        next_id=2,
+    )
+
+
+def test_two_meshes_are_drawn_and_options_for_one_are_refused(mesh, mesh_file, tmp_path, capsys):
+    (tmp_path / "f.json").write_text(recipe_text(Recipe(two_meshes(mesh, mesh_file)), "0.1"))
+    assert changed(tmp_path, *SMALL).document.sources == (4, 9)
+    figure = ["figure", "--recipe", tmp_path / "f.json", "-o", tmp_path / "x.png"]
+    for words in (["--distance", "geodesic"], ["--source", "3"], ["--anchors", "3"], ["--mesh", mesh]):
+        assert f"{words[0]}" in refused(capsys, *figure, *words)
+    single = replace(two_meshes(mesh, mesh_file), panels=(), points=(), surfaces=(MeshFile("left", mesh),))
+    (tmp_path / "f.json").write_text(recipe_text(Recipe(single), "0.1"))
+    document = changed(tmp_path, "--distance", "geodesic", "--source", "3", "--anchors", "8", *SMALL).document
+    assert (document.sources, anchors(document)) == ((3,), [(8, None)])
+
+
+def test_a_recipe_without_panels_is_refused(mesh, tmp_path, capsys):
+    document = replace(comparison(mesh), panels=())
+    (tmp_path / "f.json").write_text(recipe_text(Recipe(document), "0.1"))
+    for command, out in (("figure", "x.png"), ("movie", "x.gif")):
+        assert "has no panels" in refused(capsys, command, "--recipe", tmp_path / "f.json", "-o", tmp_path / out)
+
+
+def test_a_mesh_that_is_missing_is_not_to_be_named_twice(tmp_path, capsys):
+    said = refused(capsys, "figure", tmp_path / "gone.off", "-o", tmp_path / "x.png")
+    assert said.endswith("gone.off is not there.")
 
 
 def test_what_is_no_recipe_at_all_gets_a_sentence(tmp_path, capsys):

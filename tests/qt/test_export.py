@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import comparison
+from app.document.document import Place, Point, comparison
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
 from bihdist_core.distances.kinds import Spec
@@ -154,6 +154,67 @@ def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tm
     assert s.document == before
     assert s.window.page == Page()
     assert s.window.isolines_box.value() == lines
-    assert s.panels[0].controls.spec == before.panels[0].shows.spec
+    assert s.panels[0].controls.shows == before.panels[0].shows
     s.open(mesh_file(grid(3, 3), "other.off"))
     assert s.document.panels == before.panels
+
+
+def opened_recipe(s, tmp_path, document, **page):
+    from app.qt.figure_actions import open_recipe
+
+    (tmp_path / "r.json").write_text(recipe_text(Recipe(document, Page(**page)), "0"))
+    open_recipe(s.window, str(tmp_path / "r.json"))
+
+
+def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, mesh_file, tmp_path):
+    s = screen()
+    surface = bumpy(300)
+    document = comparison(mesh_file(surface), (Spec.of("biharmonic"),), (7,))
+    document = replace(
+        document,
+        surfaces=(replace(document.mesh(), name="M"),),
+        points=(Point("source", Place(3, (0.2, 0.2, 0.6)), "M"),),
+        panels=(replace(document.panels[0], surface="M"),),
+    )
+    opened_recipe(s, tmp_path, document)
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert s.window.source_box.value() == surface.faces[3][2]
+    assert s.pictures()[0].std() > 20
+    s.window._hover(5)
+    assert s.panels[0].value.text()
+    s.open(mesh_file(grid(4, 4), "other.off"))
+    assert [mesh.name for mesh in s.document.surfaces] == ["M"]
+
+
+def test_recipes_that_the_window_cannot_show_say_so(screen, mesh_file, tmp_path):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    before = s.document
+    mesh = before.mesh()
+    two = replace(before, surfaces=(mesh, replace(mesh, name="B")))
+    opened_recipe(s, tmp_path, two)
+    assert "shows one mesh" in s.refusals[-1]
+    opened_recipe(s, tmp_path, before, style="pink")
+    assert "no style 'pink'" in s.refusals[-1]
+    opened_recipe(s, tmp_path, replace(before, points=(Point("source", 10**6),)))
+    assert "no vertex 1000000" in s.refusals[-1]
+    assert s.document == before
+
+
+def test_a_recipe_without_panels_leaves_an_empty_window_that_works(screen, mesh_file, tmp_path):
+    from app.qt.figure_actions import export_figure
+
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    opened_recipe(s, tmp_path, replace(s.document, panels=(), isolines=500))
+    s.settle()
+    assert s.panels == []
+    assert s.window.isolines_box.value() == 500
+    s.window.reset_view("top")
+    assert export_figure(s.window) is None
+    assert "no panels" in s.refusals[-1]
+    s.window.add_panel()
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert s.pictures()[0].std() > 20

@@ -89,7 +89,7 @@ def test_the_slider_changes_the_diffusion_time(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(800)))
     controls = s.panels[2].controls
-    time = controls.parameters["t"]
+    time = controls.first.parameters["t"]
     assert time.isVisible()
     time.widget.setValue(step_of_value(time.parameter, 1 / 4))
     s.until(lambda: s.session.is_complete)
@@ -104,9 +104,9 @@ def test_the_menu_changes_the_geodesic_method_and_any_panel_its_distance(screen,
     s = screen()
     s.open(mesh_file(bumpy(800)))
     controls = s.panels[1].controls
-    method = controls.parameters["method"].widget
+    method = controls.first.parameters["method"].widget
     method.setCurrentIndex(method.findData("dijkstra"))
-    other = s.panels[0].controls
+    other = s.panels[0].controls.first
     other.distance.setCurrentIndex(other.distance.findData("truncated"))
     assert other.parameters["k"].isVisible()
     other.parameters["k"].widget.setValue(25)
@@ -350,7 +350,7 @@ def test_a_panel_that_fails_says_so_in_its_own_place(screen, mesh_file):
     s.window.resize(700, 500)
     s.settle()
     assert len(failed.scene._failure.GetInput().splitlines()) > len(lines)
-    failed.controls.changed.emit(Spec.of("geodesic", method="heat"))
+    failed.controls.changed.emit(DistanceFrom(Spec.of("geodesic", method="heat")))
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert failed.scene._failure.GetInput() == ""
@@ -415,12 +415,12 @@ def test_undo_brings_back_source_controls_and_lines_but_not_the_view(screen, mes
     before = s.pictures()
     s.window.isolines_box.setValue(7)
     s.session.show(move_source(s.document, 0, 9))
-    s.panels[2].controls.changed.emit(Spec.of("diffusion", t=0.25))
+    s.panels[2].controls.changed.emit(DistanceFrom(Spec.of("diffusion", t=0.25)))
     s.until(lambda: s.session.is_complete)
     for _ in range(3):
         s.session.undo()
     assert (s.window.source_box.value(), s.window.isolines_box.value()) == (5, 20)
-    assert s.panels[2].controls.spec == Spec.of("diffusion")
+    assert s.panels[2].controls.shows == DistanceFrom(Spec.of("diffusion"))
     s.settle()
     assert all(np.array_equal(a, b) for a, b in zip(before, s.pictures(), strict=True))
     s.window.reset_view("back")
@@ -429,3 +429,114 @@ def test_undo_brings_back_source_controls_and_lines_but_not_the_view(screen, mes
     s.settle()
     assert s.window.grid.camera.GetPosition() == turned
     assert s.source in (5, 9)
+
+
+def test_a_panel_shows_the_difference_of_two_distances_and_names_the_largest(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(800)), 5)
+    one, other = (answer.field / answer.maximum for answer in s.answers[:2])
+    controls = s.panels[0].controls
+    menu = controls.first.distance
+    menu.setCurrentIndex(menu.findText("Difference of two"))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert s.panels[0].title.text() == "biharmonic, exact − geodesic, exact"
+    assert np.allclose(s.answers[0].field, one - other)
+    vertex = int(np.abs(one - other).argmax())
+    assert s.panels[0].hint.text() == f"largest {(one - other)[vertex]:+.3g} at vertex {vertex}"
+    assert controls.second.isVisible()
+    scene = s.panels[0].scene
+    assert scene._bar.GetLookupTable().GetRange() == pytest.approx((-s.answers[0].maximum, s.answers[0].maximum))
+    s.panels[0].show_value(vertex)
+    assert s.panels[0].value.text().startswith(f"{(one - other)[vertex]:+.5g} ")
+    second = controls.second.distance
+    second.setCurrentIndex(second.findData("commute-time"))
+    s.until(lambda: s.session.is_complete)
+    assert s.panels[0].title.text() == "biharmonic, exact − commute-time, exact"
+    controls.alone.click()
+    s.until(lambda: s.session.is_complete)
+    assert s.panels[0].title.text() == "biharmonic, exact"
+    assert not controls.second.isVisible()
+    for _ in range(3):
+        s.session.undo()
+    s.settle()
+    assert s.panels[0].title.text() == "biharmonic, exact"
+    assert scene._bar.GetLookupTable().GetRange()[0] == 0
+
+
+def test_panels_are_added_duplicated_moved_and_removed_from_their_menus(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+
+    def shown():
+        return [str(panel.shows) for panel in s.document.panels]
+
+    def choose(place, word):
+        s.panels[place].controls.edits[word].trigger()
+
+    def possible(place):
+        return {word for word, action in s.panels[place].controls.edits.items() if action.isEnabled()}
+
+    choose(0, "duplicate")
+    assert shown() == ["biharmonic", "biharmonic", "geodesic", "diffusion"]
+    choose(0, "remove")
+    choose(0, "on")
+    choose(2, "back")
+    assert shown() == ["geodesic", "diffusion", "biharmonic"]
+    assert possible(0) == {"add", "duplicate", "on", "remove"}
+    for count in (4, 5, 6):
+        s.window.add_panel()
+        assert len(set(shown())) == count
+    assert "add" not in possible(5)
+    s.window.add_panel()
+    assert len(s.panels) == 6
+    for _ in range(5):
+        choose(0, "remove")
+    assert possible(0) == {"add", "duplicate"}
+    s.until(lambda: s.session.is_complete)
+    for _ in range(5 + 3 + 4):
+        s.session.undo()
+    assert shown() == ["biharmonic", "geodesic", "diffusion"]
+    assert not s.session.history.can_undo
+
+
+def test_undo_redo_and_the_walk_through_sources_by_keyboard(screen, mesh_file):
+    from qtpy.QtCore import Qt
+    from qtpy.QtTest import QTest
+
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    for vertex in (6, 7, 8):
+        s.session.show(move_source(s.document, 0, vertex))
+    s.window.activateWindow()
+    s.settle()
+    view, control, shift, alt = s.panels[0].interactor, Qt.ControlModifier, Qt.ShiftModifier, Qt.AltModifier
+    QTest.keyClick(view, Qt.Key_Z, control)
+    QTest.keyClick(view, Qt.Key_Z, control)
+    assert s.source == 6
+    QTest.keyClick(view, Qt.Key_Z, control | shift)
+    assert s.source == 7
+    for key, source in [(Qt.Key_Left, 6), (Qt.Key_Left, 5), (Qt.Key_Left, 5), (Qt.Key_Right, 6), (Qt.Key_Right, 7)]:
+        QTest.keyClick(view, key, alt)
+        assert s.source == source
+    QTest.keyClick(view, Qt.Key_Z, control)
+    assert s.source == 6  # the walk came back to 7, and was no step
+
+
+def test_views_have_a_history_of_their_own(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    s.settle(0.6)
+    cameras = [s.window.grid.camera.GetPosition()]
+    for view in ("left", "top"):
+        s.window.reset_view(view)
+        s.settle(0.6)
+        cameras.append(s.window.grid.camera.GetPosition())
+
+    def there():
+        return s.window.grid.camera.GetPosition()
+
+    for step, place in [(-1, 1), (-1, 0), (-1, 0), (1, 1), (1, 2), (1, 2), (-1, 1)]:
+        s.window.view_back() if step < 0 else s.window.view_on()
+        assert np.allclose(there(), cameras[place])
+    assert not s.session.history.can_undo

@@ -1,0 +1,30 @@
+"""The difference of two fields: where one distance is larger than another."""
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+
+
+def difference(minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, raw: bool = False) -> np.ndarray:
+    """Two fields (n,) or (n, k) as one, positive where the first is larger; NaN where either is.
+
+    Distances have different units, so each field is taken as a share of its own maximum (by column): the result lies
+    between -1 and 1.  raw: the values themselves are subtracted, which makes sense for equal units only.  Raises
+    ParameterError for fields of different shapes.
+    """
+    a, b = (np.asarray(field, np.float64) for field in (minuend, subtrahend))
+    if a.shape != b.shape or a.ndim not in (1, 2):
+        raise ParameterError(f"Fields of shapes {a.shape} and {b.shape} have no difference.")
+    return a - b if raw else _shares(a) - _shares(b)
+
+
+def check_units(minuend: str, subtrahend: str) -> None:
+    """ParameterError for values of different units, which have no difference."""
+    if minuend != subtrahend:
+        raise ParameterError(f"Values in {minuend} and in {subtrahend} have no difference; leave out raw.")
+
+
+def _shares(field: np.ndarray) -> np.ndarray:
+    top = np.nanmax(field, axis=0, initial=0.0)
+    return field / np.where(top > 0, top, 1.0)

@@ -1,0 +1,35 @@
+"""Differences of fields: shares of the maxima or values."""
+
+import numpy as np
+import pytest
+
+from bihdist_core import ParameterError, difference
+from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.answers import Answer, difference_of
+
+
+def test_shares_lie_between_minus_one_and_one_and_values_are_subtracted():
+    a, b = np.array([0.0, 2.0, 4.0, np.nan]), np.array([10.0, 0.0, 5.0, 1.0])
+    assert np.array_equal(difference(a, b), [-1, 0.5, 0.5, np.nan], equal_nan=True)
+    assert np.array_equal(difference(a, b, raw=True), [-10, 2, -1, np.nan], equal_nan=True)
+
+
+def test_each_column_has_its_own_maximum():
+    a = np.array([[0.0, 0.0], [1.0, 8.0]])
+    assert np.array_equal(difference(a, np.zeros((2, 2))), [[0, 0], [1, 1]])
+
+
+def test_fields_of_other_shapes_are_refused():
+    with pytest.raises(ParameterError, match="no difference"):
+        difference(np.zeros(3), np.zeros(4))
+
+
+def test_the_accuracy_of_a_difference_is_at_most_the_sum():
+    one, other = (
+        Answer(label=label, unit="mesh units", field=np.array([0.0, 1.0]), certificate=Certificate.of(share))
+        for label, share in (("a", 3e-10), ("b", 4e-10))
+    )
+    both = difference_of(one, other)
+    assert both.certificate.share == pytest.approx(7e-10)
+    assert both.label == "a − b"
+    assert difference_of(one, Answer(label="b", failure="It broke.")).failure == "It broke."
