@@ -8,7 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from bihdist_core.distances.answers import Answer
 
-from ..document.document import Quantity
+from ..document.document import COMPARISON, DistanceFrom
 from ..drawing.picking import Picker, pixel_of
 from ..drawing.scene import PanelScene
 from ..session.answering import Shown
@@ -29,10 +29,11 @@ class DistancePanel(QtWidgets.QWidget):
     resized = QtCore.Signal()  # the picture
     changed = QtCore.Signal(object)  # the quantity chosen with the controls
 
-    def __init__(self, shows: Quantity, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
+        self.id = -1  # that of the document's panel
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
-        self.controls = PanelControls(shows, self)
+        self.controls = PanelControls(DistanceFrom(COMPARISON[0]), self)
         self.controls.changed.connect(self.changed)
         self.title = QtWidgets.QLabel("", self, objectName="title")
         self.hint = QtWidgets.QLabel("", self, objectName="hint")

@@ -6,7 +6,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from ..document.camera import Camera, View
-from ..document.document import Document, Quantity
+from ..document.document import Document
 from ..drawing.camera import camera_seen, place_camera, show_camera
 from ..session.opened import Opened
 from ..session.questions import vertex_at
@@ -35,6 +35,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._session = session
         self.camera = vtkCamera()
         self._panels: dict[int, DistancePanel] = {}
+        self._spare: list[DistancePanel] = []
         self._layout = QtWidgets.QGridLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
         self._layout.setSpacing(1)
@@ -65,11 +66,13 @@ class PanelGrid(QtWidgets.QWidget):
         for id in self._panels.keys() - wanted.keys():
             gone = self._panels.pop(id)
             self._layout.removeWidget(gone)
-            gone.interactor.close()
-            gone.deleteLater()
+            gone.hide()
+            # Kept for the next: VTK does not give back all the memory of a view that is closed.
+            self._spare.append(gone)
         for id, panel in wanted.items():
             if id not in self._panels:
-                self._panels[id] = self._new_panel(id, panel.shows)
+                self._panels[id] = self._spare.pop() if self._spare else self._new_panel()
+                self._begin(self._panels[id], id)
             self._panels[id].controls.show_quantity(panel.shows)
         self._panels = {id: self._panels[id] for id in wanted}
         self._arrange()
@@ -92,22 +95,27 @@ class PanelGrid(QtWidgets.QWidget):
         for column in range(self._layout.columnCount()):
             self._layout.setColumnStretch(column, int(column < columns))
 
-    def _new_panel(self, id: int, shows: Quantity) -> DistancePanel:
-        panel = DistancePanel(shows, self)
-        panel.clicked.connect(lambda vertex: self.clicked.emit(id, vertex))
-        panel.dragged.connect(lambda vertex: self.dragged.emit(id, vertex))
+    def _new_panel(self) -> DistancePanel:
+        panel = DistancePanel(self)
+        panel.clicked.connect(lambda vertex: self.clicked.emit(panel.id, vertex))
+        panel.dragged.connect(lambda vertex: self.dragged.emit(panel.id, vertex))
         panel.released.connect(self.released)
         panel.hovered.connect(self.hovered)
         panel.moved.connect(self._looked)
         panel.resized.connect(self._keep_in_view)
-        panel.changed.connect(lambda chosen: self.chosen.emit(id, chosen))
-        panel.controls.asked.connect(lambda word: self.asked.emit(id, word))
-        panel.scene.show_isolines(self._session.document.isolines)
+        panel.changed.connect(lambda chosen: self.chosen.emit(panel.id, chosen))
+        panel.controls.asked.connect(lambda word: self.asked.emit(panel.id, word))
         panel.renderer.SetActiveCamera(self.camera)
-        opened = self._session.opened() if self._session.surface is not None else None
+        return panel
+
+    def _begin(self, panel: DistancePanel, id: int) -> None:
+        """Let a panel be that of an id, without a field yet."""
+        panel.id = id
+        panel.scene.show_isolines(self._session.document.isolines)
+        opened = self._session.opened()
         if opened is not None:
             self._show_surface(panel, opened)
-        return panel
+        panel.show()
 
     def show_surface(self) -> None:
         """Another surface is there."""
@@ -188,7 +196,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._repaint_soon.start()
 
     def repaint_views(self) -> None:
-        opened = self._session.opened() if self._session.surface is not None else None
+        opened = self._session.opened()
         if opened is not None and self._panels:
             # The panels have one camera.  Left to itself VTK would go over all vertices to find the bounds.
             self.panels[0].renderer.ResetCameraClippingRange(opened.prepared.bounds)
@@ -202,5 +210,5 @@ class PanelGrid(QtWidgets.QWidget):
             painter.drawImage(QtCore.QRect(corner, panel.interactor.size()), panel.picture())
 
     def close_views(self) -> None:
-        for panel in self.panels:
+        for panel in (*self.panels, *self._spare):
             panel.interactor.close()
