@@ -12,6 +12,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", nargs="?", help="mesh file, or the name of a sample (default: figure)")
     parser.add_argument("--source", type=vertex, metavar="V", help="vertex id the distances start from")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
+    parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     add_distance(parser, PANELS)
     add_areas(parser)
 
@@ -26,12 +27,13 @@ def run(options: argparse.Namespace) -> int:
         from bihdist_core import MeshError
 
         raise MeshError(f"There is no file {path}.")
-    if options.screenshot:
-        from bihdist_core.whole_file import check_output
+    from bihdist_core.whole_file import check_output
 
-        check_output(options.screenshot, (".png",))
+    for output, extension in ((options.screenshot, ".png"), (options.save_session, ".json")):
+        if output:
+            check_output(output, (extension,))
     chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
     document = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
     from ..qt.start import run_viewer
 
-    return run_viewer(document, options.screenshot)
+    return run_viewer(document, options.screenshot, options.save_session)

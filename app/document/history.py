@@ -98,10 +98,6 @@ class Trail(Generic[Place]):
             self._places = [*self._places[: self._at + 1], place][-LONGEST:]
             self._at = len(self._places) - 1
 
-    def correct(self, place: Place) -> None:
-        """The present place by other numbers, which rounding has changed."""
-        self._places[self._at] = place
-
     def back(self) -> Place | None:
         """The place before; None at the first."""
         return self._go(-1)

@@ -6,6 +6,7 @@ from qtpy import QtGui, QtWidgets
 
 from ..document.document import MOST_ISOLINES
 from ..samples import mesh_path, sample_names, thumbnail
+from . import remembered
 from .look import LargeIcons
 
 ANY_VERTEX = 2**31 - 1
@@ -53,10 +54,16 @@ def fill_menus(window) -> None:
     for name in sample_names():
         action = samples.addAction(QtGui.QIcon(str(thumbnail(name))), name.replace("_", " "))
         action.triggered.connect(lambda *_, name=name: window.open(mesh_path(name)))
+    recent = file.addMenu("Re&cent")
+    recent.aboutToShow.connect(lambda: _fill_recent(recent, window))
+    file.addSeparator()
+    _action(file, "Open s&ession or recipe …", window.choose_session, "Ctrl+R")
+    _action(file, "&Save session", lambda: window.session_file.save_or_say(), "Ctrl+S")
+    _action(file, "Save session &as …", lambda: window.session_file.choose_and_save(), "Ctrl+Shift+S")
+    file.addSeparator()
     _action(file, "S&creenshot …", window.choose_screenshot, "Ctrl+P")
     _action(file, "&Export figure …", window.export_figure, "Ctrl+E")
     _action(file, "Export &movie …", window.export_movie, "Ctrl+M")
-    _action(file, "Open &recipe …", window.choose_recipe, "Ctrl+R")
     file.addSeparator()
     _action(file, "&Quit", window.close, QtGui.QKeySequence.StandardKey.Quit)
     edit = window.menuBar().addMenu("&Edit")
@@ -80,6 +87,15 @@ def fill_menus(window) -> None:
     _action(about, "&Mouse and keys", lambda: QtWidgets.QMessageBox.information(window, "Mouse and keys", HELP), "F1")
 
 
+def _fill_recent(menu: QtWidgets.QMenu, window) -> None:
+    menu.clear()
+    for path in remembered.recent():
+        action = menu.addAction(path if len(path) <= 70 else f"… {path[-68:]}")
+        action.triggered.connect(lambda *_, path=path: window.open_any(path))
+    if menu.isEmpty():
+        menu.addAction("Nothing yet").setEnabled(False)
+
+
 def _action(menu: QtWidgets.QMenu, text: str, slot: Callable, key: object) -> None:
     action = menu.addAction(text)
     action.setShortcut(QtGui.QKeySequence(key))
@@ -98,5 +114,5 @@ Ctrl+[, Ctrl+]  the view before, after      Alt+Left, Alt+Right  the source befo
 G  type the source's vertex id
 R  reset the view      1 … 6  front, back, left, right, top, bottom
 Ctrl+P  save a picture of the window      Ctrl+E  export a figure      Ctrl+M  a movie
-Ctrl+R  open a figure's recipe
+Ctrl+S  save the session      Ctrl+R  open a session or a figure's recipe
 Esc  cancel what is being computed"""

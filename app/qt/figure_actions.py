@@ -2,19 +2,10 @@
 
 from dataclasses import replace
 
-from qtpy import QtWidgets
-
-from bihdist_core import BihdistError, ParameterError
-
-from ..document.file import checksum, read_recipe
 from ..document.page import Recipe
-from ..drawing.style import STYLES
-from ..samples import mesh_path
 from ..version import version
 from .export_dialog import ExportDialog, MovieDialog
 from .job_dialog import JobDialog
-
-RECIPES = "Recipes (*.json);;All files (*)"
 
 
 def export_figure(window) -> ExportDialog | None:
@@ -52,39 +43,7 @@ def _opened(dialog: JobDialog, window) -> JobDialog:
 
 
 def shown_recipe(window) -> Recipe:
-    """What the window shows; on the page of the recipe that was opened last, but seen as it is seen now."""
-    document = replace(window.session.document, camera=window.grid.seen())
-    return Recipe(document, replace(window.page, views=()))
-
-
-def choose_recipe(window) -> None:
-    path, _ = QtWidgets.QFileDialog.getOpenFileName(window, "Open a recipe", "", RECIPES)
-    if path:
-        open_recipe(window, path)
-
-
-def open_recipe(window, path: str) -> None:
-    """Show a recipe's document, and keep its page for what is exported; a sentence where that cannot be."""
-    try:
-        recipe = read_recipe(path)
-        document = recipe.document
-        if len(document.surfaces) > 1:
-            raise ParameterError(f"The window shows one mesh, and {path} has {len(document.surfaces)}.")
-        if recipe.page.style not in STYLES:
-            raise ParameterError(f"{path}: there is no style {recipe.page.style!r}; choose one of {', '.join(STYLES)}.")
-        for mesh in document.surfaces:
-            if mesh.sha256 and mesh.path and checksum(mesh_path(mesh.path)) != mesh.sha256:
-                window.failed(
-                    f"The mesh {mesh.path} is not what it was when the recipe was written; it is shown all the same."
-                )
-                meshes = tuple(replace(m, sha256="") if m == mesh else m for m in document.surfaces)
-                document = replace(document, surfaces=meshes)
-    except BihdistError as error:
-        window.failed(str(error))
-        return
-
-    def arrived() -> None:
-        window.page = recipe.page
-
-    # Nothing changes before the mesh is there: it may not open.
-    window.show_document(document, arrived)
+    """What the window shows, on the page of the recipe that was opened last; turned since, with one view."""
+    document, page = window.session.document, window.page
+    is_turned = bool(page.views) and document.camera != page.views[0]
+    return Recipe(document, replace(page, views=()) if is_turned else page)

@@ -14,7 +14,7 @@ from bihdist_core import BihdistError, OutputError
 from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..document.camera import Camera
+from ..document.camera import View
 from ..document.document import COMPARISON, DistanceFrom, Document, Quantity
 from ..document.edits import add_panel, move_panel, move_source, remove_panel, show_in
 from ..document.history import Trail
@@ -23,9 +23,11 @@ from ..drawing.prepared import prepare
 from ..session.opened import Opened
 from ..session.questions import vertex_at
 from ..session.session import Session
+from . import remembered
 from .bars import fill_menus, fill_tool_bar
 from .controls import MOST_PANELS
 from .look import STYLE_SHEET
+from .session_actions import SESSIONS, SessionFile
 from .status_bar import StatusBar
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
@@ -54,6 +56,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self._posted.connect(lambda function: function())
         self.session = Session(self, self._posted.emit, prepare, document)
         self.page = Page()
+        self.session_file = SessionFile(self)
         self.grid: Any = None  # a PanelGrid, once what draws has been imported
         self._opened: Opened | None = None  # the surface in the panels
         self._hovered: int | None = None
@@ -62,7 +65,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.status = StatusBar(self)
         self.status.cancelled.connect(self.session.cancel)
         self.setStatusBar(self.status)
-        self._views: Trail[Camera] = Trail()
+        self._views: Trail[View] = Trail()
         self._still = QtCore.QTimer(self, singleShot=True, interval=STILL_MS)
         self._still.timeout.connect(self._remember_view)
         self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
@@ -107,10 +110,21 @@ class MainWindow(QtWidgets.QMainWindow):
             function()
 
     def closeEvent(self, event: QtGui.QCloseEvent) -> None:
+        if not (self.quiet or self.session_file.may_close(self._ask_about_changes)):
+            event.ignore()
+            return
+        self.session_file.forget()
         self.session.close()
         if self.grid is not None:
             self.grid.close_views()
         super().closeEvent(event)
+
+    def _ask_about_changes(self, question: str) -> str:
+        button = QtWidgets.QMessageBox.StandardButton
+        answer = QtWidgets.QMessageBox.question(
+            self, "Biharmonic distance", question, button.Save | button.Discard | button.Cancel, button.Save
+        )
+        return {button.Save: "save", button.Discard: "discard"}.get(answer, "cancel")
 
     # ------------------------------------------------------------------ what the session tells
     def document_changed(self, before: Document) -> None:
@@ -132,13 +146,17 @@ class MainWindow(QtWidgets.QMainWindow):
                     self.answer_changed(panel.id)
         if is_other or document.camera != before.camera:
             self.grid.look(document.camera)
+            self._still.start()
         self.grid.repaint_views()
+        self.session_file.document_changed()
 
     def _show_surface(self, opened: Opened) -> None:
         self._opened, self._hovered, self._views = opened, None, Trail()
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
         self.grid.show_surface()
-        self.say(_summary(opened.surface))
+        self.say("  ·  ".join([_summary(opened.surface), *_unseen(self.session.document)]))
+        if not self.quiet and opened.mesh.path and os.path.exists(opened.mesh.path):
+            remembered.remember(opened.mesh.path)
 
     def answer_changed(self, panel: int) -> None:
         self.grid.show_answer(panel)
@@ -264,16 +282,21 @@ class MainWindow(QtWidgets.QMainWindow):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QtGui.QDropEvent) -> None:
-        self.open(event.mimeData().urls()[0].toLocalFile())
+        self.open_any(event.mimeData().urls()[0].toLocalFile())
 
     # ------------------------------------------------------------------ back and forth
-    def _look(self, camera: Camera) -> None:
-        self.session.look(camera)
+    def _look(self, view: View) -> None:
+        """The camera sees this now."""
+        self.session.look(view)
         self._still.start()
 
+    def _see(self, view: View) -> None:
+        """Let the camera see something else."""
+        self.grid.look(view)
+        self._look(view)
+
     def _remember_view(self) -> None:
-        if isinstance(self.session.document.camera, Camera):
-            self._views.visit(self.session.document.camera)
+        self._views.visit(self.session.document.camera)
 
     def view_back(self) -> None:
         """Look from where one looked before."""
@@ -283,17 +306,15 @@ class MainWindow(QtWidgets.QMainWindow):
     def view_on(self) -> None:
         self._see_again(self._views.on())
 
-    def _see_again(self, camera: Camera | None) -> None:
-        if camera is not None:
-            self.grid.look(camera)
-            self._still.stop()
-            self._views.correct(self.session.document.camera)
+    def _see_again(self, view: View | None) -> None:
+        if view is not None:
+            self._see(view)
 
     # ------------------------------------------------------------------ the user's commands
     def reset_view(self, view: str = "home") -> None:
         """See the surface from a standard view."""
         if self.session.surface is not None:
-            self.grid.look(view)
+            self._see(view)
 
     def leave_boxes(self) -> None:
         """A box that has the keyboard takes digits and Ctrl+E for itself."""
@@ -341,14 +362,44 @@ class MainWindow(QtWidgets.QMainWindow):
 
         export_movie(self)
 
-    def choose_recipe(self) -> None:
-        from .figure_actions import choose_recipe
+    def choose_session(self) -> None:
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Open a session or recipe", "", SESSIONS)
+        if path:
+            self.session_file.open(path)
 
-        choose_recipe(self)
+    def open_any(self, path: str) -> None:
+        """A mesh, or a session or recipe."""
+        if path.lower().endswith(".json"):
+            self.session_file.open(path)
+        else:
+            self.open(path)
+
+    def choose_mesh_instead(self, message: str, path: str) -> str:
+        """Ask for the mesh of a session whose own is gone, or has changed and is still at `path`; empty if none."""
+        self.refused.emit(message)
+        if self.quiet:
+            return path
+        box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=self)
+        choose = box.addButton("Choose the mesh …", QtWidgets.QMessageBox.ButtonRole.ActionRole)
+        as_it_is = box.addButton("Show it as it is", QtWidgets.QMessageBox.ButtonRole.AcceptRole) if path else None
+        box.addButton(QtWidgets.QMessageBox.StandardButton.Cancel)
+        box.exec()
+        if as_it_is is not None and box.clickedButton() is as_it_is:
+            return path
+        if box.clickedButton() is choose:
+            return QtWidgets.QFileDialog.getOpenFileName(self, "The mesh of this session", "", MESH_FILES)[0]
+        return ""
 
     def say(self, text: str) -> None:
         """In the status bar."""
         self.status.message.setText(text)
+
+
+def _unseen(document: Document) -> list[str]:
+    """What a document has that panels do not show yet."""
+    parts = {"insets": document.zooms, "anchors": document.anchors, "the relief": document.height}
+    words = [word for word, part in parts.items() if part]
+    return [f"in figures only: {', '.join(words)}"] if words else []
 
 
 def _summary(surface) -> str:

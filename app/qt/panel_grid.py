@@ -1,7 +1,5 @@
 """The panels of the window, equal in size and seen from one camera.  Shows what a session knows; decides nothing."""
 
-from dataclasses import replace
-
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera
 
@@ -162,29 +160,23 @@ class PanelGrid(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ the camera
     def look(self, view: View) -> None:
-        """See the surface from a standard view, fitted closely, or as a camera saw it; told by `looked`."""
-        prepared = self._session.opened().prepared
+        """See the surface from a standard view, fitted closely, or as a camera saw it."""
         if isinstance(view, Camera):
             show_camera(self.camera, view, self.aspect)
         else:
-            place_camera(self.camera, prepared.points, self.aspect, view)
-        self._looked()
-
-    def seen(self) -> Camera:
-        """What the camera sees."""
-        return camera_seen(self.camera, self.aspect)
+            place_camera(self.camera, self._session.opened().prepared.points, self.aspect, view)
+        self.repaint_views()
 
     def _looked(self) -> None:
+        """The user has moved the camera."""
         if self._session.surface is not None:
-            self.looked.emit(self.seen())
+            self.looked.emit(camera_seen(self.camera, self.aspect))
         self.repaint_views()
 
     def _keep_in_view(self) -> None:
         """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""
-        known = self._session.document.camera
-        if isinstance(known, Camera) and self._session.surface is not None:
-            show_camera(self.camera, replace(self.seen(), extent=known.extent), self.aspect)
-            self.repaint_views()
+        if self._session.surface is not None:
+            self.look(self._session.document.camera)
 
     # ------------------------------------------------------------------ pictures
     def point_at(self, vertex: int | None) -> None:

@@ -13,11 +13,12 @@ from bihdist_core import BihdistError
 
 from ..document.document import Document
 from .main_window import MainWindow
+from .session_actions import offer_lost_state
 
 PAINTED_MS = 50
 
 
-def run_viewer(document: Document, screenshot: str | None) -> int:
+def run_viewer(document: Document, screenshot: str | None, save_session: str | None = None) -> int:
     """Show a document in the window until that is closed, or until its picture is saved; returns the exit status."""
     _check_screen()
     if os.environ.get("DISPLAY") and os.environ.get("WAYLAND_DISPLAY"):
@@ -38,12 +39,16 @@ def run_viewer(document: Document, screenshot: str | None) -> int:
         def save() -> None:
             try:
                 window.save_screenshot(screenshot)
+                if save_session:
+                    window.session_file.save(save_session)
             except BihdistError as error:
                 failures.append(str(error))
             window.close()
 
         window.refused.connect(refuse)
         window.complete.connect(save)
+    elif save_session:
+        save_once(window, save_session)
     window.show()
     window.show_document(document)
     # Once the window has been painted: the imports take a second.
@@ -59,11 +64,23 @@ def run_viewer(document: Document, screenshot: str | None) -> int:
     return 2 if failures else 1 if screenshot and failed else 0
 
 
+def save_once(window: MainWindow, path: str) -> None:
+    """Save the session as soon as the window is complete; from then on it is the session's file."""
+
+    def save() -> None:
+        window.complete.disconnect(save)
+        window.session_file.save_or_say(path)
+
+    window.complete.connect(save)
+
+
 def build_panels(window: MainWindow) -> None:
     """Make the panels.  What was imported for them stays, so the garbage collector need not look at it again: each time
     it does, the window stands still for a tenth of a second."""
     window.build_panels()
     gc.freeze()
+    if not window.quiet:
+        offer_lost_state(window)
 
 
 def _check_screen() -> None:

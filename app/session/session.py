@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from bihdist_core import BihdistError, Surface
 from bihdist_core.distances.answers import failure_in_words
 
-from ..document.camera import Camera
+from ..document.camera import View as CameraView
 from ..document.document import Document, MeshFile, Point
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
@@ -114,7 +114,7 @@ class Session:
         self._opened.append(opened)
         return opened.mesh
 
-    def look(self, camera: Camera) -> None:
+    def look(self, camera: CameraView) -> None:
         """The camera has moved, which is no step of the history."""
         if self._is_begun:
             self.history.change(replace(self.document, camera=camera))

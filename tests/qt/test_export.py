@@ -36,6 +36,7 @@ def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tm
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
     s.window.grid.camera.Azimuth(40)
+    s.panels[0].moved.emit()
     exported(s, tmp_path / "window.png", size_text="600x300")
     assert main(["figure", "--recipe", str(tmp_path / "window.json"), "-o", str(tmp_path / "again.png")]) == 0
     window, again = ((tmp_path / name).read_bytes() for name in ("window.png", "again.png"))
@@ -112,7 +113,6 @@ def test_a_movie_is_made_and_its_mistakes_are_said(screen, mesh_file, tmp_path):
 
 def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     from app.main import main
-    from app.qt.figure_actions import open_recipe
 
     mesh = mesh_file(bumpy(300))
     words = ["--distance", "diffusion", "--t", "0.25", "--distance", "commute-time", "--distance", "geodesic"]
@@ -124,7 +124,7 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     )
     s = screen()
     s.open(mesh_file(bumpy(400), "other.off"))
-    open_recipe(s.window, str(tmp_path / "f.json"))
+    s.window.session_file.open(str(tmp_path / "f.json"))
     s.until(lambda: s.document.mesh().path == mesh and s.session.is_complete)
     assert [p.title.text() for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
     assert s.source == 7
@@ -135,20 +135,18 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     assert again.page.style == "dark"
     assert np.allclose(again.document.camera.position, (3, 1, 2))
     assert np.all(np.array(again.document.camera.extent) >= np.array([0.4, 0.3]) - 1e-9)
-    open_recipe(s.window, str(tmp_path / "none.json"))
+    s.window.session_file.open(str(tmp_path / "none.json"))
     assert "cannot be read" in s.refusals[-1]
 
 
 def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tmp_path):
-    from app.qt.figure_actions import open_recipe
-
     s = screen()
     s.open(mesh_file(bumpy(200)), source=5)
     before, lines = s.document, s.window.isolines_box.value()
     (tmp_path / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
     document = comparison("bad.off", (Spec.of("commute-time"),), (0,), "barycentric")
     (tmp_path / "bad.json").write_text(recipe_text(Recipe(replace(document, isolines=7, camera="top")), "0"))
-    open_recipe(s.window, str(tmp_path / "bad.json"))
+    s.window.session_file.open(str(tmp_path / "bad.json"))
     s.until(lambda: any("bad.off" in words for words in s.refusals))
     s.settle()
     assert s.document == before
@@ -160,10 +158,8 @@ def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tm
 
 
 def opened_recipe(s, tmp_path, document, **page):
-    from app.qt.figure_actions import open_recipe
-
     (tmp_path / "r.json").write_text(recipe_text(Recipe(document, Page(**page)), "0"))
-    open_recipe(s.window, str(tmp_path / "r.json"))
+    s.window.session_file.open(str(tmp_path / "r.json"))
 
 
 def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, mesh_file, tmp_path):

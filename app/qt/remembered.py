@@ -1,0 +1,91 @@
+"""What is remembered from one start to the next: recent files, and the state of a window that did not end as it should.
+
+It stands in the user's folder for application data; where that cannot be written nothing is remembered.
+"""
+
+import json
+import os
+from contextlib import suppress
+from pathlib import Path
+
+from qtpy import QtCore
+
+from bihdist_core import BihdistError
+from bihdist_core.whole_file import whole_file
+
+MOST_RECENT = 10
+
+
+def folder() -> Path:
+    """Of this program's data for the user."""
+    location = QtCore.QStandardPaths.StandardLocation.GenericDataLocation
+    return Path(QtCore.QStandardPaths.writableLocation(location)) / "bihdist"
+
+
+# ---------------------------------------------------------------------- recent files
+def recent() -> list[str]:
+    """Meshes and sessions opened last, the last first, as far as they are still there."""
+    try:
+        paths = json.loads((folder() / "recent.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return []
+    known = [path for path in paths if isinstance(path, str)] if isinstance(paths, list) else []
+    return [path for path in known if os.path.exists(path)]
+
+
+def remember(path: str) -> None:
+    """Put a file first among the recent ones."""
+    path = os.path.abspath(path)
+    paths = [path, *(other for other in recent() if other != path)]
+    _write(folder() / "recent.json", json.dumps(paths[:MOST_RECENT], indent=1))
+
+
+# ---------------------------------------------------------------------- the state of windows that are open
+def own_state() -> Path:
+    """Where this process keeps what its window shows."""
+    return folder() / f"open-{os.getpid()}.json"
+
+
+def keep_state(text: str) -> None:
+    """Keep what the window shows, to be offered after a crash."""
+    _write(own_state(), text)
+
+
+def forget_state() -> None:
+    """The window ends as it should."""
+    with suppress(OSError):
+        own_state().unlink()
+
+
+def lost_states() -> list[Path]:
+    """What windows showed whose processes are no longer there, the newest first."""
+    with suppress(OSError):
+        found = [path for path in folder().glob("open-*.json") if not _is_running(path)]
+        return sorted(found, key=lambda path: path.stat().st_mtime, reverse=True)
+    return []
+
+
+def _is_running(path: Path) -> bool:
+    try:
+        pid = int(path.stem.removeprefix("open-"))
+    except ValueError:
+        return False
+    if pid == os.getpid():
+        return True
+    if os.name == "nt":
+        # A signal would end it there; a file of the last days may belong to a window that is open.
+        return False
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        pass
+    return True
+
+
+def _write(path: Path, text: str) -> None:
+    with suppress(OSError, BihdistError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with whole_file(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")

@@ -1,0 +1,184 @@
+"""File > Save session, Open session, Recent; what is asked on closing, and after a crash.  `window` is the main window.
+
+A session is a recipe of what the window shows, so that `bihdist figure --recipe` draws it.
+"""
+
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core import BihdistError, ParameterError
+from bihdist_core.whole_file import check_output, whole_file
+
+from ..document.file import checksum, read_recipe, recipe_text, with_meshes_from
+from ..document.page import Recipe
+from ..drawing.style import STYLES
+from ..samples import mesh_path
+from ..version import version
+from . import remembered
+
+SESSIONS = "Sessions and recipes (*.json);;All files (*)"
+KEEP_MS = 2000
+"""What the window shows is kept so long after a change, in case of a crash."""
+
+
+class SessionFile:
+    """The file that a window's session is saved in, if any, and whether it is as it was saved."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+        self.path: str | None = None
+        self._saved: Recipe | None = None
+        self._keep_soon = QtCore.QTimer(window, singleShot=True, interval=KEEP_MS)
+        self._keep_soon.timeout.connect(self._keep)
+
+    # ------------------------------------------------------------------ saving
+    def recipe(self) -> Recipe:
+        """What the window shows, on the page of the recipe that was opened last."""
+        return Recipe(self._window.session.document, self._window.page)
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether something was saved or opened, and what is shown has changed since; the camera does not count."""
+        if self._saved is None:
+            return False
+        now, then = self.recipe(), self._saved
+        return (replace(now.document, camera=then.document.camera), now.page) != (then.document, then.page)
+
+    def save(self, path: str | None = None) -> None:
+        """Into a file, the one it was saved in or opened from if none is given; OutputError if that cannot be."""
+        path = path or self.path
+        assert path is not None
+        if self._window.session.surface is None:
+            raise ParameterError("There is nothing to save before a mesh is open.")
+        check_output(path, (".json",))
+        recipe = self.recipe()
+        with whole_file(path) as temporary:
+            temporary.write_text(recipe_text(with_meshes_from(recipe, path), version()), encoding="utf-8")
+        self.path, self._saved = path, recipe
+        self._remember(path)
+        self._window.say(f"Saved {os.path.basename(path)}")
+
+    def choose_and_save(self) -> bool:
+        """Ask for a file; whether it was saved."""
+        name = Path(self._window.session.document.surfaces[0].path).stem if self._window.session.surface else "session"
+        dialog = QtWidgets.QFileDialog(self._window, "Save the session", f"{name}-session.json", "Sessions (*.json)")
+        dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("json")
+        return bool(dialog.exec()) and self.save_or_say(dialog.selectedFiles()[0])
+
+    def save_or_say(self, path: str | None = None) -> bool:
+        """Save, or tell the user why not; whether it was saved."""
+        if path is None and self.path is None:
+            return self.choose_and_save()
+        try:
+            self.save(path)
+        except BihdistError as error:
+            self._window.failed(str(error))
+            return False
+        return True
+
+    def may_close(self, ask: Callable[[str], str]) -> bool:
+        """Whether the window may close: `ask(question)` says "save", "discard" or "cancel" where something changed."""
+        if not self.is_changed:
+            return True
+        answer = ask(f"{os.path.basename(self.path or '')} has changed since it was saved.")
+        return answer == "discard" or (answer == "save" and self.save_or_say())
+
+    # ------------------------------------------------------------------ opening
+    def open(self, path: str, is_own: bool = True) -> None:
+        """Show a session or recipe; a sentence where that cannot be, and a way to point at a mesh that is gone.
+
+        is_own: whether the file becomes the session's, to be saved in again.
+        """
+        try:
+            recipe = read_recipe(path)
+            if len(recipe.document.surfaces) > 1:
+                raise ParameterError(f"The window shows one mesh, and {path} has {len(recipe.document.surfaces)}.")
+            style = recipe.page.style
+            if style not in STYLES:
+                raise ParameterError(f"{path}: there is no style {style!r}; choose one of {', '.join(STYLES)}.")
+            recipe = self._with_mesh(recipe)
+        except BihdistError as error:
+            self._window.failed(str(error))
+            return
+        if recipe is None:
+            return
+
+        def arrived() -> None:
+            self._window.page = recipe.page
+            if is_own:
+                self.path, self._saved = path, self.recipe()
+                self._remember(path)
+
+        # Nothing changes before the mesh is there: it may not open.
+        self._window.show_document(recipe.document, arrived)
+
+    def _with_mesh(self, recipe: Recipe) -> Recipe | None:
+        """The recipe of a mesh that is there: the one it names, or the one the user points at; None if neither."""
+        mesh = recipe.document.surfaces[0]
+        known = mesh_path(mesh.path)
+        if not os.path.exists(known):
+            message, path = f"The mesh {mesh.path[:200]} is not there.", ""
+        elif mesh.sha256 and checksum(known) != mesh.sha256:
+            message, path = f"The mesh {mesh.path} is not what it was when this was written.", mesh.path
+        else:
+            return recipe
+        chosen = self._window.choose_mesh_instead(message, path)
+        if not chosen:
+            return None
+        surfaces = (replace(mesh, path=chosen, sha256=""),)
+        return replace(recipe, document=replace(recipe.document, surfaces=surfaces))
+
+    def _remember(self, path: str) -> None:
+        if not self._window.quiet:
+            remembered.remember(path)
+
+    # ------------------------------------------------------------------ crashes
+    def document_changed(self) -> None:
+        """Keep it, soon; a window that a script looks at leaves nothing behind."""
+        if not self._window.quiet:
+            self._keep_soon.start()
+
+    def _keep(self) -> None:
+        if self._window.session.surface is not None:
+            recipe = self.recipe()
+            meshes = tuple(replace(m, path=_absolute(m.path)) for m in recipe.document.surfaces)
+            recipe = replace(recipe, document=replace(recipe.document, surfaces=meshes))
+            remembered.keep_state(recipe_text(recipe, version()))
+
+    def forget(self) -> None:
+        """The window closes as it should."""
+        self._keep_soon.stop()
+        remembered.forget_state()
+
+
+def _absolute(path: str) -> str:
+    return os.path.abspath(path) if path and os.path.exists(path) else path
+
+
+def offer_lost_state(window) -> None:
+    """After a crash: ask whether what was shown then should be shown again; asked once."""
+    lost = remembered.lost_states()
+    if not lost:
+        return
+    box = QtWidgets.QMessageBox(
+        QtWidgets.QMessageBox.Icon.Question,
+        "Biharmonic distance",
+        "The program did not end as it should the last time. Show what was shown then?",
+        QtWidgets.QMessageBox.StandardButton.Yes | QtWidgets.QMessageBox.StandardButton.No,
+        window,
+    )
+
+    def answered(button: object) -> None:
+        if box.standardButton(button) == QtWidgets.QMessageBox.StandardButton.Yes:
+            window.session_file.open(str(lost[0]), is_own=False)
+        for path in lost:
+            path.unlink(missing_ok=True)
+
+    box.buttonClicked.connect(answered)
+    box.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
+    box.open()

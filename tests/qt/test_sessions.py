@@ -1,0 +1,197 @@
+"""Sessions: saved and opened again, asked about, offered after a crash; recipes in and out of the window."""
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.document.camera import Camera
+from app.document.document import Anchor, Zoom, comparison, quantity
+from app.document.edits import add_panel, move_source
+from app.document.file import read_recipe, recipe_text
+from app.document.page import Page, Recipe
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy, grid
+
+pytest.importorskip("qtpy")
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    """Nothing of the user's is read or written."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+
+
+def arranged(s, mesh):
+    """A window that shows something of its own."""
+    s.open(mesh, 5)
+    document = add_panel(move_source(s.document, 0, 9), quantity("biharmonic - geodesic"))
+    s.session.show(replace(document, isolines=12))
+    s.panels[2].controls.first.parameters["t"].chosen.emit(0.25)
+    s.window.reset_view("left")
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+
+
+def test_a_session_opened_again_is_the_same_document_and_the_same_pictures(screen, mesh_file, tmp_path):
+    one, other = screen(), screen()
+    arranged(one, mesh_file(bumpy(400)))
+    path = tmp_path / "s.json"
+    one.window.session_file.save(str(path))
+    other.open(mesh_file(grid(4, 4), "other.off"))
+    other.window.session_file.open(str(path))
+    other.until(lambda: other.session.is_complete and other.session.surface.name == "mesh.off")
+    other.settle()
+    assert other.document == one.document
+    # Eigenpairs that were computed in another order differ in their last digits, and so do some pixels.
+    assert all((a != b).mean() < 0.005 for a, b in zip(one.pictures(), other.pictures(), strict=True))
+    other.session.undo()
+    other.until(lambda: other.session.is_complete)
+    assert other.session.surface.name == "other.off"
+
+
+def test_a_session_is_drawn_by_the_command_line_and_may_move_with_its_mesh(screen, mesh_file, tmp_path):
+    from app.main import main
+
+    s = screen()
+    mesh = mesh_file(bumpy(300))
+    arranged(s, mesh)
+    s.window.session_file.save(str(tmp_path / "s.json"))
+    assert json.loads((tmp_path / "s.json").read_text())["document"]["surfaces"][0]["path"] == "mesh.off"
+    (tmp_path / "moved").mkdir()
+    for name in ("s.json", "mesh.off"):
+        os.rename(tmp_path / name, tmp_path / "moved" / name)
+    assert main(["figure", "--recipe", str(tmp_path / "moved" / "s.json"), "-o", str(tmp_path / "f.png")]) == 0
+
+
+def test_a_recipe_opened_and_exported_again_has_the_same_bytes(screen, mesh_file, tmp_path):
+    from app.qt.figure_actions import export_figure
+
+    camera = Camera((3.0, 1.0, 2.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.4, 0.3))
+    document = comparison(mesh_file(bumpy(300)), (Spec.of("biharmonic"), Spec.of("commute-time")), (4, 9))
+    document = replace(document, camera=camera, isolines=12)
+    (tmp_path / "a.json").write_text(recipe_text(Recipe(document, Page(size="600x300", columns=2)), "0"))
+    from app.main import main
+
+    assert main(["figure", "--recipe", str(tmp_path / "a.json"), "-o", str(tmp_path / "f.png")]) == 0
+    s = screen()
+    s.window.session_file.open(str(tmp_path / "f.json"))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert len(s.panels) == 4
+    assert [p.shows.point for p in s.document.panels] == ["source", "source", "source 2", "source 2"]
+    dialog = export_figure(s.window)
+    ended = []
+    dialog.saved.connect(ended.append)
+    dialog.failed.connect(ended.append)
+    dialog.export(str(tmp_path / "g.png"))
+    s.until(lambda: ended)
+    assert (tmp_path / "g.json").read_bytes() == (tmp_path / "f.json").read_bytes()
+    assert (tmp_path / "g.png").read_bytes() == (tmp_path / "f.png").read_bytes()
+
+
+def test_a_mesh_that_is_gone_or_has_changed_is_said_and_another_can_be_pointed_at(screen, mesh_file, tmp_path):
+    s = screen()
+    mesh = mesh_file(bumpy(300))
+    arranged(s, mesh)
+    s.window.session_file.save(str(tmp_path / "s.json"))
+    before = s.document
+    os.rename(mesh, tmp_path / "elsewhere.off")
+    s.window.session_file.open(str(tmp_path / "s.json"))
+    assert "is not there" in s.refusals[-1]
+    assert s.document == before
+    s.window.choose_mesh_instead = lambda message, path: str(tmp_path / "elsewhere.off")
+    s.window.session_file.open(str(tmp_path / "s.json"))
+    s.until(lambda: s.session.is_complete and s.session.surface.name == "elsewhere.off")
+    assert (s.source, len(s.panels)) == (9, 4)
+
+
+def test_closing_asks_only_where_something_saved_has_changed(screen, mesh_file, tmp_path):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    asked = []
+
+    def answer(word):
+        return lambda question: asked.append(question) or word
+
+    file = s.window.session_file
+    s.session.show(move_source(s.document, 0, 6))
+    assert file.may_close(answer("cancel"))
+    file.save(str(tmp_path / "s.json"))
+    s.window.reset_view("top")
+    assert file.may_close(answer("cancel"))
+    assert not asked
+    s.session.show(move_source(s.document, 0, 7))
+    assert not file.may_close(answer("cancel"))
+    assert file.may_close(answer("discard"))
+    assert file.may_close(answer("save"))
+    assert asked == ["s.json has changed since it was saved."] * 3
+    assert read_recipe(tmp_path / "s.json").document.sources == (7,)
+    assert file.may_close(answer("cancel"))
+    assert len(asked) == 3
+
+
+def test_recent_files_are_listed_the_last_first(screen, mesh_file, tmp_path):
+    from app.qt import remembered
+
+    s = screen()
+    s.window.quiet = False
+    meshes = [mesh_file(bumpy(100), f"m{k}.off") for k in range(12)]
+    for mesh in meshes:
+        s.open(mesh)
+    s.window.session_file.save(str(tmp_path / "s.json"))
+    assert remembered.recent() == [str(tmp_path / "s.json"), *meshes[:2:-1]]
+    os.unlink(meshes[-1])
+    assert meshes[-1] not in remembered.recent()
+    s.window.quiet = True
+    (remembered.folder() / "recent.json").write_text("[1, {")
+    assert remembered.recent() == []
+
+
+def test_after_a_crash_what_was_shown_is_offered_and_after_a_proper_end_it_is_not(screen, mesh_file, tmp_path):
+    from app.qt import remembered
+
+    s = screen()
+    s.window.quiet = False
+    arranged(s, mesh_file(bumpy(300)))
+    s.until(lambda: remembered.own_state().exists(), seconds=10)
+    assert remembered.lost_states() == []  # this process is there
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    gone.wait()
+    lost = remembered.folder() / f"open-{gone.pid}.json"
+    lost.write_text(remembered.own_state().read_text())
+    assert remembered.lost_states() == [lost]
+    other = screen()
+    other.window.session_file.open(str(lost), is_own=False)
+    other.until(lambda: other.session.is_complete)
+    assert other.document == s.document
+    assert other.window.session_file.path is None
+    s.window.close()
+    assert not remembered.own_state().exists()
+    s.window.quiet = True
+
+
+def test_view_saves_its_session(mesh_file, tmp_path):
+    words = ["view", mesh_file(bumpy(300)), "--source", "7", "--distance", "biharmonic - geodesic"]
+    outputs = ["--screenshot", str(tmp_path / "w.png"), "--save-session", str(tmp_path / "s.json")]
+    done = subprocess.run([sys.executable, "-m", "app", *words, *outputs], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    document = read_recipe(tmp_path / "s.json").document
+    assert (document.sources, [str(panel.shows) for panel in document.panels]) == ((7,), ["biharmonic - geodesic"])
+    assert not (tmp_path / "data").exists()
+
+
+def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh_file, tmp_path):
+    document = comparison(mesh_file(bumpy(300)), (Spec.of("biharmonic"),), (4,))
+    document = replace(document, zooms=(Zoom(7),), anchors=(Anchor("source", 0.5),))
+    (tmp_path / "r.json").write_text(recipe_text(Recipe(document), "0"))
+    s = screen()
+    s.window.session_file.open(str(tmp_path / "r.json"))
+    s.until(lambda: s.session.is_complete)
+    assert s.window.status.message.text().endswith("in figures only: insets, anchors")
+    assert s.document.zooms == (Zoom(7),)
