@@ -1,8 +1,11 @@
 """From one document to the next: pure functions, for what `dataclasses.replace` alone does not do."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
-from .document import Document, MeshFile, Panel, Place, Point, Quantity
+from bihdist_core.distances.kinds import Spec, kinds
+
+from .document import COMPARISON, DistanceFrom, Document, MeshFile, Panel, Place, Point, Quantity, free_names
 
 
 def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> Document:
@@ -65,3 +68,46 @@ def move_panel(document: Document, panel: int, place: int) -> Document:
     others = [p for p in document.panels if p.id != panel]
     others.insert(place, document.panel(panel))
     return replace(document, panels=tuple(others))
+
+
+def add_another(document: Document) -> Document:
+    """One more panel, with a distance that is not shown yet where there is one."""
+    shown = {spec.word for panel in document.panels for spec in panel.shows.specs}
+    words = [*(spec.word for spec in COMPARISON), *kinds()]
+    word = next((word for word in words if word not in shown), words[0])
+    surface = document.surfaces[0].name
+    if any(point.name == "source" and point.surface == surface for point in document.points):
+        return add_panel(document, DistanceFrom(Spec.of(word)), surface)
+    (name,) = free_names("source", 1, [point.name for point in document.points])
+    return add_panel(put_point(document, name, None, surface), DistanceFrom(Spec.of(word), name), surface)
+
+
+def duplicate_panel(document: Document, panel: int) -> Document:
+    """The same once more, after it."""
+    shown = document.panel(panel)
+    more = add_panel(document, shown.shows, shown.surface)
+    return move_panel(more, document.next_id, place_of(document, panel) + 1)
+
+
+def place_of(document: Document, panel: int) -> int:
+    """The place of a panel among the others."""
+    return document.panels.index(document.panel(panel))
+
+
+PANEL_EDITS: dict[str, Callable[[Document, int], Document]] = {
+    "Add a panel": lambda document, panel: add_another(document),
+    "Duplicate this panel": duplicate_panel,
+    "Move it back": lambda document, panel: move_panel(document, panel, max(place_of(document, panel) - 1, 0)),
+    "Move it on": lambda document, panel: move_panel(document, panel, place_of(document, panel) + 1),
+    "Remove it": remove_panel,
+}
+"""What the menu over a panel offers."""
+
+
+def possible_edits(document: Document, panel: int, most: int) -> set[str]:
+    """Those of them that make sense; no more than `most` panels are made, and one stays."""
+    count, place = len(document.panels), place_of(document, panel)
+    possible = {"Add a panel", "Duplicate this panel"} if count < most else set()
+    possible |= {"Move it back"} if place > 0 else set()
+    possible |= {"Move it on"} if place < count - 1 else set()
+    return possible | ({"Remove it"} if count > 1 else set())

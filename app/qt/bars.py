@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from qtpy import QtGui, QtWidgets
+from qtpy import QtCore, QtGui, QtWidgets
 
 from ..document.document import MOST_ISOLINES
 from ..samples import mesh_path, sample_names, thumbnail
@@ -32,6 +32,7 @@ def fill_tool_bar(window) -> tuple[QtWidgets.QSpinBox, QtWidgets.QSpinBox]:
     bar.addSeparator()
     bar.addWidget(QtWidgets.QLabel(" Isolines "))
     isolines = QtWidgets.QSpinBox()
+    isolines.setKeyboardTracking(False)
     isolines.setRange(0, MOST_ISOLINES)
     isolines.setValue(window.session.document.isolines)
     isolines.setToolTip("Equal steps from 0 to each panel's maximum; 0 for no lines")
@@ -42,6 +43,25 @@ def fill_tool_bar(window) -> tuple[QtWidgets.QSpinBox, QtWidgets.QSpinBox]:
     bar.addAction("Reset view", window.reset_view)
     bar.addAction("Screenshot …", window.choose_screenshot)
     return source, isolines
+
+
+def show_source(box: QtWidgets.QSpinBox, vertex: int) -> None:
+    """Let the box of the source say a vertex, whatever was being typed."""
+    with QtCore.QSignalBlocker(box):
+        box.setEnabled(True)
+        box.setSpecialValueText("")
+        box.setRange(0, ANY_VERTEX)
+        box.setValue(vertex)
+        box.lineEdit().setText(str(vertex))
+
+
+def no_source(box: QtWidgets.QSpinBox) -> None:
+    """Let it say that there is none."""
+    with QtCore.QSignalBlocker(box):
+        box.setRange(-1, ANY_VERTEX)
+        box.setSpecialValueText("–")
+        box.setValue(-1)
+        box.setEnabled(False)
 
 
 def fill_menus(window) -> None:
@@ -82,7 +102,7 @@ def fill_menus(window) -> None:
     _action(go, "&Type a vertex id", lambda *_: (window.source_box.setFocus(), window.source_box.selectAll()), "G")
     _action(go, "The source be&fore", lambda: window.session.walk_sources(-1), "Alt+Left")
     _action(go, "The source af&ter", lambda: window.session.walk_sources(1), "Alt+Right")
-    _action(go, "&Cancel what is being computed", window.session.cancel, "Esc")
+    _action(go, "&Cancel what is being computed", window.cancel, "Esc")
     about = window.menuBar().addMenu("&Help")
     _action(about, "&Mouse and keys", lambda: QtWidgets.QMessageBox.information(window, "Mouse and keys", HELP), "F1")
 

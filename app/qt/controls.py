@@ -4,28 +4,24 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import exp, log
 
-from qtpy import QtCore, QtWidgets
+from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Parameter, Spec, Value, kind_of, kinds
 
 from ..document.document import COMPARISON, Difference, Quantity
+from ..document.edits import PANEL_EDITS
 
 STEPS = 240
 """Positions of a slider, in equal steps of the parameter's logarithm."""
 
 SYMBOLS = {"alpha": "α"}
 
+NARROWEST, SLIDER_FROM = 56, 250
+"""Pixels of a menu or box at least, and of the controls of one distance from which a slider has room."""
+
 MOST_PANELS = 6
 """Up to which panels can be added; a recipe may have more."""
-
-PANEL_EDITS = {
-    "add": "Add a panel",
-    "duplicate": "Duplicate this panel",
-    "back": "Move it back",
-    "on": "Move it on",
-    "remove": "Remove it",
-}
 
 
 class PanelControls(QtWidgets.QWidget):
@@ -52,7 +48,7 @@ class PanelControls(QtWidgets.QWidget):
         self.more.setToolTip("Add, duplicate, move or remove panels")
         self.more.setPopupMode(QtWidgets.QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QtWidgets.QMenu(self.more)
-        self.edits = {word: menu.addAction(text) for word, text in PANEL_EDITS.items()}
+        self.edits = {word: menu.addAction(word) for word in PANEL_EDITS}
         for word, action in self.edits.items():
             action.triggered.connect(lambda *_, word=word: self.asked.emit(word))
         self.more.setMenu(menu)
@@ -61,6 +57,8 @@ class PanelControls(QtWidgets.QWidget):
         row.addStretch(0)
         row.addWidget(self.more)
         self._controls_row = row
+        # Panels are equally wide whatever is in here: in a narrow one the menus' words are cut.
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.first.chosen.connect(lambda spec: self._choose(spec, 0))
         self.second.chosen.connect(lambda spec: self._choose(spec, 1))
         self.first.difference_wanted.connect(self._subtract)
@@ -80,6 +78,18 @@ class PanelControls(QtWidgets.QWidget):
             # A slider takes the room there is.
             is_wide = any(parameter.logarithmic for parameter in control.spec.kind.parameters)
             self._controls_row.setStretchFactor(control, int(is_wide))
+
+        self._fit()
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        """Where there is no room for sliders their values remain."""
+        count = len(self.shows.specs)
+        for control in (self.first, self.second):
+            control.show_sliders(self.width() >= SLIDER_FROM * count)
 
     def allow(self, words: set[str]) -> None:
         """Which of the panel's edits are possible."""
@@ -128,6 +138,7 @@ class DistanceControl(QtWidgets.QWidget):
             self.distance.insertSeparator(self.distance.count())
             self.distance.addItem("Difference of two", None)
         self.distance.setToolTip("The distance this panel shows")
+        self.distance.setMinimumWidth(NARROWEST)
         self._row = QtWidgets.QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._row.addWidget(self.distance)
@@ -155,6 +166,11 @@ class DistanceControl(QtWidgets.QWidget):
             self._of_word = spec.word
         for name, value in spec.values:
             self.parameters[name].show_value(value)
+
+    def show_sliders(self, shown: bool) -> None:
+        for control in self.parameters.values():
+            if control.parameter.logarithmic:
+                control.widget.setVisible(shown)
 
     def _choose_distance(self) -> None:
         word = self.distance.currentData()
@@ -186,6 +202,7 @@ class ParameterControl(QtWidgets.QWidget):
             self.widget, self._put = self._slider()
         else:
             self.widget, self._put = self._box()
+        self.widget.setMinimumWidth(NARROWEST)
         self.widget.setToolTip(f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}")
         row.addWidget(self.widget, 1)
         row.addWidget(self._label)

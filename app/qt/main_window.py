@@ -11,12 +11,11 @@ from typing import Any
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import BihdistError, OutputError
-from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.camera import View
-from ..document.document import COMPARISON, DistanceFrom, Document, Quantity
-from ..document.edits import add_panel, move_panel, move_source, remove_panel, show_in
+from ..document.document import Document, Quantity
+from ..document.edits import PANEL_EDITS, add_another, move_source, show_in
 from ..document.history import Trail
 from ..document.page import Page
 from ..drawing.prepared import prepare
@@ -24,11 +23,11 @@ from ..session.opened import Opened
 from ..session.questions import vertex_at
 from ..session.session import Session
 from . import remembered
-from .bars import fill_menus, fill_tool_bar
+from .bars import fill_menus, fill_tool_bar, no_source, show_source
 from .controls import MOST_PANELS
 from .look import STYLE_SHEET
 from .session_actions import SESSIONS, SessionFile
-from .status_bar import StatusBar
+from .status_bar import StatusBar, summary, unseen
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 STILL_MS = 500
@@ -72,9 +71,12 @@ class MainWindow(QtWidgets.QMainWindow):
         self._progress_soon.timeout.connect(self._show_progress)
         self.source_box, self.isolines_box = fill_tool_bar(self)
         fill_menus(self)
-        placeholder = QtWidgets.QLabel("Opening …", objectName="hint")
-        placeholder.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
-        self.setCentralWidget(placeholder)
+        self._empty = QtWidgets.QLabel("Opening …", objectName="hint")
+        self._empty.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
+        self._middle = QtWidgets.QStackedWidget()
+        self._middle.addWidget(self._empty)
+        self.setCentralWidget(self._middle)
+        no_source(self.source_box)
 
     # ------------------------------------------------------------------ start and end
     def build_panels(self) -> None:
@@ -89,7 +91,8 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.asked.connect(self._edit_panels)
         self.grid.hovered.connect(self._hover)
         self.grid.looked.connect(self._look)
-        self.setCentralWidget(self.grid)
+        self._middle.addWidget(self.grid)
+        self._middle.setCurrentWidget(self.grid)
         self.leave_boxes()
         waiting, self._waiting = self._waiting, []
         for function in waiting:
@@ -129,13 +132,13 @@ class MainWindow(QtWidgets.QMainWindow):
     # ------------------------------------------------------------------ what the session tells
     def document_changed(self, before: Document) -> None:
         document, opened = self.session.document, self.session.opened()
+        self._middle.setCurrentWidget(self.grid)
         self.grid.show_panels(document)
         is_other = opened is not self._opened
         if is_other:
             self._show_surface(opened)
         self.grid.mark_points(document)
-        with QtCore.QSignalBlocker(self.source_box):
-            self.source_box.setValue(self._first_source())
+        self._show_source()
         with QtCore.QSignalBlocker(self.isolines_box):
             self.isolines_box.setValue(document.isolines)
         self.grid.show_isolines(document.isolines)
@@ -154,7 +157,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self._opened, self._hovered, self._views = opened, None, Trail()
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
         self.grid.show_surface()
-        self.say("  ·  ".join([_summary(opened.surface), *_unseen(self.session.document)]))
+        self.say("  ·  ".join([*summary(opened.surface), *unseen(self.session.document)]))
         if not self.quiet and opened.mesh.path and os.path.exists(opened.mesh.path):
             remembered.remember(opened.mesh.path)
 
@@ -199,6 +202,11 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def failed(self, message: str) -> None:
         self.refused.emit(message)
+        if self.session.surface is None:
+            self._empty.setText(
+                "No mesh is open. Open one with Ctrl+O, drop a file here, or choose one of File > Samples."
+            )
+            self._middle.setCurrentWidget(self._empty)
         if not self.quiet:
             # Above a dialog that is open, it would otherwise get no keys.
             above = QtWidgets.QApplication.activeModalWidget() or self
@@ -229,26 +237,11 @@ class MainWindow(QtWidgets.QMainWindow):
     def add_panel(self) -> None:
         """One more, with a distance that is not shown yet."""
         document = self.session.document
-        if self.session.surface is None or len(document.panels) >= MOST_PANELS:
-            return
-        shown = {spec.word for panel in document.panels for spec in panel.shows.specs}
-        words = [*(spec.word for spec in COMPARISON), *kinds()]
-        word = next((word for word in words if word not in shown), words[0])
-        self.session.show(add_panel(document, DistanceFrom(Spec.of(word))))
+        if self.session.surface is not None and len(document.panels) < MOST_PANELS:
+            self.session.show(add_another(document))
 
     def _edit_panels(self, panel: int, word: str) -> None:
-        document = self.session.document
-        place = [each.id for each in document.panels].index(panel)
-        shown = document.panel(panel)
-        if word == "add":
-            self.add_panel()
-        elif word == "duplicate":
-            more = add_panel(document, shown.shows, shown.surface)
-            self.session.show(move_panel(more, document.next_id, place + 1))
-        elif word == "remove":
-            self.session.show(remove_panel(document, panel))
-        else:
-            self.session.show(move_panel(document, panel, place + (1 if word == "on" else -1)))
+        self.session.show(PANEL_EDITS[word](self.session.document, panel))
 
     def choose_isolines(self, count: int) -> None:
         self.session.show(replace(self.session.document, isolines=count), key="isolines")
@@ -258,13 +251,26 @@ class MainWindow(QtWidgets.QMainWindow):
         document = self.session.document
         if self.session.surface is not None and document.panels:
             self.session.show(move_source(document, document.panels[0].id, vertex))
-            with QtCore.QSignalBlocker(self.source_box):
-                self.source_box.setValue(self._first_source())
+            self._show_source()
 
-    def _first_source(self) -> int:
-        """The vertex that the first panel's field starts from."""
-        document = self.session.document
-        return vertex_at(document.sources[0], self.session.surface) if document.sources else 0
+    def _show_source(self) -> None:
+        """Let the box say which vertex the first panel's field starts from."""
+        sources = self.session.document.sources
+        if self.session.surface is None or not sources:
+            no_source(self.source_box)
+        else:
+            show_source(self.source_box, vertex_at(sources[0], self.session.surface))
+
+    def cancel(self) -> None:
+        """Esc: out of a box, which then says what it said before; elsewhere, stop what is being computed."""
+        if self.source_box.hasFocus() or self.isolines_box.hasFocus():
+            self._show_source()
+            with QtCore.QSignalBlocker(self.isolines_box):
+                self.isolines_box.setValue(self.session.document.isolines)
+                self.isolines_box.lineEdit().setText(str(self.session.document.isolines))
+            self.leave_boxes()
+        else:
+            self.session.cancel()
 
     def _hover(self, vertex: int | None) -> None:
         if vertex == self._hovered or self.session.surface is None:
@@ -393,19 +399,3 @@ class MainWindow(QtWidgets.QMainWindow):
     def say(self, text: str) -> None:
         """In the status bar."""
         self.status.message.setText(text)
-
-
-def _unseen(document: Document) -> list[str]:
-    """What a document has that panels do not show yet."""
-    parts = {"insets": document.zooms, "anchors": document.anchors, "the relief": document.height}
-    words = [word for word, part in parts.items() if part]
-    return [f"in figures only: {', '.join(words)}"] if words else []
-
-
-def _summary(surface) -> str:
-    words = [f"{len(surface.vertices):,} vertices", f"{len(surface.faces):,} faces"]
-    if surface.component_count > 1:
-        words.append(f"{surface.component_count} components (grey: not connected to the source)")
-    if surface.unreferenced_count:
-        words.append(f"{surface.unreferenced_count:,} vertices without a face")
-    return "  ·  ".join([*words, *surface.remarks])

@@ -5,6 +5,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 
 from ..document.camera import Camera, View
 from ..document.document import Document
+from ..document.edits import possible_edits
 from ..drawing.camera import camera_seen, place_camera, show_camera
 from ..session.opened import Opened
 from ..session.questions import vertex_at
@@ -74,10 +75,8 @@ class PanelGrid(QtWidgets.QWidget):
             self._panels[id].controls.show_quantity(panel.shows)
         self._panels = {id: self._panels[id] for id in wanted}
         self._arrange()
-        for place, panel in enumerate(self._panels.values()):
-            possible = {"add": len(wanted) < MOST_PANELS, "duplicate": len(wanted) < MOST_PANELS, "back": place > 0}
-            possible |= {"on": place < len(wanted) - 1, "remove": len(wanted) > 1}
-            panel.controls.allow({word for word, is_possible in possible.items() if is_possible})
+        for id, panel in self._panels.items():
+            panel.controls.allow(possible_edits(document, id, MOST_PANELS))
 
     def _arrange(self) -> None:
         count = len(self._panels)

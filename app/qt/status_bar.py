@@ -4,6 +4,10 @@ from collections.abc import Sequence
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core import Surface
+
+from ..document.document import Document
+
 
 class ElidedLabel(QtWidgets.QLabel):
     """Words that must not make the window wider: what does not fit ends in dots, and all of it is in the tooltip."""
@@ -55,3 +59,20 @@ class StatusBar(QtWidgets.QStatusBar):
             self.progress.setUpdatesEnabled(False)
             self.progress.setValue(round(1000 * sum(fraction for fraction, _ in going) / len(going)))
             self.progress.setUpdatesEnabled(True)
+
+
+def unseen(document: Document) -> list[str]:
+    """What a document has that panels do not show yet."""
+    parts = {"insets": document.zooms, "anchors": document.anchors, "the relief": document.height}
+    words = [word for word, part in parts.items() if part]
+    return [f"in figures only: {', '.join(words)}"] if words else []
+
+
+def summary(surface: Surface) -> list[str]:
+    """What the surface has, and what was repaired."""
+    words = [f"{len(surface.vertices):,} vertices", f"{len(surface.faces):,} faces"]
+    if surface.component_count > 1:
+        words.append(f"{surface.component_count} components (grey: not connected to the source)")
+    if surface.unreferenced_count:
+        words.append(f"{surface.unreferenced_count:,} vertices without a face")
+    return [*words, *surface.remarks]

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import DistanceFrom
+from app.document.document import DistanceFrom, quantity
 from app.document.edits import add_panel, move_source, remove_panel
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, fin, grid, two_pieces
@@ -477,22 +477,22 @@ def test_panels_are_added_duplicated_moved_and_removed_from_their_menus(screen, 
     def possible(place):
         return {word for word, action in s.panels[place].controls.edits.items() if action.isEnabled()}
 
-    choose(0, "duplicate")
+    choose(0, "Duplicate this panel")
     assert shown() == ["biharmonic", "biharmonic", "geodesic", "diffusion"]
-    choose(0, "remove")
-    choose(0, "on")
-    choose(2, "back")
+    choose(0, "Remove it")
+    choose(0, "Move it on")
+    choose(2, "Move it back")
     assert shown() == ["geodesic", "diffusion", "biharmonic"]
-    assert possible(0) == {"add", "duplicate", "on", "remove"}
+    assert possible(0) == {"Add a panel", "Duplicate this panel", "Move it on", "Remove it"}
     for count in (4, 5, 6):
         s.window.add_panel()
         assert len(set(shown())) == count
-    assert "add" not in possible(5)
+    assert "Add a panel" not in possible(5)
     s.window.add_panel()
     assert len(s.panels) == 6
     for _ in range(5):
-        choose(0, "remove")
-    assert possible(0) == {"add", "duplicate"}
+        choose(0, "Remove it")
+    assert possible(0) == {"Add a panel", "Duplicate this panel"}
     s.until(lambda: s.session.is_complete)
     for _ in range(5 + 3 + 4):
         s.session.undo()
@@ -540,3 +540,51 @@ def test_views_have_a_history_of_their_own(screen, mesh_file):
         s.window.view_back() if step < 0 else s.window.view_on()
         assert np.allclose(there(), cameras[place])
     assert not s.session.history.can_undo
+
+
+def test_panels_are_equal_and_the_window_is_as_narrow_as_asked_whatever_the_controls(screen, mesh_file):
+    s = screen((quantity("diffusion - biharmonic"), Spec.of("truncated"), Spec.of("power")))
+    s.open(mesh_file(bumpy(300)), 5)
+    slider = s.panels[0].controls.first.parameters["t"].widget
+    for width, has_room in ((900, False), (1580, True)):
+        s.window.resize(width, 600)
+        s.settle()
+        assert s.window.width() == width
+        widths = [panel.width() for panel in s.panels]
+        assert max(widths) - min(widths) <= 1
+        assert slider.isVisible() is has_room
+
+
+def test_escape_puts_a_box_back_and_elsewhere_stops_the_work(screen, mesh_file):
+    from qtpy.QtCore import Qt
+    from qtpy.QtTest import QTest
+
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    s.window.activateWindow()
+    s.settle()
+    for box, value in ((s.window.source_box, 5), (s.window.isolines_box, 20)):
+        box.setFocus()
+        box.selectAll()
+        QTest.keyClicks(box, "7")
+        QTest.keyClick(box, Qt.Key_Escape)
+        assert (box.value(), box.text()) == (value, str(value))
+        assert s.window.focusWidget() is s.panels[0].interactor
+    assert not s.session.is_stopped
+    QTest.keyClick(s.panels[0].interactor, Qt.Key_Escape)
+    assert s.session.is_stopped
+    assert not s.session.history.can_undo
+
+
+def test_a_first_mesh_that_fails_leaves_an_empty_window_that_says_what_to_do(screen, mesh_file, tmp_path):
+    s = screen()
+    s.window.open(str(tmp_path / "gone.off"))
+    s.until(lambda: s.refusals)
+    assert s.window._empty.isVisible()
+    assert "Ctrl+O" in s.window._empty.text()
+    assert not s.panels[0].isVisible()
+    assert (s.window.source_box.text(), s.window.source_box.isEnabled()) == ("–", False)
+    s.open(mesh_file(bumpy(300)), 5)
+    assert s.panels[0].isVisible()
+    assert s.window.source_box.value() == 5
+    assert all(picture.std() > 20 for picture in s.pictures())
