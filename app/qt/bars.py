@@ -14,6 +14,22 @@ ANY_VERTEX = 2**31 - 1
 999 of 99999."""
 
 
+class NumberBox(QtWidgets.QSpinBox):
+    """A box for a whole number; undo and redo are the window's, except while something is being typed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setKeyboardTracking(False)
+
+    def event(self, event: QtCore.QEvent) -> bool:
+        if event.type() == QtCore.QEvent.Type.ShortcutOverride and not self.lineEdit().isModified():
+            keys = QtGui.QKeySequence.StandardKey
+            if event.matches(keys.Undo) or event.matches(keys.Redo):
+                event.ignore()
+                return True
+        return super().event(event)
+
+
 def fill_tool_bar(window) -> tuple[QtWidgets.QSpinBox, QtWidgets.QSpinBox]:
     """Gives the boxes for the source and for the number of isolines."""
     bar = window.addToolBar("Main")
@@ -21,8 +37,7 @@ def fill_tool_bar(window) -> tuple[QtWidgets.QSpinBox, QtWidgets.QSpinBox]:
     bar.addAction("Open …", window.choose_file)
     bar.addSeparator()
     bar.addWidget(QtWidgets.QLabel(" Source vertex "))
-    source = QtWidgets.QSpinBox()
-    source.setKeyboardTracking(False)
+    source = NumberBox()
     source.setRange(0, ANY_VERTEX)
     source.setMinimumWidth(100)
     source.setToolTip("Type a vertex id and press Enter")
@@ -31,8 +46,7 @@ def fill_tool_bar(window) -> tuple[QtWidgets.QSpinBox, QtWidgets.QSpinBox]:
     bar.addWidget(source)
     bar.addSeparator()
     bar.addWidget(QtWidgets.QLabel(" Isolines "))
-    isolines = QtWidgets.QSpinBox()
-    isolines.setKeyboardTracking(False)
+    isolines = NumberBox()
     isolines.setRange(0, MOST_ISOLINES)
     isolines.setValue(window.session.document.isolines)
     isolines.setToolTip("Equal steps from 0 to each panel's maximum; 0 for no lines")

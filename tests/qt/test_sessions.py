@@ -7,6 +7,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from app.document.camera import Camera
@@ -195,3 +196,70 @@ def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh
     s.until(lambda: s.session.is_complete)
     assert s.window.status.message.text().endswith("in figures only: insets, anchors")
     assert s.document.zooms == (Zoom(7),)
+
+
+def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictures(screen, mesh_file):
+    from qtpy.QtCore import Qt
+    from qtpy.QtTest import QTest
+
+    from app.document.edits import PANEL_EDITS, possible_edits
+
+    s = screen()
+    meshes = [mesh_file(bumpy(250)), mesh_file(grid(7, 7), "grid.off")]
+    s.open(meshes[0], 5)
+    s.settle(0.6)
+    random = np.random.default_rng(3)
+    words = ("commute-time", "biharmonic - diffusion", "geodesic(method=heat)", "truncated")
+    shows = [quantity(text) for text in words]
+
+    def pictures():
+        s.until(lambda: s.session.is_complete)
+        s.settle(0.2)
+        return s.pictures()
+
+    def same(one, other):
+        return len(one) == len(other) and all(
+            a.shape == b.shape and (a != b).mean() < 0.005 for a, b in zip(one, other, strict=True)
+        )
+
+    first = pictures()
+    for number in range(50):
+        panels = [panel.id for panel in s.document.panels]
+        panel = int(random.choice(panels))
+        action = number % 5
+        if action == 0:
+            s.window._click(panel, int(random.integers(40)))
+        elif action == 1:
+            s.window._choose(panel, shows[random.integers(len(shows))])
+        elif action == 2:
+            s.window.isolines_box.setValue(int(random.integers(5, 40)))
+        elif action == 3:
+            possible = sorted(possible_edits(s.document, panel, 4))
+            if possible:
+                s.session.show(PANEL_EDITS[str(random.choice(possible))](s.document, panel))
+        elif number % 20 == 4:
+            s.open(meshes[number // 20 % 2], 3)
+        else:
+            s.window._drag(panel, int(random.integers(40)))
+            s.window._drag(panel, int(random.integers(40)))
+            s.session.show(s.document)
+    last, document = pictures(), s.document
+    s.window.activateWindow()
+    s.window.isolines_box.setFocus()
+    s.settle()
+
+    def press(modifiers, is_there):
+        steps = 0
+        while is_there():
+            QTest.keyClick(s.window.focusWidget(), Qt.Key_Z, modifiers)
+            s.settle(0.02)
+            steps += 1
+            assert steps < 200
+        return steps
+
+    history = s.session.history
+    back = press(Qt.ControlModifier, lambda: history.can_undo)
+    assert same(first, pictures())
+    assert press(Qt.ControlModifier | Qt.ShiftModifier, lambda: history.can_redo) == back >= 35
+    assert same(last, pictures())
+    assert replace(s.document, camera="home") == replace(document, camera="home")
