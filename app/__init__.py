@@ -5,7 +5,7 @@ is open, asked and answered), `drawing` (VTK), `figures` (and movies), `paper` (
 (the window), `commands` (the command line).
 
 In a checkout this folder is called `app`; installed it is the package `bihdist`.  The library's names are those of
-`bihdist_core`, imported when they are first asked for.
+`bihdist_core`, imported when they are first asked for, and `figure`, which draws.
 """
 
 from typing import TYPE_CHECKING
@@ -15,10 +15,16 @@ import bihdist_core as _library
 if TYPE_CHECKING:
     from bihdist_core import *  # noqa: F403
 
-__all__ = _library.__all__  # type: ignore[attr-defined]
+    from .figures.picture import figure as figure
+
+__all__ = [*_library.__all__, "figure"]  # type: ignore[attr-defined]
 
 
 def __getattr__(name: str) -> object:
+    if name == "figure":
+        from .figures.picture import figure
+
+        return figure
     if name in __all__:
         return getattr(_library, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -103,8 +103,8 @@ def test_runs_under_its_installed_name(wheel, environment, tmp_path):
 def test_the_library_has_the_name_of_the_package(environment, tmp_path):
     code = (
         "import sys, bihdist; print('numpy' in sys.modules); import bihdist_core; "
-        "print(all(getattr(bihdist, name) is getattr(bihdist_core, name) for name in bihdist.__all__)); "
-        "from bihdist import BiharmonicDistance, Surface"
+        "print(all(getattr(bihdist, name) is getattr(bihdist_core, name) for name in bihdist_core.__all__)); "
+        "from bihdist import BiharmonicDistance, Surface, figure"
     )
     assert run(sys.executable, "-c", code, cwd=tmp_path, env=environment).split() == ["False", "True"]
 

@@ -1,0 +1,147 @@
+"""`bihdist.figure`: the command `bihdist figure` as a function, whose result a notebook draws by itself."""
+
+import io
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bihdist_core import Surface
+from bihdist_core.distances.answers import Answer
+from bihdist_core.progress import Progress
+from bihdist_core.whole_file import check_output
+
+from ..document.camera import Camera, View
+from ..document.document import Anchor, Document, Point, Quantity, Zoom, comparison, free_names, quantity
+from ..document.page import Page, Recipe
+from ..session.opened import Opened, in_memory
+from ..version import version
+from .description import Figure
+from .draw import FIGURE_FORMATS, draw_figure, save_figure
+from .export import Surfaces, compute, figure_of, open_document, write_figure
+
+Mesh = str | os.PathLike[str] | Surface | tuple[Any, Any]
+"""A file or the name of a sample, a surface, or its vertices (n, 3) and faces (m, 3)."""
+
+
+class Picture:
+    """A figure that is drawn when it is first looked at.
+
+    document: what it shows.  answers: for each panel the field, its label, unit and accuracy, or why there is none.
+    """
+
+    def __init__(self, recipe: Recipe, surfaces: Surfaces, answers: list[Answer]) -> None:
+        self.document: Document = recipe.document
+        self.answers = answers
+        self._recipe, self._surfaces = recipe, surfaces
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Into a .png, .pdf or .svg file, with its recipe beside it where the mesh is a file; OutputError if not."""
+        check_output(path, FIGURE_FORMATS)
+        if all(mesh.path for mesh in self.document.surfaces):
+            write_figure(self._figure, self._recipe, os.fspath(path), version())
+        else:
+            save_figure(self._figure, path)
+        return Path(path)
+
+    @property
+    def pixels(self) -> np.ndarray:
+        """(height, width, 3) uint8, or (height, width, 4) if it is transparent."""
+        return draw_figure(self._figure)
+
+    @cached_property
+    def _figure(self) -> Figure:
+        return figure_of(self._recipe, self._surfaces, self.answers)
+
+    @cached_property
+    def _png(self) -> bytes:
+        from PIL import Image
+
+        content = io.BytesIO()
+        Image.fromarray(self.pixels).save(content, "PNG")
+        return content.getvalue()
+
+    def _repr_png_(self) -> bytes:
+        return self._png
+
+    def __repr__(self) -> str:
+        shown = ", ".join(answer.label for answer in self.answers)
+        return f"Picture({shown}, of {', '.join(o.surface.name for o in self._surfaces.values())})"
+
+
+def figure(
+    mesh: Mesh,
+    distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
+    source: int | Sequence[int] | None = None,
+    *,
+    areas: str = "voronoi",
+    isolines: int = 20,
+    shared_range: bool = False,
+    views: View | Sequence[View] = "home",
+    zooms: Sequence[int | tuple[int, float]] = (),
+    anchors: Mapping[int, float | None] | Sequence[int] = (),
+    height: float = 0.0,
+    columns: int | None = None,
+    hints: bool = True,
+    size: str = "",
+    style: str = "paper",
+    transparent: bool = False,
+    crop: bool = False,
+    progress: Progress | None = None,
+) -> Picture:
+    """What `bihdist figure` draws, with its options.
+
+    distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, or several for a row of
+    panels each; the highest if None.  views: names or cameras, side by side.  zooms: vertices, or with a factor.
+    anchors: vertices to be marked, perhaps each with a value.  Raises BihdistError, as the command says its sentences.
+
+    >>> import bihdist
+    >>> picture = bihdist.figure("hand", ["biharmonic", "biharmonic - geodesic"], source=12, size="400x200")
+    >>> picture
+    Picture(biharmonic, exact, biharmonic, exact − geodesic, exact, of hand.ply)
+    >>> picture.pixels.shape
+    (200, 400, 3)
+    """
+    several = isinstance(source, Sequence)
+    sources = tuple(source) if isinstance(source, Sequence) else (source,)
+    shows = tuple(quantity(each) if isinstance(each, str) else each for each in distances)
+    document = comparison("" if not isinstance(mesh, str | os.PathLike) else os.fspath(mesh), shows, sources, areas)
+    marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
+    names = free_names("anchor", len(marked), [point.name for point in document.points])
+    chosen = (views,) if isinstance(views, str | Camera) else tuple(views)
+    document = replace(
+        document,
+        points=(*document.points, *(Point(name, vertex) for name, vertex in zip(names, marked, strict=True))),
+        anchors=tuple(Anchor(name, value) for name, value in zip(names, marked.values(), strict=True)),
+        zooms=tuple(Zoom(*zoom) if isinstance(zoom, tuple) else Zoom(zoom) for zoom in zooms),
+        isolines=isolines,
+        shared_range=shared_range,
+        height=height,
+        camera=chosen[0] if chosen else "home",
+    )
+    page = Page(
+        size=size,
+        style=style,
+        views=chosen if len(chosen) > 1 else (),
+        columns=columns or (len(shows) if several and len(sources) > 1 else None),
+        hints=hints,
+        transparent=transparent,
+        crop=crop,
+    )
+    document, surfaces = _opened(mesh, Recipe(document, page))
+    recipe = Recipe(document, page)
+    # What cannot be drawn is refused before the long work.
+    figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
+    return Picture(recipe, surfaces, compute(document, surfaces, progress))
+
+
+def _opened(mesh: Mesh, recipe: Recipe) -> tuple[Document, Surfaces]:
+    if isinstance(mesh, str | os.PathLike):
+        return open_document(recipe)
+    opened: Opened = in_memory(mesh if isinstance(mesh, Surface) else Surface(*mesh))
+    document = replace(recipe.document, surfaces=(opened.mesh,))
+    return opened.settled(document), {opened.mesh.name: opened}

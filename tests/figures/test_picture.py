@@ -1,0 +1,117 @@
+"""`bihdist.figure`: the command's pictures from Python."""
+
+import doctest
+import io
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import app
+from app.document.camera import Camera
+from app.document.file import read_recipe
+from app.figures import picture
+from app.main import main
+from bihdist_core import BiharmonicDistance, OutputError, ParameterError, VertexError
+from tests.shapes import bumpy, grid
+
+
+def test_it_is_the_picture_of_the_command(mesh_file, tmp_path):
+    mesh = mesh_file(bumpy(300))
+    words = [
+        "--distance",
+        "biharmonic",
+        "--distance",
+        "biharmonic - diffusion(t=1/4)",
+        "--source",
+        "4",
+        "--source",
+        "9",
+    ]
+    looks = [
+        "--view",
+        "left",
+        "--view",
+        "top",
+        "--zoom",
+        "7,4",
+        "--anchors",
+        "3=0.2,8",
+        "--isolines",
+        "9",
+        "--no-hints",
+    ]
+    more = ["--areas", "barycentric", "--size", "500x300", "--style", "uniform", "--crop", "--transparent"]
+    assert main(["figure", mesh, *words, *looks, *more, "-o", str(tmp_path / "a.png")]) == 0
+    drawn = app.figure(
+        mesh,
+        ["biharmonic", "biharmonic - diffusion(t=1/4)"],
+        [4, 9],
+        areas="barycentric",
+        views=("left", "top"),
+        zooms=[(7, 4.0)],
+        anchors={3: 0.2, 8: None},
+        isolines=9,
+        hints=False,
+        size="500x300",
+        style="uniform",
+        crop=True,
+        transparent=True,
+    )
+    drawn.save(tmp_path / "b.png")
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+    assert read_recipe(tmp_path / "a.json") == read_recipe(tmp_path / "b.json")
+
+
+def test_a_notebook_draws_it_by_itself(mesh_file):
+    drawn = app.figure(mesh_file(bumpy(200)), ["biharmonic"], 4, size="300x200")
+    shown = np.asarray(Image.open(io.BytesIO(drawn._repr_png_())))
+    assert np.array_equal(shown, drawn.pixels)
+    assert shown.shape == (200, 300, 3)
+    assert repr(drawn) == "Picture(biharmonic, exact, of mesh.off)"
+
+
+@pytest.mark.parametrize("as_arrays", [True, False])
+def test_a_surface_or_arrays_need_no_file_and_get_no_recipe(tmp_path, as_arrays):
+    surface = bumpy(200)
+    mesh = (surface.vertices, surface.faces) if as_arrays else surface
+    camera = Camera((0.0, 0.0, 9.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.4, 0.3))
+    drawn = app.figure(mesh, ["biharmonic"], 4, views=camera, size="300x200")
+    assert np.array_equal(drawn.answers[0].field, BiharmonicDistance(surface).from_source(4))
+    assert drawn.save(tmp_path / "f.pdf").stat().st_size > 1000
+    assert [path.name for path in tmp_path.iterdir()] == ["f.pdf"]
+
+
+def test_a_flat_surface_becomes_a_relief():
+    drawn = app.figure(grid(8, 8), ["biharmonic"], height=0.4, size="300x200")
+    flat = app.figure(grid(8, 8), ["biharmonic"], size="300x200")
+    assert (drawn.pixels != flat.pixels).any()
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "words"),
+    [
+        ({"source": 5000}, VertexError, "no vertex 5000"),
+        ({"distances": ["euclidean"]}, ParameterError, "no distance 'euclidean'"),
+        ({"style": "pink"}, ParameterError, "no style 'pink'"),
+        ({"size": "huge"}, ParameterError, "not a size"),
+        ({"views": "inside"}, ParameterError, "no view 'inside'"),
+        ({"distances": []}, ParameterError, "no panels"),
+    ],
+)
+def test_what_makes_no_figure_gets_a_sentence(options, error, words):
+    with pytest.raises(error, match=words):
+        app.figure(bumpy(60), **options)
+
+
+def test_another_extension_is_refused(tmp_path):
+    with pytest.raises(OutputError, match=r"\.bmp"):
+        app.figure(bumpy(60), ["biharmonic"], size="300x200").save(tmp_path / "f.bmp")
+
+
+def test_the_example_in_the_docstring_runs(monkeypatch):
+    # In a checkout the package has another name.
+    monkeypatch.setitem(sys.modules, "bihdist", app)
+    (test,) = doctest.DocTestFinder(recurse=False).find(picture.figure, "figure")
+    assert doctest.DocTestRunner().run(test) == (0, len(test.examples))
