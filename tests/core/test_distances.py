@@ -277,7 +277,7 @@ def test_a_certificate_in_words():
     distance = BiharmonicDistance(bumpy(150))
     assert re.fullmatch(r"accurate to \de-1[1-5] of the maximum", distance.certificate().text)
     assert not distance.certificate().is_poor
-    assert Certificate.of(1.01e-6) == Certificate("accurate to 2e-06 of the maximum", True)
+    assert Certificate.of(1.01e-6) == Certificate("accurate to 2e-06 of the maximum", True, 1.01e-6)
     assert Certificate.of(9.6e-11).text == "accurate to 1e-10 of the maximum"
     distance._accuracies[0] = 2e-3
     with pytest.raises(SolverError, match=r"biharmonic, exact on bumpy may be off by 2e-03 .* remeshing would help"):
