@@ -49,39 +49,43 @@ def own_state() -> Path:
 def keep_state(text: str) -> None:
     """Keep what the window shows, to be offered after a crash."""
     _write(own_state(), text)
+    if own_state() not in _held and own_state().exists():
+        lock = _lock(own_state())
+        lock.tryLock(0)
+        _held[own_state()] = lock
 
 
 def forget_state() -> None:
     """The window ends as it should."""
     with suppress(OSError):
         own_state().unlink()
+    lock = _held.pop(own_state(), None)
+    if lock is not None:
+        lock.unlock()
 
 
 def lost_states() -> list[Path]:
     """What windows showed whose processes are no longer there, the newest first."""
+    found = []
     with suppress(OSError):
-        found = [path for path in folder().glob("open-*.json") if not _is_running(path)]
-        return sorted(found, key=lambda path: path.stat().st_mtime, reverse=True)
-    return []
+        for path in folder().glob("open-*.json"):
+            lock = _lock(path)
+            # One whose process is gone is taken over.
+            if path not in _held and lock.tryLock(0):
+                lock.unlock()
+                found.append(path)
+        found.sort(key=lambda path: path.stat().st_mtime, reverse=True)
+    return found
 
 
-def _is_running(path: Path) -> bool:
-    try:
-        pid = int(path.stem.removeprefix("open-"))
-    except ValueError:
-        return False
-    if pid == os.getpid():
-        return True
-    if os.name == "nt":
-        # A signal would end it there; a file of the last days may belong to a window that is open.
-        return False
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:
-        pass
-    return True
+_held: dict[Path, QtCore.QLockFile] = {}
+
+
+def _lock(path: Path) -> QtCore.QLockFile:
+    """A file beside it that says which process it belongs to."""
+    lock = QtCore.QLockFile(f"{path}.lock")
+    lock.setStaleLockTime(0)
+    return lock
 
 
 def _write(path: Path, text: str) -> None:

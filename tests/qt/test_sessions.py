@@ -162,10 +162,20 @@ def test_after_a_crash_what_was_shown_is_offered_and_after_a_proper_end_it_is_no
     arranged(s, mesh_file(bumpy(300)))
     s.until(lambda: remembered.own_state().exists(), seconds=10)
     assert remembered.lost_states() == []  # this process is there
-    gone = subprocess.Popen([sys.executable, "-c", ""])
-    gone.wait()
-    lost = remembered.folder() / f"open-{gone.pid}.json"
-    lost.write_text(remembered.own_state().read_text())
+    # Another process keeps its state, and ends without a word once it is told to.
+    code = "import os; from app.qt import remembered; remembered.keep_state(input()); print(remembered.own_state())"
+    command = [sys.executable, "-c", f"{code}; print(flush=True); input(); os._exit(1)"]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, cwd=ROOT, **pipes) as process:
+        process.stdin.write(json.dumps(json.loads(remembered.own_state().read_text())) + "\n")
+        process.stdin.flush()
+        lost = Path(process.stdout.readline().strip())
+        process.stdout.readline()
+        assert lost.exists()
+        assert remembered.lost_states() == []
+        process.stdin.write("\n")
+        process.stdin.flush()
+        process.wait()
     assert remembered.lost_states() == [lost]
     other = screen()
     other.window.session_file.open(str(lost), is_own=False)
