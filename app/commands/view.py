@@ -2,6 +2,8 @@
 
 import argparse
 import os
+import sys
+from typing import NoReturn
 
 from .options import PANELS, add_areas, add_distance, quantities, vertex
 
@@ -17,7 +19,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> NoReturn:
     from ..document.document import AREAS, COMPARISON, comparison
     from ..samples import mesh_path
 
@@ -36,4 +38,9 @@ def run(options: argparse.Namespace) -> int:
     document = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
     from ..qt.start import run_viewer
 
-    return run_viewer(document, options.screenshot, options.save_session)
+    status = run_viewer(document, options.screenshot, options.save_session)
+    # All is saved and closed.  Left to the interpreter, Qt's and VTK's objects are taken down in an order that nobody
+    # decides, which now and then, on a busy machine, ends in a crash.
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)

@@ -18,6 +18,10 @@ from .session_actions import offer_lost_state
 PAINTED_MS = 50
 
 
+_alive: list[object] = []
+"""The application and its window, which must not be taken down when `run_viewer` returns."""
+
+
 def run_viewer(document: Document, screenshot: str | None, save_session: str | None = None) -> int:
     """Show a document in the window until that is closed, or until its picture is saved; returns the exit status."""
     _check_screen()
@@ -28,6 +32,7 @@ def run_viewer(document: Document, screenshot: str | None, save_session: str | N
     # PyQt5 ends the process on an exception in a slot unless there is a hook.
     sys.excepthook = lambda *error: traceback.print_exception(*error)
     window = MainWindow(document)
+    _alive.extend((application, window))
     failures: list[str] = []
     if screenshot:
         window.quiet = True
