@@ -133,17 +133,20 @@ class MainWindow(QtWidgets.QMainWindow):
     def document_changed(self, before: Document) -> None:
         document, opened = self.session.document, self.session.opened()
         self._middle.setCurrentWidget(self.grid)
-        self.grid.show_panels(document)
         is_other = opened is not self._opened
+        other_panels = is_other or document.panels != before.panels
+        if other_panels:
+            self.grid.show_panels(document)
         if is_other:
             self._show_surface(opened)
-        self.grid.mark_points(document)
-        self._show_source()
-        with QtCore.QSignalBlocker(self.isolines_box):
-            self.isolines_box.setValue(document.isolines)
-        self.grid.show_isolines(document.isolines)
-        ranges = (document.panels, document.shared_range)
-        if is_other or ranges != (before.panels, before.shared_range):
+        if other_panels or document.points != before.points:
+            self.grid.mark_points(document)
+            self._show_source()
+        if is_other or document.isolines != before.isolines:
+            with QtCore.QSignalBlocker(self.isolines_box):
+                self.isolines_box.setValue(document.isolines)
+            self.grid.show_isolines(document.isolines)
+        if other_panels or document.shared_range != before.shared_range:
             for panel in document.panels:
                 if self.session.is_answered(panel.id):
                     self.answer_changed(panel.id)
