@@ -8,16 +8,16 @@ Colour = tuple[float, float, float]
 
 
 DIVERGING: tuple[tuple[float, Colour], ...] = (
-    (-1.0, (0.05, 0.16, 0.42)),
-    (-0.6, (0.16, 0.42, 0.72)),
-    (-0.25, (0.62, 0.78, 0.90)),
+    (-1.0, (0.11, 0.34, 0.68)),
+    (-0.6, (0.30, 0.56, 0.83)),
+    (-0.25, (0.66, 0.81, 0.92)),
     (0.0, (0.95, 0.95, 0.94)),
-    (0.25, (0.97, 0.80, 0.58)),
-    (0.6, (0.84, 0.46, 0.13)),
-    (1.0, (0.45, 0.18, 0.02)),
+    (0.25, (0.98, 0.83, 0.62)),
+    (0.6, (0.93, 0.60, 0.24)),
+    (1.0, (0.76, 0.36, 0.05)),
 )
 """For values on both sides of 0: blue below and orange above, equally dark at equal distances, which also those who
-confuse red and green tell apart."""
+confuse red and green tell apart; the ends are light enough for dark lines."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Style:
     marker_size: float = 15.0
     mark_edge: Colour = (0.1, 0.1, 0.12)
     diverging: tuple[tuple[float, Colour], ...] = DIVERGING
-    signed_isoline: Colour = (0.30, 0.31, 0.34)
+    signed_isoline: Colour = (0.16, 0.17, 0.19)
 
     def colours(self, count: int = 512, signed: bool = False) -> np.ndarray:
         """(count, 3) the colour map from 0 to the maximum; signed: from -maximum to maximum."""
@@ -113,6 +113,7 @@ LINES = Style(
     coloured=False,
     diverging=((-1.0, (1, 1, 1)), (1.0, (1, 1, 1))),
     signed_isoline=(0, 0, 0),
+    largest=(1, 1, 1),
     text=(0, 0, 0),
     quiet_text=(0.25, 0.25, 0.25),
     undefined=(0.86, 0.86, 0.86),

@@ -15,11 +15,15 @@ from .size import Size
 
 @dataclass(frozen=True)
 class Mark:
-    """A marked vertex: a source, or an anchor, which has a value and is filled with that value's colour."""
+    """A marked vertex: a source, or an anchor, which has a value and is filled with that value's colour.
+
+    is_largest: where a signed field is largest, in a colour of its own.
+    """
 
     vertex: int
     value: float | None = None
     text: str = ""
+    is_largest: bool = False
 
 
 @dataclass(frozen=True, eq=False)
