@@ -8,13 +8,13 @@ Colour = tuple[float, float, float]
 
 
 DIVERGING: tuple[tuple[float, Colour], ...] = (
-    (-1.0, (0.11, 0.34, 0.68)),
-    (-0.6, (0.30, 0.56, 0.83)),
-    (-0.25, (0.66, 0.81, 0.92)),
+    (-1.0, (0.16, 0.39, 0.73)),
+    (-0.6, (0.36, 0.62, 0.87)),
+    (-0.25, (0.70, 0.84, 0.94)),
     (0.0, (0.95, 0.95, 0.94)),
-    (0.25, (0.98, 0.83, 0.62)),
-    (0.6, (0.93, 0.60, 0.24)),
-    (1.0, (0.76, 0.36, 0.05)),
+    (0.25, (0.97, 0.80, 0.58)),
+    (0.6, (0.89, 0.55, 0.20)),
+    (1.0, (0.69, 0.30, 0.04)),
 )
 """For values on both sides of 0: blue below and orange above, equally dark at equal distances, which also those who
 confuse red and green tell apart; the ends are light enough for dark lines."""

@@ -62,3 +62,23 @@ def test_isolines_alone_need_no_colour():
     assert np.ptp(LINES.colours(), axis=1).max() == 0
     assert LINES.isoline == (0, 0, 0)
     assert LINES.outline > 0
+
+
+def test_the_two_sides_of_a_diverging_map_are_told_apart_by_everybody_and_are_equally_light():
+    shares = np.linspace(0.1, 1, 40)
+    below, above = PAPER.colours_at(-shares, signed=True), PAPER.colours_at(shares, signed=True)
+    for name in ("as it is", *DEFICIENCIES):
+        sides = (below, above) if name == "as it is" else (seen_with(name, below), seen_with(name, above))
+        apart = np.linalg.norm(lab(sides[0]) - lab(sides[1]), axis=1)
+        assert apart.min() > 8, name
+        assert apart[-1] > 60, name
+        for side in sides:
+            assert (np.diff(lab(side)[:, 0]) < 0).all(), name  # darker away from 0
+    assert np.abs(lab(below)[:, 0] - lab(above)[:, 0]).max() < 5
+
+
+@pytest.mark.parametrize("style", [PAPER, UNIFORM, DARK])
+def test_lines_and_words_stand_out_from_a_diverging_map(style):
+    colours = lab(style.colours(signed=True))
+    assert np.linalg.norm(colours - lab(np.array([style.signed_isoline])), axis=1).min() > 20
+    assert np.linalg.norm(colours - lab(np.array([style.largest])), axis=1).min() > 20
