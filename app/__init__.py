@@ -5,7 +5,7 @@ is open, asked and answered), `drawing` (VTK), `figures` (and movies), `paper` (
 (the window), `commands` (the command line).
 
 In a checkout this folder is called `app`; installed it is the package `bihdist`.  The library's names are those of
-`bihdist_core`, imported when they are first asked for, and `figure`, which draws.
+`bihdist_core`, imported when they are first asked for, with `figure`, which draws, and `show`, which opens the window.
 """
 
 from typing import TYPE_CHECKING
@@ -16,8 +16,9 @@ if TYPE_CHECKING:
     from bihdist_core import *  # noqa: F403
 
     from .figures.picture import figure as figure
+    from .qt.show import show as show
 
-__all__ = [*_library.__all__, "figure"]  # type: ignore[attr-defined]
+__all__ = [*_library.__all__, "figure", "show"]  # type: ignore[attr-defined]
 
 
 def __getattr__(name: str) -> object:
@@ -25,6 +26,10 @@ def __getattr__(name: str) -> object:
         from .figures.picture import figure
 
         return figure
+    if name == "show":
+        from .qt.show import show
+
+        return show
     if name in __all__:
         return getattr(_library, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -15,10 +15,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from ..figures.draw import described
-    from ..figures.export import check_export, export
+    from ..figures.export import export
     from ..session.questions import vertex_at
 
-    check_export(options.output)
     recipe = chosen_recipe(options)
     with progress_line() as progress:
         figure, recipe, answers = export(recipe, options.output, version(), progress)

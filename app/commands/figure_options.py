@@ -126,7 +126,7 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
 
     if options.distance or (options.source and len(options.source) != len(document.sources)):
         words = options.distance
-        shows = tuple(quantities(options, words)) if words else ()
+        shows = tuple(quantities(options, words, [field.name for field in document.fields])) if words else ()
         shows = shows or tuple(
             dict.fromkeys(from_point(_respecified(panel.shows, options), "") for panel in document.panels)
         )
@@ -154,12 +154,17 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
 
 def _respecified(shows: "Quantity", options: argparse.Namespace) -> "Quantity":
     """The quantity with those parameters that the options name and its distances have."""
+    from bihdist_core.distances.kinds import Spec
+
+    from ..document.document import DistanceFrom
+
     given = given_parameters(options)
-    return shows.with_specs(
-        tuple(
-            spec.changed(**{p.name: given[p.name] for p in spec.kind.parameters if p.name in given})
-            for spec in shows.specs
-        )
+
+    def respecified(spec: Spec) -> Spec:
+        return spec.changed(**{p.name: given[p.name] for p in spec.kind.parameters if p.name in given})
+
+    return shows.with_parts(
+        tuple(replace(p, spec=respecified(p.spec)) if isinstance(p, DistanceFrom) else p for p in shows.parts)
     )
 
 

@@ -49,9 +49,9 @@ def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
     return found
 
 
-def quantities(options: argparse.Namespace, texts: Sequence[str]) -> list[Quantity]:
-    """The same for distances and differences."""
-    found = [quantity(text, **given_parameters(options)) for text in texts]
+def quantities(options: argparse.Namespace, texts: Sequence[str], fields: Sequence[str] = ()) -> list[Quantity]:
+    """The same for distances, differences, and a recipe's own fields."""
+    found = [quantity(text, fields=fields, **given_parameters(options)) for text in texts]
     check_parameters(options, [spec for shows in found for spec in shows.specs])
     return found
 

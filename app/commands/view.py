@@ -5,13 +5,15 @@ import os
 import sys
 from typing import NoReturn
 
-from .options import PANELS, add_areas, add_distance, quantities, vertex
+from .options import PANELS, add_areas, add_distance, given_parameters, quantities, vertex
 
 WORDS = "open the viewer"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("mesh", nargs="?", help="mesh file, or the name of a sample (default: figure)")
+    parser.add_argument(
+        "mesh", nargs="?", help="mesh file, the name of a sample, or a session or recipe (default: figure)"
+    )
     parser.add_argument("--source", type=vertex, metavar="V", help="vertex id the distances start from")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
@@ -20,7 +22,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> NoReturn:
-    from ..document.document import AREAS, COMPARISON, comparison
+    from ..document.document import AREAS, COMPARISON, Document, comparison
     from ..samples import mesh_path
 
     path = mesh_path(options.mesh or "figure")
@@ -34,13 +36,28 @@ def run(options: argparse.Namespace) -> NoReturn:
     for output, extension in ((options.screenshot, ".png"), (options.save_session, ".json")):
         if output:
             check_output(output, (extension,))
-    chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
-    document = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
+    shown: Document | str = path
+    if path.lower().endswith(".json"):
+        _refuse_options(options)
+    else:
+        chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
+        shown = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
     from ..qt.start import run_viewer
 
-    status = run_viewer(document, options.screenshot, options.save_session)
+    status = run_viewer(shown, options.screenshot, options.save_session)
     # All is saved and closed.  Left to the interpreter, Qt's and VTK's objects are taken down in an order that nobody
     # decides, which now and then, on a busy machine, ends in a crash.
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(status)
+
+
+def _refuse_options(options: argparse.Namespace) -> None:
+    """ParameterError for what a session says itself."""
+    from bihdist_core import ParameterError
+
+    given = {"source": options.source, "distance": options.distance, "areas": options.areas}
+    given |= given_parameters(options)
+    for name, value in given.items():
+        if value is not None:
+            raise ParameterError(f"A session has a {name} of its own; leave out --{name}.")

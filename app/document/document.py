@@ -5,10 +5,11 @@ A document says what is wanted and holds nothing that is computed.  It is hashab
 """
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Any
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
 
 from .camera import View, checked_view
@@ -69,6 +70,24 @@ class Point:
 
 
 @dataclass(frozen=True)
+class FieldArray:
+    """A field of the user's own, given from Python: values at a surface's vertices, under a name.
+
+    sha256: of the values, which stand beside the document (`session.given`).
+    """
+
+    name: str
+    sha256: str
+    surface: str = "A"
+
+    def __post_init__(self) -> None:
+        if not self.name or self.name != self.name.strip() or " - " in self.name or self.name.startswith("raw "):
+            raise ParameterError(f"{self.name!r} is no name for a field; use a word or two.")
+        if self.name.partition("(")[0] in kinds():
+            raise ParameterError(f"A field needs a name of its own; {self.name!r} is a distance.")
+
+
+@dataclass(frozen=True)
 class DistanceFrom:
     """The distance of every vertex from a named point."""
 
@@ -79,6 +98,14 @@ class DistanceFrom:
         return str(self.spec)
 
     @property
+    def parts(self) -> "tuple[Part, ...]":
+        return (self,)
+
+    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
+        (part,) = parts
+        return part
+
+    @property
     def points(self) -> tuple[str, ...]:
         return (self.point,)
 
@@ -87,10 +114,15 @@ class DistanceFrom:
         """The distances it is made of."""
         return (self.spec,)
 
-    def with_specs(self, specs: tuple[Spec, ...]) -> "DistanceFrom":
-        """The same of other distances."""
-        (spec,) = specs
-        return replace(self, spec=spec)
+    @property
+    def word(self) -> str:
+        """Which distance it is, whatever its parameters."""
+        return self.spec.word
+
+    @property
+    def title(self) -> str:
+        """Its name within a sentence."""
+        return self.spec.kind.name.lower()
 
     @property
     def hint(self) -> str:
@@ -99,15 +131,66 @@ class DistanceFrom:
 
 
 @dataclass(frozen=True)
+class OwnField:
+    """One of the document's fields, by its name; it starts nowhere."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+    @property
+    def parts(self) -> "tuple[Part, ...]":
+        return (self,)
+
+    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
+        (part,) = parts
+        return part
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return ()
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return ()
+
+    @property
+    def word(self) -> str:
+        return f"field {self.name}"
+
+    @property
+    def title(self) -> str:
+        return self.name
+
+    @property
+    def hint(self) -> str:
+        return "a field of your own"
+
+
+Part = DistanceFrom | OwnField
+"""What a difference is made of."""
+
+
+@dataclass(frozen=True)
 class Difference:
     """One distance less another: each as a share of its maximum, or, if raw, as it is (in equal units)."""
 
-    minuend: DistanceFrom
-    subtrahend: DistanceFrom
+    minuend: Part
+    subtrahend: Part
     raw: bool = False
 
     def __str__(self) -> str:
         return f"{'raw ' if self.raw else ''}{self.minuend} - {self.subtrahend}"
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        return (self.minuend, self.subtrahend)
+
+    def with_parts(self, parts: tuple[Part, ...]) -> "Difference":
+        """The difference of others."""
+        first, second = parts
+        return replace(self, minuend=first, subtrahend=second)
 
     @property
     def points(self) -> tuple[str, ...]:
@@ -116,23 +199,15 @@ class Difference:
     @property
     def specs(self) -> tuple[Spec, ...]:
         """The distances it is made of."""
-        return (self.minuend.spec, self.subtrahend.spec)
-
-    def with_specs(self, specs: tuple[Spec, ...]) -> "Difference":
-        """The same of other distances."""
-        first, second = specs
-        return replace(
-            self, minuend=replace(self.minuend, spec=first), subtrahend=replace(self.subtrahend, spec=second)
-        )
+        return (*self.minuend.specs, *self.subtrahend.specs)
 
     @property
     def hint(self) -> str:
         """What to look for."""
-        first, second = (part.spec.kind.name.lower() for part in (self.minuend, self.subtrahend))
-        return f"positive where {first} is larger, negative where {second} is"
+        return f"positive where {self.minuend.title} is larger, negative where {self.subtrahend.title} is"
 
 
-Quantity = DistanceFrom | Difference
+Quantity = DistanceFrom | OwnField | Difference
 """What a panel can show: something with a value at every vertex."""
 
 
@@ -188,7 +263,7 @@ class Document:
 
     areas: which vertex areas the operators have.  isolines: equal steps from 0 to each panel's maximum.  shared_range:
     one colour bar for all panels.  height: a flat surface becomes a relief whose highest point is this share of its
-    extent.  next_id: of the panel that is added next.
+    extent.  next_id: of the panel that is added next.  fields: of the user's own, for panels to show.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
@@ -203,6 +278,7 @@ class Document:
     height: float = 0.0
     tool: str = "source"
     next_id: int = 0
+    fields: tuple[FieldArray, ...] = ()
 
     def __post_init__(self) -> None:
         surfaces = _unlike([mesh.name for mesh in self.surfaces], "surface")
@@ -211,6 +287,9 @@ class Document:
         _known([point.surface for point in self.points], surfaces, "surface")
         _known([panel.surface for panel in self.panels], surfaces, "surface")
         _known([name for panel in self.panels for name in panel.shows.points], points, "point")
+        fields = _unlike([field.name for field in self.fields], "field")
+        _known([field.surface for field in self.fields], surfaces, "surface")
+        _known([part.name for panel in self.panels for part in own_fields(panel.shows)], fields, "field")
         _known([anchor.point for anchor in self.anchors], points, "point")
         if ids and max(ids) >= self.next_id:
             raise ParameterError(f"next_id is {self.next_id}, and there is a panel {max(ids)}.")
@@ -232,6 +311,9 @@ class Document:
     def point(self, name: str = "source") -> Point:
         return _named(self.points, name, "point")
 
+    def field(self, name: str) -> FieldArray:
+        return _named(self.fields, name, "field")
+
     def panel(self, id: int) -> Panel:
         for panel in self.panels:
             if panel.id == id:
@@ -244,31 +326,40 @@ class Document:
         return tuple(dict.fromkeys(self.point(name).at for panel in self.panels for name in panel.shows.points))
 
 
-def quantity(text: str, point: str = "source", **parameters: object) -> Quantity:
+def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
+    """Those that a quantity is made of."""
+    return tuple(part for part in shows.parts if isinstance(part, OwnField))
+
+
+def quantity(text: str, point: str = "source", fields: Collection[str] = (), **parameters: object) -> Quantity:
     """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
 
-    parameters: values of those not named in the text.  ParameterError for what is neither.
+    fields: names of the user's own, each as good as a distance.  parameters: values of those not named in the text.
+    ParameterError for what is neither.
     """
     words = text.strip()
     # A hyphen in a word has no spaces about it.
     parts = words.removeprefix("raw ").split(" - ")
     if len(parts) > 2:
         raise ParameterError(f"{text!r} has {len(parts)} distances; a difference has two.")
-    fields = [DistanceFrom(Spec.parse(part, **parameters), point) for part in parts]
-    if len(fields) == 1:
+    found = [
+        OwnField(part.strip()) if part.strip() in fields else DistanceFrom(Spec.parse(part, **parameters), point)
+        for part in parts
+    ]
+    if len(found) == 1:
         if words.startswith("raw "):
             raise ParameterError(f"{text!r} is no difference, which alone may be raw.")
-        return fields[0]
-    return Difference(fields[0], fields[1], words.startswith("raw "))
+        return found[0]
+    return Difference(found[0], found[1], words.startswith("raw "))
 
 
 def from_point(shows: "Spec | Quantity", point: str) -> Quantity:
     """The same quantity from another point."""
-    if isinstance(shows, Difference):
-        return replace(
-            shows, minuend=replace(shows.minuend, point=point), subtrahend=replace(shows.subtrahend, point=point)
-        )
-    return DistanceFrom(shows if isinstance(shows, Spec) else shows.spec, point)
+    if isinstance(shows, Spec):
+        return DistanceFrom(shows, point)
+    return shows.with_parts(
+        tuple(replace(part, point=point) if isinstance(part, DistanceFrom) else part for part in shows.parts)
+    )
 
 
 def comparison(
@@ -276,16 +367,25 @@ def comparison(
     shows: "tuple[Spec | Quantity, ...]" = COMPARISON,
     sources: tuple[int | None, ...] = (None,),
     areas: str = "voronoi",
+    fields: tuple[FieldArray, ...] = (),
 ) -> Document:
-    """A mesh with a panel for each quantity from each source: the panels of one source after another."""
+    """A mesh with a panel for each quantity from each source: the panels of one source after another.
+
+    fields: of the user's own; those that no quantity names have panels of their own at the end.
+    """
     names = free_names("source", len(sources), [])
-    shown = [from_point(each, name) for name in names for each in shows]
+    # What starts nowhere is the same for all sources.
+    starting = [each for each in shows if isinstance(each, Spec) or each.points]
+    shown = [from_point(each, name) for k, name in enumerate(names) for each in (starting if k else shows)]
+    named = {part.name for each in shown for part in own_fields(each)}
+    shown += [OwnField(field.name) for field in fields if field.name not in named]
     return Document(
         surfaces=(MeshFile("A", path),),
         points=tuple(Point(name, at) for name, at in zip(names, sources, strict=True)),
         panels=tuple(Panel(k, each) for k, each in enumerate(shown)),
         areas=areas,
         next_id=len(shown),
+        fields=fields,
     )
 
 

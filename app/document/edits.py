@@ -5,14 +5,32 @@ from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec, kinds
 
-from .document import COMPARISON, DistanceFrom, Document, MeshFile, Panel, Place, Point, Quantity, free_names
+from .document import (
+    COMPARISON,
+    DistanceFrom,
+    Document,
+    MeshFile,
+    Panel,
+    Place,
+    Point,
+    Quantity,
+    free_names,
+    own_fields,
+)
 
 
 def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> Document:
     """Another mesh under the same name; seen from home, and its points are where the first source is.
 
-    What was tied to vertices of the old one (insets, anchors, colour bars with an end of their own) is left out.
+    What was tied to vertices of the old one (insets, anchors, colour bars with an end of their own, fields of the
+    user's own with the panels that show them) is left out; one panel there always is.
     """
+    others = tuple(field for field in document.fields if field.surface != mesh.name)
+    names = {field.name for field in others}
+    kept = tuple(panel for panel in document.panels if all(part.name in names for part in own_fields(panel.shows)))
+    if document.panels and not kept:
+        return open_mesh(add_another(replace(document, panels=(), fields=others)), mesh, source)
+    document = replace(document, panels=kept, fields=others)
     surfaces = tuple(mesh if other.name == mesh.name else other for other in document.surfaces)
     points = tuple(replace(p, at=source) if p.surface == mesh.name else p for p in document.points)
     gone = {point.name for point in points if point.surface == mesh.name}
@@ -38,13 +56,24 @@ def put_point(document: Document, name: str, at: int | Place | None, surface: st
 
 
 def move_source(document: Document, panel: int, at: int | Place) -> Document:
-    """What a click in a panel does: the point that its quantity starts from goes there."""
+    """What a click in a panel does: the point that its quantity starts from goes there.
+
+    In a panel whose quantity starts nowhere, it is that of the first panel of the same surface that has one.
+    """
     shown = document.panel(panel)
-    return put_point(document, shown.shows.points[0], at, shown.surface)
+    alike = [shown, *(other for other in document.panels if other.surface == shown.surface)]
+    names = [name for each in alike for name in each.shows.points]
+    return put_point(document, names[0], at, shown.surface) if names else document
 
 
 def show_in(document: Document, panel: int, shows: Quantity) -> Document:
-    """Show another quantity in a panel; a colour bar with an end of its own belonged to the old one."""
+    """Show another quantity in a panel; a colour bar with an end of its own belonged to the old one.
+
+    A point that is not there yet is where the first source is.
+    """
+    known = {point.name for point in document.points}
+    for name in set(shows.points) - known:
+        document = put_point(document, name, None, document.panel(panel).surface)
     return replace(
         document,
         panels=tuple(

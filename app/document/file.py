@@ -1,7 +1,7 @@
 """Recipes as JSON files, written and read strictly.
 
-A recipe is `{"format": 2, "program": ..., "document": {...}, "page": {...}}`.  Those of format 1, which version 0.1
-wrote, are read by `recipe_1`.
+A recipe is `{"format": 2, "program": ..., "document": {...}, "page": {...}}`, with `"arrays": "NAME.npz"` where the
+document has anything from Python.  Those of format 1, which version 0.1 wrote, are read by `recipe_1`.
 """
 
 import hashlib
@@ -42,6 +42,7 @@ def recipe_text(recipe: Recipe, version: str) -> str:
     data = {
         "format": FORMAT,
         "program": f"{PROGRAM} {version}",
+        **({"arrays": recipe.arrays} if recipe.arrays else {}),
         "document": document_data(recipe.document),
         "page": {**plain(recipe.page), "views": [view_data(view) for view in recipe.page.views]},
     }
@@ -66,7 +67,7 @@ def with_meshes_from(recipe: Recipe, file: str | os.PathLike[str]) -> Recipe:
 
 # ---------------------------------------------------------------------- reading
 def read_recipe(path: str | os.PathLike[str]) -> Recipe:
-    """Read a recipe; its meshes are then paths from here, or samples' names.
+    """Read a recipe; its meshes and its archive are then paths from here, or samples' names.
 
     Raises ParameterError, with a sentence that names the file and what is wrong.
     """
@@ -85,7 +86,8 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
         beside = Path(path).parent / mesh.path
         # os.path, which takes a path that is too long for one that is not there.
         meshes.append(replace(mesh, path=str(beside)) if mesh.path and os.path.exists(beside) else mesh)
-    return replace(recipe, document=replace(recipe.document, surfaces=tuple(meshes)))
+    arrays = str(Path(path).parent / recipe.arrays) if recipe.arrays else ""
+    return replace(recipe, document=replace(recipe.document, surfaces=tuple(meshes)), arrays=arrays)
 
 
 def is_recipe(path: str | os.PathLike[str]) -> bool:
@@ -109,11 +111,11 @@ def _recipe(data: Any) -> Recipe:
         )
     if version < FORMAT:
         return replace(recipe_of_format_1(data), made_with=made_with)
-    parts = {"format": whole, "program": text, "document": document_from, "page": _page}
+    parts = {"format": whole, "program": text, "arrays": text, "document": document_from, "page": _page}
     values = record(data, "the recipe", parts, {"format", "document"})
     if not values["document"].surfaces:
         raise ParameterError("the recipe names no mesh.")
-    return Recipe(values["document"], values.get("page", Page()), made_with)
+    return Recipe(values["document"], values.get("page", Page()), made_with, values.get("arrays", ""))
 
 
 def _page(data: Any, where: str) -> Page:

@@ -7,7 +7,21 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 
 from .camera import Camera, View
-from .document import Anchor, Difference, DistanceFrom, Document, MeshFile, Panel, Place, Point, Quantity, Zoom
+from .document import (
+    Anchor,
+    Difference,
+    DistanceFrom,
+    Document,
+    FieldArray,
+    MeshFile,
+    OwnField,
+    Panel,
+    Part,
+    Place,
+    Point,
+    Quantity,
+    Zoom,
+)
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 
 
@@ -20,8 +34,11 @@ def document_data(document: Document) -> dict[str, Any]:
         "camera": view_data(document.camera),
         "zooms": [plain(zoom) for zoom in document.zooms],
         "anchors": [plain(anchor) for anchor in document.anchors],
+        "fields": [plain(field) for field in document.fields],
     }
-    return {f.name: own.get(f.name, getattr(document, f.name)) for f in fields(document)}
+    data = {f.name: own.get(f.name, getattr(document, f.name)) for f in fields(document)}
+    # Most have none, and then are written as they were before there were any.
+    return data if document.fields else {name: value for name, value in data.items() if name != "fields"}
 
 
 def plain(value: Any) -> dict[str, Any]:
@@ -41,7 +58,9 @@ def _place_data(at: int | Place | None) -> int | dict[str, Any] | None:
 
 def _quantity_data(shows: Quantity) -> dict[str, Any]:
     if isinstance(shows, Difference):
-        return {"difference": [_quantity_data(part) for part in (shows.minuend, shows.subtrahend)], "raw": shows.raw}
+        return {"difference": [_quantity_data(part) for part in shows.parts], "raw": shows.raw}
+    if isinstance(shows, OwnField):
+        return {"field": shows.name}
     return {"distance": shows.spec.in_full, "from": shows.point}
 
 
@@ -60,12 +79,17 @@ def document_from(data: Any, where: str = "document") -> Document:
         "height": number,
         "tool": text,
         "next_id": whole,
+        "fields": listed(_field_array),
     }
-    return placed(Document, where, **record(data, where, readers))
+    return placed(Document, where, **record(data, where, readers, readers.keys() - {"fields"}))
 
 
 def _mesh(data: Any, where: str) -> MeshFile:
     return MeshFile(**record(data, where, {"name": text, "path": text, "sha256": text}))
+
+
+def _field_array(data: Any, where: str) -> FieldArray:
+    return placed(FieldArray, where, **record(data, where, {"name": text, "sha256": text, "surface": text}))
 
 
 def _point(data: Any, where: str) -> Point:
@@ -85,14 +109,16 @@ def _panel(data: Any, where: str) -> Panel:
 
 def _quantity(data: Any, where: str) -> Quantity:
     if isinstance(data, dict) and "difference" in data:
-        values = record(data, where, {"difference": listed(_distance_from), "raw": flag})
+        values = record(data, where, {"difference": listed(_part), "raw": flag})
         if len(values["difference"]) != 2:
             raise ParameterError(f"{where}.difference must be two distances, not {len(values['difference'])}.")
         return Difference(values["difference"][0], values["difference"][1], values["raw"])
-    return _distance_from(data, where)
+    return _part(data, where)
 
 
-def _distance_from(data: Any, where: str) -> DistanceFrom:
+def _part(data: Any, where: str) -> Part:
+    if isinstance(data, dict) and "field" in data:
+        return OwnField(record(data, where, {"field": text})["field"])
     values = record(data, where, {"distance": _spec, "from": text})
     return DistanceFrom(values["distance"], values["from"])
 

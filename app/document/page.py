@@ -39,11 +39,15 @@ class Page:
 
 @dataclass(frozen=True)
 class Recipe:
-    """A figure: a document on a page.  made_with: the program that wrote it."""
+    """A figure: a document on a page.
+
+    made_with: the program that wrote it.  arrays: the archive of what the document has from Python, if anything.
+    """
 
     document: Document
     page: Page = Page()
     made_with: str = field(default="", compare=False)
+    arrays: str = field(default="", compare=False)
 
     @property
     def views(self) -> tuple[View, ...]:

@@ -33,11 +33,11 @@ class FaceBlocks:
         self._centres, self._halves = self._boxes()
         self._largest = float(np.abs(self._centres).max() + self._halves.max())
 
-    def first_met(self, start: np.ndarray, end: np.ndarray) -> tuple[int, np.ndarray] | None:
-        """The face met first on the way from start (3,) to end (3,), and the point (3,) where; None if none is.
+    def first_met(self, start: np.ndarray, end: np.ndarray) -> tuple[int, np.ndarray, np.ndarray] | None:
+        """The face met first on the way from start (3,) to end (3,), its corners' weights (3,), and the point (3,) met.
 
-        No way slips through between two faces with a common edge: both decide about it by the same numbers.  Faces
-        seen edge-on are not met.
+        None if there is none.  No way slips through between two faces with a common edge: both decide about it by the
+        same numbers.  Faces seen edge-on are not met.
         """
         length = float(np.linalg.norm(end - start))
         if length == 0:
@@ -63,7 +63,7 @@ class FaceBlocks:
             return None
         first = reached[depth[reached].argmin()]
         face = int(faces[inside[first]])
-        return face, self._x[:, self._faces[face]] @ weights[:, first]
+        return face, weights[:, first], self._x[:, self._faces[face]] @ weights[:, first]
 
     def _boxes(self) -> tuple[np.ndarray, np.ndarray]:
         """(3, b) centres of the blocks' boxes and (3, b) halves of their sides."""

@@ -1,11 +1,26 @@
 """From a point of the screen to a vertex: a ray, the first face it meets, that face's nearest corner."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from bihdist_core import Surface
 
 from .face_blocks import FaceBlocks
+
+
+@dataclass(frozen=True, eq=False)
+class Met:
+    """Where a ray first meets a surface.
+
+    position: (3,) in a face; weights: (3,) of its corners there, which add up to 1; vertex: the corner nearest to it.
+    """
+
+    face: int
+    weights: np.ndarray
+    position: np.ndarray
+    vertex: int
 
 
 class Picker:
@@ -15,15 +30,15 @@ class Picker:
         self._surface = surface
         self._blocks = FaceBlocks(surface)
 
-    def vertex_at(self, renderer: vtkRenderer, x: float, y: float) -> int | None:
-        """The vertex nearest to where the surface is met at device pixel (x, y), y up; None beside the surface."""
+    def met_at(self, renderer: vtkRenderer, x: float, y: float) -> Met | None:
+        """Where the surface is met at device pixel (x, y), y up; None beside the surface."""
         met = self._first_met(renderer, x, y)
         if met is None:
             return None
-        face, where = met
-        corners = self._surface.faces[face]
-        nearest = np.linalg.norm(self._surface.vertices[corners] - where, axis=1).argmin()
-        return int(corners[nearest])
+        face, weights, position = met
+        ids = self._surface.faces[face]
+        nearest = np.linalg.norm(self._surface.vertices[ids] - position, axis=1).argmin()
+        return Met(face, weights, position, int(ids[nearest]))
 
     def sees(self, renderer: vtkRenderer, point: np.ndarray) -> bool:
         """Whether nothing but faces about it stands before a point (3,) of the surface."""
@@ -31,10 +46,10 @@ class Picker:
         if met is None:
             return True  # at a silhouette the way may pass it by
         eye = np.array(renderer.GetActiveCamera().GetPosition())
-        nearer = np.linalg.norm(point - eye) - np.linalg.norm(met[1] - eye)
+        nearer = np.linalg.norm(point - eye) - np.linalg.norm(met[2] - eye)
         return bool(nearer <= 2 * self._surface.mean_edge_length)
 
-    def _first_met(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, np.ndarray] | None:
+    def _first_met(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, np.ndarray, np.ndarray] | None:
         ends = []
         for depth in (0.0, 1.0):
             renderer.SetDisplayPoint(x, y, depth)

@@ -8,14 +8,16 @@ from pathlib import Path
 from bihdist_core import OutputError, ParameterError, SolverError
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
-from bihdist_core.whole_file import check_output, whole_file
+from bihdist_core.whole_file import check_output
 
 from ..document.document import Anchor, Document, Panel
-from ..document.file import is_recipe, recipe_text, with_meshes_from
+from ..document.file import is_recipe
 from ..document.page import Recipe
 from ..drawing.style import STYLES
+from ..session.given import Given
 from ..session.opened import Opened, open_mesh
 from ..session.questions import questions, vertex_at
+from ..session.recipe_file import check_recipe_output, recipe_written
 from .description import Figure, FigurePanel, Mark
 from .draw import FIGURE_FORMATS, check_offscreen, save_figure
 from .size import Size
@@ -24,18 +26,18 @@ Surfaces = dict[str, Opened]
 """The surfaces of a document, by their names in it."""
 
 
-def check_export(path: str | os.PathLike[str]) -> Path:
+def check_export(document: Document, path: str | os.PathLike[str]) -> Path:
     """Before long work: that a figure and its recipe can be written; the recipe's path.  OutputError if not."""
     check_output(path, FIGURE_FORMATS)
     check_offscreen()
     recipe_path = Path(path).with_suffix(".json")
-    check_output(recipe_path, (".json",))
+    check_recipe_output(document, recipe_path)
     if recipe_path.exists() and not is_recipe(recipe_path):
         raise OutputError(f"{recipe_path}, where the recipe would go, is another file; give the figure another name.")
     return recipe_path
 
 
-def open_document(recipe: Recipe) -> tuple[Document, Surfaces]:
+def open_document(recipe: Recipe, given: Given) -> tuple[Document, Surfaces]:
     """The recipe's document with checksums and vertices, and its surfaces.
 
     Raises ParameterError if one is missing or has changed since the document was written.
@@ -43,7 +45,7 @@ def open_document(recipe: Recipe) -> tuple[Document, Surfaces]:
     surfaces, document = {}, recipe.document
     remedy = "Name the mesh that is to be drawn with --mesh." if recipe.made_with else ""
     for mesh in document.surfaces:
-        surfaces[mesh.name] = opened = open_mesh(mesh, remedy)
+        surfaces[mesh.name] = opened = open_mesh(mesh, given, remedy)
         document = opened.settled(document)
     return document, surfaces
 
@@ -87,13 +89,13 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
     )
 
 
-def write_figure(figure: Figure, recipe: Recipe, path: str, version: str, progress: Progress | None = None) -> None:
-    """The figure at `path` and its recipe beside it, both or neither."""
-    recipe_path = check_export(path)
+def write_figure(
+    figure: Figure, recipe: Recipe, given: Given, path: str, version: str, progress: Progress | None = None
+) -> None:
+    """The figure at `path` and its recipe beside it, all or nothing."""
+    recipe_path = check_export(recipe.document, path)
     page = replace(recipe.page, format=Path(path).suffix.lower().removeprefix("."))
-    written = with_meshes_from(replace(recipe, page=page), recipe_path)
-    with whole_file(recipe_path) as temporary:
-        temporary.write_text(recipe_text(written, version), encoding="utf-8")
+    with recipe_written(replace(recipe, page=page), given, recipe_path, version):
         save_figure(figure, path, progress)
 
 
@@ -101,14 +103,15 @@ def export(
     recipe: Recipe, path: str, version: str, progress: Progress | None = None
 ) -> tuple[Figure, Recipe, list[Answer]]:
     """Everything: read, compute, draw, write.  Returns the figure, the recipe with its sources, and the answers."""
-    check_export(path)
-    document, surfaces = open_document(recipe)
+    check_export(recipe.document, path)
+    given = Given.read(recipe)
+    document, surfaces = open_document(recipe, given)
     recipe = replace(recipe, document=document)
     # What cannot be drawn is refused before the long work.
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
     answers = compute(document, surfaces, part(progress, 0.0, 0.6))
     figure = figure_of(recipe, surfaces, answers)
-    write_figure(figure, recipe, path, version, part(progress, 0.6, 1.0))
+    write_figure(figure, recipe, given, path, version, part(progress, 0.6, 1.0))
     return figure, recipe, answers
 
 
@@ -116,7 +119,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
     document, surface = recipe.document, opened.surface
     starts = [vertex_at(document.point(name).at, surface) for name in panel.shows.points]
     heading = answer.label
-    if len(document.sources) > 1:
+    if starts and len(document.sources) > 1:
         heading += f", from {', '.join(map(str, starts))}"
     return FigurePanel(
         surface,

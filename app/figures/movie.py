@@ -19,6 +19,7 @@ from ..document.document import Document, Panel
 from ..document.edits import put_point
 from ..document.page import Recipe
 from ..drawing.camera import DIRECTIONS, Projection, standard_camera, turned
+from ..session.given import Given
 from ..session.questions import Question, questions
 from .draw import Figure, draw_figure
 from .export import Surfaces, figure_of, open_document, refuse_if_nothing
@@ -65,12 +66,17 @@ def check_movie(path: str | os.PathLike[str]) -> None:
             ) from None
 
 
-def write_movie(movie: Movie, path: str | os.PathLike[str], progress: Progress | None = None) -> list[Answer]:
-    """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel."""
+def write_movie(
+    movie: Movie, path: str | os.PathLike[str], progress: Progress | None = None, given: Given | None = None
+) -> list[Answer]:
+    """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel.
+
+    given: what the document has from Python, in the recipe's archive if None.
+    """
     check_movie(path)
     if not movie.recipe.document.panels:
         raise ParameterError("The recipe has no panels.")
-    document, surfaces = open_document(movie.recipe)
+    document, surfaces = open_document(movie.recipe, given or Given.read(movie.recipe))
     movie = replace(movie, recipe=replace(movie.recipe, document=document))
     fields = _Fields(movie, surfaces, part(progress, 0.0, 0.3))
     pictures = _pictures(movie, fields, part(progress, 0.3, 1.0))

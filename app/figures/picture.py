@@ -6,26 +6,21 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from bihdist_core import Surface
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
-from bihdist_core.whole_file import check_output
 
 from ..document.camera import Camera, View
-from ..document.document import Anchor, Document, Point, Quantity, Zoom, comparison, free_names, quantity
+from ..document.document import Anchor, Document, Point, Quantity, Zoom, free_names
 from ..document.page import Page, Recipe
-from ..session.opened import Opened, in_memory
+from ..session.given import Given, Mesh, given_comparison
 from ..version import version
 from .description import Figure
-from .draw import FIGURE_FORMATS, draw_figure, save_figure
+from .draw import draw_figure
 from .export import Surfaces, compute, figure_of, open_document, write_figure
-
-Mesh = str | os.PathLike[str] | Surface | tuple[Any, Any]
-"""A file or the name of a sample, a surface, or its vertices (n, 3) and faces (m, 3)."""
 
 
 class Picture:
@@ -34,18 +29,14 @@ class Picture:
     document: what it shows.  answers: for each panel the field, its label, unit and accuracy, or why there is none.
     """
 
-    def __init__(self, recipe: Recipe, surfaces: Surfaces, answers: list[Answer]) -> None:
+    def __init__(self, recipe: Recipe, surfaces: Surfaces, given: Given, answers: list[Answer]) -> None:
         self.document: Document = recipe.document
         self.answers = answers
-        self._recipe, self._surfaces = recipe, surfaces
+        self._recipe, self._surfaces, self._given = recipe, surfaces, given
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Into a .png, .pdf or .svg file, with its recipe beside it where the mesh is a file; OutputError if not."""
-        check_output(path, FIGURE_FORMATS)
-        if all(mesh.path for mesh in self.document.surfaces):
-            write_figure(self._figure, self._recipe, os.fspath(path), version())
-        else:
-            save_figure(self._figure, path)
+        """Into a .png, .pdf or .svg file, with its recipe beside it, and what came as arrays; OutputError if not."""
+        write_figure(self._figure, self._recipe, self._given, os.fspath(path), version())
         return Path(path)
 
     @property
@@ -78,6 +69,7 @@ def figure(
     distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
     source: int | Sequence[int] | None = None,
     *,
+    fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
     isolines: int = 20,
     shared_range: bool = False,
@@ -96,8 +88,10 @@ def figure(
     """What `bihdist figure` draws, with its options.
 
     distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, or several for a row of
-    panels each; the highest if None.  views: names or cameras, side by side.  zooms: vertices, or with a factor.
-    anchors: vertices to be marked, perhaps each with a value.  Raises BihdistError, as the command says its sentences.
+    panels each; the highest if None.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is
+    named in `distances` like one: "biharmonic - mine".  views: names or cameras, side by side.  zooms: vertices, or
+    with a factor.  anchors: vertices to be marked, perhaps each with a value.  Raises BihdistError, as the command says
+    its sentences.
 
     >>> import bihdist
     >>> picture = bihdist.figure("hand", ["biharmonic", "biharmonic - geodesic"], source=12, size="400x200")
@@ -108,8 +102,7 @@ def figure(
     """
     several = isinstance(source, Sequence)
     sources = tuple(source) if isinstance(source, Sequence) else (source,)
-    shows = tuple(quantity(each) if isinstance(each, str) else each for each in distances)
-    document = comparison("" if not isinstance(mesh, str | os.PathLike) else os.fspath(mesh), shows, sources, areas)
+    document, given = given_comparison(mesh, distances, fields or {}, sources, areas)
     marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
     names = free_names("anchor", len(marked), [point.name for point in document.points])
     chosen = (views,) if isinstance(views, str | Camera) else tuple(views)
@@ -127,21 +120,13 @@ def figure(
         size=size,
         style=style,
         views=chosen if len(chosen) > 1 else (),
-        columns=columns or (len(shows) if several and len(sources) > 1 else None),
+        columns=columns or (len(distances) if several and len(sources) > 1 else None),
         hints=hints,
         transparent=transparent,
         crop=crop,
     )
-    document, surfaces = _opened(mesh, Recipe(document, page))
+    document, surfaces = open_document(Recipe(document, page), given)
     recipe = Recipe(document, page)
     # What cannot be drawn is refused before the long work.
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
-    return Picture(recipe, surfaces, compute(document, surfaces, progress))
-
-
-def _opened(mesh: Mesh, recipe: Recipe) -> tuple[Document, Surfaces]:
-    if isinstance(mesh, str | os.PathLike):
-        return open_document(recipe)
-    opened: Opened = in_memory(mesh if isinstance(mesh, Surface) else Surface(*mesh))
-    document = replace(recipe.document, surfaces=(opened.mesh,))
-    return opened.settled(document), {opened.mesh.name: opened}
+    return Picture(recipe, surfaces, given, compute(document, surfaces, progress))

@@ -1,7 +1,6 @@
 """The controls over a panel: which distance, and its parameters.  All of it comes from the table of distances."""
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 from math import exp, log
 
 from qtpy import QtCore, QtGui, QtWidgets
@@ -9,7 +8,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Parameter, Spec, Value, kind_of, kinds
 
-from ..document.document import COMPARISON, Difference, Quantity
+from ..document.document import COMPARISON, Difference, DistanceFrom, OwnField, Part, Quantity
 from ..document.edits import PANEL_EDITS
 
 STEPS = 240
@@ -65,18 +64,20 @@ class PanelControls(QtWidgets.QWidget):
         self.alone.clicked.connect(self._leave_alone)
         self.show_quantity(shows)
 
-    def show_quantity(self, shows: Quantity) -> None:
-        """Make the controls say what is shown, without emitting."""
+    def show_quantity(self, shows: Quantity, fields: Sequence[str] | None = None) -> None:
+        """Make the controls say what is shown, without emitting.  fields: the user's own that are there to choose."""
         self.shows = shows
-        self.first.show_spec(shows.specs[0])
+        for control in (self.first, self.second) if fields is not None else ():
+            control.offer_fields(fields)
+        self.first.show_part(shows.parts[0])
         is_difference = isinstance(shows, Difference)
         for widget in (self.minus, self.second, self.alone):
             widget.setVisible(is_difference)
         if is_difference:
-            self.second.show_spec(shows.specs[1])
+            self.second.show_part(shows.parts[1])
         for control in (self.first, self.second):
             # A slider takes the room there is.
-            is_wide = any(parameter.logarithmic for parameter in control.spec.kind.parameters)
+            is_wide = any(each.parameter.logarithmic for each in control.parameters.values())
             self._controls_row.setStretchFactor(control, int(is_wide))
 
         self._fit()
@@ -87,7 +88,7 @@ class PanelControls(QtWidgets.QWidget):
 
     def _fit(self) -> None:
         """Where there is no room for sliders their values remain."""
-        count = len(self.shows.specs)
+        count = len(self.shows.parts)
         for control in (self.first, self.second):
             control.show_sliders(self.width() >= SLIDER_FROM * count)
 
@@ -96,18 +97,20 @@ class PanelControls(QtWidgets.QWidget):
         for word, action in self.edits.items():
             action.setEnabled(word in words)
 
-    def _choose(self, spec: Spec, place: int) -> None:
-        specs = list(self.shows.specs)
-        specs[place] = spec
-        self._emit(self.shows.with_specs(tuple(specs)))
+    def _choose(self, chosen: Spec | OwnField, place: int) -> None:
+        parts = list(self.shows.parts)
+        # Where distances start, nobody chooses here.
+        points = [*parts[place].points, *self.shows.points, "source"]
+        parts[place] = chosen if isinstance(chosen, OwnField) else DistanceFrom(chosen, points[0])
+        self._emit(self.shows.with_parts(tuple(parts)))
 
     def _subtract(self) -> None:
-        """From the distance that is shown the first other one of those usually compared."""
+        """From what is shown the first other distance of those usually compared."""
         if isinstance(self.shows, Difference):
-            self.first.show_spec(self.shows.specs[0])
+            self.first.show_part(self.shows.minuend)
             return
-        other = next(spec for spec in COMPARISON if spec.word != self.shows.spec.word)
-        self._emit(Difference(self.shows, replace(self.shows, spec=other)))
+        other = next(spec for spec in COMPARISON if spec.word != self.shows.word)
+        self._emit(Difference(self.shows, DistanceFrom(other, [*self.shows.points, "source"][0])))
 
     def _leave_alone(self) -> None:
         if isinstance(self.shows, Difference):
@@ -119,14 +122,17 @@ class PanelControls(QtWidgets.QWidget):
 
 
 class DistanceControl(QtWidgets.QWidget):
-    """One distance: a menu and its parameters.  `chosen(Spec)` by the user; chosen again, it has its old parameters."""
+    """One distance: a menu and its parameters; or a field of the user's own.
+
+    `chosen(Spec | OwnField)` by the user; a distance chosen again has its old parameters.
+    """
 
     chosen = QtCore.Signal(object)
     difference_wanted = QtCore.Signal()
 
     def __init__(self, parent: QtWidgets.QWidget | None = None, offers_difference: bool = False) -> None:
         super().__init__(parent)
-        self.spec = COMPARISON[0]
+        self.shown: Spec | OwnField = COMPARISON[0]
         self._before: dict[str, Spec] = {}
         self.distance = QtWidgets.QComboBox(self)
         for word in kinds():
@@ -137,6 +143,8 @@ class DistanceControl(QtWidgets.QWidget):
         if offers_difference:
             self.distance.insertSeparator(self.distance.count())
             self.distance.addItem("Difference of two", None)
+        self._fields: dict[str, OwnField] = {}
+        self._fields_from = self.distance.count()
         self.distance.setToolTip("The distance this panel shows")
         self.distance.setMinimumWidth(NARROWEST)
         self._row = QtWidgets.QHBoxLayout(self)
@@ -147,25 +155,44 @@ class DistanceControl(QtWidgets.QWidget):
         self.parameters: dict[str, ParameterControl] = {}
         self.distance.currentIndexChanged.connect(self._choose_distance)
 
-    def show_spec(self, spec: Spec) -> None:
-        """Make the controls say what the spec says, without emitting."""
-        self.spec = self._before[spec.word] = spec
+    def offer_fields(self, names: Sequence[str]) -> None:
+        """The user's own, after the distances."""
         with QtCore.QSignalBlocker(self.distance):
-            self.distance.setCurrentIndex(self.distance.findData(spec.word))
-        if spec.word != self._of_word:
-            for control in self.parameters.values():
-                self._row.removeWidget(control)
-                control.deleteLater()
-            self.parameters = {}
-            for parameter in spec.kind.parameters:
-                control = ParameterControl(parameter, self)
-                control.chosen.connect(lambda value, name=parameter.name: self._choose(**{name: value}))
-                self._row.insertWidget(self._row.count() - 1, control, int(parameter.logarithmic))
-                control.show()
-                self.parameters[parameter.name] = control
-            self._of_word = spec.word
-        for name, value in spec.values:
-            self.parameters[name].show_value(value)
+            while self.distance.count() > self._fields_from:
+                self.distance.removeItem(self._fields_from)
+            if names:
+                self.distance.insertSeparator(self.distance.count())
+            self._fields = {field.word: field for field in map(OwnField, names)}
+            for word, field in self._fields.items():
+                self.distance.addItem(field.name, word)
+
+    def show_part(self, part: Part) -> None:
+        """Make the controls say what is shown, without emitting."""
+        self._show(part if isinstance(part, OwnField) else part.spec)
+
+    def _show(self, shown: Spec | OwnField) -> None:
+        self.shown = shown
+        with QtCore.QSignalBlocker(self.distance):
+            self.distance.setCurrentIndex(self.distance.findData(shown.word))
+        if shown.word != self._of_word:
+            self._make_parameters(() if isinstance(shown, OwnField) else shown.kind.parameters)
+            self._of_word = shown.word
+        if isinstance(shown, Spec):
+            self._before[shown.word] = shown
+            for name, value in shown.values:
+                self.parameters[name].show_value(value)
+
+    def _make_parameters(self, parameters: Sequence[Parameter]) -> None:
+        for control in self.parameters.values():
+            self._row.removeWidget(control)
+            control.deleteLater()
+        self.parameters = {}
+        for parameter in parameters:
+            control = ParameterControl(parameter, self)
+            control.chosen.connect(lambda value, name=parameter.name: self._choose(**{name: value}))
+            self._row.insertWidget(self._row.count() - 1, control, int(parameter.logarithmic))
+            control.show()
+            self.parameters[parameter.name] = control
 
     def show_sliders(self, shown: bool) -> None:
         for control in self.parameters.values():
@@ -177,12 +204,12 @@ class DistanceControl(QtWidgets.QWidget):
         if word is None:
             self.difference_wanted.emit()
             return
-        self.show_spec(self._before.get(word) or Spec.of(word))
-        self.chosen.emit(self.spec)
+        self._show(self._fields.get(word) or self._before.get(word) or Spec.of(word))
+        self.chosen.emit(self.shown)
 
     def _choose(self, **choice: object) -> None:
-        self.show_spec(self.spec.changed(**choice))
-        self.chosen.emit(self.spec)
+        self._show(self.shown.changed(**choice))
+        self.chosen.emit(self.shown)
 
 
 class ParameterControl(QtWidgets.QWidget):

@@ -14,6 +14,7 @@ from ..document.page import Recipe
 from ..drawing.style import STYLES
 from ..figures.export import Surfaces, check_export, figure_of, write_figure
 from ..figures.movie import Movie, check_movie, write_movie
+from ..session.given import Given
 from .job_dialog import JobDialog
 
 FIGURE_FILES = "PNG picture (*.png);;PDF with vector isolines (*.pdf);;SVG with vector isolines (*.svg)"
@@ -77,12 +78,13 @@ class ExportDialog(_Looks):
         self,
         recipe: Recipe,
         surfaces: Surfaces,
+        given: Given,
         answers: list[Answer],
         version: str,
         parent: QtWidgets.QWidget | None = None,
     ) -> None:
         super().__init__(recipe, "Export figure", ".png", FIGURE_FILES, parent)
-        self._surfaces, self._answers, self._version = surfaces, answers, version
+        self._surfaces, self._given, self._answers, self._version = surfaces, given, answers, version
         self.view = QtWidgets.QComboBox()
         self.view.addItems(list(VIEWS))
         self.transparent = QtWidgets.QCheckBox("Transparent background", checked=recipe.page.transparent)
@@ -100,19 +102,20 @@ class ExportDialog(_Looks):
         """Start drawing to a path; a size that is none, or a path that cannot be written, is refused at once."""
         recipe = self.chosen()
         try:
-            check_export(path)
+            check_export(recipe.document, path)
             figure = figure_of(recipe, self._surfaces, self._answers)
         except BihdistError as error:
             self.failed.emit(str(error))
             return
-        self.start(partial(write_figure, figure, recipe, path, self._version), path)
+        self.start(partial(write_figure, figure, recipe, self._given, path, self._version), path)
 
 
 class MovieDialog(_Looks):
     """A movie of what the window shows."""
 
-    def __init__(self, recipe: Recipe, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, recipe: Recipe, given: Given, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(recipe, "Export movie", ".mp4", MOVIE_FILES, parent)
+        self._given = given
         self.size_text.setPlaceholderText("840x320, 1280px; empty: the usual")
         self.turn = QtWidgets.QSpinBox(minimum=-3600, maximum=3600, value=360, suffix="°")
         self.path_text = QtWidgets.QLineEdit()
@@ -135,7 +138,7 @@ class MovieDialog(_Looks):
         except BihdistError as error:
             self.failed.emit(str(error))
             return
-        self.start(partial(write_movie, movie, path), path)
+        self.start(partial(write_movie, movie, path, given=self._given), path)
 
     def _stops(self) -> tuple[int, ...]:
         text = self.path_text.text().strip()

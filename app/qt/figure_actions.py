@@ -16,13 +16,13 @@ def export_figure(window) -> ExportDialog | None:
     session = window.session
     surfaces = {mesh.name: session.opened(mesh.name) for mesh in recipe.document.surfaces}
     answers = [session.shown[panel.id].answer for panel in recipe.document.panels]
-    return _opened(ExportDialog(recipe, surfaces, answers, version(), window), window)
+    return _opened(ExportDialog(recipe, surfaces, session.given, answers, version(), window), window)
 
 
 def export_movie(window) -> MovieDialog | None:
     """The same for a movie."""
     recipe = _complete_recipe(window)
-    return None if recipe is None else _opened(MovieDialog(recipe, window), window)
+    return None if recipe is None else _opened(MovieDialog(recipe, window.session.given, window), window)
 
 
 def _complete_recipe(window) -> Recipe | None:

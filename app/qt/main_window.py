@@ -6,7 +6,7 @@ It opens at once and imports what draws (VTK, pyvista) only then.
 import os
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -29,6 +29,9 @@ from .look import STYLE_SHEET
 from .session_actions import SESSIONS, SessionFile
 from .status_bar import StatusBar, summary, unseen
 
+if TYPE_CHECKING:
+    from ..drawing.picking import Met
+
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 STILL_MS = 500
 """When the camera has not moved for so long, what is seen is a view that one can come back to."""
@@ -39,11 +42,14 @@ PROGRESS_MS = 200
 class MainWindow(QtWidgets.QMainWindow):
     """`complete` is emitted whenever every panel has been painted with its final answer.
 
-    page: of the recipe that was opened last, for the figures that are exported.
+    page: of the recipe that was opened last, for the figures that are exported.  quiet: no questions and no messages.
+    remembers: recent files and, in case of a crash, what is shown.
     """
 
     complete = QtCore.Signal()
     refused = QtCore.Signal(str)  # a message the user was shown
+    picked = QtCore.Signal(int, object)  # a panel, and the `Met` that was clicked in it, before the source goes there
+    closed = QtCore.Signal()
     _posted = QtCore.Signal(object)
 
     def __init__(self, document: Document | None = None) -> None:
@@ -61,6 +67,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self._hovered: int | None = None
         self._waiting: list[Callable[[], None]] = []
         self.quiet = False
+        self.remembers = True
         self.status = StatusBar(self)
         self.status.cancelled.connect(self.session.cancel)
         self.setStatusBar(self.status)
@@ -121,6 +128,7 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.grid is not None:
             self.grid.close_views()
         super().closeEvent(event)
+        self.closed.emit()
 
     def _ask_about_changes(self, question: str) -> str:
         button = QtWidgets.QMessageBox.StandardButton
@@ -161,7 +169,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
         self.grid.show_surface()
         self.say("  ·  ".join([*summary(opened.surface), *unseen(self.session.document)]))
-        if not self.quiet and opened.mesh.path and os.path.exists(opened.mesh.path):
+        if self.remembers and opened.mesh.path and os.path.exists(opened.mesh.path):
             remembered.remember(opened.mesh.path)
 
     def answer_changed(self, panel: int) -> None:
@@ -224,8 +232,9 @@ class MainWindow(QtWidgets.QMainWindow):
             self.complete.emit()
 
     # ------------------------------------------------------------------ gestures
-    def _click(self, panel: int, vertex: int) -> None:
-        self.session.show(move_source(self.session.document, panel, vertex))
+    def _click(self, panel: int, met: "Met") -> None:
+        self.picked.emit(panel, met)
+        self.session.show(move_source(self.session.document, panel, met.vertex))
 
     def _drag(self, panel: int, vertex: int) -> None:
         self.session.show(move_source(self.session.document, panel, vertex), key=f"drag in {panel}", live=True)
@@ -233,7 +242,7 @@ class MainWindow(QtWidgets.QMainWindow):
     def _choose(self, panel: int, shows: Quantity) -> None:
         """Another quantity is a step; the values that a slider passes are one."""
         before = self.session.document.panel(panel).shows
-        words = [tuple(spec.word for spec in each.specs) for each in (before, shows)]
+        words = [tuple(part.word for part in each.parts) for each in (before, shows)]
         key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
         self.session.show(show_in(self.session.document, panel, shows), key)
 

@@ -9,7 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 from bihdist_core.distances.answers import Answer
 
 from ..document.document import COMPARISON, DistanceFrom
-from ..drawing.picking import Picker, pixel_of
+from ..drawing.picking import Met, Picker, pixel_of
 from ..drawing.scene import PanelScene
 from ..session.answering import Shown
 from .controls import PanelControls
@@ -21,7 +21,7 @@ MARK_SLACK = 4.0
 class DistancePanel(QtWidgets.QWidget):
     """Controls above, the picture, and the value under the pointer below."""
 
-    clicked = QtCore.Signal(int)  # a vertex, clicked without dragging
+    clicked = QtCore.Signal(object)  # a `Met`, clicked without dragging
     dragged = QtCore.Signal(int)  # the mark of the source, over a vertex
     released = QtCore.Signal()  # the mark
     hovered = QtCore.Signal(object)  # a vertex, or None beside the surface
@@ -82,8 +82,8 @@ class DistancePanel(QtWidgets.QWidget):
         self.value.setText("")
         self.repaint_view()
 
-    def mark_source(self, position: np.ndarray) -> None:
-        """Where (3,) the field starts."""
+    def mark_source(self, position: np.ndarray | None) -> None:
+        """Where (3,) the field starts; None for one that starts nowhere."""
         self._source = position
         self.scene.mark_source(position)
 
@@ -201,9 +201,9 @@ class DistancePanel(QtWidgets.QWidget):
         if held and self._dragging:
             self.released.emit()
         elif press is not None and not self._dragging:
-            vertex = self._vertex_at(press)
-            if vertex is not None:
-                self.clicked.emit(vertex)
+            met = self._met_at(press)
+            if met is not None:
+                self.clicked.emit(met)
         return held
 
     def _is_on_mark(self, position: QtCore.QPoint) -> bool:
@@ -226,8 +226,12 @@ class DistancePanel(QtWidgets.QWidget):
         # After VTK has handled the event this filter sees first.
         QtCore.QTimer.singleShot(0, self.moved.emit)
 
+    def _met_at(self, position: QtCore.QPoint) -> Met | None:
+        return None if self._picker is None else self._picker.met_at(self.renderer, *self._pixel(position))
+
     def _vertex_at(self, position: QtCore.QPoint) -> int | None:
-        return None if self._picker is None else self._picker.vertex_at(self.renderer, *self._pixel(position))
+        met = self._met_at(position)
+        return None if met is None else met.vertex
 
     def _pixel(self, position: QtCore.QPoint) -> tuple[float, float]:
         """Device pixels, y up."""

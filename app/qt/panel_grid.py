@@ -21,7 +21,7 @@ SIDE_BY_SIDE = 3
 class PanelGrid(QtWidgets.QWidget):
     """A panel for each of the document's, by its id; gestures come out as signals that name the panel."""
 
-    clicked = QtCore.Signal(int, int)  # panel, vertex
+    clicked = QtCore.Signal(int, object)  # panel, where the surface is met
     dragged = QtCore.Signal(int, int)  # the source's mark, over a vertex
     released = QtCore.Signal()
     chosen = QtCore.Signal(int, object)  # panel, quantity
@@ -72,7 +72,8 @@ class PanelGrid(QtWidgets.QWidget):
             if id not in self._panels:
                 self._panels[id] = self._spare.pop() if self._spare else self._new_panel()
                 self._begin(self._panels[id], id)
-            self._panels[id].controls.show_quantity(panel.shows)
+            fields = [field.name for field in document.fields if field.surface == panel.surface]
+            self._panels[id].controls.show_quantity(panel.shows, fields)
         self._panels = {id: self._panels[id] for id in wanted}
         self._arrange()
         for id, panel in self._panels.items():
@@ -94,7 +95,7 @@ class PanelGrid(QtWidgets.QWidget):
 
     def _new_panel(self) -> DistancePanel:
         panel = DistancePanel(self)
-        panel.clicked.connect(lambda vertex: self.clicked.emit(panel.id, vertex))
+        panel.clicked.connect(lambda met: self.clicked.emit(panel.id, met))
         panel.dragged.connect(lambda vertex: self.dragged.emit(panel.id, vertex))
         panel.released.connect(self.released)
         panel.hovered.connect(self.hovered)
@@ -127,8 +128,9 @@ class PanelGrid(QtWidgets.QWidget):
         """Put the mark of each panel where its field starts."""
         for panel in document.panels:
             opened = self._session.opened(panel.surface)
-            start = document.point(panel.shows.points[0])
-            self._panels[panel.id].mark_source(opened.surface.vertices[vertex_at(start.at, opened.surface)])
+            starts = [document.point(name).at for name in panel.shows.points]
+            places = [opened.surface.vertices[vertex_at(at, opened.surface)] for at in starts]
+            self._panels[panel.id].mark_source(places[0] if places else None)
 
     def show_isolines(self, count: int) -> None:
         for panel in self.panels:

@@ -5,6 +5,7 @@ It stands in the user's folder for application data; where that cannot be writte
 
 import json
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -46,9 +47,11 @@ def own_state() -> Path:
     return folder() / f"open-{os.getpid()}.json"
 
 
-def keep_state(text: str) -> None:
-    """Keep what the window shows, to be offered after a crash."""
-    _write(own_state(), text)
+def keep_state(write: Callable[[Path], None]) -> None:
+    """Keep what the window shows, which `write` writes as a recipe at a path, to be offered after a crash."""
+    with suppress(OSError, BihdistError):
+        folder().mkdir(parents=True, exist_ok=True)
+        write(own_state())
     if own_state() not in _held and own_state().exists():
         lock = _lock(own_state())
         lock.tryLock(0)
@@ -57,11 +60,17 @@ def keep_state(text: str) -> None:
 
 def forget_state() -> None:
     """The window ends as it should."""
-    with suppress(OSError):
-        own_state().unlink()
+    remove_state(own_state())
     lock = _held.pop(own_state(), None)
     if lock is not None:
         lock.unlock()
+
+
+def remove_state(path: Path) -> None:
+    """What a window showed, with its arrays."""
+    for part in (path, path.with_suffix(".npz")):
+        with suppress(OSError):
+            part.unlink()
 
 
 def lost_states() -> list[Path]:

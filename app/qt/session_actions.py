@@ -11,12 +11,13 @@ from pathlib import Path
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
-from bihdist_core.whole_file import check_output, whole_file
 
-from ..document.file import checksum, read_recipe, recipe_text, with_meshes_from
+from ..document.file import checksum, read_recipe
 from ..document.page import Recipe
 from ..drawing.style import STYLES
 from ..samples import mesh_path
+from ..session.given import Given
+from ..session.recipe_file import recipe_written
 from ..version import version
 from . import remembered
 
@@ -54,13 +55,15 @@ class SessionFile:
         assert path is not None
         if self._window.session.surface is None:
             raise ParameterError("There is nothing to save before a mesh is open.")
-        check_output(path, (".json",))
         recipe = self.recipe()
-        with whole_file(path) as temporary:
-            temporary.write_text(recipe_text(with_meshes_from(recipe, path), version()), encoding="utf-8")
+        self._write(recipe, path)
         self.path, self._saved = path, recipe
         self._remember(path)
         self._window.say(f"Saved {os.path.basename(path)}")
+
+    def _write(self, recipe: Recipe, path: str | os.PathLike[str], stays: bool = False) -> None:
+        with recipe_written(recipe, self._window.session.given, path, version(), stays):
+            pass
 
     def choose_and_save(self) -> bool:
         """Ask for a file; whether it was saved."""
@@ -101,6 +104,7 @@ class SessionFile:
             style = recipe.page.style
             if style not in STYLES:
                 raise ParameterError(f"{path}: there is no style {style!r}; choose one of {', '.join(STYLES)}.")
+            self._window.session.given.update(Given.read(recipe))
             recipe = self._with_mesh(recipe)
         except BihdistError as error:
             self._window.failed(str(error))
@@ -120,6 +124,8 @@ class SessionFile:
     def _with_mesh(self, recipe: Recipe) -> Recipe | None:
         """The recipe of a mesh that is there: the one it names, or the one the user points at; None if neither."""
         mesh = recipe.document.surfaces[0]
+        if not mesh.path:
+            return recipe
         known = mesh_path(mesh.path)
         if not os.path.exists(known):
             message, path = f"The mesh {mesh.path[:200]} is not there.", ""
@@ -134,13 +140,13 @@ class SessionFile:
         return replace(recipe, document=replace(recipe.document, surfaces=surfaces))
 
     def _remember(self, path: str) -> None:
-        if not self._window.quiet:
+        if self._window.remembers:
             remembered.remember(path)
 
     # ------------------------------------------------------------------ crashes
     def document_changed(self) -> None:
         """Keep it, soon; a window that a script looks at leaves nothing behind."""
-        if not self._window.quiet:
+        if self._window.remembers:
             self._keep_soon.start()
 
     def _keep(self) -> None:
@@ -148,7 +154,7 @@ class SessionFile:
             recipe = self.recipe()
             meshes = tuple(replace(m, path=_absolute(m.path)) for m in recipe.document.surfaces)
             recipe = replace(recipe, document=replace(recipe.document, surfaces=meshes))
-            remembered.keep_state(recipe_text(recipe, version()))
+            remembered.keep_state(lambda path: self._write(recipe, path, stays=True))
 
     def forget(self) -> None:
         """The window closes as it should."""
@@ -177,7 +183,7 @@ def offer_lost_state(window) -> None:
         if box.standardButton(button) == QtWidgets.QMessageBox.StandardButton.Yes:
             window.session_file.open(str(lost[0]), is_own=False)
         for path in lost:
-            path.unlink(missing_ok=True)
+            remembered.remove_state(path)
 
     box.buttonClicked.connect(answered)
     box.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)

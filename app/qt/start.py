@@ -1,17 +1,15 @@
 """Start Qt, show the window, open a mesh."""
 
 import gc
-import os
 import sys
 import traceback
 
-os.environ.setdefault("QT_API", "pyqt5")  # qtpy would otherwise take whichever binding it finds first
-
-from qtpy import QtCore, QtWidgets
+from qtpy import QtCore
 
 from bihdist_core import BihdistError
 
 from ..document.document import Document
+from .application import application, check_screen
 from .main_window import MainWindow
 from .session_actions import offer_lost_state
 
@@ -19,23 +17,23 @@ PAINTED_MS = 50
 
 
 _alive: list[object] = []
-"""The application and its window, which must not be taken down when `run_viewer` returns."""
+"""The window, which must not be taken down when `run_viewer` returns."""
 
 
-def run_viewer(document: Document, screenshot: str | None, save_session: str | None = None) -> int:
-    """Show a document in the window until that is closed, or until its picture is saved; returns the exit status."""
-    _check_screen()
-    if os.environ.get("DISPLAY") and os.environ.get("WAYLAND_DISPLAY"):
-        os.environ.setdefault("QT_QPA_PLATFORM", "xcb")  # VTK draws through X only
-    QtWidgets.QApplication.setHighDpiScaleFactorRoundingPolicy(QtCore.Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)
-    application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(sys.argv[:1])
+def run_viewer(shown: Document | str, screenshot: str | None, save_session: str | None = None) -> int:
+    """Show a document, or a session's file, in the window until that is closed, or until its picture is saved.
+
+    Returns the exit status.
+    """
+    check_screen()
+    app = application()
     # PyQt5 ends the process on an exception in a slot unless there is a hook.
     sys.excepthook = lambda *error: traceback.print_exception(*error)
-    window = MainWindow(document)
-    _alive.extend((application, window))
+    window = MainWindow(None if isinstance(shown, str) else shown)
+    _alive.append(window)
     failures: list[str] = []
     if screenshot:
-        window.quiet = True
+        window.quiet, window.remembers = True, False
 
         def refuse(message: str) -> None:
             failures.append(message)
@@ -55,10 +53,13 @@ def run_viewer(document: Document, screenshot: str | None, save_session: str | N
     elif save_session:
         save_once(window, save_session)
     window.show()
-    window.show_document(document)
+    if isinstance(shown, str):
+        window.open_any(shown)
+    else:
+        window.show_document(shown)
     # Once the window has been painted: the imports take a second.
     QtCore.QTimer.singleShot(PAINTED_MS, lambda: build_panels(window))
-    application.exec()
+    app.exec()
     for message in failures:
         print(f"bihdist: {message}", file=sys.stderr)
     answers = [shown.answer for shown in window.session.shown.values()]
@@ -84,13 +85,5 @@ def build_panels(window: MainWindow) -> None:
     it does, the window stands still for a tenth of a second."""
     window.build_panels()
     gc.freeze()
-    if not window.quiet:
+    if window.remembers:
         offer_lost_state(window)
-
-
-def _check_screen() -> None:
-    """BihdistError where there is no display: Qt would end the process."""
-    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        raise BihdistError(
-            "The viewer needs a display and there is none (DISPLAY is not set); `bihdist figure` draws without one."
-        )

@@ -145,11 +145,11 @@ class Answering:
         # The source may move while the distance is made ready: then the next question has it.
         preparing = lane.progress(lambda latest: are_about_the_same(latest.question, question))
         asking = lane.progress(is_wanted)
-        distances = opened.distances(question.areas)
         for spec in question.specs:
-            distances.get(spec, part(preparing, 0, 0.9))
+            opened.distances(question.areas).get(spec, part(preparing, 0, 0.9))
         asking(0.9, str(question))
-        quick = question.with_specs(tuple(distances.stand_in(spec) or spec for spec in question.specs))
+        stand_ins = (opened.distances(question.areas).stand_in(spec) or spec for spec in question.specs)
+        quick = question.with_specs(tuple(stand_ins))
         if quick != question and self._preview(id, request, quick, preparing, asking) and request.live:
             return
         answer = opened.answer(question, asking, at_once=lambda first: self._deliver(id, request, first))

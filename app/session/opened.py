@@ -1,6 +1,5 @@
 """Surfaces that have been opened: read, checked against what was asked for, with their operators and distances."""
 
-import hashlib
 import os
 import threading
 from collections.abc import Callable, Collection
@@ -10,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from bihdist_core import Laplacian, ParameterError, Surface, read_surface
+from bihdist_core.distances.accuracy import Certificate
 from bihdist_core.distances.answers import Answer, Distances, difference_of
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
@@ -17,16 +17,18 @@ from bihdist_core.progress import Progress, part
 from ..document.document import Document, MeshFile
 from ..document.file import checksum
 from ..samples import mesh_path
-from .questions import DifferenceQuestion, Question, vertex_at
+from .given import Given
+from .questions import DifferenceQuestion, FieldQuestion, Question, vertex_at
 
 
 class Opened:
-    """A surface that is there.  prepared: what whoever shows it has made of it."""
+    """A surface that is there.  given: fields of the user's own; prepared: what whoever shows it has made of it."""
 
-    def __init__(self, mesh: MeshFile, surface: Surface, prepared: Any = None) -> None:
+    def __init__(self, mesh: MeshFile, surface: Surface, given: Given | None = None) -> None:
         self.mesh = mesh
         self.surface = surface
-        self.prepared = prepared
+        self.prepared: Any = None
+        self._given = given or Given()
         self._distances: dict[str, Distances] = {}
         self._lock = threading.Lock()
 
@@ -48,15 +50,26 @@ class Opened:
             first = self.answer(question.minuend, part(progress, 0, 0.5))
             second = self.answer(question.subtrahend, part(progress, 0.5, 1))
             return difference_of(first, second, question.raw)
+        if isinstance(question, FieldQuestion):
+            field = self._given.field(question.field.sha256, question.field.name)
+            is_signed = bool(np.nanmin(field, initial=0.0) < 0)
+            return Answer(label=question.field.name, field=field, certificate=Certificate(), is_signed=is_signed)
         vertex = vertex_at(question.at, self.surface)
         return self.distances(question.areas).answer(question.spec, vertex, progress, at_once)
 
     def settled(self, document: Document) -> Document:
         """The document with this surface's checksum, and its points where there is a vertex.
 
-        VertexError or ParameterError for a point that is nowhere.
+        VertexError or ParameterError for a point that is nowhere, and for a field that has not a value for each vertex.
         """
         mine = {mesh.name for mesh in document.surfaces if is_same(mesh, self.mesh)}
+        for field in document.fields:
+            count = len(self._given.field(field.sha256, field.name)) if field.surface in mine else 0
+            if field.surface in mine and count != len(self.surface.vertices):
+                raise ParameterError(
+                    f"The field {field.name!r} has {count} values, and {self.surface.name} has "
+                    f"{len(self.surface.vertices)} vertices."
+                )
         meshes = (replace(m, sha256=self.mesh.sha256) if m.name in mine else m for m in document.surfaces)
         points = []
         for point in document.points:
@@ -77,25 +90,25 @@ def is_same(asked: MeshFile, there: MeshFile) -> bool:
     return asked.path == there.path and asked.sha256 in ("", there.sha256)
 
 
-def open_mesh(mesh: MeshFile, remedy: str = "") -> Opened:
-    """Read the file.  remedy: a sentence about what to do where it is not the one that is meant.
+def open_mesh(mesh: MeshFile, given: Given | None = None, remedy: str = "") -> Opened:
+    """Read the file, or take what was given.  remedy: what to do, in a sentence, where a file is not the one meant.
 
     Raises ParameterError if it is missing, or has changed since the checksum was taken; MeshError if it is no mesh.
     """
-    path = mesh_path(mesh.path)
-    if not mesh.path or not os.path.exists(path):
-        name = mesh.path if len(mesh.path) <= 200 else f"{mesh.path[:100]}..."
-        raise ParameterError(f"The mesh {name} is not there. {remedy}".strip())
+    if not mesh.path:
+        return Opened(mesh, (given or Given()).surface(mesh), given)
+    path = checked_path(mesh, remedy)
     surface, found = read_surface(path), checksum(path)
     if mesh.sha256 and found != mesh.sha256:
         said = f"The mesh {mesh.path} is not what it was when it was written down (its checksum differs). {remedy}"
         raise ParameterError(said.strip())
-    return Opened(replace(mesh, sha256=found), surface)
+    return Opened(replace(mesh, sha256=found), surface, given)
 
 
-def in_memory(surface: Surface, name: str = "A") -> Opened:
-    """A surface that comes from no file."""
-    digest = hashlib.sha256()
-    for array in (surface.vertices, surface.faces):
-        digest.update(np.ascontiguousarray(array).tobytes())
-    return Opened(MeshFile(name, "", digest.hexdigest()), surface)
+def checked_path(mesh: MeshFile, remedy: str = "") -> str:
+    """The path of a mesh's file, empty for a surface in memory; ParameterError if it is missing."""
+    path = mesh_path(mesh.path) if mesh.path else ""
+    if path and not os.path.exists(path):
+        name = mesh.path if len(mesh.path) <= 200 else f"{mesh.path[:100]}..."
+        raise ParameterError(f"The mesh {name} is not there. {remedy}".strip())
+    return path

@@ -1,5 +1,6 @@
 """From a document to its questions: for each panel all that its answer depends on, and nothing else."""
 
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.kinds import Spec
 
-from ..document.document import Difference, DistanceFrom, Document, MeshFile, Place, Quantity
+from ..document.document import Difference, Document, FieldArray, MeshFile, OwnField, Part, Place, Quantity
 
 
 @dataclass(frozen=True)
@@ -30,16 +31,44 @@ class DistanceQuestion:
         (spec,) = specs
         return replace(self, spec=spec)
 
+    @property
+    def about(self) -> Hashable:
+        """All but from where."""
+        return (self.mesh, self.areas, self.spec)
+
     def __str__(self) -> str:
         return str(self.spec)
+
+
+@dataclass(frozen=True)
+class FieldQuestion:
+    """A field of the user's own."""
+
+    mesh: MeshFile
+    areas: str
+    field: FieldArray
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return ()
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "FieldQuestion":
+        return self
+
+    @property
+    def about(self) -> Hashable:
+        return self
+
+    def __str__(self) -> str:
+        return self.field.name
 
 
 @dataclass(frozen=True)
 class DifferenceQuestion:
     """One answer less another, on the same surface."""
 
-    minuend: DistanceQuestion
-    subtrahend: DistanceQuestion
+    minuend: DistanceQuestion | FieldQuestion
+    subtrahend: DistanceQuestion | FieldQuestion
     raw: bool = False
 
     @property
@@ -52,24 +81,27 @@ class DifferenceQuestion:
 
     @property
     def specs(self) -> tuple[Spec, ...]:
-        return (self.minuend.spec, self.subtrahend.spec)
+        return (*self.minuend.specs, *self.subtrahend.specs)
 
     def with_specs(self, specs: tuple[Spec, ...]) -> "DifferenceQuestion":
-        first, second = specs
-        return replace(
-            self, minuend=replace(self.minuend, spec=first), subtrahend=replace(self.subtrahend, spec=second)
-        )
+        count = len(self.minuend.specs)
+        first, second = self.minuend.with_specs(specs[:count]), self.subtrahend.with_specs(specs[count:])
+        return replace(self, minuend=first, subtrahend=second)
+
+    @property
+    def about(self) -> Hashable:
+        return (self.minuend.about, self.subtrahend.about, self.raw)
 
     def __str__(self) -> str:
         return f"{self.minuend} - {self.subtrahend}"
 
 
-Question = DistanceQuestion | DifferenceQuestion
+Question = DistanceQuestion | FieldQuestion | DifferenceQuestion
 
 
 def are_about_the_same(one: Question, other: Question) -> bool:
-    """Whether they ask for the same distances on the same surface, perhaps from elsewhere."""
-    return (type(one), one.mesh, one.areas, one.specs) == (type(other), other.mesh, other.areas, other.specs)
+    """Whether they ask for the same on the same surface, perhaps from elsewhere."""
+    return one.about == other.about
 
 
 def questions(document: Document) -> dict[int, Question]:
@@ -78,12 +110,16 @@ def questions(document: Document) -> dict[int, Question]:
 
 
 def _question(document: Document, surface: str, shows: Quantity) -> Question:
-    def distance(part: DistanceFrom) -> DistanceQuestion:
-        return DistanceQuestion(document.mesh(surface), document.areas, part.spec, document.point(part.point).at)
+    mesh, areas = document.mesh(surface), document.areas
+
+    def asked(part: Part) -> DistanceQuestion | FieldQuestion:
+        if isinstance(part, OwnField):
+            return FieldQuestion(mesh, areas, document.field(part.name))
+        return DistanceQuestion(mesh, areas, part.spec, document.point(part.point).at)
 
     if isinstance(shows, Difference):
-        return DifferenceQuestion(distance(shows.minuend), distance(shows.subtrahend), shows.raw)
-    return distance(shows)
+        return DifferenceQuestion(asked(shows.minuend), asked(shows.subtrahend), shows.raw)
+    return asked(shows)
 
 
 def vertex_at(at: int | Place | None, surface: Surface) -> int:

@@ -17,8 +17,9 @@ from ..document.document import Document, MeshFile, Point
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
 from .answering import Answering, AnswerView, Shown
+from .given import Given
 from .lane import Lane
-from .opened import Opened, in_memory, is_same, open_mesh
+from .opened import Opened, is_same, open_mesh
 from .questions import questions
 
 SPARED = 120_000
@@ -46,7 +47,8 @@ class Session:
     """See the module.
 
     `post(function)` must run the function on the thread of the view, in order.  `prepare(surface)` runs in the
-    background when a mesh is opened, for what the view needs of it; its result is then in `opened().prepared`.
+    background when a mesh is opened, for what the view needs of it; its result is then in `opened().prepared`.  given:
+    surfaces and fields from Python, to be there before a document names them.
     """
 
     def __init__(
@@ -57,6 +59,7 @@ class Session:
         document: Document | None = None,
     ) -> None:
         self.view = view
+        self.given = Given()
         self.history = History(document or Document())
         self._post = post
         self._prepare = prepare
@@ -106,13 +109,6 @@ class Session:
             self._change(with_mesh(self.document, mesh, source))
 
         self._start_opening(_Opening((mesh,), arrive))
-
-    def give(self, surface: Surface, name: str = "A") -> MeshFile:
-        """Have a surface that comes from no file, to be named by documents."""
-        opened = in_memory(surface, name)
-        opened.prepared = self._prepare(surface)
-        self._opened.append(opened)
-        return opened.mesh
 
     def look(self, camera: CameraView) -> None:
         """The camera has moved, which is no step of the history."""
@@ -210,8 +206,8 @@ class Session:
         report = lane.progress(lambda latest: latest is opening, quiet=0)
         found = []
         for k, mesh in enumerate(opening.meshes):
-            report(k / len(opening.meshes), f"reading {os.path.basename(mesh.path)}")
-            opened = open_mesh(mesh)
+            report(k / len(opening.meshes), f"reading {os.path.basename(mesh.path) or mesh.name}")
+            opened = open_mesh(mesh, self.given)
             report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
             opened.prepared = self._prepare(opened.surface)
             # Told by the view, for whose thread going over all faces would take too long.
@@ -285,13 +281,12 @@ class Session:
         return True
 
     def _forget(self) -> None:
-        """Surfaces that are no longer shown and can be read again, the oldest first."""
+        """Surfaces that are no longer shown, the oldest first; asked for again they are opened again."""
         latest = {opened.mesh: opened for opened in self._opened}.values()  # of a file that was read again
         shown = [opened for opened in latest if any(is_same(mesh, opened.mesh) for mesh in self.document.surfaces)]
         others = [opened for opened in latest if opened not in shown]
-        files = [opened for opened in others if opened.mesh.path]
-        while files and sum(len(opened.surface.vertices) for opened in files) > SPARED:
-            others.remove(files.pop(0))
+        while others and sum(len(opened.surface.vertices) for opened in others) > SPARED:
+            others.pop(0)
         self._opened = [*others, *shown]
 
     def _ask(self, live: bool) -> None:

@@ -63,19 +63,22 @@ class Answer:
 
 
 def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Answer:
-    """The difference of two answers (`difference`); a failure of either is its failure."""
+    """The difference of two answers (`difference`); a failure of either is its failure.
+
+    One without a unit, which is no distance, is taken to be in the unit of the other.
+    """
     label = f"{minuend.label} − {subtrahend.label}"
     if minuend.field is None or subtrahend.field is None:
         failures = dict.fromkeys(answer.failure for answer in (minuend, subtrahend) if answer.failure)
         return Answer(label=label, failure=" ".join(failures))
-    if raw:
+    if raw and minuend.unit and subtrahend.unit:
         try:
             check_units(minuend.unit, subtrahend.unit)
         except ParameterError as error:
             return failed(label, error)
     field = difference(minuend.field, subtrahend.field, raw)
     field.flags.writeable = False
-    unit = minuend.unit if raw else "difference of shares"
+    unit = (minuend.unit or subtrahend.unit) if raw else "difference of shares"
     certificate = None
     if minuend.certificate is not None and subtrahend.certificate is not None:
         shares = [c.share for c in (minuend.certificate, subtrahend.certificate)]

@@ -15,6 +15,7 @@ from app.document.camera import Camera
 from app.document.document import Difference, DistanceFrom, Document, comparison, without_camera
 from app.document.edits import add_panel, move_panel, move_source, put_point, remove_panel, show_in
 from app.document.form import document_data, document_from
+from app.document.history import History
 from app.session.session import Session
 from bihdist_core import Laplacian
 from bihdist_core.distances.kinds import Spec
@@ -47,9 +48,13 @@ class AnySession(RuleBasedStateMachine):
     def begin(self):
         self.posted = queue.Queue()
         self.session = Session(self, self.posted.put)
-        self.meshes = [self.session.give(surface) for surface in SURFACES]
+        self.meshes = [self.session.given.add_surface(surface) for surface in SURFACES]
         document = comparison("", (Spec.of("biharmonic"),), (3,))
-        self.session.show(replace(document, surfaces=(self.meshes[0],)))
+        # Open once, a surface is there at once afterwards.
+        for mesh in reversed(self.meshes):
+            self.session.show(replace(document, surfaces=(mesh,)))
+            self.run_until(lambda mesh=mesh: self.document.surfaces == (mesh,) and self.session.surface is not None)
+        self.session.history = History(self.document)
         self.steps, self.place, self.key = [self.document], 0, ""
 
     # ------------------------------------------------------------------ the session's view
@@ -104,7 +109,10 @@ class AnySession(RuleBasedStateMachine):
         if self.document.panels:
             panel = self.some_panel(number)
             shows = self.document.panel(panel).shows
-            self.show(show_in(self.document, panel, shows.with_specs((spec, *shows.specs[1:]))), key)
+            self.show(
+                show_in(self.document, panel, shows.with_parts((replace(shows.parts[0], spec=spec), *shows.parts[1:]))),
+                key,
+            )
 
     @rule(spec=SPECS, name=st.sampled_from(["source", "second"]), vertex=VERTICES)
     def add(self, spec, name, vertex):
@@ -187,8 +195,11 @@ class AnySession(RuleBasedStateMachine):
         """Until every panel is answered; after `cancel` only what is asked again is."""
         self.session.show(self.document)
         self.key = ""
+        self.run_until(lambda: self.session.is_complete)
+
+    def run_until(self, condition):
         end = time.monotonic() + 60
-        while not self.session.is_complete:
+        while not condition():
             assert time.monotonic() < end, "waited in vain"
             try:
                 self.posted.get(timeout=0.02)()

@@ -49,7 +49,8 @@ def test_a_way_meets_the_face_that_looking_at_all_of_them_finds(surface):
             met += 1
             assert found[0] == expected[0]
             # Rounding, made larger where a way only just is not along the face.
-            assert np.allclose(found[1], expected[1], rtol=0, atol=1e-9)
+            assert np.allclose(found[2], expected[1], rtol=0, atol=1e-9)
+            assert np.allclose(found[1] @ surface.vertices[surface.faces[found[0]]], found[2])
     assert met > 10
 
 
@@ -63,7 +64,7 @@ def test_the_order_of_the_faces_does_not_matter():
         assert (found is None) == (again is None)
         if found:
             assert found[0] == order[again[0]]
-            assert np.array_equal(found[1], again[1])
+            assert np.array_equal(found[2], again[2])
 
 
 @pytest.mark.parametrize(("size", "away"), [(1.0, 0.0), (1e-9, 0.0), (1e9, 0.0), (1.0, 1e6)])
@@ -74,7 +75,7 @@ def test_no_way_slips_through_at_vertices_and_edges(size, away):
     edges = surface.vertices[surface.edges]
     # Seen from its middle every point of the surface is in front.
     for target in [*surface.vertices, *edges.mean(axis=1), *(0.3 * edges[:, 0] + 0.7 * edges[:, 1])]:
-        _, where = blocks.first_met(middle, middle + 3 * (target - middle))
+        *_, where = blocks.first_met(middle, middle + 3 * (target - middle))
         # Rounding of the coordinates, which the surface may be far away with.
         assert np.linalg.norm(where - target) <= 1e-14 * (100 * size + 10 * away)
 
@@ -84,7 +85,7 @@ def test_a_way_ends_at_its_end_and_faces_edge_on_are_not_met():
     start = np.array([0.6, 0.3, 1.0])
     assert blocks.first_met(start, start * [1, 1, 0.01]) is None
     assert blocks.first_met(start, start) is None
-    face, where = blocks.first_met(start, start * [1, 1, -0.01])
+    face, _, where = blocks.first_met(start, start * [1, 1, -0.01])
     assert face == 0
     assert np.allclose(where, [0.6, 0.3, 0], rtol=0, atol=1e-15)
     assert blocks.first_met(np.array([-1.0, 0.5, 0]), np.array([9.0, 0.7, 0])) is None
@@ -122,14 +123,19 @@ def test_a_pixel_has_the_nearest_corner_of_the_face_in_front(renderer, parallel)
     beside = 0
     # Everywhere in the picture: through the hole, at the rims, where one side of the ring hides the other.
     for x, y in np.random.default_rng(0).uniform(0, SIZE, (400, 2)):
-        vertex, met = picker.vertex_at(renderer, x, y), first_met(surface, *ray(renderer, x, y))
+        found, met = picker.met_at(renderer, x, y), first_met(surface, *ray(renderer, x, y))
         if met is None:
             beside += 1
-            assert vertex is None
+            assert found is None
         else:
             corners = surface.faces[met[0]]
             distances = np.linalg.norm(surface.vertices[corners] - met[1], axis=1)
-            assert vertex == corners[distances.argmin()]
+            assert found.vertex == corners[distances.argmin()]
+            assert found.face == met[0]
+            assert np.allclose(found.position, met[1], atol=1e-9)
+            assert found.weights.min() >= 0
+            assert np.isclose(found.weights.sum(), 1)
+            assert np.allclose(found.weights @ surface.vertices[corners], found.position)
     assert 100 < beside < 300
 
 
@@ -142,7 +148,8 @@ def test_a_vertex_in_front_is_found_where_it_is_seen_and_one_behind_is_not(rende
         renderer.SetWorldPoint(*point, 1)
         renderer.WorldToDisplay()
         x, y, _ = renderer.GetDisplayPoint()
-        found = picker.vertex_at(renderer, x, y)
+        met = picker.met_at(renderer, x, y)
+        found = met and met.vertex
         _, where = first_met(surface, position, position + 0.999 * (point - position)) or (0, point)
         if np.linalg.norm(where - point) > 0.01 or not _faces_towards(surface, vertex, position).any():
             behind += 1

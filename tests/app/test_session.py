@@ -109,7 +109,7 @@ def test_a_mesh_that_has_changed_is_read_again_and_not_taken_for_the_old_one(des
 def test_a_surface_in_memory_is_shown_like_a_file(desk):
     surface = bumpy(60)
     d = desk([BIHARMONIC])
-    mesh = d.session.give(surface)
+    mesh = d.session.given.add_surface(surface)
     document = comparison("", (BIHARMONIC,), (4,))
     d.session.show(replace(document, surfaces=(mesh,)))
     d.complete()

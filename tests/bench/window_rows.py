@@ -262,7 +262,7 @@ def _window(path: str):
     application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bench"])
     document = comparison(path, COMPARED)
     window = MainWindow(document)
-    window.quiet = True
+    window.quiet, window.remembers = True, False
     window.show()
     application.processEvents()
     build_panels(window)

@@ -73,14 +73,37 @@ def test_a_notebook_draws_it_by_itself(mesh_file):
 
 
 @pytest.mark.parametrize("as_arrays", [True, False])
-def test_a_surface_or_arrays_need_no_file_and_get_no_recipe(tmp_path, as_arrays):
+def test_a_surface_or_arrays_are_saved_beside_and_drawn_again(tmp_path, as_arrays):
     surface = bumpy(200)
     mesh = (surface.vertices, surface.faces) if as_arrays else surface
     camera = Camera((0.0, 0.0, 9.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.4, 0.3))
-    drawn = app.figure(mesh, ["biharmonic"], 4, views=camera, size="300x200")
+    fields = {"height": surface.vertices[:, 1]}
+    drawn = app.figure(mesh, ["biharmonic", "biharmonic - height"], 4, fields=fields, views=camera, size="600x200")
     assert np.array_equal(drawn.answers[0].field, BiharmonicDistance(surface).from_source(4))
-    assert drawn.save(tmp_path / "f.pdf").stat().st_size > 1000
-    assert [path.name for path in tmp_path.iterdir()] == ["f.pdf"]
+    assert drawn.save(tmp_path / "f.png").stat().st_size > 1000
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["f.json", "f.npz", "f.png"]
+    assert main(["figure", "--recipe", str(tmp_path / "f.json"), "-o", str(tmp_path / "again.png")]) == 0
+    assert (tmp_path / "again.png").read_bytes() == (tmp_path / "f.png").read_bytes()
+    assert (tmp_path / "again.npz").read_bytes() == (tmp_path / "f.npz").read_bytes()
+
+
+def test_a_field_can_be_named_where_a_recipe_is_drawn_again_and_a_movie_made(tmp_path):
+    surface = bumpy(100)
+    drawn = app.figure(surface, ["biharmonic"], 4, fields={"height": surface.vertices[:, 1]}, size="300x200")
+    drawn.save(tmp_path / "f.png")
+    words = ["--recipe", str(tmp_path / "f.json"), "--distance", "geodesic - height", "--distance", "height"]
+    assert main(["figure", *words, "-o", str(tmp_path / "g.png")]) == 0
+    again = [str(panel.shows) for panel in read_recipe(tmp_path / "g.json").document.panels]
+    assert again == ["geodesic - height", "height"]
+    assert main(["movie", *words, "--frames", "2", "--size", "200x100", "-o", str(tmp_path / "g.gif")]) == 0
+
+
+def test_an_archive_that_is_gone_gets_a_sentence(tmp_path, capsys):
+    app.figure(bumpy(100), ["biharmonic"], 4, size="300x200").save(tmp_path / "f.png")
+    (tmp_path / "f.npz").unlink()
+    assert main(["figure", "--recipe", str(tmp_path / "f.json"), "-o", str(tmp_path / "g.png")]) == 2
+    assert f"is not there: {tmp_path / 'f.npz'}" in capsys.readouterr().err
+    assert not (tmp_path / "g.png").exists()
 
 
 def test_a_flat_surface_becomes_a_relief():

@@ -12,9 +12,9 @@ from app.document.document import COMPARISON, comparison
 def application():
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         pytest.skip("there is no display; `make test` brings one")
-    from app.qt.start import QtWidgets
+    from app.qt.application import application
 
-    return QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bihdist"])
+    return application()
 
 
 class Screen:
@@ -25,7 +25,7 @@ class Screen:
 
         self.application = application
         self.window = MainWindow(comparison("", tuple(specs)))
-        self.window.quiet = True
+        self.window.quiet, self.window.remembers = True, False
         self.refusals, self.completions = [], []
         self.window.refused.connect(self.refusals.append)
         self.window.complete.connect(lambda: self.completions.append(self.source))

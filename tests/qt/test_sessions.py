@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from app.document.camera import Camera
 from app.document.document import Anchor, Zoom, comparison, quantity
@@ -141,7 +142,7 @@ def test_recent_files_are_listed_the_last_first(screen, mesh_file, tmp_path):
     from app.qt import remembered
 
     s = screen()
-    s.window.quiet = False
+    s.window.remembers = True
     meshes = [mesh_file(bumpy(100), f"m{k}.off") for k in range(12)]
     for mesh in meshes:
         s.open(mesh)
@@ -149,7 +150,6 @@ def test_recent_files_are_listed_the_last_first(screen, mesh_file, tmp_path):
     assert remembered.recent() == [str(tmp_path / "s.json"), *meshes[:2:-1]]
     os.unlink(meshes[-1])
     assert meshes[-1] not in remembered.recent()
-    s.window.quiet = True
     (remembered.folder() / "recent.json").write_text("[1, {")
     assert remembered.recent() == []
 
@@ -158,13 +158,13 @@ def test_after_a_crash_what_was_shown_is_offered_and_after_a_proper_end_it_is_no
     from app.qt import remembered
 
     s = screen()
-    s.window.quiet = False
+    s.window.remembers = True
     arranged(s, mesh_file(bumpy(300)))
     s.until(lambda: remembered.own_state().exists(), seconds=10)
     assert remembered.lost_states() == []  # this process is there
     # Another process keeps its state, and ends without a word once it is told to.
-    code = "import os; from app.qt import remembered; remembered.keep_state(input()); print(remembered.own_state())"
-    command = [sys.executable, "-c", f"{code}; print(flush=True); input(); os._exit(1)"]
+    code = "import os; from app.qt import remembered as r; text = input(); r.keep_state(lambda p: p.write_text(text)); "
+    command = [sys.executable, "-c", f"{code}print(r.own_state()); print(flush=True); input(); os._exit(1)"]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, cwd=ROOT, **pipes) as process:
         process.stdin.write(json.dumps(json.loads(remembered.own_state().read_text())) + "\n")
@@ -184,7 +184,6 @@ def test_after_a_crash_what_was_shown_is_offered_and_after_a_proper_end_it_is_no
     assert other.window.session_file.path is None
     s.window.close()
     assert not remembered.own_state().exists()
-    s.window.quiet = True
 
 
 def test_view_saves_its_session(mesh_file, tmp_path):
@@ -195,6 +194,22 @@ def test_view_saves_its_session(mesh_file, tmp_path):
     document = read_recipe(tmp_path / "s.json").document
     assert (document.sources, [str(panel.shows) for panel in document.panels]) == ((7,), ["biharmonic - geodesic"])
     assert not (tmp_path / "data").exists()
+    again = ["view", str(tmp_path / "s.json"), "--screenshot", str(tmp_path / "again.png")]
+    done = subprocess.run([sys.executable, "-m", "app", *again], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    with Image.open(tmp_path / "w.png") as one, Image.open(tmp_path / "again.png") as other:
+        assert one.size == other.size
+        assert (np.asarray(one) != np.asarray(other)).any(axis=2).mean() < 0.01
+
+
+def test_a_session_is_opened_as_it_is_and_options_beside_it_are_refused(mesh_file, tmp_path, capsys):
+    from app.main import main
+
+    path = tmp_path / "s.json"
+    path.write_text(recipe_text(Recipe(comparison(mesh_file(bumpy(60)))), "9"))
+    for words in (["--source", "3"], ["--distance", "geodesic"], ["--areas", "voronoi"], ["--t", "0.5"]):
+        assert main(["view", str(path), *words]) == 2
+        assert f"leave out {words[0]}" in capsys.readouterr().err
 
 
 def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh_file, tmp_path):
@@ -238,7 +253,7 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
         panel = int(random.choice(panels))
         action = number % 5
         if action == 0:
-            s.window._click(panel, int(random.integers(40)))
+            s.session.show(move_source(s.document, panel, int(random.integers(40))))
         elif action == 1:
             s.window._choose(panel, shows[random.integers(len(shows))])
         elif action == 2:

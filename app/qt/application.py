@@ -1,0 +1,83 @@
+"""Qt's application and its event loop, for the command and for whoever has a process of his own."""
+
+import locale
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core import BihdistError
+
+POLL_MS = 20
+"""How often it is looked whether the waiting has an end."""
+
+_kept: list[QtWidgets.QApplication] = []
+"""Qt's application must not be taken down while there are windows."""
+
+
+def check_screen() -> None:
+    """BihdistError where there is no display: Qt would end the process."""
+    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise BihdistError(
+            "The viewer needs a display and there is none (DISPLAY is not set); `bihdist figure` draws without one."
+        )
+
+
+def application() -> QtWidgets.QApplication:
+    """Qt's application, made if there is none; the environment and the locale stay as they are."""
+    known = QtWidgets.QApplication.instance()
+    if known is not None:
+        return known
+    QtWidgets.QApplication.setHighDpiScaleFactorRoundingPolicy(QtCore.Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)
+    spoken = locale.setlocale(locale.LC_ALL)
+    with _drawn_through_x():
+        _kept.append(QtWidgets.QApplication(sys.argv[:1]))
+    # Qt takes the user's, and then C libraries write 0,5 for a half.
+    locale.setlocale(locale.LC_ALL, spoken)
+    return _kept[-1]
+
+
+@contextmanager
+def _drawn_through_x() -> Iterator[None]:
+    """VTK draws through X only, which Qt has to know when it starts."""
+    both = os.environ.get("DISPLAY") and os.environ.get("WAYLAND_DISPLAY")
+    is_ours = bool(both) and "QT_QPA_PLATFORM" not in os.environ
+    if is_ours:
+        os.environ["QT_QPA_PLATFORM"] = "xcb"
+    try:
+        yield
+    finally:
+        if is_ours:
+            del os.environ["QT_QPA_PLATFORM"]
+
+
+def run_until(condition: Callable[[], bool]) -> None:
+    """Let Qt work until the condition holds; KeyboardInterrupt if the user presses Ctrl+C meanwhile."""
+    loop = QtCore.QEventLoop()
+    timer = QtCore.QTimer(interval=POLL_MS)
+    timer.timeout.connect(loop.quit)
+    timer.start()
+    with _interrupts_noted() as interrupts:
+        while not condition():
+            loop.exec()
+            if interrupts:
+                raise KeyboardInterrupt
+
+
+@contextmanager
+def _interrupts_noted() -> Iterator[list[int]]:
+    """Ctrl+C is noted instead of raised, which inside a slot would end the process."""
+    noted: list[int] = []
+    is_python = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if not is_python or threading.current_thread() is not threading.main_thread():
+        yield noted
+        return
+    signal.signal(signal.SIGINT, lambda number, frame: noted.append(number))
+    try:
+        yield noted
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -1,0 +1,281 @@
+"""`bihdist.show`: the window from Python, in a script, in IPython and in notebooks.
+
+The process is left as it was: no hook for exceptions, no frozen garbage collector, no environment variable or locale of
+ours, and nothing in the user's list of recent files.
+"""
+
+import atexit
+import os
+import sys
+import traceback
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+import qtpy
+from qtpy import QtCore
+
+from bihdist_core import BihdistError
+
+from ..document.document import Document, Quantity
+from ..document.edits import move_source
+from ..session.given import Mesh, given_comparison
+from ..session.opened import checked_path
+from ..session.questions import vertex_at
+from .application import application, check_screen, run_until
+from .main_window import MainWindow
+
+if TYPE_CHECKING:
+    from ..drawing.picking import Met
+
+
+@dataclass(frozen=True, eq=False)
+class Pick:
+    """A click on the surface.
+
+    panel: the id of the panel that was clicked.  vertex: the nearest corner of the face.  position: (3,) where the face
+    was met, and weights: (3,) of its corners there.  values: by panel, what it showed at the vertex when that was
+    clicked, before the source went there; NaN where it showed nothing.
+    """
+
+    panel: int
+    vertex: int
+    position: np.ndarray
+    face: int
+    weights: np.ndarray
+    values: dict[int, float]
+
+
+@dataclass(frozen=True, eq=False)
+class ShownPanel:
+    """What a panel shows: field (n,) in the unit given, NaN where undefined; or None, and the failure in words."""
+
+    id: int
+    quantity: str
+    label: str
+    unit: str
+    field: np.ndarray | None
+    failure: str
+
+
+class Viewer:
+    """A window that `show` has opened; BihdistError for what needs it after it is closed."""
+
+    def __init__(self, window: MainWindow, on_pick: Callable[[Pick], object] | None) -> None:
+        self._window: MainWindow | None = window
+        self._on_pick = on_pick
+        window.picked.connect(self._picked)
+        window.closed.connect(self._closed)
+        _open.add(self)
+
+    # ------------------------------------------------------------------ what is shown
+    @property
+    def document(self) -> Document:
+        """All that is shown, as a value; set, it is shown, as a step that the user can undo."""
+        return self._session.document
+
+    @document.setter
+    def document(self, document: Document) -> None:
+        arrived: list[bool] = []
+        self._through(lambda: self._session.show(document, arrived=lambda: arrived.append(True)), lambda: bool(arrived))
+
+    @property
+    def source(self) -> int | None:
+        """The vertex that the first panel's field starts from; None if it starts nowhere.  Set, it moves there."""
+        sources = self.document.sources
+        return vertex_at(sources[0], self._session.surface) if sources else None
+
+    @source.setter
+    def source(self, vertex: int) -> None:
+        vertex = self._session.surface.check_vertex(vertex)
+        with_source = [panel.id for panel in self.document.panels if panel.shows.points]
+        if not with_source:
+            raise BihdistError("No panel shows a field that starts anywhere.")
+        self.document = move_source(self.document, with_source[0], vertex)
+
+    @property
+    def panels(self) -> tuple[ShownPanel, ...]:
+        """What the panels show; waits until all of it has been computed."""
+        self._complete()
+        found = []
+        for panel in self.document.panels:
+            shown = self._session.shown.get(panel.id)
+            if shown is None or shown.is_preview:
+                found.append(ShownPanel(panel.id, str(panel.shows), str(panel.shows), "", None, "It was stopped."))
+            else:
+                answer = shown.answer
+                found.append(
+                    ShownPanel(panel.id, str(panel.shows), answer.label, answer.unit, answer.field, answer.failure)
+                )
+        return tuple(found)
+
+    def screenshot(self, path: str | os.PathLike[str]) -> Path:
+        """The window as a PNG, once everything has been computed; OutputError if it cannot be written."""
+        self._complete()
+        self._there.save_screenshot(os.fspath(path))
+        return Path(path)
+
+    def close(self) -> None:
+        """Close the window, without questions; nothing happens if it is closed already."""
+        if self._window is not None:
+            self._window.quiet = True
+            self._window.close()
+
+    @property
+    def is_open(self) -> bool:
+        return self._window is not None
+
+    def __repr__(self) -> str:
+        if self._window is None:
+            return "Viewer(closed)"
+        shown = ", ".join(str(panel.shows) for panel in self.document.panels)
+        return f"Viewer({shown}, of {self._session.surface.name})"
+
+    # ------------------------------------------------------------------ how
+    @property
+    def _there(self) -> MainWindow:
+        if self._window is None:
+            raise BihdistError("The window is closed.")
+        return self._window
+
+    @property
+    def _session(self) -> Any:
+        return self._there.session
+
+    def _complete(self) -> None:
+        """Wait until everything has been computed, or the user stops it."""
+
+        def is_done() -> bool:
+            window = self._there
+            session = window.session
+            return not session.progress and (session.is_complete or session.is_stopped)
+
+        run_until(is_done)
+
+    def _through(self, act: Callable[[], None], is_done: Callable[[], bool]) -> None:
+        """Let the session do something and wait for it; BihdistError with what the user would have been told."""
+        window = self._there
+        refusals: list[str] = []
+        was_quiet, window.quiet = window.quiet, True
+        window.refused.connect(refusals.append)
+        try:
+            act()
+            run_until(lambda: is_done() or bool(refusals) or self._window is None)
+        finally:
+            window.refused.disconnect(refusals.append)
+            window.quiet = was_quiet
+        if refusals:
+            raise BihdistError(refusals[0])
+
+    def _picked(self, panel: int, met: "Met") -> None:
+        if self._on_pick is None:
+            return
+        fields = {id: shown.answer.field for id, shown in self._session.shown.items()}
+        shown = [fields.get(each.id) for each in self.document.panels]
+        values = [float("nan") if field is None else float(field[met.vertex]) for field in shown]
+        ids = [each.id for each in self.document.panels]
+        try:
+            pick = Pick(panel, met.vertex, met.position, met.face, met.weights, dict(zip(ids, values, strict=True)))
+            self._on_pick(pick)
+        except Exception:
+            # Out of a slot it would end the process.
+            traceback.print_exc()
+
+    def _closed(self) -> None:
+        window, self._window = self._window, None
+        _open.discard(self)
+        if window is not None:
+            window.deleteLater()
+
+
+_open: set[Viewer] = set()
+"""Windows stay open whether or not anybody keeps what `show` has returned."""
+
+
+def show(
+    mesh: Mesh,
+    distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
+    fields: Mapping[str, npt.ArrayLike] | None = None,
+    source: int | None = None,
+    *,
+    areas: str = "voronoi",
+    on_pick: Callable[[Pick], object] | None = None,
+    block: bool | None = None,
+) -> Viewer:
+    """Open the window; returns what it can be asked and told through.
+
+    mesh: a file, a sample, a Surface, or vertices (n, 3) and faces (m, 3).  distances: a panel each, in words:
+    "diffusion(t=1/4)", "biharmonic - geodesic".  fields: your own by name, (n,) with NaN where undefined; each has a
+    panel, coloured from 0 (from minus its largest absolute value, if it has negative values), or is named in
+    `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None.  on_pick: called with a `Pick`
+    for each click on the surface.  block: wait until the window is closed; if None, in scripts, but not in IPython,
+    notebooks and Python's own prompt, where the window lives while you go on.
+
+    Raises BihdistError: for input that cannot be shown, and where there is no display.
+
+    >>> import bihdist
+    >>> viewer = bihdist.show("hand", ["biharmonic", "geodesic"], source=12, block=False)
+    >>> viewer
+    Viewer(biharmonic, geodesic, of hand.ply)
+    >>> viewer.source = 900
+    >>> biharmonic, geodesic = viewer.panels
+    >>> float(biharmonic.field[900]), biharmonic.label
+    (0.0, 'biharmonic, exact')
+    >>> viewer.close()
+    """
+    document, given = given_comparison(mesh, distances, fields or {}, (source,), areas)
+    for each in document.surfaces:
+        checked_path(each)
+    check_screen()
+    shell = _ipython()
+    waits = block if block is not None else shell is None and not hasattr(sys, "ps1")
+    app = application()
+    if shell is not None and not waits:
+        _share_event_loop(shell)
+    window = MainWindow(document)
+    window.remembers = False
+    window.setAttribute(QtCore.Qt.WidgetAttribute.WA_QuitOnClose, False)
+    viewer = Viewer(window, on_pick)
+    window.session.given.update(given)
+    window.show()
+    # It is painted before the imports, which take a second.
+    app.processEvents()
+    window.build_panels()
+    arrived: list[bool] = []
+    try:
+        viewer._through(lambda: window.show_document(document, lambda: arrived.append(True)), lambda: bool(arrived))
+    except BaseException:
+        viewer.close()
+        raise
+    if waits:
+        try:
+            run_until(lambda: not viewer.is_open)
+        except KeyboardInterrupt:
+            viewer.close()
+            raise
+    return viewer
+
+
+def _ipython() -> Any:
+    """The IPython that runs this, or None."""
+    module = sys.modules.get("IPython")
+    return None if module is None else module.get_ipython()
+
+
+def _share_event_loop(shell: Any) -> None:
+    """Let Qt work while IPython waits for input; BihdistError if another toolkit does."""
+    active = getattr(shell, "active_eventloop", None)
+    if active is None:
+        shell.enable_gui("qt5" if qtpy.QT5 else "qt6")
+    elif not str(active).startswith("qt"):
+        raise BihdistError(f"IPython runs the event loop of {active} already; use block=True, or a session without it.")
+
+
+@atexit.register
+def _close_all() -> None:
+    """Before the interpreter takes Qt and VTK apart."""
+    for viewer in tuple(_open):
+        viewer.close()

@@ -1,0 +1,192 @@
+"""What comes from Python instead of files: surfaces and fields, by the checksums that documents name them by.
+
+They are saved as an .npz archive of plain arrays: `surface/A/vertices`, `surface/A/faces` and `surface/A/name` of a
+surface A, and `field/height` of a field.
+"""
+
+import hashlib
+import os
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bihdist_core import ParameterError, Surface
+
+from ..document.document import Document, FieldArray, MeshFile, Quantity, comparison, quantity
+from ..document.page import Recipe
+
+Mesh = str | os.PathLike[str] | Surface | tuple[Any, Any]
+"""A file or the name of a sample, a surface, or its vertices (n, 3) and faces (m, 3)."""
+
+
+class Given:
+    """See the module.  Whoever has been given something may ask for it on any thread."""
+
+    def __init__(self) -> None:
+        self._surfaces: dict[str, Surface] = {}
+        self._fields: dict[str, np.ndarray] = {}
+
+    def add_surface(self, surface: Surface, name: str = "A") -> MeshFile:
+        """Keep a surface; what a document calls it."""
+        digest = _checksum(surface.vertices, surface.faces)
+        self._surfaces[digest] = surface
+        return MeshFile(name, "", digest)
+
+    def add_field(self, name: str, values: npt.ArrayLike, surface: str = "A") -> FieldArray:
+        """Keep a field (n,) of real numbers, NaN where undefined; what a document calls it.
+
+        ParameterError for anything else, and for a name that is none.
+        """
+        try:
+            array = np.array(values)
+            if np.iscomplexobj(array):
+                raise TypeError
+            array = array.astype(np.float64)
+        except (TypeError, ValueError):
+            raise ParameterError(f"The field {name!r} is no array of real numbers.") from None
+        if array.ndim != 1:
+            raise ParameterError(f"The field {name!r} has the shape {array.shape}; it needs one value for each vertex.")
+        if np.isinf(array).any():
+            vertex = int(np.flatnonzero(np.isinf(array))[0])
+            raise ParameterError(
+                f"The field {name!r} is {array[vertex]} at vertex {vertex}; use NaN where it is undefined."
+            )
+        array.flags.writeable = False
+        field = FieldArray(name, _checksum(array), surface)
+        self._fields[field.sha256] = array
+        return field
+
+    def surface(self, mesh: MeshFile) -> Surface:
+        """The surface a document means; ParameterError if it was never given."""
+        if mesh.sha256 not in self._surfaces:
+            raise ParameterError(f"The surface {mesh.name!r} was given from Python, and is not there any more.")
+        return self._surfaces[mesh.sha256]
+
+    def field(self, sha256: str, name: str) -> np.ndarray:
+        """(n,) the values of a field; ParameterError if they were never given."""
+        if sha256 not in self._fields:
+            raise ParameterError(f"The field {name!r} was given from Python, and is not there any more.")
+        return self._fields[sha256]
+
+    def update(self, other: "Given") -> None:
+        """Keep what another keeps."""
+        self._surfaces.update(other._surfaces)
+        self._fields.update(other._fields)
+
+    # ------------------------------------------------------------------ files
+    def arrays(self, document: Document) -> dict[str, np.ndarray]:
+        """What a document needs, by the names that it has in an archive."""
+        arrays: dict[str, np.ndarray] = {}
+        for mesh in document.surfaces:
+            if not mesh.path:
+                surface, at = self.surface(mesh), f"surface/{mesh.name}"
+                arrays |= {f"{at}/vertices": surface.vertices, f"{at}/faces": surface.faces}
+                arrays[f"{at}/name"] = np.array(surface.name)
+        return arrays | {f"field/{field.name}": self.field(field.sha256, field.name) for field in document.fields}
+
+    @classmethod
+    def read(cls, recipe: Recipe) -> "Given":
+        """What the document of a recipe needs, from the recipe's archive.
+
+        Raises ParameterError if the archive is missing, is none, lacks something, or holds something else.
+        """
+        given, document, path = cls(), recipe.document, recipe.arrays
+        if not is_given(document):
+            return given
+        if not os.path.isfile(path):
+            raise ParameterError(f"What came from Python is not there: {path or 'no archive is named'}.")
+        with _opened(path) as archive:
+            for mesh in document.surfaces:
+                if not mesh.path:
+                    at = f"surface/{mesh.name}"
+                    vertices, faces, name = (_array(archive, f"{at}/{part}", path) for part in PARTS)
+                    _check(given.add_surface(Surface(vertices, faces, str(name))), mesh, path)
+            for field in document.fields:
+                _check(given.add_field(field.name, _array(archive, f"field/{field.name}", path)), field, path)
+        return given
+
+
+PARTS = ("vertices", "faces", "name")
+
+
+def is_given(document: Document) -> bool:
+    """Whether a document names anything that stands in no file of its own."""
+    return bool(document.fields) or any(not mesh.path for mesh in document.surfaces)
+
+
+def is_archive(path: str | os.PathLike[str]) -> bool:
+    """Whether a file holds arrays that were given: whether it may be replaced by such a one."""
+    try:
+        with _opened(path) as archive:
+            return all(name.startswith(("surface/", "field/")) for name in archive.files)
+    except ParameterError:
+        return False
+
+
+def given_comparison(
+    mesh: Mesh,
+    distances: Sequence[str | Quantity],
+    fields: Mapping[str, npt.ArrayLike],
+    sources: tuple[int | None, ...],
+    areas: str = "voronoi",
+) -> tuple[Document, Given]:
+    """A mesh with a panel for each distance from each source, and one for each field that none of them names."""
+    given = Given()
+    is_file = isinstance(mesh, str | os.PathLike)
+    entry = MeshFile("A", str(mesh)) if is_file else given.add_surface(_surface(mesh))
+    own = tuple(given.add_field(name, values) for name, values in fields.items())
+    shows = tuple(quantity(each, fields=fields) if isinstance(each, str) else each for each in distances)
+    return replace(comparison(entry.path, shows, sources, areas, own), surfaces=(entry,)), given
+
+
+def _surface(mesh: Any) -> Surface:
+    if isinstance(mesh, Surface):
+        return mesh
+    try:
+        vertices, faces = mesh
+    except (TypeError, ValueError):
+        raise ParameterError(
+            f"A mesh is a file, a Surface, or vertices and faces, not {type(mesh).__name__}."
+        ) from None
+    return Surface(vertices, faces)
+
+
+def _checksum(*arrays: np.ndarray) -> str:
+    digest = hashlib.sha256()
+    for array in arrays:
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+@contextmanager
+def _opened(path: str | os.PathLike[str]) -> Iterator[Any]:
+    """An archive; ParameterError if it is none."""
+    with ExitStack() as files:
+        try:
+            archive = np.load(files.enter_context(Path(path).open("rb")), allow_pickle=False)
+        except (OSError, ValueError, EOFError, zipfile.BadZipFile):
+            archive = None
+        if not isinstance(archive, np.lib.npyio.NpzFile):
+            raise ParameterError(f"{path} is no archive of arrays.")
+        yield archive
+
+
+def _array(archive: Any, name: str, path: str | os.PathLike[str]) -> np.ndarray:
+    try:
+        return archive[name]
+    except KeyError:
+        raise ParameterError(f"{path} has no {name!r}.") from None
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
+        raise ParameterError(f"{path}: {name!r} cannot be read; the file is damaged.") from None
+
+
+def _check(found: MeshFile | FieldArray, wanted: MeshFile | FieldArray, path: str | os.PathLike[str]) -> None:
+    if found.sha256 != wanted.sha256:
+        raise ParameterError(f"{path}: {wanted.name!r} is not what it was when it was saved (its checksum differs).")

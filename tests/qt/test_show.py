@@ -1,0 +1,374 @@
+"""`bihdist.show`: the window from Python, in scripts, in IPython and in notebooks."""
+
+import doctest
+import gc
+import importlib.util
+import json
+import locale
+import os
+import subprocess
+import sys
+import textwrap
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import app
+from app.document.file import read_recipe
+from bihdist_core import BiharmonicDistance, BihdistError, MeshError, ParameterError, VertexError
+from tests.shapes import bumpy, two_pieces
+
+pytest.importorskip("qtpy")
+ROOT = Path(__file__).resolve().parents[2]
+SURFACE = bumpy(300)
+HEIGHT = SURFACE.vertices[:, 1]
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    """Nothing of the user's is read or written."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+
+
+@pytest.fixture
+def shown(application):
+    """`show` without waiting; closes what was opened."""
+    viewers = []
+
+    def show(*arguments, **options):
+        viewers.append(app.show(*arguments, block=False, **options))
+        return viewers[-1]
+
+    yield show
+    for viewer in viewers:
+        viewer.close()
+
+
+def script(tmp_path, text):
+    """Run a program of its own, with the package under its name."""
+    path = tmp_path / "script.py"
+    path.write_text(f"import app as bihdist\n{textwrap.dedent(text)}")
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, str(path)]
+    return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120)
+
+
+# ---------------------------------------------------------------------- what it shows
+def test_arrays_and_fields_have_panels_and_the_right_numbers(shown):
+    viewer = shown(
+        SURFACE, ["biharmonic", "biharmonic - height"], {"height": HEIGHT - HEIGHT.min(), "bend": -HEIGHT}, 7
+    )
+    exact, difference, bend = viewer.panels
+    assert repr(viewer) == "Viewer(biharmonic, biharmonic - height, bend, of bumpy)"
+    field = BiharmonicDistance(SURFACE).from_source(7)
+    assert np.allclose(exact.field, field, atol=1e-12)
+    height = HEIGHT - HEIGHT.min()
+    assert np.allclose(difference.field, field / field.max() - height / height.max(), atol=1e-12)
+    assert (difference.quantity, difference.label, difference.unit) == (
+        "biharmonic - height",
+        "biharmonic, exact − height",
+        "difference of shares",
+    )
+    assert np.array_equal(bend.field, -HEIGHT)
+
+
+def test_vertices_and_faces_or_a_file_are_the_same_mesh(shown, mesh_file):
+    for mesh in ((SURFACE.vertices.tolist(), SURFACE.faces.tolist()), Path(mesh_file(SURFACE))):
+        (panel,) = shown(mesh, ["biharmonic"], source=7).panels
+        assert np.allclose(panel.field, BiharmonicDistance(SURFACE).from_source(7), rtol=1e-6)
+
+
+def test_the_source_moves_and_the_numbers_are_those_from_there(shown):
+    viewer = shown(SURFACE, ["biharmonic"], source=7)
+    viewer.source = 20
+    assert viewer.source == 20
+    assert viewer.panels[0].field[20] == 0
+    with pytest.raises(VertexError, match="no vertex 5000"):
+        viewer.source = 5000
+    assert viewer.source == 20
+
+
+def test_a_document_is_shown_and_can_be_undone(shown):
+    viewer = shown(SURFACE, ["biharmonic", "geodesic"])
+    before = viewer.document
+    viewer.document = replace(before, isolines=7, panels=before.panels[:1])
+    assert len(viewer.panels) == 1
+    viewer._window.session.undo()
+    assert viewer.document == before
+    with pytest.raises(BihdistError, match="not there"):
+        viewer.document = replace(before, surfaces=(replace(before.surfaces[0], path="gone.off"),))
+    assert viewer.document == before
+
+
+def test_the_screenshot_is_taken_once_all_is_there(shown, tmp_path):
+    viewer = shown(SURFACE, ["biharmonic", "geodesic"])
+    assert viewer.screenshot(tmp_path / "w.png").stat().st_size > 10_000
+    assert viewer._window.session.is_complete
+
+
+def test_fields_of_one_surface_alone(shown):
+    viewer = shown(SURFACE, [], {"height": HEIGHT})
+    assert viewer.source is None
+    assert [panel.quantity for panel in viewer.panels] == ["height"]
+    with pytest.raises(BihdistError, match="starts anywhere"):
+        viewer.source = 3
+
+
+def test_after_closing_it_says_so(shown):
+    viewer = shown(SURFACE, ["biharmonic"])
+    viewer.close()
+    viewer.close()
+    assert (viewer.is_open, repr(viewer)) == (False, "Viewer(closed)")
+    for name in ("source", "panels", "document"):
+        with pytest.raises(BihdistError, match="closed"):
+            getattr(viewer, name)
+
+
+# ---------------------------------------------------------------------- picking
+def click(viewer, share=(0.5, 0.5)):
+    from qtpy import QtCore, QtTest
+
+    view = viewer._window.grid.panels[0].interactor
+    place = QtCore.QPoint(int(share[0] * view.width()), int(share[1] * view.height()))
+    QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
+
+
+def test_a_pick_tells_where_and_what_was_there_before_the_source_came(shown):
+    picks = []
+    viewer = shown(SURFACE, ["biharmonic", "geodesic"], {"height": HEIGHT}, 7, on_pick=picks.append)
+    before = viewer.panels
+    click(viewer)
+    (pick,) = picks
+    assert pick.panel == 0
+    assert pick.vertex in SURFACE.faces[pick.face]
+    assert np.allclose(pick.weights @ SURFACE.vertices[SURFACE.faces[pick.face]], pick.position)
+    assert pick.values == {panel.id: panel.field[pick.vertex] for panel in before}
+    assert viewer.source == pick.vertex
+    click(viewer, (0.01, 0.01))
+    assert len(picks) == 1
+
+
+def test_where_nothing_is_defined_a_pick_has_no_value(shown):
+    picks = []
+    surface = two_pieces()
+    viewer = shown(surface, ["biharmonic"], source=int(surface.faces[-1, 0]), on_pick=picks.append)
+    field = viewer.panels[0].field
+    viewer._window._click(0, _met(surface, int(np.flatnonzero(np.isnan(field))[0])))
+    assert np.isnan(picks[0].values[0])
+
+
+def _met(surface, vertex):
+    from app.drawing.picking import Met
+
+    face = int(np.flatnonzero((surface.faces == vertex).any(axis=1))[0])
+    weights = (surface.faces[face] == vertex).astype(float)
+    return Met(face, weights, surface.vertices[vertex], vertex)
+
+
+def test_an_error_in_a_callback_is_told_and_the_window_lives_on(shown, capsys):
+    def on_pick(pick):
+        raise ZeroDivisionError("mine")
+
+    viewer = shown(SURFACE, ["biharmonic"], source=7, on_pick=on_pick)
+    viewer.panels  # noqa: B018
+    click(viewer)
+    assert "ZeroDivisionError: mine" in capsys.readouterr().err
+    assert viewer.source != 7
+
+
+# ---------------------------------------------------------------------- what cannot be shown
+@pytest.mark.parametrize(
+    ("arguments", "error", "words"),
+    [
+        ((SURFACE, ["euclidean"]), ParameterError, "no distance 'euclidean'"),
+        (("gone.off",), ParameterError, "gone.off is not there"),
+        ((SURFACE, ["biharmonic"], None, 5000), BihdistError, "no vertex 5000"),
+        ((SURFACE, ["biharmonic"], {"mine": [1.0]}), BihdistError, "has 1 values"),
+        (((SURFACE.vertices, [[0, 1, 99_999]]),), MeshError, "99999"),
+        (("README.md",), BihdistError, "README.md"),
+    ],
+)
+def test_what_cannot_be_shown_is_raised_and_no_window_stays(application, monkeypatch, arguments, error, words):
+    monkeypatch.chdir(ROOT)
+    with pytest.raises(error, match=words):
+        app.show(*arguments, block=False)
+    assert not [window for window in application.topLevelWidgets() if window.isVisible()]
+
+
+def test_without_a_display_it_says_so(tmp_path, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    done = script(tmp_path, "bihdist.show('hand')")
+    if sys.platform.startswith("linux"):
+        assert "BihdistError: The viewer needs a display" in done.stderr
+
+
+# ---------------------------------------------------------------------- the process
+def test_the_process_stays_as_it_was(shown, tmp_path):
+    def state():
+        return sys.excepthook, gc.get_freeze_count(), locale.setlocale(locale.LC_ALL), os.environ.get("QT_QPA_PLATFORM")
+
+    before = state()
+    shown(SURFACE, ["biharmonic"]).panels  # noqa: B018
+    assert state() == before
+    assert not (tmp_path / "data").exists()
+
+
+def test_a_script_waits_until_the_window_is_closed(application, tmp_path):
+    done = script(
+        tmp_path,
+        """
+        import os, sys
+        from qtpy import QtCore, QtWidgets
+        QtCore.QTimer.singleShot(3000, lambda: [w.close() for w in QtWidgets.QApplication.topLevelWidgets()])
+        application = QtWidgets.QApplication([])
+        QtCore.QTimer.singleShot(3000, lambda: [w.close() for w in QtWidgets.QApplication.topLevelWidgets()])
+        viewer = bihdist.show("hand", ["biharmonic"])
+        print(viewer, "QT_QPA_PLATFORM" in os.environ, sys.excepthook is sys.__excepthook__)
+        """,
+    )
+    assert (done.returncode, done.stdout.strip()) == (0, "Viewer(closed) False True"), done.stderr
+
+
+def test_a_script_may_go_on_and_end_with_the_window_open(application, tmp_path):
+    done = script(
+        tmp_path,
+        """
+        viewer = bihdist.show("hand", ["biharmonic"], block=False)
+        viewer.screenshot("w.png")
+        print(viewer.panels[0].field.max() > 0)
+        """,
+    )
+    assert (done.returncode, done.stdout.strip()) == (0, "True"), done.stderr
+    assert (tmp_path / "w.png").exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "kill") or sys.platform == "win32", reason="needs POSIX signals")
+def test_an_interrupt_closes_the_window_and_is_raised(application, tmp_path):
+    done = script(
+        tmp_path,
+        """
+        import os, signal, threading
+        threading.Timer(3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        try:
+            bihdist.show("hand", ["biharmonic"])
+        except KeyboardInterrupt:
+            print("interrupted", signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+        """,
+    )
+    assert (done.returncode, done.stdout.strip()) == (0, "interrupted True"), done.stderr
+
+
+def test_the_session_of_such_a_window_is_saved_opened_and_drawn(shown, screen, tmp_path):
+    from app.main import main
+
+    viewer = shown(SURFACE, ["biharmonic", "biharmonic - height"], {"height": HEIGHT - HEIGHT.min()}, 7)
+    fields = [panel.field for panel in viewer.panels]
+    viewer._window.session_file.save(str(tmp_path / "s.json"))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["s.json", "s.npz"]
+    assert read_recipe(tmp_path / "s.json").document == viewer.document
+    s = screen()
+    s.window.session_file.open(str(tmp_path / "s.json"))
+    s.until(lambda: s.session.is_complete)
+    assert s.document == viewer.document
+    for answer, field in zip(s.answers, fields, strict=True):
+        assert np.array_equal(answer.field, field)
+    assert s.panels[1].controls.second.distance.currentText() == "height"
+    assert (
+        main(["figure", "--recipe", str(tmp_path / "s.json"), "--size", "600x300", "-o", str(tmp_path / "f.png")]) == 0
+    )
+    s.window.close()
+
+
+def test_a_field_is_chosen_in_a_panel_like_a_distance(shown):
+    viewer = shown(SURFACE, ["biharmonic", "height"], {"height": HEIGHT}, 7)
+    controls = viewer._window.grid.panels[0].controls
+    box = controls.first.distance
+    box.setCurrentIndex(box.findText("height"))
+    assert [panel.quantity for panel in viewer.panels] == ["height", "height"]
+    box.setCurrentIndex(box.findText("Difference of two"))
+    assert viewer.panels[0].quantity == "height - biharmonic"
+    controls.alone.click()
+    box.setCurrentIndex(box.findText("Diffusion"))
+    assert viewer.panels[0].quantity == "diffusion"
+    for _ in range(3):
+        viewer._window.session.undo()
+    assert viewer.panels[0].quantity == "height"
+
+
+# ---------------------------------------------------------------------- IPython and notebooks
+def test_the_example_in_the_docstring_runs(application, monkeypatch):
+    from app.qt import show
+
+    # In a checkout the package has another name.
+    monkeypatch.setitem(sys.modules, "bihdist", app)
+    (test,) = doctest.DocTestFinder(recurse=False).find(show.show, "show")
+    assert doctest.DocTestRunner().run(test) == (0, len(test.examples))
+
+
+def test_ipython_gets_its_prompt_back_while_the_window_lives(application, tmp_path):
+    pexpect = pytest.importorskip("pexpect")
+    pytest.importorskip("IPython")
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "IPYTHONDIR": str(tmp_path), "TERM": "xterm"}
+    options = ["-m", "IPython", "--no-banner", "--colors=NoColor", "--no-confirm-exit"]
+    shell = pexpect.spawn(sys.executable, options, cwd=str(tmp_path), env=environment, timeout=60, encoding="utf-8")
+    try:
+        for line in (
+            "import app as bihdist, pathlib; from qtpy.QtCore import QTimer",
+            "viewer = bihdist.show('hand', ['biharmonic'])",
+            # Heard only if Qt works while the prompt waits.
+            "QTimer.singleShot(500, lambda: pathlib.Path('alive').touch()); print('still', 'here')",
+        ):
+            shell.expect(r"In \[\d+\]:")
+            shell.sendline(line)
+        shell.expect("still here")
+        for _ in range(100):
+            if not (tmp_path / "alive").exists():
+                shell.expect(["no such words", pexpect.TIMEOUT], timeout=0.1)
+        assert (tmp_path / "alive").exists()
+        shell.sendline("viewer.close(); print(repr(viewer), viewer.is_open)")
+        shell.expect(r"Viewer\(closed\) False")
+        shell.sendline("exit()")
+        shell.expect(pexpect.EOF)
+    finally:
+        shell.close(force=True)
+
+
+@pytest.mark.skipif(importlib.util.find_spec("nbconvert") is None, reason="nbconvert is not installed")
+def test_a_notebook_shows_windows_and_draws_figures(application, tmp_path):
+    pytest.importorskip("ipykernel")
+    cells = [
+        "import app as bihdist, numpy as np",
+        "viewer = bihdist.show('hand', ['biharmonic', 'geodesic'], source=12)\nviewer",
+        "viewer.source = 900\nassert viewer.panels[0].field[900] == 0\nviewer.screenshot('w.png').name",
+        "bihdist.figure('hand', ['biharmonic'], source=12, size='300x200')",
+        "viewer.close()\nviewer.is_open",
+    ]
+    notebook = {
+        "cells": [
+            {"cell_type": "code", "id": f"c{k}", "metadata": {}, "source": text, "outputs": [], "execution_count": None}
+            for k, text in enumerate(cells)
+        ],
+        "metadata": {},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    (tmp_path / "n.ipynb").write_text(json.dumps(notebook))
+    environment = {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "IPYTHONDIR": str(tmp_path),
+        "JUPYTER_DATA_DIR": str(tmp_path),
+    }
+    command = [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--inplace", "n.ipynb"]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=240)
+    assert done.returncode == 0, done.stderr
+    outputs = [cell["outputs"] for cell in json.loads((tmp_path / "n.ipynb").read_text())["cells"]]
+    said = [[output["data"] for output in each if "data" in output] for each in outputs]
+    assert said[1][0]["text/plain"] == ["Viewer(biharmonic, geodesic, of hand.ply)"]
+    assert said[2][0]["text/plain"] == ["'w.png'"]
+    assert len(said[3][0]["image/png"]) > 5000
+    assert said[4][0]["text/plain"] == ["False"]
+    assert (tmp_path / "w.png").exists()
