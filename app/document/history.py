@@ -47,13 +47,14 @@ class History:
         self.present = document
         return document
 
-    def before(self) -> Document | None:
-        """What `undo` would show."""
-        return _seen_from(self._past[-1], self.present) if self._past else None
-
-    def after(self) -> Document | None:
-        """What `redo` would show."""
-        return _seen_from(self._future[-1], self.present) if self._future else None
+    def at(self, steps: int) -> Document | None:
+        """What is so many steps on, or back if below 0; None where there is nothing."""
+        found, way = self.present, range(1, abs(steps) + 1)
+        for step in way:
+            if step > len(self._past if steps < 0 else self._future):
+                return None
+            found = _seen_from((self._past if steps < 0 else self._future)[-step], found)
+        return found
 
     def trail_of_points(self) -> "Trail[tuple[Point, ...]]":
         """Where the points of the present surfaces have been, step by step, up to where they are."""
@@ -65,20 +66,20 @@ class History:
 
     def undo(self) -> Document:
         """One step back; nothing where there is none."""
-        document = self.before()
-        if document is not None:
-            self._past.pop()
-            self._future.append(self.present)
-            self.present, self._key = document, ""
-        return self.present
+        return self.go(-1)
 
     def redo(self) -> Document:
         """One step forward again; nothing where there is none."""
-        document = self.after()
-        if document is not None:
-            self._future.pop()
-            self._past.append(self.present)
-            self.present, self._key = document, ""
+        return self.go(1)
+
+    def go(self, steps: int) -> Document:
+        """So many steps on, or back if below 0; nothing where there are not so many."""
+        if self.at(steps) is not None:
+            start, end = (self._past, self._future) if steps < 0 else (self._future, self._past)
+            for _ in range(abs(steps)):
+                document = start.pop()
+                end.append(self.present)
+                self.present, self._key = _seen_from(document, self.present), ""
         return self.present
 
 

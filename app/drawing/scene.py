@@ -1,18 +1,24 @@
 """Drawing in the window: a surface with a field on it, marks and a colour bar, in a panel's renderer."""
 
 import textwrap
+from collections.abc import Sequence
 
 import numpy as np
-from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkTextActor
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkTextActor
 
 from .field_actor import FieldActor, drawable, light
+from .insets import Insets
+from .marks import Marks
 from .style import PAPER, Colour, Style
 
 __all__ = ["PanelScene", "drawable"]
 
+
+BAR_TOP = 0.14
+"""The share of the view, from below, that the colour bar takes."""
 
 BACKING = 0.85
 """Opacity of what is behind the colour bar and its words."""
@@ -26,9 +32,12 @@ class PanelScene:
         self.style = style
         self.scale = scale
         self._field = FieldActor(style, scale)
-        self._source = _mark(renderer, style.source, style.marker_size * scale)
-        self._largest = _mark(renderer, style.largest, 0.8 * style.marker_size * scale)
-        self._pointer = _mark(renderer, style.pointer, 0.7 * style.marker_size * scale)
+        self._source = Marks(style.marker_size * scale, style.mark_edge)
+        self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
+        self._pointer = Marks(0.7 * style.marker_size * scale, style.mark_edge)
+        self._anchored = Marks(style.marker_size * scale, style.mark_edge)
+        solid = [self._field.actor, *(m.actor for m in (self._source, self._largest, self._pointer, self._anchored))]
+        self.insets = Insets(renderer, solid, style, scale, BAR_TOP)
         self._bar = _colour_bar(self._field.table, style, scale)
         self._bar.VisibilityOff()
         self._unit = _text(style.quiet_text, 12 * scale)
@@ -49,9 +58,14 @@ class PanelScene:
         place = self._failure.GetPositionCoordinate()
         place.SetCoordinateSystemToNormalizedViewport()
         place.SetValue(0.5, 0.5)
-        for actor in (self._field.actor, self._bar, self._unit, self._failure):
+        for actor in (*solid, self._bar, self._unit, self._failure):
             renderer.AddActor(actor)
         light(renderer)
+
+    def remove(self) -> None:
+        """Leave the renderer to another."""
+        self.insets.remove()
+        self.renderer.RemoveAllViewProps()
 
     # ------------------------------------------------------------------ the surface and its field
     def show_surface(self, mesh: vtkPolyData) -> None:
@@ -63,6 +77,12 @@ class PanelScene:
         self.mark_source(None)
         self.mark_largest(None)
         self.mark_pointer(None)
+        self.mark_anchors(np.empty((0, 3)), [])
+        self.insets.show((), np.empty((0, 3)))
+
+    def show_shape(self, mesh: vtkPolyData) -> None:
+        """The same surface in another shape; its field has to be shown again."""
+        self._field.show_surface(mesh)
 
     def show_field(self, field: np.ndarray, unit: str = "", maximum: float | None = None, signed: bool = False) -> None:
         """Colour the surface by a field (n,), see `FieldActor.show_field`."""
@@ -91,14 +111,25 @@ class PanelScene:
 
     # ------------------------------------------------------------------ marks
     def mark_source(self, position: np.ndarray | None) -> None:
-        _move(self._source, position)
+        self._source.show_one(position, self.style.source)
 
     def mark_largest(self, position: np.ndarray | None) -> None:
         """Where a signed field is largest."""
-        _move(self._largest, position)
+        self._largest.show_one(position, self.style.largest)
 
     def mark_pointer(self, position: np.ndarray | None) -> None:
-        _move(self._pointer, position)
+        self._pointer.show_one(position, self.style.pointer)
+
+    def mark_anchors(self, positions: np.ndarray, values: Sequence[float | None]) -> None:
+        """Positions (k, 3), each filled with the colour of a value, grey without one."""
+        top, signed = self._field.maximum, self._field.is_signed
+        colours = [
+            self.style.undefined
+            if value is None or top <= 0
+            else self.style.colours_at(np.clip([value / top], -1 if signed else 0, 1), signed)[0]
+            for value in values
+        ]
+        self._anchored.show(positions, colours)
 
     # ------------------------------------------------------------------ how it is made
     def _label_bar(self) -> None:
@@ -107,32 +138,6 @@ class PanelScene:
         table.SetRange(-self._field.maximum if self._field.is_signed else 0.0, self._field.maximum)
         table.UseBelowRangeColorOff()
         self._bar.SetLookupTable(table)
-
-
-def _mark(renderer: vtkRenderer, colour: Colour, size: float) -> vtkActor:
-    """A ball of constant size on the screen, hidden until moved somewhere."""
-    actor = vtkActor()
-    actor.SetMapper(vtkPolyDataMapper())
-    look = actor.GetProperty()
-    look.SetColor(colour)
-    look.SetPointSize(size)
-    look.RenderPointsAsSpheresOn()
-    look.SetAmbient(0.45)
-    look.SetDiffuse(0.6)
-    actor.VisibilityOff()
-    renderer.AddActor(actor)
-    return actor
-
-
-def _move(mark: vtkActor, position: np.ndarray | None) -> None:
-    mark.SetVisibility(position is not None)
-    if position is not None:
-        points, cells, point = vtkPoints(), vtkCellArray(), vtkPolyData()
-        points.InsertNextPoint(*position)
-        cells.InsertNextCell(1, [0])
-        point.SetPoints(points)
-        point.SetVerts(cells)
-        mark.GetMapper().SetInputData(point)
 
 
 def _colour_bar(table: vtkLookupTable, style: Style, scale: float) -> vtkScalarBarActor:

@@ -15,6 +15,8 @@ from ..document.camera import Camera, View
 from ..document.document import Zoom
 from ..drawing.camera import Margins, Projection, standard_camera
 from ..drawing.field_actor import drawable, isoline_values
+from ..drawing.insets import SIDE
+from ..drawing.relief import relief
 from .description import Figure, FigurePanel
 from .layout import Box, Layout
 from .raster import Rectangle, Studio
@@ -24,9 +26,6 @@ FREE = 0.03
 """The share of a view left free along each side."""
 
 NO_MARGINS = Margins(side=0.0, top=0.0, bottom=0.0)
-
-INSET = 0.40
-"""The side of an inset, as a share of the shorter side of its view."""
 
 Line = tuple[np.ndarray, bool]
 """Points (k, 2) on the page, and whether the last joins the first."""
@@ -57,7 +56,9 @@ def take_shots(figure: Figure, layout: Layout, vector: bool, progress: Progress)
     meshes: dict[int, vtkPolyData] = {}
     with Studio(figure.style) as studio:
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
-            surface = lifted(panel, tops[index]) if panel.height else panel.surface
+            surface = panel.surface
+            if panel.height and panel.field is not None:
+                surface = relief(surface, panel.field, tops[index], panel.height)
             key = id(panel) if panel.height else id(surface)
             mesh = meshes.get(key) or drawable(surface)
             meshes[key] = mesh
@@ -76,15 +77,6 @@ def take_shots(figure: Figure, layout: Layout, vector: bool, progress: Progress)
                     inset, source = taker.places(zoom, main, [s for s in shots if s.panel == index and s.source])
                     shots.append(taker.take(inset, vector, step, source))
     return shots
-
-
-def lifted(panel: FigurePanel, top: float) -> Surface:
-    """A flat surface as a relief of the panel's field."""
-    x = panel.surface.vertices
-    used = x[panel.surface.component_of_vertex >= 0]
-    share = np.nan_to_num(panel.field / top) if panel.field is not None and top > 0 else np.zeros(len(x))
-    extent = float(np.ptp(used, axis=0).max())
-    return Surface(np.column_stack([x[:, :2], x[:, 2] + panel.height * extent * share]), panel.surface.faces)
 
 
 def _camera(view: View, panel: FigurePanel, surface: Surface, box: Box) -> Camera:
@@ -144,7 +136,7 @@ class _Taker:
 
     def places(self, zoom: Zoom, main: Shot, others: list[Shot]) -> tuple[Box, Box]:
         """Where the inset of a zoom goes, and what part of the view it shows."""
-        side = INSET * min(self._box.width, self._box.height)
+        side = SIDE * min(self._box.width, self._box.height)
         x, y, _ = self._sight.pixels(self._surface.vertices[[zoom.vertex]])[0]
         if not (0 <= x <= self._box.width and 0 <= y <= self._box.height):
             raise ParameterError(f"Vertex {zoom.vertex} is outside the picture, so it cannot be enlarged.")

@@ -78,7 +78,8 @@ def no_source(box: QtWidgets.QSpinBox) -> None:
         box.setEnabled(False)
 
 
-def fill_menus(window) -> None:
+def fill_menus(window) -> tuple[QtWidgets.QAction, QtWidgets.QAction]:
+    """Gives the entries for undo and redo."""
     file = window.menuBar().addMenu("&File")
     _action(file, "&Open …", window.choose_file, QtGui.QKeySequence.StandardKey.Open)
     samples = file.addMenu("&Samples")
@@ -101,8 +102,8 @@ def fill_menus(window) -> None:
     file.addSeparator()
     _action(file, "&Quit", window.close, QtGui.QKeySequence.StandardKey.Quit)
     edit = window.menuBar().addMenu("&Edit")
-    _action(edit, "&Undo", window.session.undo, "Ctrl+Z")
-    _action(edit, "&Redo", window.session.redo, "Ctrl+Shift+Z")
+    undo = _action(edit, "&Undo", window.session.undo, "Ctrl+Z")
+    redo = _action(edit, "&Redo", window.session.redo, "Ctrl+Shift+Z")
     edit.addSeparator()
     _action(edit, "&Add a panel", window.add_panel, "Ctrl+T")
     view = window.menuBar().addMenu("&View")
@@ -119,6 +120,9 @@ def fill_menus(window) -> None:
     _action(go, "&Cancel what is being computed", window.cancel, "Esc")
     about = window.menuBar().addMenu("&Help")
     _action(about, "&Mouse and keys", lambda: QtWidgets.QMessageBox.information(window, "Mouse and keys", HELP), "F1")
+    for action in (undo, redo):
+        action.setEnabled(False)  # until there is a step
+    return undo, redo
 
 
 def _fill_recent(menu: QtWidgets.QMenu, window) -> None:
@@ -130,10 +134,11 @@ def _fill_recent(menu: QtWidgets.QMenu, window) -> None:
         menu.addAction("Nothing yet").setEnabled(False)
 
 
-def _action(menu: QtWidgets.QMenu, text: str, slot: Callable, key: object) -> None:
+def _action(menu: QtWidgets.QMenu, text: str, slot: Callable, key: object) -> QtWidgets.QAction:
     action = menu.addAction(text)
     action.setShortcut(QtGui.QKeySequence(key))
     action.triggered.connect(lambda *_: slot())
+    return action
 
 
 HELP = """\

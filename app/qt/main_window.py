@@ -17,8 +17,9 @@ from ..document.camera import View
 from ..document.document import Document, Quantity
 from ..document.edits import PANEL_EDITS, add_another, move_source, show_in
 from ..document.history import Trail
-from ..document.page import Page
+from ..document.page import Page, Recipe
 from ..drawing.prepared import prepare
+from ..drawing.style import STYLES
 from ..session.opened import Opened
 from ..session.questions import vertex_at
 from ..session.session import Session
@@ -77,7 +78,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
         self._progress_soon.timeout.connect(self._show_progress)
         self.source_box, self.isolines_box = fill_tool_bar(self)
-        fill_menus(self)
+        self._undo, self._redo = fill_menus(self)
         self._empty = QtWidgets.QLabel("Opening …", objectName="hint")
         self._empty.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
         self._middle = QtWidgets.QStackedWidget()
@@ -150,25 +151,45 @@ class MainWindow(QtWidgets.QMainWindow):
         if other_panels or document.points != before.points:
             self.grid.mark_points(document)
             self._show_source()
+        if other_panels or (document.points, document.anchors) != (before.points, before.anchors):
+            self.grid.mark_anchors(document)
+        if other_panels or document.zooms != before.zooms:
+            self.grid.show_insets(document)
         if is_other or document.isolines != before.isolines:
             with QtCore.QSignalBlocker(self.isolines_box):
                 self.isolines_box.setValue(document.isolines)
             self.grid.show_isolines(document.isolines)
-        if other_panels or document.shared_range != before.shared_range:
+        is_raised = document.height != before.height
+        if other_panels or is_raised or document.shared_range != before.shared_range:
             for panel in document.panels:
                 if self.session.is_answered(panel.id):
                     self.answer_changed(panel.id)
-        if is_other or document.camera != before.camera:
+        if is_other or is_raised or document.camera != before.camera:
             self.grid.look(document.camera)
             self._still.start()
+        self._undo.setEnabled(self.session.history.can_undo)
+        self._redo.setEnabled(self.session.history.can_redo)
         self.grid.repaint_views()
         self.session_file.document_changed()
+
+    def show_page(self, page: Page) -> None:
+        """Look as figures on this page do."""
+        is_other, self.page = page.style != self.page.style, page
+        if is_other:
+            self.grid.show_style(STYLES[page.style])
+            self._opened = None
+            self.document_changed(self.session.document)
+        self._say_what_is_open()
+
+    def _say_what_is_open(self) -> None:
+        recipe = Recipe(self.session.document, self.page)
+        self.say("  ·  ".join([*summary(self.session.surface), *unseen(recipe, STYLES[self.page.style])]))
 
     def _show_surface(self, opened: Opened) -> None:
         self._opened, self._hovered, self._views = opened, None, Trail()
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
         self.grid.show_surface()
-        self.say("  ·  ".join([*summary(opened.surface), *unseen(self.session.document)]))
+        self._say_what_is_open()
         if self.remembers and opened.mesh.path and os.path.exists(opened.mesh.path):
             remembered.remember(opened.mesh.path)
 

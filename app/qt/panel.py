@@ -1,17 +1,22 @@
 """One panel of the window: its controls, its words and its view.  Gestures become signals; it decides nothing."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from pyvistaqt import QtInteractor
 from qtpy import QtCore, QtGui, QtWidgets
-from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from bihdist_core.distances.answers import Answer
 
-from ..document.document import COMPARISON, DistanceFrom
+from ..document.document import COMPARISON, DistanceFrom, Zoom
+from ..drawing.field_actor import drawable
 from ..drawing.picking import Met, Picker, pixel_of
+from ..drawing.relief import relief
 from ..drawing.scene import PanelScene
+from ..drawing.style import Style
 from ..session.answering import Shown
+from ..session.opened import Opened
 from .controls import PanelControls
 
 MARK_SLACK = 4.0
@@ -62,7 +67,11 @@ class DistancePanel(QtWidgets.QWidget):
         self._press: QtCore.QPoint | None = None
         self._dragging = False
         self._holds_mark = False
-        self._source: np.ndarray | None = None
+        self._source: int | None = None
+        self._zooms: tuple[Zoom, ...] = ()
+        self._opened: Opened | None = None
+        self._is_relief = False
+        self._anchors: Sequence[tuple[int, float | None]] = ()
         self.answer: Answer | None = None
         self._is_preview = False
 
@@ -70,34 +79,82 @@ class DistancePanel(QtWidgets.QWidget):
     def renderer(self) -> vtkRenderer:
         return self.interactor.renderer
 
+    def show_style(self, style: Style) -> None:
+        """Look like this from now on; what was shown has to be shown again."""
+        if style is not self.scene.style:
+            self.scene.remove()
+            self.scene = PanelScene(self.renderer, style, self.interactor.devicePixelRatioF())
+
     # ------------------------------------------------------------------ state into pixels
-    def show_surface(self, mesh: vtkPolyData, picker: Picker, positions: np.ndarray, camera: vtkCamera) -> None:
-        """positions: (n, 3) of the vertices."""
-        self._picker, self._positions = picker, positions
+    def show_surface(self, opened: Opened, camera: vtkCamera) -> None:
+        """Another surface, without a field yet."""
+        self._opened, self._is_relief = opened, False
+        self._picker, self._positions = opened.prepared.picker, opened.surface.vertices
         self.answer = self._source = None
-        self.scene.show_surface(mesh)
+        self._anchors, self._zooms = (), ()
+        self.scene.show_surface(opened.prepared.mesh)
         self.renderer.SetActiveCamera(camera)
         self.renderer.camera_set = True
         self.title.setText("")
         self.value.setText("")
         self.repaint_view()
 
-    def mark_source(self, position: np.ndarray | None) -> None:
-        """Where (3,) the field starts; None for one that starts nowhere."""
-        self._source = position
-        self.scene.mark_source(position)
+    def mark_source(self, vertex: int | None) -> None:
+        """Where the field starts; None for one that starts nowhere."""
+        self._source = vertex
+        self.scene.mark_source(self._position(vertex))
 
-    def show_answer(self, shown: Shown, maximum: float | None = None) -> None:
-        """A field with its colour bar up to `maximum`, its own if None; or why there is none."""
-        answer = shown.answer
+    def show_insets(self, zooms: tuple[Zoom, ...]) -> None:
+        """Enlarge these places."""
+        self._zooms = zooms
+        self.scene.insets.show(zooms, self._positions)
+
+    def point_at(self, vertex: int | None) -> None:
+        """Mark the vertex under the pointer, and say the value there."""
+        self.scene.mark_pointer(self._position(vertex))
+        self.show_value(vertex)
+
+    def _position(self, vertex: int | None) -> np.ndarray | None:
+        return None if vertex is None else self._positions[vertex]
+
+    def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
+        """Vertices with a value each; without one it is the field's own."""
+        self._anchors = anchors
+        field = None if self.answer is None else self.answer.field
+        own = [None if field is None else float(np.nan_to_num(field[vertex])) for vertex, _ in anchors]
+        values = [known if value is None else value for (_, value), known in zip(anchors, own, strict=True)]
+        self.scene.mark_anchors(self._positions[[vertex for vertex, _ in anchors]], values)
+
+    def show_answer(self, shown: Shown, maximum: float | None = None, height: float = 0.0) -> None:
+        """A field with its colour bar up to `maximum`, its own if None; or why there is none.
+
+        height: of the relief that a flat surface becomes.
+        """
+        self.answer = answer = shown.answer
+        self._raise(answer, maximum or answer.maximum, height)
         if answer.field is None:
             self.scene.show_failure(answer.failure)
         else:
             self.scene.show_field(answer.field, answer.unit, maximum, answer.is_signed)
-        self.scene.mark_largest(None if answer.largest is None else self._positions[answer.largest])
+        self.mark_anchors(self._anchors)
+        self.scene.mark_largest(self._position(answer.largest))
         self.title.setText(answer.label)
         self.show_certificate(shown)
         self.repaint_view()
+
+    def _raise(self, answer: Answer, top: float, height: float) -> None:
+        """Let the surface be a relief of the answer, or flat again."""
+        is_relief = bool(height) and answer.field is not None and self._opened.prepared.is_flat
+        if not is_relief and not self._is_relief:
+            return
+        surface, mesh, picker = self._opened.surface, self._opened.prepared.mesh, self._opened.prepared.picker
+        if is_relief:
+            surface = relief(surface, answer.field, top, height)
+            mesh, picker = drawable(surface), Picker(surface)
+        self._is_relief, self._picker, self._positions = is_relief, picker, surface.vertices
+        self.scene.show_shape(mesh)
+        self.mark_source(self._source)
+        self.show_insets(self._zooms)
 
     def show_certificate(self, shown: Shown) -> None:
         """How accurate the field is, for who points at its name; `show_note` says it where it is poor."""
@@ -211,11 +268,11 @@ class DistancePanel(QtWidgets.QWidget):
         if self._picker is None or self._source is None:
             return False
         x, y = self._pixel(position)
-        at = pixel_of(self.renderer, self._source)
+        at = pixel_of(self.renderer, self._positions[self._source])
         reach = (self.scene.style.marker_size / 2 + MARK_SLACK) * self.interactor.devicePixelRatioF()
         if np.hypot(x - at[0], y - at[1]) > reach:
             return False
-        return self._picker.sees(self.renderer, self._source)
+        return self._picker.sees(self.renderer, self._positions[self._source])
 
     def _fit_failure(self) -> None:
         if self.answer is not None and self.answer.failure:
@@ -227,7 +284,8 @@ class DistancePanel(QtWidgets.QWidget):
         QtCore.QTimer.singleShot(0, self.moved.emit)
 
     def _met_at(self, position: QtCore.QPoint) -> Met | None:
-        return None if self._picker is None else self._picker.met_at(self.renderer, *self._pixel(position))
+        pixel = self._pixel(position)
+        return None if self._picker is None else self._picker.met_at(self.scene.insets.renderer_at(*pixel), *pixel)
 
     def _vertex_at(self, position: QtCore.QPoint) -> int | None:
         met = self._met_at(position)

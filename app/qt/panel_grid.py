@@ -1,5 +1,6 @@
 """The panels of the window, equal in size and seen from one camera.  Shows what a session knows; decides nothing."""
 
+import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera
 
@@ -7,6 +8,8 @@ from ..document.camera import Camera, View
 from ..document.document import Document
 from ..document.edits import possible_edits
 from ..drawing.camera import camera_seen, place_camera, show_camera
+from ..drawing.relief import rise
+from ..drawing.style import PAPER, Style
 from ..session.opened import Opened
 from ..session.questions import vertex_at
 from ..session.session import Session
@@ -35,6 +38,7 @@ class PanelGrid(QtWidgets.QWidget):
         self.camera = vtkCamera()
         self._panels: dict[int, DistancePanel] = {}
         self._spare: list[DistancePanel] = []
+        self._style = PAPER
         self._layout = QtWidgets.QGridLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
         self._layout.setSpacing(1)
@@ -104,6 +108,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.changed.connect(lambda chosen: self.chosen.emit(panel.id, chosen))
         panel.controls.asked.connect(lambda word: self.asked.emit(panel.id, word))
         panel.renderer.SetActiveCamera(self.camera)
+        panel.show_style(self._style)
         return panel
 
     def _begin(self, panel: DistancePanel, id: int) -> None:
@@ -115,22 +120,51 @@ class PanelGrid(QtWidgets.QWidget):
             self._show_surface(panel, opened)
         panel.show()
 
+    def show_style(self, style: Style) -> None:
+        """Let all panels look like this; what they show has to be shown again."""
+        self._style = style
+        for panel in (*self.panels, *self._spare):
+            panel.show_style(style)
+
     def show_surface(self) -> None:
         """Another surface is there."""
         for panel in self.panels:
             self._show_surface(panel, self._session.opened())
 
     def _show_surface(self, panel: DistancePanel, opened: Opened) -> None:
-        prepared = opened.prepared
-        panel.show_surface(prepared.mesh, prepared.picker, opened.surface.vertices, self.camera)
+        panel.show_surface(opened, self.camera)
 
     def mark_points(self, document: Document) -> None:
         """Put the mark of each panel where its field starts."""
         for panel in document.panels:
             opened = self._session.opened(panel.surface)
-            starts = [document.point(name).at for name in panel.shows.points]
-            places = [opened.surface.vertices[vertex_at(at, opened.surface)] for at in starts]
-            self._panels[panel.id].mark_source(places[0] if places else None)
+            starts = [vertex_at(document.point(name).at, opened.surface) for name in panel.shows.points]
+            self._panels[panel.id].mark_source(starts[0] if starts else None)
+
+    def mark_anchors(self, document: Document) -> None:
+        """Put the anchors of each panel's surface where they are."""
+        for panel in document.panels:
+            opened = self._session.opened(panel.surface)
+            points = [(anchor, document.point(anchor.point)) for anchor in document.anchors]
+            vertices = [(vertex_at(p.at, opened.surface), a.value) for a, p in points if p.surface == panel.surface]
+            self._panels[panel.id].mark_anchors(vertices)
+
+    def show_insets(self, document: Document) -> None:
+        """Enlarge the document's places in each panel."""
+        for panel in self.panels:
+            panel.show_insets(document.zooms)
+        self._settle_insets()
+
+    def _settle_insets(self) -> None:
+        opened = self._session.opened()
+        for panel in self.panels if opened is not None else ():
+            panel.scene.insets.settle(opened.prepared.samples)
+
+    @property
+    def _rise(self) -> float:
+        """How far up the panels' reliefs go; 0 if they are none."""
+        opened, height = self._session.opened(), self._session.document.height
+        return rise(opened.surface, height) if height and opened is not None and opened.prepared.is_flat else 0.0
 
     def show_isolines(self, count: int) -> None:
         for panel in self.panels:
@@ -141,7 +175,8 @@ class PanelGrid(QtWidgets.QWidget):
         """The answer that the session has now for a panel."""
         for other in self._session.shown if self._session.document.shared_range else (id,):
             if other in self._panels:
-                self._panels[other].show_answer(self._session.shown[other], self._maximum(other))
+                shown = self._session.shown[other]
+                self._panels[other].show_answer(shown, self._maximum(other), self._session.document.height)
 
     def show_certificate(self, id: int) -> None:
         self._panels[id].show_certificate(self._session.shown[id])
@@ -165,7 +200,11 @@ class PanelGrid(QtWidgets.QWidget):
         if isinstance(view, Camera):
             show_camera(self.camera, view, self.aspect)
         else:
-            place_camera(self.camera, self._session.opened().prepared.points, self.aspect, view)
+            points, up = self._session.opened().prepared.points, self._rise
+            if up:
+                points = np.concatenate([points, points + np.array([0, 0, up])])
+            place_camera(self.camera, points, self.aspect, "relief" if up and view == "home" else view)
+        self._settle_insets()
         self.repaint_views()
 
     def _looked(self) -> None:
@@ -182,17 +221,16 @@ class PanelGrid(QtWidgets.QWidget):
     # ------------------------------------------------------------------ pictures
     def point_at(self, vertex: int | None) -> None:
         """Mark the vertex under the pointer in every panel, and show its values."""
-        position = None if vertex is None else self._session.surface.vertices[vertex]
         for panel in self.panels:
-            panel.scene.mark_pointer(position)
-            panel.show_value(vertex)
+            panel.point_at(vertex)
         self._repaint_soon.start()
 
     def repaint_views(self) -> None:
         opened = self._session.opened()
         if opened is not None and self._panels:
             # The panels have one camera.  Left to itself VTK would go over all vertices to find the bounds.
-            self.panels[0].renderer.ResetCameraClippingRange(opened.prepared.bounds)
+            *others, low, high = opened.prepared.bounds
+            self.panels[0].renderer.ResetCameraClippingRange(*others, low - self._rise, high + self._rise)
         for panel in self.panels:
             panel.repaint_view()
 

@@ -113,7 +113,7 @@ class SessionFile:
             return
 
         def arrived() -> None:
-            self._window.page = recipe.page
+            self._window.show_page(recipe.page)
             if is_own:
                 self.path, self._saved = path, self.recipe()
                 self._remember(path)

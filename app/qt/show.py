@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     from ..drawing.picking import Met
 
 
+WAKE_MS = 100
+"""How often a notebook's kernel is woken while a window is open."""
+
+
 @dataclass(frozen=True, eq=False)
 class Pick:
     """A click on the surface.
@@ -233,8 +237,6 @@ def show(
     shell = _ipython()
     waits = block if block is not None else shell is None and not hasattr(sys, "ps1")
     app = application()
-    if shell is not None and not waits:
-        _share_event_loop(shell)
     window = MainWindow(document)
     window.remembers = False
     window.setAttribute(QtCore.Qt.WidgetAttribute.WA_QuitOnClose, False)
@@ -246,6 +248,8 @@ def show(
     window.build_panels()
     arrived: list[bool] = []
     try:
+        if shell is not None and not waits:
+            _share_event_loop(shell, window)
         viewer._through(lambda: window.show_document(document, lambda: arrived.append(True)), lambda: bool(arrived))
     except BaseException:
         viewer.close()
@@ -265,13 +269,20 @@ def _ipython() -> Any:
     return None if module is None else module.get_ipython()
 
 
-def _share_event_loop(shell: Any) -> None:
+def _share_event_loop(shell: Any, window: MainWindow) -> None:
     """Let Qt work while IPython waits for input; BihdistError if another toolkit does."""
     active = getattr(shell, "active_eventloop", None)
     if active is None:
         shell.enable_gui("qt5" if qtpy.QT5 else "qt6")
     elif not str(active).startswith("qt"):
         raise BihdistError(f"IPython runs the event loop of {active} already; use block=True, or a session without it.")
+    kernel_application = getattr(getattr(shell, "kernel", None), "app", None)
+    if kernel_application is not None:
+        # A notebook's kernel now and then misses, in Qt's loop, that it has been sent something, and would wait for
+        # ever; left and entered again, it looks.
+        waker = QtCore.QTimer(window, interval=WAKE_MS)
+        waker.timeout.connect(kernel_application.qt_event_loop.quit)
+        waker.start()
 
 
 @atexit.register

@@ -6,7 +6,8 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import Surface
 
-from ..document.document import Document
+from ..document.page import Recipe
+from ..drawing.style import Style
 
 
 class ElidedLabel(QtWidgets.QLabel):
@@ -61,9 +62,12 @@ class StatusBar(QtWidgets.QStatusBar):
             self.progress.setUpdatesEnabled(True)
 
 
-def unseen(document: Document) -> list[str]:
-    """What a document has that panels do not show yet."""
-    parts = {"insets": document.zooms, "anchors": document.anchors, "the relief": document.height}
+def unseen(recipe: Recipe, style: Style) -> list[str]:
+    """What a recipe has that panels do not show."""
+    parts = {
+        f"views but the first of {len(recipe.views)}": len(recipe.views) > 1,
+        "outlines": style.outline,
+    }
     words = [word for word, part in parts.items() if part]
     return [f"in figures only: {', '.join(words)}"] if words else []
 

@@ -35,12 +35,16 @@ class View(AnswerView, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class _Opening:
-    """Meshes to be opened, and what becomes of the document once they are there."""
+    """Meshes to be opened, and what becomes of the document once they are there.
+
+    steps: in the history, where that is all.
+    """
 
     meshes: tuple[MeshFile, ...]
     arrive: Callable[[], object]
     arrived: Callable[[], None] = lambda: None
     is_wanted: Callable[[], bool] = lambda: True
+    steps: int = 0
 
 
 class Session:
@@ -117,11 +121,11 @@ class Session:
 
     def undo(self) -> None:
         """One step back."""
-        self._step(self.history.before, self.history.undo)
+        self._step(-1)
 
     def redo(self) -> None:
         """One step forward again."""
-        self._step(self.history.after, self.history.redo)
+        self._step(1)
 
     def walk_sources(self, step: int) -> None:
         """To the points before (-1) or after (1) in the history's walk; the walk as a whole is one step."""
@@ -237,15 +241,22 @@ class Session:
 
         self._post(tell)
 
-    def _step(self, there: Callable[[], Document | None], step: Callable[[], Document]) -> None:
-        document = there()
+    def _step(self, by: int) -> None:
+        # Those on their way to a mesh that is still being read count too.
+        steps = by + (self._opening.steps if self._opening is not None else 0)
+        document = self.history.at(steps)
         if document is None:
             return
         self._opening = None  # a mesh on its way was a step not yet done
         missing = self._missing(document)
+
+        def step() -> None:
+            self.history.go(steps)
+
         if missing:
             # Whatever is done meanwhile takes its place.
-            self._start_opening(_Opening(missing, step, is_wanted=lambda: there() == document))
+            wanted = _Opening(missing, step, is_wanted=lambda: self.history.at(steps) == document, steps=steps)
+            self._start_opening(wanted)
         else:
             self._present(step)
 

@@ -518,6 +518,37 @@ def test_undo_to_a_mesh_that_is_gone_is_refused_and_nothing_changes(desk, mesh_f
     assert session.history.can_undo
 
 
+def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.session.SPARED", 0)
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    first = session.document
+    d.click(9)
+    second = session.document
+    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    third = session.document
+    session.undo()
+    session.undo()
+    session.undo()  # there is no third
+    d.until(lambda: session.document == first and session.is_complete)
+    assert not session.history.can_undo
+    session.redo()
+    session.redo()
+    d.until(lambda: session.document == third and session.is_complete)
+    # Back at once: the mesh that was asked for is not read.
+    session.undo()
+    session.redo()
+    assert session.document == third
+    session.undo()
+    d.until(lambda: session.document == second and session.is_complete)
+    session.redo()
+    d.click(11)  # takes the step's place
+    d.complete()
+    assert (session.surface.name, d.source) == ("mesh.off", 11)
+    assert not session.history.can_redo
+
+
 def test_a_click_while_the_mesh_of_an_undone_step_is_read_takes_its_place(desk, mesh_file, monkeypatch):
     monkeypatch.setattr("app.session.session.SPARED", 0)
     d = desk([BIHARMONIC])

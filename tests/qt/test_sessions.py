@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from app.document.camera import Camera
-from app.document.document import Anchor, Zoom, comparison, quantity
+from app.document.document import comparison, quantity
 from app.document.edits import add_panel, move_source
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
@@ -214,13 +214,13 @@ def test_a_session_is_opened_as_it_is_and_options_beside_it_are_refused(mesh_fil
 
 def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh_file, tmp_path):
     document = comparison(mesh_file(bumpy(300)), (Spec.of("biharmonic"),), (4,))
-    document = replace(document, zooms=(Zoom(7),), anchors=(Anchor("source", 0.5),))
-    (tmp_path / "r.json").write_text(recipe_text(Recipe(document), "0"))
+    recipe = Recipe(document, Page(style="lines", views=("home", "back")))
+    (tmp_path / "r.json").write_text(recipe_text(recipe, "0"))
     s = screen()
     s.window.session_file.open(str(tmp_path / "r.json"))
     s.until(lambda: s.session.is_complete)
-    assert s.window.status.message.text().endswith("in figures only: insets, anchors")
-    assert s.document.zooms == (Zoom(7),)
+    assert s.window.status.message.text().endswith("in figures only: views but the first of 2, outlines")
+    assert s.window.page == recipe.page
 
 
 def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictures(screen, mesh_file):
@@ -288,3 +288,18 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
     assert press(Qt.ControlModifier | Qt.ShiftModifier, lambda: history.can_redo) == back >= 35
     assert same(last, pictures())
     assert replace(s.document, camera="home") == replace(document, camera="home")
+
+
+def test_the_menu_offers_only_steps_that_there_are(screen, mesh_file):
+    s = screen()
+
+    def offered():
+        return s.window._undo.isEnabled(), s.window._redo.isEnabled()
+
+    assert offered() == (False, False)
+    s.open(mesh_file(bumpy(100)), 5)
+    assert offered() == (False, False)
+    s.session.show(move_source(s.document, 0, 9))
+    assert offered() == (True, False)
+    s.window._undo.trigger()
+    assert (offered(), s.source) == ((False, True), 5)

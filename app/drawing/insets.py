@@ -1,0 +1,246 @@
+"""Insets of a panel in the window: places enlarged in its corners, seen by the panel's camera."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
+from vtkmodules.vtkRenderingCore import vtkActor, vtkActor2D, vtkCamera, vtkCoordinate, vtkPolyDataMapper2D, vtkRenderer
+
+from ..document.document import Zoom
+from .field_actor import light
+from .style import Style
+
+SIDE = 0.40
+"""Of an inset, as a share of the shorter side of its view."""
+
+GAP = 4.0
+"""Pixels between an inset and the sides of its view."""
+
+CELLS = 8
+"""By how many along each side the cover of a corner is found out."""
+
+Rectangle = tuple[float, float, float, float]
+"""left, right, bottom, top, in device pixels of the view, y up."""
+
+
+class Insets:
+    """Shows `actors` of a panel's renderer once more for each zoom.  below: the share of the view that its bar has."""
+
+    def __init__(self, renderer: vtkRenderer, actors: Sequence[vtkActor], style: Style, scale: float, below: float):
+        self._main, self._actors, self._style, self._scale, self._below = renderer, actors, style, scale, below
+        self._zooms: tuple[Zoom, ...] = ()
+        self._positions = np.empty((0, 3))
+        self._corners: list[str] = []
+        self._unsettled: np.ndarray | None = None
+        self._shown: list[vtkRenderer] = []
+        self._frames = self._lines()
+        renderer.AddActor(self._frames)
+        self._observer = renderer.AddObserver("StartEvent", lambda *_: self._place())
+
+    def show(self, zooms: tuple[Zoom, ...], vertices: np.ndarray) -> None:
+        """These and no others; vertices (n, 3) of the surface."""
+        if zooms != self._zooms:
+            self._corners = [zoom.corner if zoom.corner != "auto" else "top right" for zoom in zooms]
+        self._zooms = zooms
+        self._positions = vertices[[zoom.vertex for zoom in zooms]] if zooms else np.empty((0, 3))
+        window = self._main.GetRenderWindow()
+        while len(self._shown) > len(zooms):
+            window.RemoveRenderer(self._shown.pop())
+        while len(self._shown) < len(zooms):
+            self._shown.append(self._new_renderer())
+            window.AddRenderer(self._shown[-1])
+        self._frames.SetVisibility(bool(zooms))
+
+    def remove(self) -> None:
+        """They are gone for good."""
+        self.show((), self._positions)
+        self._main.RemoveObserver(self._observer)
+
+    def settle(self, samples: np.ndarray) -> None:
+        """Put those that may stand in any corner where they hide the least of the surface; samples: (k, 3) on it.
+
+        Called where the view is set, and not while it turns: insets would jump.  Done before the next picture, when the
+        view has its size.
+        """
+        self._unsettled = samples
+
+    def _settle(self, samples: np.ndarray) -> None:
+        pixels, taken = self._pixels(samples), [*self._sources()]
+        for number, zoom in enumerate(self._zooms):
+            corners = self._boxes()
+            if zoom.corner == "auto":
+                hidden = {name: _cover(box, pixels) + _meetings(box, taken) for name, box in corners.items()}
+                self._corners[number] = min(corners, key=lambda name: hidden[name])
+            taken.append(corners[self._corners[number]])
+
+    def renderer_at(self, x: float, y: float) -> vtkRenderer:
+        """Whose picture is at a device pixel, y up: that of an inset, or of the panel."""
+        for renderer in self._shown:
+            left, bottom = renderer.GetOrigin()
+            width, height = renderer.GetSize()
+            if renderer.GetDraw() and left <= x < left + width and bottom <= y < bottom + height:
+                return renderer
+        return self._main
+
+    # ------------------------------------------------------------------ where they are
+    def _boxes(self) -> dict[str, Rectangle]:
+        """By name: where an inset in a corner stands."""
+        width, height = self._main.GetSize()
+        side, gap = round(SIDE * min(width, height)), GAP * self._scale
+        low = max(gap, self._below * height)
+        right, top = (width - gap - side, width - gap), (height - gap - side, height - gap)
+        left, bottom = (gap, gap + side), (low, low + side)
+        return {
+            "top right": (*right, *top),
+            "top left": (*left, *top),
+            "bottom right": (*right, *bottom),
+            "bottom left": (*left, *bottom),
+        }
+
+    def _sources(self) -> list[Rectangle]:
+        """What is enlarged."""
+        side = round(SIDE * min(self._main.GetSize()))
+        found = []
+        for zoom, (x, y) in zip(self._zooms, self._pixels(self._positions), strict=True):
+            half = side / zoom.factor / 2
+            found.append((x - half, x + half, y - half, y + half))
+        return found
+
+    def _pixels(self, points: np.ndarray) -> np.ndarray:
+        """(k, 2) where points (k, 3) are seen; NaN behind the camera."""
+        width, height = self._main.GetSize()
+        local = np.column_stack([points, np.ones(len(points))]) @ self._matrix().T
+        ahead = np.where(local[:, 3] > 0, local[:, 3], np.nan)
+        return (local[:, :2] / ahead[:, None] + 1) / 2 * (width, height)
+
+    def _matrix(self) -> np.ndarray:
+        """(4, 4) from the world to -1 … 1 in the view."""
+        camera = self._main.GetActiveCamera()
+        return self._projection() @ _array(camera.GetViewTransformMatrix())
+
+    def _projection(self) -> np.ndarray:
+        width, height = self._main.GetSize()
+        return _array(self._main.GetActiveCamera().GetProjectionTransformMatrix(width / max(height, 1), -1, 1))
+
+    # ------------------------------------------------------------------ drawing
+    def _place(self) -> None:
+        """Before each picture: see what the panel's camera sees now, of each place."""
+        if not self._zooms or not all(self._main.GetSize()):
+            return
+        if self._unsettled is not None:
+            self._settle(self._unsettled)
+            self._unsettled = None
+        width, height = self._main.GetSize()
+        boxes, projection, loops = self._boxes(), self._projection(), []
+        for renderer, corner, source in zip(self._shown, self._corners, self._sources(), strict=True):
+            left, right, bottom, top = source
+            is_seen = bool(left < width and right > 0 and bottom < height and top > 0)
+            renderer.SetDraw(is_seen)
+            if not is_seen:
+                continue
+            x, x_end, y, y_end = box = boxes[corner]
+            renderer.SetViewport(x / width, y / height, x_end / width, y_end / height)
+            _enlarge(renderer.GetActiveCamera(), self._main.GetActiveCamera(), projection, source, (width, height))
+            loops += [*_rectangles(source, box), *_joins(source, box)]
+        _draw(self._frames, loops)
+
+    def _new_renderer(self) -> vtkRenderer:
+        renderer = vtkRenderer()
+        renderer.SetBackground(*self._style.background)
+        renderer.GetCullers().RemoveAllItems()
+        # The mouse turns the panel's camera, which this one follows.
+        renderer.InteractiveOff()
+        renderer.UseFXAAOn()
+        renderer.SetActiveCamera(vtkCamera())
+        for actor in self._actors:
+            renderer.AddActor(actor)
+        frame = self._lines(normalized=True)
+        _draw(frame, [np.array([[0.0, 0], [1, 0], [1, 1], [0, 1], [0, 0]])])
+        renderer.AddActor(frame)
+        light(renderer)
+        return renderer
+
+    def _lines(self, normalized: bool = False) -> vtkActor2D:
+        """Lines on a view, in its pixels, or in shares of it."""
+        mapper, where = vtkPolyDataMapper2D(), vtkCoordinate()
+        if normalized:
+            where.SetCoordinateSystemToNormalizedViewport()
+        else:
+            where.SetCoordinateSystemToViewport()
+        mapper.SetTransformCoordinate(where)
+        mapper.SetInputData(vtkPolyData())
+        actor = vtkActor2D()
+        actor.SetMapper(mapper)
+        actor.GetProperty().SetColor(*self._style.quiet_text)
+        actor.GetProperty().SetLineWidth(self._scale)
+        return actor
+
+
+def _enlarge(
+    camera: vtkCamera, main: vtkCamera, projection: np.ndarray, source: Rectangle, size: tuple[int, int]
+) -> None:
+    """Let a camera see a part of what another sees in a view of this size."""
+    left, right, bottom, top = source
+    width, height = size
+    x, y = (left + right) / width - 1, (bottom + top) / height - 1
+    enlarge = np.diag([width / (right - left), height / (top - bottom), 1.0, 1.0])
+    enlarge[0, 3], enlarge[1, 3] = -enlarge[0, 0] * x, -enlarge[1, 1] * y
+    matrix = vtkMatrix4x4()
+    matrix.DeepCopy((enlarge @ projection).ravel())
+    camera.SetPosition(*main.GetPosition())
+    camera.SetFocalPoint(*main.GetFocalPoint())
+    camera.SetViewUp(*main.GetViewUp())
+    camera.UseExplicitProjectionTransformMatrixOn()
+    camera.SetExplicitProjectionTransformMatrix(matrix)
+
+
+def _cover(box: Rectangle, pixels: np.ndarray) -> float:
+    """The share of a box where the surface is seen."""
+    left, right, bottom, top = box
+    cells = np.floor((pixels - (left, bottom)) / (right - left, top - bottom) * CELLS)
+    inside = cells[((cells >= 0) & (cells < CELLS)).all(axis=1)]
+    return len(np.unique(inside, axis=0)) / CELLS**2
+
+
+def _meetings(box: Rectangle, others: Sequence[Rectangle]) -> int:
+    """How many of the others a box meets."""
+    return sum(box[0] < b[1] and b[0] < box[1] and box[2] < b[3] and b[2] < box[3] for b in others)
+
+
+def _rectangles(*boxes: Rectangle) -> list[np.ndarray]:
+    """Their sides, as lines (5, 2)."""
+    return [np.array([[a, c], [b, c], [b, d], [a, d], [a, c]]) for a, b, c, d in boxes]
+
+
+def _joins(source: Rectangle, box: Rectangle) -> list[np.ndarray]:
+    """Lines (2, 2) between equal corners of the two that run through neither."""
+    found = []
+    for x in (0, 1):
+        for y in (2, 3):
+            a, b = (np.array([each[x], each[y]]) for each in (source, box))
+            way = a + np.linspace(0.01, 0.99, 60)[:, None] * (b - a)
+            if not any(_inside(way, each).any() for each in (source, box)):
+                found.append(np.stack([a, b]))
+    return found
+
+
+def _inside(points: np.ndarray, box: Rectangle) -> np.ndarray:
+    x, y = points.T
+    return (box[0] < x) & (x < box[1]) & (box[2] < y) & (y < box[3])
+
+
+def _draw(actor: vtkActor2D, lines: Sequence[np.ndarray]) -> None:
+    """Let it draw these lines (k, 2)."""
+    points, cells, drawn = vtkPoints(), vtkCellArray(), vtkPolyData()
+    for line in lines:
+        ids = [points.InsertNextPoint(x, y, 0) for x, y in line]
+        cells.InsertNextCell(len(ids), ids)
+    drawn.SetPoints(points)
+    drawn.SetLines(cells)
+    actor.GetMapper().SetInputData(drawn)
+
+
+def _array(matrix: vtkMatrix4x4) -> np.ndarray:
+    return np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])

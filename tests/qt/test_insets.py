@@ -1,0 +1,182 @@
+"""What a recipe has besides panels, in the window: insets, anchors, reliefs and styles."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.document.document import Anchor, Point, Zoom, comparison
+from app.document.file import recipe_text
+from app.document.page import Page, Recipe
+from app.drawing.style import STYLES
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy, grid
+
+pytest.importorskip("qtpy")
+SIZE = 2  # device pixels by which a place may be off
+USUAL = Page()
+
+
+@pytest.fixture
+def shown(screen, mesh_file, tmp_path):
+    """A window with a recipe opened in it."""
+
+    def show(surface, page=USUAL, source=4, **parts):
+        document = comparison(mesh_file(surface), (Spec.of("biharmonic"), Spec.of("geodesic")), (source,))
+        document = replace(document, **parts)
+        (tmp_path / "r.json").write_text(recipe_text(Recipe(document, page), "0"))
+        s = screen()
+        s.window.session_file.open(str(tmp_path / "r.json"))
+        s.until(lambda: s.session.is_complete or s.refusals)
+        assert s.refusals == []
+        s.settle()
+        return s
+
+    return show
+
+
+def seen_at(panel, vertex, renderer=None):
+    """The device pixel at which a vertex of a panel's surface is drawn, y up."""
+    renderer = renderer or panel.renderer
+    renderer.SetWorldPoint(*panel._positions[vertex], 1)
+    renderer.WorldToDisplay()
+    return np.array(renderer.GetDisplayPoint()[:2])
+
+
+def colour_at(panel, pixel):
+    """RGB, 0 to 1, the mean of a few pixels."""
+    picture = panel.interactor.screenshot(return_img=True)[::-1]
+    x, y = np.round(pixel).astype(int)
+    return picture[y - 1 : y + 2, x - 1 : x + 2, :3].mean(axis=(0, 1)) / 255
+
+
+def facing(s):
+    """A vertex in the middle of what is seen."""
+    renderer, width, height = s.panels[0].renderer, *s.panels[0].renderer.GetSize()
+    return s.panels[0]._picker.met_at(renderer, width / 2, 0.55 * height).vertex
+
+
+# ---------------------------------------------------------------------- insets
+def test_an_inset_enlarges_what_the_panel_shows(shown):
+    surface = bumpy(2000)
+    s = shown(surface)
+    vertex = facing(s)
+    s.session.show(replace(s.document, zooms=(Zoom(vertex, 4.0, "top left"),)))
+    s.settle()
+    panel = s.panels[0]
+    (inset,) = panel.scene.insets._shown
+    centre = np.array(inset.GetOrigin()) + np.array(inset.GetSize()) / 2
+    assert np.abs(seen_at(panel, vertex, inset) - centre).max() <= SIZE
+    # Four times as far from each other, whatever the direction.
+    for other in surface.faces[(surface.faces == vertex).any(axis=1)].ravel():
+        apart = seen_at(panel, other) - seen_at(panel, vertex)
+        assert np.allclose(seen_at(panel, other, inset) - seen_at(panel, vertex, inset), 4 * apart, atol=SIZE)
+    # It is square, in its corner, and follows the camera.
+    width, height = panel.renderer.GetSize()
+    assert inset.GetSize()[0] == pytest.approx(0.4 * min(width, height), abs=2)
+    assert inset.GetOrigin()[0] < 10
+    assert inset.GetOrigin()[1] + inset.GetSize()[1] > height - 10
+    s.window.grid.camera.Azimuth(20)
+    panel.interactor.render()
+    assert np.abs(seen_at(panel, vertex, inset) - centre).max() <= SIZE
+
+
+def test_a_click_in_an_inset_selects_what_is_seen_there(shown):
+    from qtpy import QtCore, QtTest
+
+    s = shown(bumpy(2000))
+    vertex = facing(s)
+    s.session.show(replace(s.document, zooms=(Zoom(vertex, 5.0, "top right"),)))
+    s.settle()
+    panel = s.panels[1]
+    (inset,) = panel.scene.insets._shown
+    x, y = np.array(inset.GetOrigin()) + np.array(inset.GetSize()) / 2
+    place = QtCore.QPoint(int(x), int(panel.interactor.height() - y))
+    QtTest.QTest.mouseClick(panel.interactor, QtCore.Qt.MouseButton.LeftButton, pos=place)
+    assert s.source == vertex
+
+
+def test_an_inset_that_may_stand_anywhere_hides_the_least(shown):
+    """A strip along one diagonal of the view leaves two corners free."""
+    surface = grid(30, 30)
+    x = surface.vertices
+    keep = np.abs(x[surface.faces].mean(axis=1) @ [1, -1, 0]) < 0.25 * np.ptp(x[:, 0])
+    strip = type(surface)(x, surface.faces[keep], "strip")
+    used = np.unique(strip.faces)
+    middle = int(used[np.abs(x[used] - x[used].mean(axis=0)).sum(axis=1).argmin()])
+    s = shown(strip, source=middle, zooms=(Zoom(middle, 6.0), Zoom(middle, 6.0)))
+    assert sorted(s.panels[0].scene.insets._corners) == ["bottom right", "top left"]
+
+
+def test_insets_come_and_go_with_the_document(shown):
+    s = shown(bumpy(300), zooms=(Zoom(7), Zoom(9, corner="bottom left")))
+    window = s.panels[0].renderer.GetRenderWindow()
+    count = window.GetRenderers().GetNumberOfItems()
+    before = s.pictures()
+    s.session.show(replace(s.document, zooms=()))
+    s.settle()
+    assert window.GetRenderers().GetNumberOfItems() == count - 2
+    assert all((a != b).any() for a, b in zip(before, s.pictures(), strict=True))
+    s.session.undo()
+    s.settle()
+    assert all((a != b).mean() < 0.005 for a, b in zip(before, s.pictures(), strict=True))
+
+
+# ---------------------------------------------------------------------- anchors
+def test_anchors_have_the_colours_of_their_values(shown):
+    s = shown(bumpy(2000))
+    vertex, style = facing(s), STYLES["paper"]
+    top = s.answers[0].maximum
+    for value, share in ((None, s.answers[0].field[vertex] / top), (0.0, 0.0), (0.5 * top, 0.5), (9 * top, 1.0)):
+        points = (s.document.point("source"), Point("anchor", vertex))
+        s.session.show(replace(s.document, points=points, anchors=(Anchor("anchor", value),)))
+        s.settle(0.1)
+        found = colour_at(s.panels[0], seen_at(s.panels[0], vertex))
+        expected = style.colours_at(np.array([share]))[0]
+        # Shaded, so only the hue and saturation are the same.
+        assert np.abs(found / found.max() - expected / expected.max()).max() < 0.12
+    s.session.show(replace(s.document, anchors=()))
+    s.settle(0.1)
+    assert not s.panels[0].scene._anchored.actor.GetVisibility()
+
+
+# ---------------------------------------------------------------------- reliefs
+def test_a_flat_surface_becomes_a_relief_of_each_panels_field_and_flat_again(shown):
+    surface = grid(12, 12)
+    s = shown(surface, height=0.4)
+    for panel, answer in zip(s.panels, s.answers, strict=True):
+        raised = surface.vertices[:, 2] + 0.4 * np.ptp(surface.vertices, axis=0).max() * answer.field / answer.maximum
+        assert np.allclose(panel._positions[:, 2], raised)
+        # A click finds the vertices where they are now.
+        vertex = int(np.abs(surface.vertices - surface.vertices.mean(axis=0)).sum(axis=1).argmin())
+        assert panel._picker.met_at(panel.renderer, *seen_at(panel, vertex)).vertex == vertex
+    s.session.show(replace(s.document, height=0.0))
+    s.settle()
+    assert all(np.array_equal(panel._positions, surface.vertices) for panel in s.panels)
+    s.session.undo()
+    s.settle()
+    assert all(np.ptp(panel._positions[:, 2]) > 0 for panel in s.panels)
+
+
+def test_a_surface_that_is_not_flat_stays_as_it_is(shown):
+    surface = bumpy(300)
+    s = shown(surface, height=0.4)
+    assert all(np.array_equal(panel._positions, s.session.surface.vertices) for panel in s.panels)
+
+
+# ---------------------------------------------------------------------- styles
+def test_a_recipe_is_shown_in_its_style_and_the_next_in_its_own(shown, tmp_path):
+    s = shown(bumpy(300), Page(style="dark"), zooms=(Zoom(7),))
+    for panel in s.panels:
+        assert np.allclose(colour_at(panel, (5, panel.interactor.height() / 2)), STYLES["dark"].background, atol=0.02)
+        assert panel.scene._field.maximum > 0
+    s.window.add_panel()
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert {panel.scene.style for panel in s.panels} == {STYLES["dark"]}
+    (tmp_path / "p.json").write_text(recipe_text(Recipe(s.document), "0"))
+    s.window.session_file.open(str(tmp_path / "p.json"))
+    s.until(lambda: s.window.page == Page())
+    s.settle()
+    for panel in s.panels:
+        assert np.allclose(colour_at(panel, (5, 5)), (1, 1, 1), atol=0.02)
