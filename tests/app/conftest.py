@@ -2,11 +2,12 @@
 
 import queue
 import time
+from dataclasses import replace
 
 import pytest
 
 from app.document.document import COMPARISON, comparison
-from app.document.edits import move_source
+from app.document.edits import move_source, show_in
 from app.session.session import Session
 
 
@@ -75,6 +76,17 @@ class Desk:
     def click(self, vertex, panel=0, **options):
         """A source, as a click chooses it."""
         self.session.show(move_source(self.session.document, panel, vertex), **options)
+
+    def choose(self, panel, spec):
+        """Another distance in a panel, from the same point."""
+        shows = self.session.document.panel(panel).shows
+        self.session.show(show_in(self.session.document, panel, replace(shows, spec=spec)))
+
+    def post_later(self):
+        """From now on what the session posts is kept: the list, and what to post through to let things go on."""
+        kept = []
+        self.post, after = kept.append, self.post
+        return kept, after
 
     @property
     def source(self):

@@ -1,0 +1,264 @@
+"""Answers on their way: what is slow is worked on beside the rest, what is old is dropped, drags follow."""
+
+import subprocess
+import threading
+import time
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from app.document.document import DistanceFrom, MeshFile
+from app.document.edits import add_panel
+from app.session.kept import KeptAnswers
+from app.session.questions import DistanceQuestion
+from bihdist_core import BiharmonicDistance, Cancelled
+from bihdist_core.distances.answers import Answer
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy, grid
+
+BIHARMONIC, COMMUTE = Spec.of("biharmonic"), Spec.of("commute-time")
+
+
+# ---------------------------------------------------------------------- distances that take their time
+class Slow:
+    """Makes panels whose distance is built step by step, as the test allows."""
+
+    def __init__(self):
+        self.allowed = threading.Semaphore(0)
+        self.started = threading.Semaphore(0)
+        self.built = self.cancelled = 0
+
+    def panel(self, name="biharmonic"):
+        return SlowSpec(name, slow=self)
+
+    def build(self, laplacian, progress):
+        self.started.release()
+        try:
+            while not self.allowed.acquire(timeout=0.01):
+                progress(0.5, "slowly")
+        except Cancelled:
+            self.cancelled += 1
+            raise
+        self.built += 1
+        return BiharmonicDistance(laplacian)
+
+
+@dataclass(frozen=True)
+class SlowSpec(Spec):
+    slow: Slow = None
+
+    def build(self, laplacian, progress=None):
+        return self.slow.build(laplacian, progress)
+
+
+@pytest.fixture
+def slow_desk(desk, mesh_file):
+    """A session whose middle panel is slow, open and with its quick panels answered."""
+    slow = Slow()
+    d = desk([BIHARMONIC, slow.panel(), COMMUTE])
+    d.show(mesh_file(bumpy(200)), 0)
+    d.until(lambda: slow.started.acquire(blocking=False))
+    d.until(lambda: {0, 2} <= d.session.shown.keys())
+    return d, slow
+
+
+def test_quick_panels_do_not_wait_for_a_slow_one(slow_desk):
+    d, _ = slow_desk
+    d.click(9)
+    d.until(lambda: d.sources_shown[0] == 9 and d.sources_shown[2] == 9)
+    assert d.answers[1] is None
+
+
+def test_a_click_while_a_panel_computes_is_kept_and_the_old_one_dropped(slow_desk):
+    d, slow = slow_desk
+    for vertex in (4, 5, 6):
+        d.click(vertex)
+    slow.allowed.release()
+    d.complete()
+    assert d.sources_shown[1] == 6
+    assert d.view.told.count("answer 1") == 1
+    assert slow.built == 1  # the work in progress served the last click
+
+
+def test_choosing_another_distance_stops_the_work_for_the_old_one(slow_desk):
+    d, slow = slow_desk
+    d.choose(1, COMMUTE)
+    d.complete()
+    d.until(lambda: slow.cancelled == 1)
+    assert slow.built == 0
+
+
+def test_a_distance_is_built_once_for_two_panels(slow_desk):
+    d, slow = slow_desk
+    d.session.show(add_panel(d.session.document, DistanceFrom(slow.panel())))
+    d.until(lambda: "panel 3" in [t.name for t in threading.enumerate()])
+    slow.allowed.release()
+    d.complete()
+    assert slow.built == 1
+    assert np.array_equal(d.answers[1].field, d.answers[3].field)
+
+
+def test_a_panel_that_waits_for_the_other_builds_the_distance_itself_if_that_is_cancelled(slow_desk):
+    d, slow = slow_desk
+    d.session.show(add_panel(d.session.document, DistanceFrom(slow.panel())))
+    d.choose(1, COMMUTE)
+    d.until(lambda: slow.cancelled == 1)
+    slow.allowed.release()
+    d.complete()
+    assert slow.built == 1
+
+
+def test_progress_is_told_and_cancel_stops_within_a_second(slow_desk):
+    d, slow = slow_desk
+    d.until(lambda: d.session.progress.get(1) == (0.45, "slowly"))
+    begun = time.monotonic()
+    d.session.cancel()
+    d.until(lambda: not d.session.progress)
+    assert time.monotonic() - begun < 1
+    assert slow.cancelled == 1
+    # The next click asks again.
+    d.click(8)
+    slow.allowed.release()
+    d.complete()
+
+
+def test_opening_another_mesh_stops_the_work_on_the_old_one(slow_desk, mesh_file):
+    d, slow = slow_desk
+    d.session.open(mesh_file(grid(4, 4), "grid.off"))
+    d.until(lambda: slow.cancelled == 1)
+    slow.allowed.release()
+    d.complete()
+    assert len(d.answers[1].field) == 25
+
+
+def test_closing_stops_everything(slow_desk):
+    d, slow = slow_desk
+    begun = time.monotonic()
+    d.session.close()
+    assert time.monotonic() - begun < 2
+    assert slow.cancelled == 1
+    assert not [t for t in threading.enumerate() if t.name.startswith("panel") and t.is_alive()]
+
+
+def test_an_answer_that_comes_late_is_dropped(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    d.opened(mesh_file(bumpy(200)), source=1)
+    kept, after = d.post_later()
+    d.click(2)
+    d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
+    d.post = after
+    d.click(3)
+    for function in kept:
+        function()
+    assert d.sources_shown == [1]
+    d.complete()
+    assert d.sources_shown == [3]
+    assert d.view.told.count("answer 0") == 2  # for 1 and 3
+
+
+def test_an_error_nobody_foresaw_is_told(desk, mesh_file, monkeypatch):
+    def broken(*_, **__):
+        raise ZeroDivisionError("division by zero")
+
+    monkeypatch.setattr(Spec, "build", broken)
+    d = desk([BIHARMONIC])
+    d.opened(mesh_file(bumpy(200)))
+    assert "ZeroDivisionError" in d.answers[0].failure
+
+
+# ---------------------------------------------------------------------- a drag
+def test_in_a_drag_what_was_computed_is_shown_though_the_source_has_moved_on(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    d.opened(mesh_file(bumpy(200)), source=1)
+    kept, after = d.post_later()
+    d.click(2, key="drag", live=True)
+    d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
+    d.post = after
+    d.click(3, key="drag", live=True)
+    for function in kept:
+        function()
+    assert (d.sources_shown, d.source) == ([2], 3)
+    d.complete()
+    assert d.sources_shown == [3]
+    # Older than what is shown.
+    for function in kept:
+        function()
+    assert d.sources_shown == [3]
+
+
+def test_a_drag_hands_on_what_it_computes_in_order_and_is_one_step(desk, mesh_file):
+    d = desk([BIHARMONIC, Spec.of("diffusion")])
+    session = d.opened(mesh_file(bumpy(3000)), source=0)
+    seen = []
+    answer_changed = d.view.answer_changed
+    d.view.answer_changed = lambda id: (answer_changed(id), seen.append((id, session.shown[id].asked.at)))
+    for vertex in range(1, 60):
+        d.click(vertex, key="drag", live=True)
+        time.sleep(0.004)
+        while not d.posted.empty():
+            d.posted.get()()
+    d.session.show(session.document)
+    d.complete()
+    for panel in (0, 1):
+        sources = [source for id, source in seen if id == panel]
+        assert sources == sorted(sources)
+        assert sources[-1] == 59
+    session.undo()
+    assert d.source == 0
+    assert not session.history.can_undo
+
+
+def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh_file, monkeypatch):
+    d = desk([Spec.of("geodesic", method="exact")])
+    session = d.opened(mesh_file(bumpy(200)), source=0)
+    started = []
+    popen = subprocess.Popen
+    monkeypatch.setattr(subprocess, "Popen", lambda *a, **k: started.append(a) or popen(*a, **k))
+    for vertex in (5, 6, 7):
+        d.click(vertex, key="drag", live=True)
+        d.until(lambda vertex=vertex: d.sources_shown == [vertex])
+        assert d.answers[0].label == "geodesic, heat method"
+        assert session.shown[0].is_preview
+    session.show(session.document)
+    d.complete()
+    assert d.answers[0].label == "geodesic, exact"
+    assert not started  # the process that computed the first field goes on
+
+
+def test_a_drag_that_comes_back_shows_the_field_it_began_with(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(200)), source=1)
+    kept, after = d.post_later()
+    d.click(2, key="drag", live=True)
+    d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
+    d.click(1, key="drag", live=True)
+    session.show(session.document)
+    d.post = after
+    for function in kept:
+        function()
+    assert d.sources_shown == [1]
+    assert session.is_complete
+    assert not session.history.can_undo
+
+
+def test_drags_are_steps_of_their_own(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=0)
+    for vertices in ((1, 2, 3), (4, 5)):
+        for vertex in vertices:
+            d.click(vertex, key="drag", live=True)
+        session.show(session.document)
+    session.undo()
+    assert d.source == 3
+    session.undo()
+    assert d.source == 0
+
+
+def test_answers_are_kept_within_a_memory():
+    kept = KeptAnswers(memory=2500)
+    asked = [DistanceQuestion(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(4)]
+    for question in asked:
+        kept.put(question, Answer(label="", field=np.zeros(100)))
+        kept.get(asked[0])
+    assert [kept.get(question) is not None for question in asked] == [True, False, True, True]

@@ -1,0 +1,188 @@
+"""Steps through documents whose meshes are still being read, or come too late, or never."""
+
+from dataclasses import replace
+
+from app.document.document import comparison
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy, grid
+
+BIHARMONIC, COMMUTE = Spec.of("biharmonic"), Spec.of("commute-time")
+
+
+# ---------------------------------------------------------------------- history
+def test_what_comes_back_by_undo_is_there_at_once(desk, mesh_file):
+    d = desk()
+    session = d.opened(mesh_file(bumpy(200)), source=1)
+    first = d.answers
+    d.click(2)
+    d.complete()
+    session.undo()
+    assert session.is_complete
+    assert all(now is then for now, then in zip(d.answers, first, strict=True))
+    session.redo()
+    assert session.is_complete
+    assert d.sources_shown == [2, 2, 2]
+    session.redo()
+    assert d.source == 2
+
+
+def test_undo_brings_back_the_mesh_before(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    before = session.document
+    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    session.undo()
+    d.complete()
+    assert session.document == before
+    assert len(d.answers[0].field) == 60
+
+
+def test_undo_to_a_mesh_that_is_gone_is_refused_and_nothing_changes(desk, mesh_file, tmp_path, monkeypatch):
+    monkeypatch.setattr("app.session.session.SPARED", 0)
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    before = session.document
+    (tmp_path / "mesh.off").unlink()
+    session.undo()
+    d.until_told("is not there")
+    assert session.document == before
+    assert session.history.can_undo
+
+
+def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.session.SPARED", 0)
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    first = session.document
+    d.click(9)
+    second = session.document
+    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    third = session.document
+    session.undo()
+    session.undo()
+    session.undo()  # there is no third
+    d.until(lambda: session.document == first and session.is_complete)
+    assert not session.history.can_undo
+    session.redo()
+    session.redo()
+    d.until(lambda: session.document == third and session.is_complete)
+    # Back at once: the mesh that was asked for is not read.
+    session.undo()
+    session.redo()
+    assert session.document == third
+    session.undo()
+    d.until(lambda: session.document == second and session.is_complete)
+    session.redo()
+    d.click(11)  # takes the step's place
+    d.complete()
+    assert (session.surface.name, d.source) == ("mesh.off", 11)
+    assert not session.history.can_redo
+
+
+def test_a_click_while_the_mesh_of_an_undone_step_is_read_takes_its_place(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.session.SPARED", 0)
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    kept, after = d.post_later()
+    session.undo()
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.post = after
+    d.click(9)
+    for function in kept:
+        function()
+    d.complete()
+    assert (session.surface.name, d.source) == ("other.off", 9)
+
+
+# ---------------------------------------------------------------------- a mesh that comes too late
+def test_a_mesh_that_was_cancelled_is_not_shown_when_it_comes(desk, mesh_file):
+    d = desk()
+    kept, after = d.post_later()
+    d.show(mesh_file(bumpy(60)))
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.session.cancel()
+    d.post = after
+    for function in kept:
+        function()
+    assert d.session.surface is None
+    assert "document" not in d.view.told
+
+
+def test_of_two_meshes_the_later_is_shown_with_its_own_source(desk, mesh_file):
+    d = desk()
+    kept, after = d.post_later()
+    d.show(mesh_file(bumpy(60)), source=5)
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.post = after
+    d.show(mesh_file(grid(3, 3), "other.off"), source=7)
+    for function in kept:
+        function()
+    assert d.session.surface is None
+    d.complete()
+    assert d.session.surface.name == "other.off"
+    assert d.source == 7
+    assert d.view.told.count("document") == 1
+
+
+def test_a_click_while_another_mesh_is_read_does_not_keep_it_away(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    kept, after = d.post_later()
+    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.post = after
+    d.click(9)
+    assert d.source == 9
+    for function in kept:
+        function()
+    d.complete()
+    assert (session.surface.name, d.source) == ("other.off", 7)
+
+
+# ---------------------------------------------------------------------- before there is a mesh
+def begin_late(desk, document):
+    """A session that begins with a document, whose mesh is kept back by what `post_later` gives."""
+    d = desk(document=document)
+    kept, after = d.post_later()
+    d.session.show(document)
+    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.post = after
+    return d, kept
+
+
+def test_what_is_chosen_while_the_first_mesh_is_read_is_shown_with_it(desk, mesh_file):
+    d, kept = begin_late(desk, comparison(mesh_file(bumpy(60)), (BIHARMONIC,), (5,)))
+    d.choose(0, COMMUTE)
+    d.session.show(replace(d.session.document, isolines=7))
+    for function in kept:
+        function()
+    d.complete()
+    assert (d.answers[0].label, d.session.document.isolines, d.source) == ("commute-time, exact", 7, 5)
+    assert not d.session.history.can_undo
+
+
+def test_what_is_chosen_while_another_first_mesh_is_read_does_not_keep_it_away(desk, mesh_file):
+    d, kept = begin_late(desk, comparison(mesh_file(bumpy(60)), (BIHARMONIC,), (5,)))
+    d.session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.session.show(replace(d.session.document, isolines=7))
+    for function in kept:
+        function()
+    d.complete()
+    assert (d.session.surface.name, d.source, d.session.document.isolines) == ("other.off", 7, 7)
+
+
+def test_what_is_chosen_after_the_first_mesh_failed_is_shown_with_the_next(desk, mesh_file):
+    d = desk(document=comparison("gone.off", (BIHARMONIC,)))
+    d.session.show(d.session.document)
+    d.until_told("gone.off is not there")
+    d.choose(0, COMMUTE)
+    d.session.open(mesh_file(bumpy(60)))
+    d.complete()
+    assert d.answers[0].label == "commute-time, exact"
+    assert len([words for words in d.view.told if "gone.off" in words]) == 1
