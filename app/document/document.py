@@ -5,6 +5,7 @@ A document says what is wanted and holds nothing that is computed.  It is hashab
 """
 
 import math
+import operator
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Any
@@ -26,6 +27,14 @@ MOST_PANELS = 1000
 MOST_ISOLINES = 1000
 LARGEST = 1e100
 """Of values at which a colour bar ends; their inverses are the smallest."""
+
+
+def whole_number(value: Any, what: str) -> int:
+    """A whole number as Python's, also from NumPy; ParameterError for anything else."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise ParameterError(f"{what} is a whole number, not {value!r}.") from None
 
 
 @dataclass(frozen=True)
@@ -65,6 +74,8 @@ class Point:
     surface: str = "A"
 
     def __post_init__(self) -> None:
+        if self.at is not None and not isinstance(self.at, Place):
+            object.__setattr__(self, "at", whole_number(self.at, "A vertex id"))
         if isinstance(self.at, int) and self.at < 0:
             raise ParameterError(f"Vertex ids start at 0; {self.at} is none.")
 
@@ -81,6 +92,8 @@ class FieldArray:
     surface: str = "A"
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise ParameterError(f"A field has a text for a name, not {self.name!r}.")
         if not self.name or self.name != self.name.strip() or " - " in self.name or self.name.startswith("raw "):
             raise ParameterError(f"{self.name!r} is no name for a field; use a word or two.")
         if self.name.partition("(")[0] in kinds():
@@ -239,6 +252,8 @@ class Zoom:
     corner: str = "auto"
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "vertex", whole_number(self.vertex, "A vertex id"))
+        object.__setattr__(self, "factor", float(self.factor))
         if not 1 < self.factor <= 100:
             raise ParameterError(f"A zoom enlarges by more than 1 and at most 100 times, not {self.factor:g}.")
         if self.corner not in CORNERS:
@@ -253,6 +268,8 @@ class Anchor:
     value: float | None = None
 
     def __post_init__(self) -> None:
+        if self.value is not None:
+            object.__setattr__(self, "value", float(self.value))
         if self.value is not None and not abs(self.value) <= LARGEST:
             raise ParameterError(f"The value of an anchor is a number up to {LARGEST:g}, not {self.value:g}.")
 

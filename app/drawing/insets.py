@@ -16,7 +16,7 @@ SIDE = 0.40
 """Of an inset, as a share of the shorter side of its view."""
 
 GAP = 4.0
-"""Pixels between an inset and the sides of its view."""
+"""Pixels (of which `scale` says how many the device has) between an inset and the sides of its view."""
 
 CELLS = 8
 """By how many along each side the cover of a corner is found out."""
@@ -26,7 +26,10 @@ Rectangle = tuple[float, float, float, float]
 
 
 class Insets:
-    """Shows `actors` of a panel's renderer once more for each zoom.  below: the share of the view that its bar has."""
+    """Shows `actors` of a panel's renderer once more for each zoom.
+
+    scale: device pixels per pixel; below: the share of the view that its colour bar has.
+    """
 
     def __init__(self, renderer: vtkRenderer, actors: Sequence[vtkActor], style: Style, scale: float, below: float):
         self._main, self._actors, self._style, self._scale, self._below = renderer, actors, style, scale, below
@@ -153,6 +156,7 @@ class Insets:
         # The mouse turns the panel's camera, which this one follows.
         renderer.InteractiveOff()
         renderer.UseFXAAOn()
+        renderer.DrawOff()  # until it has its place
         renderer.SetActiveCamera(vtkCamera())
         for actor in self._actors:
             renderer.AddActor(actor)

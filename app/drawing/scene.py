@@ -104,11 +104,6 @@ class PanelScene:
         """So many equal steps from 0 to the maximum; 0 for no lines."""
         self._field.show_isolines(count)
 
-    def set_scale(self, scale: float) -> None:
-        """Device pixels per pixel have changed."""
-        self.scale = scale
-        self._field.set_scale(scale)
-
     # ------------------------------------------------------------------ marks
     def mark_source(self, position: np.ndarray | None) -> None:
         self._source.show_one(position, self.style.source)
@@ -120,16 +115,10 @@ class PanelScene:
     def mark_pointer(self, position: np.ndarray | None) -> None:
         self._pointer.show_one(position, self.style.pointer)
 
-    def mark_anchors(self, positions: np.ndarray, values: Sequence[float | None]) -> None:
-        """Positions (k, 3), each filled with the colour of a value, grey without one."""
+    def mark_anchors(self, positions: np.ndarray, values: Sequence[float]) -> None:
+        """Positions (k, 3), each filled with the colour of a value, grey where that is NaN."""
         top, signed = self._field.maximum, self._field.is_signed
-        colours = [
-            self.style.undefined
-            if value is None or top <= 0
-            else self.style.colours_at(np.clip([value / top], -1 if signed else 0, 1), signed)[0]
-            for value in values
-        ]
-        self._anchored.show(positions, colours)
+        self._anchored.show(positions, [self.style.colour_of(value, top, signed) for value in values])
 
     # ------------------------------------------------------------------ how it is made
     def _label_bar(self) -> None:

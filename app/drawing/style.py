@@ -58,6 +58,13 @@ class Style:
         colours = np.array([c for _, c in stops])
         return np.stack([np.interp(shares, at, colours[:, k]) for k in range(3)], 1)
 
+    def colour_of(self, value: float, top: float, signed: bool = False) -> Colour | np.ndarray:
+        """The colour of one value where `top` is the end of the colour bar; what is undefined is grey."""
+        if np.isnan(value):
+            return self.undefined
+        share = np.clip(value / top, -1 if signed else 0, 1) if top > 0 else 0.0
+        return self.colours_at(np.array([share]), signed)[0]
+
     def line(self, signed: bool = False) -> Colour:
         """The colour of isolines; the middle of a diverging map is too light for white ones."""
         return self.signed_isoline if signed else self.isoline

@@ -193,8 +193,7 @@ def _draw_marks(axes: Axes, page: Composition, shot: Shot, order: int, frame) ->
         mark = panel.marks[k]
         colour = style.largest if mark.is_largest else style.source
         if mark.value is not None:
-            share = np.clip(mark.value / top, -1 if panel.signed else 0, 1) if top > 0 else 0.0
-            colour = style.colours_at(np.array([share]), panel.signed)[0]
+            colour = style.colour_of(mark.value, top, panel.signed)
         circle = Circle(
             (x, y),
             radius,

@@ -10,10 +10,11 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output
 
-from ..document.document import Anchor, Document, Panel
+from ..document.document import Document, Panel
 from ..document.file import is_recipe
 from ..document.page import Recipe
 from ..drawing.style import STYLES
+from ..session.anchors import anchor_value, anchors_on
 from ..session.given import Given
 from ..session.opened import Opened, open_mesh
 from ..session.questions import questions, vertex_at
@@ -149,14 +150,5 @@ def _largest(answer: Answer) -> list[Mark]:
 
 
 def _anchor_marks(document: Document, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:
-    points = [(anchor, document.point(anchor.point)) for anchor in document.anchors]
-    mine = [(anchor, vertex_at(p.at, opened.surface)) for anchor, p in points if p.surface == panel.surface]
-    return [Mark(vertex, _anchor_value(anchor, vertex, answer)) for anchor, vertex in mine]
-
-
-def _anchor_value(anchor: Anchor, vertex: int, answer: Answer) -> float:
-    """An anchor without a value of its own shows the field's."""
-    if anchor.value is not None:
-        return anchor.value
-    known = answer.field is not None and answer.field[vertex] > 0
-    return float(answer.field[vertex]) if known and answer.field is not None else 0.0
+    found = anchors_on(document, panel.surface, opened)
+    return [Mark(vertex, anchor_value(value, vertex, answer)) for vertex, value in found]

@@ -102,7 +102,7 @@ def figure(
     """
     several = isinstance(source, Sequence)
     sources = tuple(source) if isinstance(source, Sequence) else (source,)
-    document, given = given_comparison(mesh, distances, fields or {}, sources, areas)
+    document, given = given_comparison(mesh, distances, {} if fields is None else fields, sources, areas)
     marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
     names = free_names("anchor", len(marked), [point.name for point in document.points])
     chosen = (views,) if isinstance(views, str | Camera) else tuple(views)

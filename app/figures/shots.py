@@ -16,7 +16,7 @@ from ..document.document import Zoom
 from ..drawing.camera import Margins, Projection, standard_camera
 from ..drawing.field_actor import drawable, isoline_values
 from ..drawing.insets import SIDE
-from ..drawing.relief import relief
+from ..drawing.relief import relief, rise
 from .description import Figure, FigurePanel
 from .layout import Box, Layout
 from .raster import Rectangle, Studio
@@ -58,7 +58,9 @@ def take_shots(figure: Figure, layout: Layout, vector: bool, progress: Progress)
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
             surface = panel.surface
             if panel.height and panel.field is not None:
-                surface = relief(surface, panel.field, tops[index], panel.height)
+                used = surface.vertices[surface.component_of_vertex >= 0]
+                bounds = np.stack([used.min(axis=0), used.max(axis=0)], axis=1).ravel().tolist()
+                surface = relief(surface, panel.field, tops[index], rise(bounds, panel.height))
             key = id(panel) if panel.height else id(surface)
             mesh = meshes.get(key) or drawable(surface)
             meshes[key] = mesh

@@ -110,9 +110,19 @@ class MainWindow(QtWidgets.QMainWindow):
         """Open a mesh, also before the panels are made."""
         self._once_built(lambda: self.session.open(path, source))
 
-    def show_document(self, document: Document, arrived: Callable[[], None] = lambda: None) -> None:
-        """Show a document, also before the panels are made; arrived: called when it is there."""
-        self._once_built(lambda: self.session.show(document, arrived=arrived))
+    def show_document(
+        self, document: Document, page: Page | None = None, arrived: Callable[[], None] = lambda: None
+    ) -> None:
+        """Show a document from elsewhere, also before the panels are made.
+
+        page: in whose style, the present one's if None; arrived: called when it is there.
+        """
+
+        def arriving() -> None:
+            if page is not None:
+                self._take_page(page)
+
+        self._once_built(lambda: self.session.show_instead(document, arriving, arrived))
 
     def _once_built(self, function: Callable[[], None]) -> None:
         if self.grid is None:
@@ -143,7 +153,7 @@ class MainWindow(QtWidgets.QMainWindow):
         document, opened = self.session.document, self.session.opened()
         self._middle.setCurrentWidget(self.grid)
         is_other = opened is not self._opened
-        other_panels = is_other or document.panels != before.panels
+        other_panels = is_other or (document.panels, document.fields) != (before.panels, before.fields)
         if other_panels:
             self.grid.show_panels(document)
         if is_other:
@@ -167,19 +177,15 @@ class MainWindow(QtWidgets.QMainWindow):
         if is_other or is_raised or document.camera != before.camera:
             self.grid.look(document.camera)
             self._still.start()
-        self._undo.setEnabled(self.session.history.can_undo)
-        self._redo.setEnabled(self.session.history.can_redo)
+        self._offer_steps()
         self.grid.repaint_views()
         self.session_file.document_changed()
 
-    def show_page(self, page: Page) -> None:
-        """Look as figures on this page do."""
-        is_other, self.page = page.style != self.page.style, page
-        if is_other:
+    def _take_page(self, page: Page) -> None:
+        """Look as figures on this page do, from the next change of the document on."""
+        if page != self.page:
             self.grid.show_style(STYLES[page.style])
-            self._opened = None
-            self.document_changed(self.session.document)
-        self._say_what_is_open()
+            self.page, self._opened = page, None  # all is shown anew
 
     def _say_what_is_open(self) -> None:
         recipe = Recipe(self.session.document, self.page)
@@ -204,7 +210,12 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.session.is_complete and not self.session.progress:
             QtCore.QTimer.singleShot(0, self._announce)
 
+    def _offer_steps(self) -> None:
+        self._undo.setEnabled(self.session.can_undo)
+        self._redo.setEnabled(self.session.can_redo)
+
     def progress_changed(self) -> None:
+        self._offer_steps()
         if not self.session.progress:
             self._show_progress()
         elif not self._progress_soon.isActive():

@@ -5,16 +5,19 @@ from collections.abc import Sequence
 import numpy as np
 from pyvistaqt import QtInteractor
 from qtpy import QtCore, QtGui, QtWidgets
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
+from bihdist_core import Surface
 from bihdist_core.distances.answers import Answer
 
 from ..document.document import COMPARISON, DistanceFrom, Zoom
 from ..drawing.field_actor import drawable
 from ..drawing.picking import Met, Picker, pixel_of
-from ..drawing.relief import relief
+from ..drawing.relief import relief, rise
 from ..drawing.scene import PanelScene
 from ..drawing.style import Style
+from ..session.anchors import anchor_value
 from ..session.answering import Shown
 from ..session.opened import Opened
 from .controls import PanelControls
@@ -70,7 +73,8 @@ class DistancePanel(QtWidgets.QWidget):
         self._source: int | None = None
         self._zooms: tuple[Zoom, ...] = ()
         self._opened: Opened | None = None
-        self._is_relief = False
+        self._raised: tuple[int, float, float] | None = None  # the field, its top, and the height
+        self._shape: Surface | None = None
         self._anchors: Sequence[tuple[int, float | None]] = ()
         self.answer: Answer | None = None
         self._is_preview = False
@@ -81,17 +85,25 @@ class DistancePanel(QtWidgets.QWidget):
 
     def show_style(self, style: Style) -> None:
         """Look like this from now on; what was shown has to be shown again."""
-        if style is not self.scene.style:
+        ratio = self.interactor.devicePixelRatioF()
+        if (style, ratio) != (self.scene.style, self.scene.scale):
             self.scene.remove()
-            self.scene = PanelScene(self.renderer, style, self.interactor.devicePixelRatioF())
+            self.scene = PanelScene(self.renderer, style, ratio)
+
+    def rest(self) -> None:
+        """Show nothing, and keep nothing of what was shown."""
+        self._opened = self._picker = self.answer = self._source = None
+        self._positions, self._raised, self._shape = np.empty((0, 3)), None, None
+        self._anchors, self._zooms = (), ()
+        self.scene.show_surface(vtkPolyData())
 
     # ------------------------------------------------------------------ state into pixels
     def show_surface(self, opened: Opened, camera: vtkCamera) -> None:
         """Another surface, without a field yet."""
-        self._opened, self._is_relief = opened, False
-        self._picker, self._positions = opened.prepared.picker, opened.surface.vertices
-        self.answer = self._source = None
-        self._anchors, self._zooms = (), ()
+        self.rest()
+        # On the screen that the window is on now.
+        self.show_style(self.scene.style)
+        self._opened, self._picker, self._positions = opened, opened.prepared.picker, opened.surface.vertices
         self.scene.show_surface(opened.prepared.mesh)
         self.renderer.SetActiveCamera(camera)
         self.renderer.camera_set = True
@@ -120,9 +132,7 @@ class DistancePanel(QtWidgets.QWidget):
     def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
         """Vertices with a value each; without one it is the field's own."""
         self._anchors = anchors
-        field = None if self.answer is None else self.answer.field
-        own = [None if field is None else float(np.nan_to_num(field[vertex])) for vertex, _ in anchors]
-        values = [known if value is None else value for (_, value), known in zip(anchors, own, strict=True)]
+        values = [anchor_value(value, vertex, self.answer) for vertex, value in anchors]
         self.scene.mark_anchors(self._positions[[vertex for vertex, _ in anchors]], values)
 
     def show_answer(self, shown: Shown, maximum: float | None = None, height: float = 0.0) -> None:
@@ -144,15 +154,19 @@ class DistancePanel(QtWidgets.QWidget):
 
     def _raise(self, answer: Answer, top: float, height: float) -> None:
         """Let the surface be a relief of the answer, or flat again."""
-        is_relief = bool(height) and answer.field is not None and self._opened.prepared.is_flat
-        if not is_relief and not self._is_relief:
+        prepared, surface = self._opened.prepared, self._opened.surface
+        is_relief = bool(height) and answer.field is not None and prepared.is_flat
+        raised = (id(answer.field), top, height) if is_relief else None
+        if raised == self._raised:
             return
-        surface, mesh, picker = self._opened.surface, self._opened.prepared.mesh, self._opened.prepared.picker
+        self._raised = raised
         if is_relief:
-            surface = relief(surface, answer.field, top, height)
-            mesh, picker = drawable(surface), Picker(surface)
-        self._is_relief, self._picker, self._positions = is_relief, picker, surface.vertices
-        self.scene.show_shape(mesh)
+            surface = relief(surface, answer.field, top, rise(prepared.bounds, height))
+        self._picker = None if is_relief else prepared.picker  # made when somebody points at it
+        self._positions = surface.vertices
+        self._shape = surface
+        self.scene.show_shape(drawable(surface) if is_relief else prepared.mesh)
+        self.scene.mark_pointer(None)
         self.mark_source(self._source)
         self.show_insets(self._zooms)
 
@@ -184,7 +198,8 @@ class DistancePanel(QtWidgets.QWidget):
             return
         d, top = float(self.answer.field[vertex]), self.answer.maximum
         if np.isnan(d):
-            self.value.setText("not connected to the source")
+            starts = self.controls.shows.points
+            self.value.setText("not connected to the source" if starts else "undefined here")
         elif self.answer.is_signed:
             self.value.setText(f"{d:+.5g} {self.answer.unit}")
         else:
@@ -265,14 +280,15 @@ class DistancePanel(QtWidgets.QWidget):
 
     def _is_on_mark(self, position: QtCore.QPoint) -> bool:
         """Whether the mark of the source is seen under a point of the view."""
-        if self._picker is None or self._source is None:
-            return False
         x, y = self._pixel(position)
+        picker = self._current_picker()
+        if picker is None or self._source is None or self.scene.insets.renderer_at(x, y) is not self.renderer:
+            return False
         at = pixel_of(self.renderer, self._positions[self._source])
         reach = (self.scene.style.marker_size / 2 + MARK_SLACK) * self.interactor.devicePixelRatioF()
         if np.hypot(x - at[0], y - at[1]) > reach:
             return False
-        return self._picker.sees(self.renderer, self._positions[self._source])
+        return picker.sees(self.renderer, self._positions[self._source])
 
     def _fit_failure(self) -> None:
         if self.answer is not None and self.answer.failure:
@@ -284,8 +300,14 @@ class DistancePanel(QtWidgets.QWidget):
         QtCore.QTimer.singleShot(0, self.moved.emit)
 
     def _met_at(self, position: QtCore.QPoint) -> Met | None:
-        pixel = self._pixel(position)
-        return None if self._picker is None else self._picker.met_at(self.scene.insets.renderer_at(*pixel), *pixel)
+        picker, pixel = self._current_picker(), self._pixel(position)
+        return None if picker is None else picker.met_at(self.scene.insets.renderer_at(*pixel), *pixel)
+
+    def _current_picker(self) -> Picker | None:
+        """Of the surface in its present shape."""
+        if self._picker is None and self._shape is not None:
+            self._picker = Picker(self._shape)
+        return self._picker
 
     def _vertex_at(self, position: QtCore.QPoint) -> int | None:
         met = self._met_at(position)

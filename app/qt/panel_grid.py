@@ -5,11 +5,12 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from ..document.camera import Camera, View
-from ..document.document import Document
+from ..document.document import Difference, Document
 from ..document.edits import possible_edits
 from ..drawing.camera import camera_seen, place_camera, show_camera
 from ..drawing.relief import rise
 from ..drawing.style import PAPER, Style
+from ..session.anchors import anchors_on
 from ..session.opened import Opened
 from ..session.questions import vertex_at
 from ..session.session import Session
@@ -70,6 +71,7 @@ class PanelGrid(QtWidgets.QWidget):
             gone = self._panels.pop(id)
             self._layout.removeWidget(gone)
             gone.hide()
+            gone.rest()
             # Kept for the next: VTK does not give back all the memory of a view that is closed.
             self._spare.append(gone)
         for id, panel in wanted.items():
@@ -114,10 +116,10 @@ class PanelGrid(QtWidgets.QWidget):
     def _begin(self, panel: DistancePanel, id: int) -> None:
         """Let a panel be that of an id, without a field yet."""
         panel.id = id
-        panel.scene.show_isolines(self._session.document.isolines)
         opened = self._session.opened()
         if opened is not None:
             self._show_surface(panel, opened)
+        panel.scene.show_isolines(self._session.document.isolines)
         panel.show()
 
     def show_style(self, style: Style) -> None:
@@ -145,9 +147,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Put the anchors of each panel's surface where they are."""
         for panel in document.panels:
             opened = self._session.opened(panel.surface)
-            points = [(anchor, document.point(anchor.point)) for anchor in document.anchors]
-            vertices = [(vertex_at(p.at, opened.surface), a.value) for a, p in points if p.surface == panel.surface]
-            self._panels[panel.id].mark_anchors(vertices)
+            self._panels[panel.id].mark_anchors(anchors_on(document, panel.surface, opened))
 
     def show_insets(self, document: Document) -> None:
         """Enlarge the document's places in each panel."""
@@ -164,7 +164,7 @@ class PanelGrid(QtWidgets.QWidget):
     def _rise(self) -> float:
         """How far up the panels' reliefs go; 0 if they are none."""
         opened, height = self._session.opened(), self._session.document.height
-        return rise(opened.surface, height) if height and opened is not None and opened.prepared.is_flat else 0.0
+        return rise(opened.prepared.bounds, height) if height and opened and opened.prepared.is_flat else 0.0
 
     def show_isolines(self, count: int) -> None:
         for panel in self.panels:
@@ -202,7 +202,9 @@ class PanelGrid(QtWidgets.QWidget):
         else:
             points, up = self._session.opened().prepared.points, self._rise
             if up:
-                points = np.concatenate([points, points + np.array([0, 0, up])])
+                signed = any(isinstance(panel.shows, Difference) for panel in self._session.document.panels)
+                down = np.array([0, 0, up if signed else 0])
+                points = np.concatenate([points - down, points + np.array([0, 0, up])])
             place_camera(self.camera, points, self.aspect, "relief" if up and view == "home" else view)
         self._settle_insets()
         self.repaint_views()

@@ -67,7 +67,8 @@ class SessionFile:
 
     def choose_and_save(self) -> bool:
         """Ask for a file; whether it was saved."""
-        name = Path(self._window.session.document.surfaces[0].path).stem if self._window.session.surface else "session"
+        surface = self._window.session.surface
+        name = Path(surface.name).stem if surface is not None else "session"
         dialog = QtWidgets.QFileDialog(self._window, "Save the session", f"{name}-session.json", "Sessions (*.json)")
         dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("json")
@@ -113,13 +114,12 @@ class SessionFile:
             return
 
         def arrived() -> None:
-            self._window.show_page(recipe.page)
             if is_own:
                 self.path, self._saved = path, self.recipe()
                 self._remember(path)
 
         # Nothing changes before the mesh is there: it may not open.
-        self._window.show_document(recipe.document, arrived)
+        self._window.show_document(recipe.document, recipe.page, arrived)
 
     def _with_mesh(self, recipe: Recipe) -> Recipe | None:
         """The recipe of a mesh that is there: the one it names, or the one the user points at; None if neither."""

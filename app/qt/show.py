@@ -41,8 +41,8 @@ class Pick:
     """A click on the surface.
 
     panel: the id of the panel that was clicked.  vertex: the nearest corner of the face.  position: (3,) where the face
-    was met, and weights: (3,) of its corners there.  values: by panel, what it showed at the vertex when that was
-    clicked, before the source went there; NaN where it showed nothing.
+    was met, in mesh units (of a relief, on the raised surface), and weights: (3,) of its corners there.  values: by
+    panel, what it showed at the vertex when that was clicked, before the source went there; NaN where that is nothing.
     """
 
     panel: int
@@ -78,17 +78,22 @@ class Viewer:
     # ------------------------------------------------------------------ what is shown
     @property
     def document(self) -> Document:
-        """All that is shown, as a value; set, it is shown, as a step that the user can undo."""
+        """All that is shown, as a value; set, it is shown, as a step that the user can undo.
+
+        BihdistError for one that cannot be shown.
+        """
         return self._session.document
 
     @document.setter
     def document(self, document: Document) -> None:
-        arrived: list[bool] = []
-        self._through(lambda: self._session.show(document, arrived=lambda: arrived.append(True)), lambda: bool(arrived))
+        self._show(document)
 
     @property
     def source(self) -> int | None:
-        """The vertex that the first panel's field starts from; None if it starts nowhere.  Set, it moves there."""
+        """The vertex that the first panel's field starts from; None if it starts nowhere.  Set, it moves there.
+
+        VertexError for one that there is not.
+        """
         sources = self.document.sources
         return vertex_at(sources[0], self._session.surface) if sources else None
 
@@ -159,20 +164,26 @@ class Viewer:
 
         run_until(is_done)
 
-    def _through(self, act: Callable[[], None], is_done: Callable[[], bool]) -> None:
-        """Let the session do something and wait for it; BihdistError with what the user would have been told."""
+    def _show(self, document: Document) -> None:
+        """Show a document and wait for it; BihdistError with what the user would be told, or if it was stopped."""
         window = self._there
         refusals: list[str] = []
+        arrived: list[bool] = []
         was_quiet, window.quiet = window.quiet, True
         window.refused.connect(refusals.append)
         try:
-            act()
-            run_until(lambda: is_done() or bool(refusals) or self._window is None)
+            window.show_document(document, arrived=lambda: arrived.append(True))
+            run_until(lambda: bool(arrived or refusals) or self._window is None or not window.session.is_opening)
         finally:
-            window.refused.disconnect(refusals.append)
-            window.quiet = was_quiet
+            if self._window is not None:
+                window.refused.disconnect(refusals.append)
+                window.quiet = was_quiet
+        if self._window is None:
+            raise BihdistError("The window was closed.")
         if refusals:
             raise BihdistError(refusals[0])
+        if not arrived:
+            raise BihdistError("It was stopped, or something else was opened meanwhile.")
 
     def _picked(self, panel: int, met: "Met") -> None:
         if self._on_pick is None:
@@ -181,10 +192,15 @@ class Viewer:
         shown = [fields.get(each.id) for each in self.document.panels]
         values = [float("nan") if field is None else float(field[met.vertex]) for field in shown]
         ids = [each.id for each in self.document.panels]
+        pick = Pick(panel, met.vertex, met.position, met.face, met.weights, dict(zip(ids, values, strict=True)))
+        # After the click has been dealt with: it may close the window, or show something else.
+        QtCore.QTimer.singleShot(0, lambda: self._tell(pick))
+
+    def _tell(self, pick: Pick) -> None:
         try:
-            pick = Pick(panel, met.vertex, met.position, met.face, met.weights, dict(zip(ids, values, strict=True)))
-            self._on_pick(pick)
-        except Exception:
+            if self._on_pick is not None:
+                self._on_pick(pick)
+        except (Exception, KeyboardInterrupt):
             # Out of a slot it would end the process.
             traceback.print_exc()
 
@@ -230,7 +246,7 @@ def show(
     (0.0, 'biharmonic, exact')
     >>> viewer.close()
     """
-    document, given = given_comparison(mesh, distances, fields or {}, (source,), areas)
+    document, given = given_comparison(mesh, distances, {} if fields is None else fields, (source,), areas)
     for each in document.surfaces:
         checked_path(each)
     check_screen()
@@ -246,11 +262,10 @@ def show(
     # It is painted before the imports, which take a second.
     app.processEvents()
     window.build_panels()
-    arrived: list[bool] = []
     try:
         if shell is not None and not waits:
             _share_event_loop(shell, window)
-        viewer._through(lambda: window.show_document(document, lambda: arrived.append(True)), lambda: bool(arrived))
+        viewer._show(document)
     except BaseException:
         viewer.close()
         raise

@@ -27,7 +27,10 @@ Mesh = str | os.PathLike[str] | Surface | tuple[Any, Any]
 
 
 class Given:
-    """See the module.  Whoever has been given something may ask for it on any thread."""
+    """See the module.  Whoever has been given something may ask for it on any thread.
+
+    What has been given stays: the history may come back to it.
+    """
 
     def __init__(self) -> None:
         self._surfaces: dict[str, Surface] = {}
@@ -45,8 +48,10 @@ class Given:
         ParameterError for anything else, and for a name that is none.
         """
         try:
-            array = np.array(values)
-            if np.iscomplexobj(array):
+            array = np.asarray(
+                np.ma.filled(np.ma.asarray(values, np.float64), np.nan) if np.ma.isMA(values) else values
+            )
+            if array.dtype.kind not in "biufO":
                 raise TypeError
             array = array.astype(np.float64)
         except (TypeError, ValueError):
@@ -138,12 +143,24 @@ def given_comparison(
     areas: str = "voronoi",
 ) -> tuple[Document, Given]:
     """A mesh with a panel for each distance from each source, and one for each field that none of them names."""
+    if isinstance(distances, str):
+        raise ParameterError(f"The distances are a list, such as [{distances!r}], not a text.")
+    if not isinstance(fields, Mapping):
+        raise ParameterError(f"The fields are given by name, as a dict of arrays, not as {type(fields).__name__}.")
     given = Given()
     is_file = isinstance(mesh, str | os.PathLike)
     entry = MeshFile("A", str(mesh)) if is_file else given.add_surface(_surface(mesh))
     own = tuple(given.add_field(name, values) for name, values in fields.items())
-    shows = tuple(quantity(each, fields=fields) if isinstance(each, str) else each for each in distances)
+    shows = tuple(_quantity(each, fields) for each in distances)
     return replace(comparison(entry.path, shows, sources, areas, own), surfaces=(entry,)), given
+
+
+def _quantity(shows: Any, fields: Mapping[str, npt.ArrayLike]) -> Quantity:
+    if isinstance(shows, str):
+        return quantity(shows, fields=fields)
+    if not isinstance(shows, Quantity):
+        raise ParameterError(f"{shows!r} is no distance; write it in words, such as 'diffusion(t=1/4)'.")
+    return shows
 
 
 def _surface(mesh: Any) -> Surface:

@@ -60,9 +60,12 @@ class Opened:
     def settled(self, document: Document) -> Document:
         """The document with this surface's checksum, and its points where there is a vertex.
 
-        VertexError or ParameterError for a point that is nowhere, and for a field that has not a value for each vertex.
+        VertexError or ParameterError for a point or an inset that is nowhere, and for a field that has not a value for
+        each vertex.
         """
         mine = {mesh.name for mesh in document.surfaces if is_same(mesh, self.mesh)}
+        if mine:
+            self.surface.check_vertices([zoom.vertex for zoom in document.zooms])
         for field in document.fields:
             count = len(self._given.field(field.sha256, field.name)) if field.surface in mine else 0
             if field.surface in mine and count != len(self.surface.vertices):

@@ -31,19 +31,21 @@ def check_recipe_output(document: Document, path: str | os.PathLike[str]) -> Non
 def recipe_written(
     recipe: Recipe, given: Given, path: str | os.PathLike[str], version: str, stays: bool = False
 ) -> Iterator[None]:
-    """Write a recipe, and the arrays it names; they are there when the block ends, and if it fails neither is.
+    """Write a recipe, and the arrays it names; they are there when the block ends, and if that fails, neither is.
 
     stays: the file will not be moved, with its meshes or without them, and names these as the recipe does.
     """
     check_recipe_output(recipe.document, path)
+    recipe = replace(recipe if stays else with_meshes_from(recipe, path), arrays="")
+    archive = _archive_of(path) if is_given(recipe.document) else None
     with ExitStack() as files:
-        recipe = replace(recipe if stays else with_meshes_from(recipe, path), arrays="")
-        if is_given(recipe.document):
-            recipe = replace(recipe, arrays=_archive_of(path).name)
-            archive = files.enter_context(whole_file(_archive_of(path)))
-            with archive.open("wb") as file:
+        # The last that is begun is the first that is in its place: the arrays, before anything names them.
+        text = files.enter_context(whole_file(path))
+        if archive is not None:
+            recipe = replace(recipe, arrays=archive.name)
+            with files.enter_context(whole_file(archive)).open("wb") as file:
                 np.savez(file, **given.arrays(recipe.document))  # type: ignore[arg-type]
-        files.enter_context(whole_file(path)).write_text(recipe_text(recipe, version), encoding="utf-8")
+        text.write_text(recipe_text(recipe, version), encoding="utf-8")
         yield
 
 

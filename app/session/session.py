@@ -78,14 +78,11 @@ class Session:
         self._loader: Lane[_Opening] = Lane("load", self._load, self._report_loading, self._loading_failed)
 
     # ------------------------------------------------------------------ intents
-    def show(
-        self, document: Document, key: str = "", live: bool = False, arrived: Callable[[], None] = lambda: None
-    ) -> None:
+    def show(self, document: Document, key: str = "", live: bool = False) -> None:
         """Make this the present document: a step of the history (equal keys in a row are one).
 
         If it has other surfaces they are opened first, in the background, and what is shown stays as it is until they
-        are there.  live: a drag goes on; stand-ins will do, and what is computed is shown though it is late.  arrived:
-        called once the document is shown.
+        are there.  live: a drag goes on; stand-ins will do, and what is computed is shown though it is late.
         """
         if not self._is_begun:
             is_edit = document.surfaces == self.document.surfaces and self._tried
@@ -94,8 +91,27 @@ class Session:
                 return  # shown with the mesh that is on its way, or with the next
         missing = self._missing(document)
         if missing:
-            self._start_opening(_Opening(missing, lambda: self._change(self._wanted(document), key), arrived))
-        elif self._present(lambda: self._change(document, key), live):
+            self._start_opening(_Opening(missing, lambda: self._change(self._wanted(document), key)))
+        else:
+            self._present(lambda: self._change(document, key), live)
+
+    def show_instead(self, document: Document, arriving: Callable[[], None], arrived: Callable[[], None]) -> None:
+        """The same of a document from elsewhere, a file or a program: nothing else that is being opened is wanted.
+
+        arriving: called when it has become the present document, before the view is told; arrived: afterwards.
+        """
+        self._opening = None
+        if not self._is_begun:
+            self.history = History(document)
+
+        def arrive() -> None:
+            self._change(self._wanted(document))
+            arriving()
+
+        missing = self._missing(document)
+        if missing:
+            self._start_opening(_Opening(missing, arrive, arrived))
+        elif self._present(arrive):
             arrived()
 
     def _wanted(self, document: Document) -> Document:
@@ -165,6 +181,19 @@ class Session:
         """The first surface of the document; None before there is one."""
         opened = self.opened()
         return None if opened is None else opened.surface
+
+    @property
+    def can_undo(self) -> bool:
+        return self.history.at(self._steps_on_their_way - 1) is not None
+
+    @property
+    def can_redo(self) -> bool:
+        return self.history.at(self._steps_on_their_way + 1) is not None
+
+    @property
+    def is_opening(self) -> bool:
+        """Whether a mesh is being read for a document that is still wanted."""
+        return self._opening is not None
 
     @property
     def shown(self) -> dict[int, Shown]:
@@ -241,9 +270,14 @@ class Session:
 
         self._post(tell)
 
+    @property
+    def _steps_on_their_way(self) -> int:
+        """Taken to a document whose mesh is still being read, unless something has been done since."""
+        opening = self._opening
+        return opening.steps if opening is not None and opening.is_wanted() else 0
+
     def _step(self, by: int) -> None:
-        # Those on their way to a mesh that is still being read count too.
-        steps = by + (self._opening.steps if self._opening is not None else 0)
+        steps = by + self._steps_on_their_way
         document = self.history.at(steps)
         if document is None:
             return

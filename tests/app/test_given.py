@@ -48,6 +48,12 @@ def test_fields_are_copies_that_nobody_changes():
     assert not kept.flags.writeable
 
 
+def test_masked_values_are_undefined():
+    given = Given()
+    field = given.add_field("mine", np.ma.masked_greater([1.0, 2, 3], 2))
+    assert np.array_equal(given.field(field.sha256, "mine"), [1, 2, np.nan], equal_nan=True)
+
+
 def test_a_field_is_shown_once_whatever_the_number_of_sources():
     document, _ = given_comparison(SURFACE, ["biharmonic", "mine"], {"mine": HEIGHT}, (3, 5))
     assert [str(panel.shows) for panel in document.panels] == ["biharmonic", "mine", "biharmonic"]
@@ -58,6 +64,8 @@ def test_a_field_is_shown_once_whatever_the_number_of_sources():
     [
         ("mine", np.ones((3, 2)), r"shape \(3, 2\)"),
         ("mine", ["a", "b"], "no array of real numbers"),
+        ("mine", ["1", "2"], "no array of real numbers"),
+        (1, [1.0], "a text for a name"),
         ("mine", np.ones(3) * 1j, "no array of real numbers"),
         ("mine", [0, 1, np.inf], "is inf at vertex 2"),
         ("", [1.0], "no name"),

@@ -1,5 +1,6 @@
 """Steps through documents whose meshes are still being read, or come too late, or never."""
 
+import time
 from dataclasses import replace
 
 from app.document.document import comparison
@@ -81,6 +82,34 @@ def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
     d.complete()
     assert (session.surface.name, d.source) == ("mesh.off", 11)
     assert not session.history.can_redo
+
+
+def test_a_step_back_on_its_way_counts_no_more_once_something_was_done(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.session.SPARED", 0)
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
+    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    session.undo()
+    assert (session.can_undo, session.can_redo) == (False, True)
+    d.click(9)
+    assert (session.can_undo, session.can_redo) == (True, False)
+    session.undo()
+    d.complete()
+    assert (session.surface.name, d.source) == ("other.off", 7)
+
+
+def test_of_two_documents_from_files_the_later_is_shown_though_its_mesh_is_there(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    session = d.opened(mesh_file(bumpy(60)), source=5)
+    other = comparison(mesh_file(bumpy(5000), "other.off"), (BIHARMONIC,), (7,))
+    arrived = []
+    session.show_instead(other, lambda: None, lambda: arrived.append("other"))
+    session.show_instead(replace(session.document, isolines=3), lambda: None, lambda: arrived.append("same"))
+    d.complete()
+    time.sleep(0.3)
+    d.until(lambda: d.posted.empty())
+    assert (arrived, session.surface.name, session.document.isolines) == (["same"], "mesh.off", 3)
 
 
 def test_a_click_while_the_mesh_of_an_undone_step_is_read_takes_its_place(desk, mesh_file, monkeypatch):

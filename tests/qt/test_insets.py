@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.document.document import Anchor, Point, Zoom, comparison
+from app.document.edits import move_source
 from app.document.file import recipe_text
 from app.document.page import Page, Recipe
 from app.drawing.style import STYLES
@@ -149,7 +150,7 @@ def test_a_flat_surface_becomes_a_relief_of_each_panels_field_and_flat_again(sho
         assert np.allclose(panel._positions[:, 2], raised)
         # A click finds the vertices where they are now.
         vertex = int(np.abs(surface.vertices - surface.vertices.mean(axis=0)).sum(axis=1).argmin())
-        assert panel._picker.met_at(panel.renderer, *seen_at(panel, vertex)).vertex == vertex
+        assert panel._current_picker().met_at(panel.renderer, *seen_at(panel, vertex)).vertex == vertex
     s.session.show(replace(s.document, height=0.0))
     s.settle()
     assert all(np.array_equal(panel._positions, surface.vertices) for panel in s.panels)
@@ -180,3 +181,77 @@ def test_a_recipe_is_shown_in_its_style_and_the_next_in_its_own(shown, tmp_path)
     s.settle()
     for panel in s.panels:
         assert np.allclose(colour_at(panel, (5, 5)), (1, 1, 1), atol=0.02)
+
+
+def test_a_relief_higher_than_its_colour_bar_stays_in_view(shown):
+    surface = grid(12, 12)
+    s = shown(surface, height=0.4)
+    panels = tuple(replace(panel, maximum=s.answers[0].maximum / 8) for panel in s.document.panels)
+    s.session.show(replace(s.document, panels=panels))
+    s.settle()
+    extent = np.ptp(surface.vertices, axis=0).max()
+    assert s.panels[0]._positions[:, 2].max() == pytest.approx(surface.vertices[0, 2] + 0.4 * extent)
+    pixels = np.array([seen_at(s.panels[0], vertex) for vertex in range(len(surface.vertices))])
+    assert (pixels >= 0).all()
+    assert (pixels <= s.panels[0].renderer.GetSize()).all()
+
+
+# ---------------------------------------------------------------------- what cannot be, and what must not stay
+def test_an_inset_at_a_vertex_that_there_is_not_is_refused_and_nothing_changes(shown):
+    s = shown(bumpy(100))
+    before = s.document
+    s.session.show(replace(before, zooms=(Zoom(99_999),)))
+    assert "no vertex 99999" in s.refusals.pop()
+    assert s.document == before
+    s.settle(0.1)
+
+
+def test_the_mark_of_the_source_is_not_held_through_an_inset_over_it(shown):
+    from qtpy import QtCore
+
+    s = shown(bumpy(2000))
+    panel = s.panels[0]
+    width, height = panel.renderer.GetSize()
+    vertex = panel._current_picker().met_at(panel.renderer, width / 2, 0.75 * height).vertex
+    s.session.show(move_source(s.document, s.document.panels[0].id, vertex))
+    s.settle()
+    x, y = seen_at(panel, vertex)
+    place = QtCore.QPoint(round(x - 0.5), round(height - y - 0.5))
+    assert panel._is_on_mark(place)
+    panel.scene.insets.renderer_at = lambda x, y: None  # an inset stands there
+    assert not panel._is_on_mark(place)
+
+
+def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
+    import gc
+    import weakref
+
+    s = shown(bumpy(300))
+    shown_by = weakref.ref(s.answers[1].field)
+    kept = s.panels[1]
+    s.window._edit_panels(s.document.panels[1].id, "Remove it")
+    s.session._answering._kept = type(s.session._answering._kept)()
+    s.settle()
+    gc.collect()
+    assert shown_by() is None
+    assert kept._opened is None
+    s.window.session.undo()
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert s.panels[1].answer.field is s.answers[1].field
+
+
+def test_a_style_leaves_nothing_of_the_one_before(shown):
+    s = shown(bumpy(300), zooms=(Zoom(7),))
+    panel = s.panels[0]
+
+    def counted():
+        window, props = panel.renderer.GetRenderWindow(), panel.renderer.GetViewProps()
+        return window.GetRenderers().GetNumberOfItems(), props.GetNumberOfItems()
+
+    before = counted()
+    for style in ("dark", "uniform", "paper"):
+        s.window.show_document(s.document, Page(style=style))
+        s.settle(0.1)
+        assert panel.scene.style is STYLES[style]
+        assert counted() == before

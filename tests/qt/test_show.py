@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import app
+from app.document.edits import remove_panel
 from app.document.file import read_recipe
 from bihdist_core import BiharmonicDistance, BihdistError, MeshError, ParameterError, VertexError
 from tests.shapes import bumpy, two_pieces
@@ -102,6 +103,28 @@ def test_a_document_is_shown_and_can_be_undone(shown):
     assert viewer.document == before
 
 
+@pytest.mark.parametrize("end", ["cancel", "close"])
+def test_waiting_ends_where_the_user_stops_it(shown, mesh_file, end):
+    from qtpy import QtCore
+
+    viewer = shown(SURFACE, ["biharmonic"])
+    stop = viewer._window.cancel if end == "cancel" else viewer._window.close
+    QtCore.QTimer.singleShot(0, stop)
+    other = replace(viewer.document.surfaces[0], path=mesh_file(bumpy(20_000)), sha256="")
+    with pytest.raises(BihdistError, match="stopped" if end == "cancel" else "closed"):
+        viewer.document = replace(viewer.document, surfaces=(other,))
+
+
+def test_numbers_of_numpy_are_numbers(shown, tmp_path):
+    viewer = shown(SURFACE, ["biharmonic"], source=HEIGHT.argmax())
+    viewer._window.session_file.save(str(tmp_path / "s.json"))
+    assert read_recipe(tmp_path / "s.json").document.sources == (int(HEIGHT.argmax()),)
+    drawn = app.figure(
+        SURFACE, ["biharmonic"], np.int64(5), anchors={np.int64(7): np.float32(0.1)}, zooms=[np.int32(3)]
+    )
+    assert drawn.save(tmp_path / "f.png").exists()
+
+
 def test_the_screenshot_is_taken_once_all_is_there(shown, tmp_path):
     viewer = shown(SURFACE, ["biharmonic", "geodesic"])
     assert viewer.screenshot(tmp_path / "w.png").stat().st_size > 10_000
@@ -135,11 +158,41 @@ def click(viewer, share=(0.5, 0.5)):
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
 
 
+def told(picks):
+    """Wait for a pick."""
+    from app.qt.application import run_until
+
+    run_until(lambda: len(picks) > 0)
+
+
+@pytest.mark.parametrize(
+    ("act", "after"),
+    [
+        (lambda viewer, pick: setattr(viewer, "source", 5), lambda viewer: viewer.source == 5),
+        (lambda viewer, pick: viewer.close(), lambda viewer: not viewer.is_open),
+        (
+            lambda viewer, pick: setattr(viewer, "document", remove_panel(viewer.document, pick.panel)),
+            lambda viewer: [panel.quantity for panel in viewer.panels] == ["geodesic"],
+        ),
+        (lambda viewer, pick: viewer.panels, lambda viewer: viewer.panels[0].field[viewer.source] == 0),
+    ],
+)
+def test_a_callback_may_do_anything_with_the_window(shown, act, after):
+    done = []
+    viewer = shown(SURFACE, ["biharmonic", "geodesic"], source=7)
+    viewer._on_pick = lambda pick: (act(viewer, pick), done.append(pick))
+    viewer.panels  # noqa: B018
+    click(viewer)
+    told(done)
+    assert after(viewer)
+
+
 def test_a_pick_tells_where_and_what_was_there_before_the_source_came(shown):
     picks = []
     viewer = shown(SURFACE, ["biharmonic", "geodesic"], {"height": HEIGHT}, 7, on_pick=picks.append)
     before = viewer.panels
     click(viewer)
+    told(picks)
     (pick,) = picks
     assert pick.panel == 0
     assert pick.vertex in SURFACE.faces[pick.face]
@@ -156,6 +209,7 @@ def test_where_nothing_is_defined_a_pick_has_no_value(shown):
     viewer = shown(surface, ["biharmonic"], source=int(surface.faces[-1, 0]), on_pick=picks.append)
     field = viewer.panels[0].field
     viewer._window._click(0, _met(surface, int(np.flatnonzero(np.isnan(field))[0])))
+    told(picks)
     assert np.isnan(picks[0].values[0])
 
 
@@ -174,6 +228,7 @@ def test_an_error_in_a_callback_is_told_and_the_window_lives_on(shown, capsys):
     viewer = shown(SURFACE, ["biharmonic"], source=7, on_pick=on_pick)
     viewer.panels  # noqa: B018
     click(viewer)
+    viewer.panels  # noqa: B018
     assert "ZeroDivisionError: mine" in capsys.readouterr().err
     assert viewer.source != 7
 
@@ -187,6 +242,11 @@ def test_an_error_in_a_callback_is_told_and_the_window_lives_on(shown, capsys):
         ((SURFACE, ["biharmonic"], None, 5000), BihdistError, "no vertex 5000"),
         ((SURFACE, ["biharmonic"], {"mine": [1.0]}), BihdistError, "has 1 values"),
         (((SURFACE.vertices, [[0, 1, 99_999]]),), MeshError, "99999"),
+        ((SURFACE, "biharmonic"), ParameterError, "not a text"),
+        ((SURFACE, [7]), ParameterError, "7 is no distance"),
+        ((SURFACE, ["biharmonic"], HEIGHT), ParameterError, "by name"),
+        ((SURFACE, ["biharmonic"], {1: HEIGHT}), ParameterError, "a text for a name"),
+        ((SURFACE, ["biharmonic"], None, 2.5), ParameterError, "whole number"),
         (("README.md",), BihdistError, "README.md"),
     ],
 )
