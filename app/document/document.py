@@ -24,6 +24,7 @@ TOOLS = ("source",)
 """What a click does; `source` moves the point that the panel's field starts from."""
 
 MOST_PANELS = 1000
+LONGEST_NAME = 60
 MOST_ISOLINES = 1000
 LARGEST = 1e100
 """Of values at which a colour bar ends; their inverses are the smallest."""
@@ -96,6 +97,8 @@ class FieldArray:
             raise ParameterError(f"A field has a text for a name, not {self.name!r}.")
         if not self.name or self.name != self.name.strip() or " - " in self.name or self.name.startswith("raw "):
             raise ParameterError(f"{self.name!r} is no name for a field; use a word or two.")
+        if not self.name.isprintable() or len(self.name) > LONGEST_NAME:
+            raise ParameterError(f"A field's name has up to {LONGEST_NAME} letters, all of them printable.")
         if self.name.partition("(")[0] in kinds():
             raise ParameterError(f"A field needs a name of its own; {self.name!r} is a distance.")
 
@@ -359,10 +362,13 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
     parts = words.removeprefix("raw ").split(" - ")
     if len(parts) > 2:
         raise ParameterError(f"{text!r} has {len(parts)} distances; a difference has two.")
-    found = [
-        OwnField(part.strip()) if part.strip() in fields else DistanceFrom(Spec.parse(part, **parameters), point)
-        for part in parts
-    ]
+    found: list[Part] = []
+    for part in (part.strip() for part in parts):
+        try:
+            found.append(OwnField(part) if part in fields else DistanceFrom(Spec.parse(part, **parameters), point))
+        except ParameterError as error:
+            names = f" The fields are {', '.join(fields)}." if fields else ""
+            raise ParameterError(f"{error}{names}") from None
     if len(found) == 1:
         if words.startswith("raw "):
             raise ParameterError(f"{text!r} is no difference, which alone may be raw.")

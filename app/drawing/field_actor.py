@@ -31,6 +31,7 @@ _PAINT = """//VTK::Light::Impl
   float halfWidth = isolineHalfWidth * (abs(floor(steps + 0.5) - isolineBold) < 0.5 ? BOLD : 1.0);
   float paint = 1.0 - smoothstep(halfWidth - 0.6, halfWidth + 0.6, fromLine);
   paint *= 1.0 - smoothstep(0.25, 0.5, perPixel);  // fade where lines would merge
+  paint *= step(1e-5, perPixel);                   // none where all is of one value
   paint *= step(0.5, steps);                       // none at the source itself, none where undefined
   paint *= step(steps, isolineLast + 0.5);         // none at the farthest point itself
   fragOutput0.rgb = mix(fragOutput0.rgb, isolineColour, paint);

@@ -106,7 +106,9 @@ class Figure:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
         units = {p.unit for p in self.panels if p.field is not None}
         if self.shared_range and len(units) > 1:
-            raise ParameterError(f"Panels in different units ({', '.join(sorted(units))}) cannot share a range.")
+            raise ParameterError(
+                f"Panels in different units ({', '.join(sorted(u or 'none' for u in units))}) cannot share a range."
+            )
 
     @property
     def grid(self) -> tuple[int, int]:

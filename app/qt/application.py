@@ -61,23 +61,30 @@ def run_until(condition: Callable[[], bool]) -> None:
     timer = QtCore.QTimer(interval=POLL_MS)
     timer.timeout.connect(loop.quit)
     timer.start()
-    with _interrupts_noted() as interrupts:
+    with _interrupts_noted():
         while not condition():
             loop.exec()
-            if interrupts:
+            if _interrupts:
+                _interrupts.clear()
                 raise KeyboardInterrupt
 
 
+_interrupts: list[int] = []
+
+
+def _note(number: int, frame: object) -> None:
+    _interrupts.append(number)
+
+
 @contextmanager
-def _interrupts_noted() -> Iterator[list[int]]:
+def _interrupts_noted() -> Iterator[None]:
     """Ctrl+C is noted instead of raised, which inside a slot would end the process."""
-    noted: list[int] = []
     is_python = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if not is_python or threading.current_thread() is not threading.main_thread():
-        yield noted
+        yield
         return
-    signal.signal(signal.SIGINT, lambda number, frame: noted.append(number))
+    signal.signal(signal.SIGINT, _note)
     try:
-        yield noted
+        yield
     finally:
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -420,7 +420,7 @@ class MainWindow(QtWidgets.QMainWindow):
     def open_any(self, path: str) -> None:
         """A mesh, or a session or recipe."""
         if path.lower().endswith(".json"):
-            self.session_file.open(path)
+            self._once_built(lambda: self.session_file.open(path))
         else:
             self.open(path)
 

@@ -49,6 +49,7 @@ class DistancePanel(QtWidgets.QWidget):
         for label in (self.title, self.hint, self.value):
             label.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
             label.setMinimumWidth(1)
+            label.setTextFormat(QtCore.Qt.TextFormat.PlainText)
         # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
         # the picture afterwards (FXAA, below) is nearly free.
         self.interactor = QtInteractor(self, auto_update=False, multi_samples=0)
@@ -169,6 +170,13 @@ class DistancePanel(QtWidgets.QWidget):
         self.scene.mark_pointer(None)
         self.mark_source(self._source)
         self.show_insets(self._zooms)
+        self.settle_insets()
+
+    def settle_insets(self) -> None:
+        """Put the insets where they hide the least."""
+        if self._opened is not None:
+            samples = self._opened.prepared.samples if self._raised is None else self._positions
+            self.scene.insets.settle(samples)
 
     def show_certificate(self, shown: Shown) -> None:
         """How accurate the field is, for who points at its name; `show_note` says it where it is poor."""

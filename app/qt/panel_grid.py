@@ -156,9 +156,8 @@ class PanelGrid(QtWidgets.QWidget):
         self._settle_insets()
 
     def _settle_insets(self) -> None:
-        opened = self._session.opened()
-        for panel in self.panels if opened is not None else ():
-            panel.scene.insets.settle(opened.prepared.samples)
+        for panel in self.panels if self._session.surface is not None else ():
+            panel.settle_insets()
 
     @property
     def _rise(self) -> float:

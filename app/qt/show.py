@@ -18,7 +18,7 @@ import numpy.typing as npt
 import qtpy
 from qtpy import QtCore
 
-from bihdist_core import BihdistError
+from bihdist_core import BihdistError, ParameterError
 
 from ..document.document import Document, Quantity
 from ..document.edits import move_source
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 WAKE_MS = 100
-"""How often a notebook's kernel is woken while a window is open."""
+"""How often a notebook's kernel is woken once it has Qt's event loop."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,8 +138,8 @@ class Viewer:
         return self._window is not None
 
     def __repr__(self) -> str:
-        if self._window is None:
-            return "Viewer(closed)"
+        if self._window is None or self._session.surface is None:
+            return "Viewer(closed)" if self._window is None else "Viewer(empty)"
         shown = ", ".join(str(panel.shows) for panel in self.document.panels)
         return f"Viewer({shown}, of {self._session.surface.name})"
 
@@ -166,6 +166,8 @@ class Viewer:
 
     def _show(self, document: Document) -> None:
         """Show a document and wait for it; BihdistError with what the user would be told, or if it was stopped."""
+        if not isinstance(document, Document) or len(document.surfaces) != 1:
+            raise ParameterError("The window shows a Document with one mesh, and this is none.")
         window = self._there
         refusals: list[str] = []
         arrived: list[bool] = []
@@ -231,8 +233,8 @@ def show(
     "diffusion(t=1/4)", "biharmonic - geodesic".  fields: your own by name, (n,) with NaN where undefined; each has a
     panel, coloured from 0 (from minus its largest absolute value, if it has negative values), or is named in
     `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None.  on_pick: called with a `Pick`
-    for each click on the surface.  block: wait until the window is closed; if None, in scripts, but not in IPython,
-    notebooks and Python's own prompt, where the window lives while you go on.
+    for each click on the surface, once the source is there.  block: wait until the window is closed; if None, in
+    scripts, but not in IPython, notebooks and Python's own prompt, where the window lives while you go on.
 
     Raises BihdistError: for input that cannot be shown, and where there is no display.
 
@@ -246,6 +248,8 @@ def show(
     (0.0, 'biharmonic, exact')
     >>> viewer.close()
     """
+    if on_pick is not None and not callable(on_pick):
+        raise ParameterError(f"on_pick is a function, not {on_pick!r}.")
     document, given = given_comparison(mesh, distances, {} if fields is None else fields, (source,), areas)
     for each in document.surfaces:
         checked_path(each)
@@ -258,13 +262,13 @@ def show(
     window.setAttribute(QtCore.Qt.WidgetAttribute.WA_QuitOnClose, False)
     viewer = Viewer(window, on_pick)
     window.session.given.update(given)
-    window.show()
-    # It is painted before the imports, which take a second.
-    app.processEvents()
-    window.build_panels()
     try:
+        window.show()
+        # It is painted before the imports, which take a second.
+        app.processEvents()
+        window.build_panels()
         if shell is not None and not waits:
-            _share_event_loop(shell, window)
+            _share_event_loop(shell)
         viewer._show(document)
     except BaseException:
         viewer.close()
@@ -284,7 +288,7 @@ def _ipython() -> Any:
     return None if module is None else module.get_ipython()
 
 
-def _share_event_loop(shell: Any, window: MainWindow) -> None:
+def _share_event_loop(shell: Any) -> None:
     """Let Qt work while IPython waits for input; BihdistError if another toolkit does."""
     active = getattr(shell, "active_eventloop", None)
     if active is None:
@@ -292,12 +296,15 @@ def _share_event_loop(shell: Any, window: MainWindow) -> None:
     elif not str(active).startswith("qt"):
         raise BihdistError(f"IPython runs the event loop of {active} already; use block=True, or a session without it.")
     kernel_application = getattr(getattr(shell, "kernel", None), "app", None)
-    if kernel_application is not None:
+    if kernel_application is not None and not _wakers:
         # A notebook's kernel now and then misses, in Qt's loop, that it has been sent something, and would wait for
-        # ever; left and entered again, it looks.
-        waker = QtCore.QTimer(window, interval=WAKE_MS)
-        waker.timeout.connect(kernel_application.qt_event_loop.quit)
-        waker.start()
+        # ever; left and entered again, it looks.  The loop stays when the windows are closed, so this does, too.
+        _wakers.append(QtCore.QTimer(kernel_application, interval=WAKE_MS))
+        _wakers[0].timeout.connect(kernel_application.qt_event_loop.quit)
+        _wakers[0].start()
+
+
+_wakers: list[QtCore.QTimer] = []
 
 
 @atexit.register

@@ -47,7 +47,7 @@ class Answer:
     @property
     def largest(self) -> int | None:
         """The vertex with the largest absolute value, of a signed field."""
-        if self.field is None or not self.is_signed or np.isnan(self.field).all():
+        if self.field is None or not self.is_signed or self.maximum == 0:
             return None
         return int(np.nanargmax(np.abs(self.field)))
 

@@ -9,9 +9,10 @@ from ..errors import ParameterError
 def difference(minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, raw: bool = False) -> np.ndarray:
     """Two fields (n,) or (n, k) as one, positive where the first is larger; NaN where either is.
 
-    Distances have different units, so each field is taken as a share of its own maximum (by column): the result lies
-    between -1 and 1.  raw: the values themselves are subtracted, which makes sense for equal units only.  Raises
-    ParameterError for fields of different shapes.
+    Distances have different units, so each field is taken as a share of its own maximum (by column; of the largest
+    absolute value, where some are negative): the result lies between -1 and 1, or -2 and 2 with negative values.  raw:
+    the values themselves are subtracted, which makes sense for equal units only.  Raises ParameterError for fields of
+    different shapes.
     """
     a, b = (np.asarray(field, np.float64) for field in (minuend, subtrahend))
     if a.shape != b.shape or a.ndim not in (1, 2):
@@ -26,5 +27,5 @@ def check_units(minuend: str, subtrahend: str) -> None:
 
 
 def _shares(field: np.ndarray) -> np.ndarray:
-    top = np.nanmax(field, axis=0, initial=0.0)
+    top = np.nanmax(np.abs(field), axis=0, initial=0.0)
     return field / np.where(top > 0, top, 1.0)

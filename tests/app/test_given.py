@@ -72,6 +72,8 @@ def test_a_field_is_shown_once_whatever_the_number_of_sources():
         (" mine", [1.0], "no name"),
         ("a - b", [1.0], "no name"),
         ("raw mine", [1.0], "no name"),
+        ("mi\nne", [1.0], "printable"),
+        ("m" * 61, [1.0], "up to 60 letters"),
         ("biharmonic", [1.0], "is a distance"),
         ("diffusion(t=1)", [1.0], "is a distance"),
     ],

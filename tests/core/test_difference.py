@@ -33,3 +33,8 @@ def test_the_accuracy_of_a_difference_is_at_most_the_sum():
     assert both.certificate.share == pytest.approx(7e-10)
     assert both.label == "a − b"
     assert difference_of(one, Answer(label="b", failure="It broke.")).failure == "It broke."
+
+
+def test_shares_are_of_the_largest_absolute_value():
+    assert np.allclose(difference([0, 0.5, 1], [0, -5, -10]), [0, 1, 2])
+    assert np.allclose(difference([0, 0.5, 1], [-1e3, 0, 1e-9]), [1, 0.5, 1])

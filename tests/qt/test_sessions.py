@@ -16,6 +16,8 @@ from app.document.document import comparison, quantity
 from app.document.edits import add_panel, move_source
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
+from app.session.given import given_comparison
+from app.session.recipe_file import recipe_written
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 
@@ -200,6 +202,18 @@ def test_view_saves_its_session(mesh_file, tmp_path):
     with Image.open(tmp_path / "w.png") as one, Image.open(tmp_path / "again.png") as other:
         assert one.size == other.size
         assert (np.asarray(one) != np.asarray(other)).any(axis=2).mean() < 0.01
+
+
+def test_a_session_whose_arrays_are_gone_ends_the_command_with_a_sentence(application, tmp_path):
+    document, given = given_comparison(bumpy(60), ["biharmonic"], {}, (3,))
+    with recipe_written(Recipe(document), given, tmp_path / "s.json", "9"):
+        pass
+    (tmp_path / "s.npz").unlink()
+    words = ["view", str(tmp_path / "s.json"), "--screenshot", str(tmp_path / "w.png")]
+    command = [sys.executable, "-m", "app", *words]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2
+    assert "s.npz" in done.stderr
 
 
 def test_a_session_is_opened_as_it_is_and_options_beside_it_are_refused(mesh_file, tmp_path, capsys):

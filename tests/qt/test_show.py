@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import app
+from app.document.document import Document
 from app.document.edits import remove_panel
 from app.document.file import read_recipe
 from bihdist_core import BiharmonicDistance, BihdistError, MeshError, ParameterError, VertexError
@@ -123,6 +124,35 @@ def test_numbers_of_numpy_are_numbers(shown, tmp_path):
         SURFACE, ["biharmonic"], np.int64(5), anchors={np.int64(7): np.float32(0.1)}, zooms=[np.int32(3)]
     )
     assert drawn.save(tmp_path / "f.png").exists()
+
+
+@pytest.mark.parametrize("document", [Document(), None])
+def test_what_is_no_document_with_a_mesh_is_refused(shown, document):
+    viewer = shown(SURFACE, ["biharmonic"])
+    with pytest.raises(ParameterError, match="with one mesh"):
+        viewer.document = document
+    assert viewer.panels[0].field is not None
+
+
+def test_on_pick_is_a_function(application):
+    with pytest.raises(ParameterError, match="on_pick is a function, not 3"):
+        app.show(SURFACE, on_pick=3)
+
+
+def test_where_a_difference_is_nothing_no_line_is_drawn(shown):
+    plateau = np.where(np.median(HEIGHT) < HEIGHT, 0.0, 1.0)
+    viewer = shown(
+        SURFACE,
+        ["same - same", "plateau - nothing"],
+        {"same": np.ones(len(HEIGHT)), "plateau": plateau, "nothing": np.zeros(len(HEIGHT))},
+    )
+    viewer.panels  # noqa: B018
+    views = [panel.interactor.screenshot(return_img=True) for panel in viewer._window.grid.panels]
+    # The middle of the colours is light; lines are dark, as are the numbers at the bar.
+    dark = [(view.max(axis=2) < 90).mean() for view in views]
+    assert dark[0] < 0.006
+    assert dark[0] < dark[1] < 0.06
+    assert viewer._window.grid.panels[0].answer.largest is None
 
 
 def test_the_screenshot_is_taken_once_all_is_there(shown, tmp_path):
@@ -247,6 +277,7 @@ def test_an_error_in_a_callback_is_told_and_the_window_lives_on(shown, capsys):
         ((SURFACE, ["biharmonic"], HEIGHT), ParameterError, "by name"),
         ((SURFACE, ["biharmonic"], {1: HEIGHT}), ParameterError, "a text for a name"),
         ((SURFACE, ["biharmonic"], None, 2.5), ParameterError, "whole number"),
+        ((SURFACE, ["biharmonic - mie"], {"mine": HEIGHT}), ParameterError, "The fields are mine"),
         (("README.md",), BihdistError, "README.md"),
     ],
 )
@@ -405,6 +436,8 @@ def test_a_notebook_shows_windows_and_draws_figures(application, tmp_path):
         "viewer.source = 900\nassert viewer.panels[0].field[900] == 0\nviewer.screenshot('w.png').name",
         "bihdist.figure('hand', ['biharmonic'], source=12, size='300x200')",
         "viewer.close()\nviewer.is_open",
+        # The kernel goes on listening, also while nothing of ours is open.
+        *["import asyncio\nawait asyncio.sleep(0.3)", "1 + 1"] * 3,
     ]
     notebook = {
         "cells": [
@@ -431,4 +464,5 @@ def test_a_notebook_shows_windows_and_draws_figures(application, tmp_path):
     assert said[2][0]["text/plain"] == ["'w.png'"]
     assert len(said[3][0]["image/png"]) > 5000
     assert said[4][0]["text/plain"] == ["False"]
+    assert said[-1][0]["text/plain"] == ["2"]
     assert (tmp_path / "w.png").exists()
