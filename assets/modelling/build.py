@@ -5,8 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import hand, horse, person, rings
+from . import beast, elephant, hand, hare, horse, octopus, person, rings
+from .beast_bones import BONES as BEAST_BONES
+from .beast_bones import SECOND_POSE as BEAST_POSE
 from .domain import domain
+from .part import part
 from .pose import posed
 from .remesh import cut_open
 from .scan import damaged
@@ -35,6 +38,13 @@ def _second_pose(figure: Mesh) -> Mesh:
     return posed(points, faces, person.person(), BONES, motions(SECOND_POSE), spacing=1.2 * person.EDGE), faces
 
 
+def _second_beast(standing: Mesh) -> Mesh:
+    points, faces = standing
+    motion = motions(BEAST_POSE, BEAST_BONES)
+    points = posed(points, faces, beast.beast(), BEAST_BONES, motion, spacing=0.95 * beast.EDGE)
+    return points - (0, 0, points[:, 2].min()), faces
+
+
 def _scan(figure: Mesh) -> Mesh:
     return damaged(*figure, person.EDGE)
 
@@ -43,10 +53,16 @@ SAMPLES = {
     "figure": Sample(lambda: person.sculpture().mesh(), facing_front),
     "figure_pose2": Sample(_second_pose, facing_front, needs="figure"),
     "animal": Sample(lambda: horse.sculpture().mesh(), facing_right),
+    "beast": Sample(lambda: beast.sculpture().mesh(), facing_front),
+    "beast_pose2": Sample(_second_beast, facing_front, needs="beast"),
+    "elephant": Sample(lambda: elephant.sculpture().mesh(), facing_right),
+    "octopus": Sample(lambda: octopus.sculpture().mesh(), facing_front),
     "hand": Sample(_hand, facing_front),
     "genus3": Sample(lambda: rings.sculpture().mesh()),
     "domain": Sample(domain),
+    "part": Sample(part),
     "scan": Sample(_scan, facing_front, needs="figure"),
+    "hare": Sample(hare.scanned),  # left with z up, as many scans are
 }
 
 

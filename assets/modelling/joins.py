@@ -10,9 +10,9 @@ import numpy as np
 from .fields import Field, frame, unit
 
 
-def blend(a: np.ndarray, b: np.ndarray, width: float) -> np.ndarray:
+def blend(a: np.ndarray, b: np.ndarray, width: float | np.ndarray) -> np.ndarray:
     """The smaller of two distances, with its kink rounded by a cubic (Quilez's cubic smooth minimum)."""
-    if width == 0:
+    if not np.any(width):
         return np.minimum(a, b)
     overlap = np.maximum(width - np.abs(a - b), 0) / width
     return np.minimum(a, b) - overlap**3 * width / 6
@@ -23,6 +23,18 @@ def join(width: float, *parts: Field) -> Field:
 
     def joined(points: np.ndarray) -> np.ndarray:
         out = parts[0](points)
+        for part in parts[1:]:
+            out = blend(out, part(points), width)
+        return out
+
+    return joined
+
+
+def join_by(width_at: Field, *parts: Field) -> Field:
+    """The union of all parts, flowing together over a width that differs from place to place and is nowhere 0."""
+
+    def joined(points: np.ndarray) -> np.ndarray:
+        width, out = width_at(points), parts[0](points)
         for part in parts[1:]:
             out = blend(out, part(points), width)
         return out

@@ -20,10 +20,12 @@ def row(
     size: tuple[int, int] = (400, 440),
     isolines: int = 24,
     scale: float = 1.0,
+    up: tuple[float, float, float] = (0, 1, 0),
 ) -> np.ndarray:
     """(height, width, 3) uint8: the surface from each of the sides, which are directions to the camera.
 
     `field` (n,) colours it and gives the isolines; without one it is plain clay.  `size` is one picture's, in pixels.
+    `up` is an axis; in a view along it the axis before it, y before z, points down.
     """
     width, height = size
     plotter = pyvista.Plotter(
@@ -41,9 +43,9 @@ def row(
             renderer.AddActor(painted.actor)
             renderer.SetBackground(*PAPER.background)
             light(renderer)
-            up = (0, 1, 0) if abs(side[1]) < 0.9 * np.linalg.norm(side) else (0, 0, -1)
+            upright = np.array(up) if abs(np.dot(side, up)) < 0.9 * np.linalg.norm(side) else -np.roll(up, 1)
             camera = renderer.GetActiveCamera()
-            aim(camera, surface.vertices, width / height, np.array(side, float), np.array(up, float), MARGINS)
+            aim(camera, surface.vertices, width / height, np.array(side, float), upright.astype(float), MARGINS)
             renderer.camera_set = True
         plotter.show(auto_close=False, interactive=False)
         return np.array(plotter.screenshot(return_img=True))[..., :3]

@@ -1,4 +1,4 @@
-"""Sample files: binary little-endian PLY, float positions and int indices."""
+"""Sample files: binary little-endian PLY, float positions and indices as short as they can be."""
 
 from pathlib import Path
 
@@ -12,14 +12,15 @@ property float x
 property float y
 property float z
 element face {faces}
-property list uchar int vertex_indices
+property list uchar {index} vertex_indices
 end_header
 """
 
 
 def write_ply(path: Path, points: np.ndarray, faces: np.ndarray, comment: str) -> None:
     """Write (n, 3) points and (m, 3) faces."""
-    rows = np.empty(len(faces), [("count", "u1"), ("corners", "<i4", 3)])
+    name, kind = ("ushort", "<u2") if len(points) <= 65_536 else ("int", "<i4")
+    rows = np.empty(len(faces), [("count", "u1"), ("corners", kind, 3)])
     rows["count"], rows["corners"] = 3, faces
-    header = HEADER.format(comment=comment, vertices=len(points), faces=len(faces))
+    header = HEADER.format(comment=comment, vertices=len(points), faces=len(faces), index=name)
     path.write_bytes(header.encode("ascii") + points.astype("<f4").tobytes() + rows.tobytes())

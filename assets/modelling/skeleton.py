@@ -1,5 +1,6 @@
-"""The person's bones, for the second pose: where they lie in the standing pose and how each turns at its joint."""
+"""Bones, and the person's for the second pose: where they lie in the standing pose and how each turns at its joint."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -39,20 +40,25 @@ _LEFT = {
 }
 
 
-def _side(name: str, bones: dict[str, Bone], sign: int) -> dict[str, Bone]:
-    """The bones of one side; `sign` -1 mirrors them."""
+def skeleton(middle: dict[str, Bone], left: dict[str, Bone]) -> dict[str, Bone]:
+    """The bones in the middle, and those of the left on both sides."""
+    return {**middle, **_side("left", left, 1, middle), **_side("right", left, -1, middle)}
+
+
+def _side(name: str, bones: dict[str, Bone], sign: int, middle: dict[str, Bone]) -> dict[str, Bone]:
+    """The bones of one side, which hang on those in the middle; `sign` -1 mirrors them."""
 
     def place(p: tuple[float, float, float]) -> tuple[float, float, float]:
         return sign * p[0], p[1], p[2]
 
     out = {}
     for part, bone in bones.items():
-        parent = bone.parent if bone.parent in _MIDDLE else f"{name} {bone.parent}"
+        parent = bone.parent if bone.parent in middle else f"{name} {bone.parent}"
         out[f"{name} {part}"] = replace(bone, parent=parent, start=place(bone.start), end=place(bone.end))
     return out
 
 
-BONES = {**_MIDDLE, **_side("left", _LEFT, 1), **_side("right", _LEFT, -1)}
+BONES = skeleton(_MIDDLE, _LEFT)
 
 SECOND_POSE = {
     # Turn at the joint, as a rotation vector in degrees in the standing pose's axes.
@@ -71,10 +77,12 @@ SECOND_POSE = {
 }
 
 
-def motions(turns: dict[str, tuple[float, float, float]]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """For each bone the (3, 3) rotation and the (3,) shift that carry its points into the pose."""
+def motions(
+    turns: Mapping[str, tuple[float, float, float]], bones: Mapping[str, Bone] = BONES
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """For each bone, listed after its parent, the (3, 3) rotation and (3,) shift that put its points into the pose."""
     out: dict[str, tuple[np.ndarray, np.ndarray]] = {}
-    for name, bone in BONES.items():
+    for name, bone in bones.items():
         turn, joint = Rotation.from_rotvec(turns.get(name, (0, 0, 0)), degrees=True).as_matrix(), np.array(bone.start)
         rotation, shift = out[bone.parent] if bone.parent else (np.eye(3), np.zeros(3))
         out[name] = rotation @ turn, rotation @ joint + shift - rotation @ turn @ joint

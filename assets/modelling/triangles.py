@@ -67,16 +67,27 @@ def used_only(points: np.ndarray, faces: np.ndarray, *more: np.ndarray) -> tuple
     return (points[used], new.reshape(faces.shape), *(values[used] for values in more))
 
 
+def pieces(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(n,) the connected piece of each point, and (k,) the number of points of each piece."""
+    label = connected_components(adjacency(edges_and_sides(faces)[0], len(points)), directed=False)[1]
+    return label, np.bincount(label)
+
+
 def largest_component(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The connected piece with the most faces."""
-    label = connected_components(adjacency(edges_and_sides(faces)[0], len(points)), directed=False)[1][faces[:, 0]]
+    label = pieces(points, faces)[0][faces[:, 0]]
     return used_only(points, faces[label == np.bincount(label).argmax()])
 
 
 def without_pinches(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The largest piece, less the faces round vertices where it hangs together by a point only."""
+    return largest_component(*unpinched(*largest_component(points, faces)))
+
+
+def unpinched(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """All pieces, less the faces round vertices where they hang together by a point only."""
     while True:
-        points, faces = largest_component(points, faces)
+        points, faces = used_only(points, faces)
         pinched = _pinched_vertices(faces, len(points))
         if not len(pinched):
             return points, faces

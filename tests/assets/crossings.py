@@ -1,7 +1,6 @@
 """Faces of a surface that cut through each other."""
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from bihdist_core import Surface
 
@@ -10,8 +9,13 @@ def crossing_faces(surface: Surface) -> np.ndarray:
     """(k, 2) pairs of faces without a common vertex that intersect, coplanar ones apart."""
     faces, x = surface.faces, surface.vertices[surface.faces]
     low, high = x.min(axis=1), x.max(axis=1)
-    radius = np.linalg.norm(x - x.mean(axis=1, keepdims=True), axis=2).max()
-    pairs = cKDTree(x.mean(axis=1)).query_pairs(2 * radius, output_type="ndarray")
+    # Boxes that overlap along the longest side: in the order of their starts, one's partners follow it.
+    longest = int(np.ptp(surface.vertices, axis=0).argmax())
+    order = np.argsort(low[:, longest], kind="stable")
+    count = np.searchsorted(low[order, longest], high[order, longest], side="right") - np.arange(len(order)) - 1
+    first = np.repeat(np.arange(len(order)), count)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count)
+    pairs = np.stack([order[first], order[second]], 1)
     for axis in range(3):
         one, other = pairs.T
         pairs = pairs[(low[one, axis] <= high[other, axis]) & (low[other, axis] <= high[one, axis])]
