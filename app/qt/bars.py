@@ -111,8 +111,8 @@ def fill_menus(window) -> tuple[QtWidgets.QAction, QtWidgets.QAction]:
     for key, name in enumerate(("front", "back", "left", "right", "top", "bottom"), 1):
         _action(view, f"&{name.capitalize()}", lambda *_, name=name: window.reset_view(name), str(key))
     view.addSeparator()
-    _action(view, "The view be&fore", window.view_back, "Ctrl+[")
-    _action(view, "The view af&ter", window.view_on, "Ctrl+]")
+    _action(view, "The view be&fore", window.views.back, "Ctrl+[")
+    _action(view, "The view af&ter", window.views.on, "Ctrl+]")
     go = window.menuBar().addMenu("&Source")
     _action(go, "&Type a vertex id", lambda *_: (window.source_box.setFocus(), window.source_box.selectAll()), "G")
     _action(go, "The source be&fore", lambda: window.session.walk_sources(-1), "Alt+Left")

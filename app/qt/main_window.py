@@ -13,10 +13,8 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import BihdistError, OutputError
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..document.camera import View
 from ..document.document import Document, Quantity
 from ..document.edits import PANEL_EDITS, add_another, move_source, show_in
-from ..document.history import Trail
 from ..document.page import Page, Recipe
 from ..drawing.prepared import prepare
 from ..drawing.style import STYLES
@@ -27,15 +25,13 @@ from . import remembered
 from .bars import fill_menus, fill_tool_bar, no_source, show_source
 from .controls import MOST_PANELS
 from .look import STYLE_SHEET
-from .session_actions import SESSIONS, SessionFile
+from .session_actions import MESH_FILES, SESSIONS, SessionFile
 from .status_bar import StatusBar, summary, unseen
+from .views import Views
 
 if TYPE_CHECKING:
     from ..drawing.picking import Met
 
-MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
-STILL_MS = 500
-"""When the camera has not moved for so long, what is seen is a view that one can come back to."""
 PROGRESS_MS = 200
 """How often progress is shown at most, and from when on."""
 
@@ -72,9 +68,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.status = StatusBar(self)
         self.status.cancelled.connect(self.session.cancel)
         self.setStatusBar(self.status)
-        self._views: Trail[View] = Trail()
-        self._still = QtCore.QTimer(self, singleShot=True, interval=STILL_MS)
-        self._still.timeout.connect(self._remember_view)
+        self.views = Views(self)
         self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
         self._progress_soon.timeout.connect(self._show_progress)
         self.source_box, self.isolines_box = fill_tool_bar(self)
@@ -98,7 +92,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.chosen.connect(self._choose)
         self.grid.asked.connect(self._edit_panels)
         self.grid.hovered.connect(self._hover)
-        self.grid.looked.connect(self._look)
+        self.grid.looked.connect(self.views.moved)
         self._middle.addWidget(self.grid)
         self._middle.setCurrentWidget(self.grid)
         self.leave_boxes()
@@ -176,7 +170,7 @@ class MainWindow(QtWidgets.QMainWindow):
                     self.answer_changed(panel.id)
         if is_other or is_raised or document.camera != before.camera:
             self.grid.look(document.camera)
-            self._still.start()
+            self.views.rest_soon()
         self._offer_steps()
         self.grid.repaint_views()
         self.session_file.document_changed()
@@ -192,7 +186,8 @@ class MainWindow(QtWidgets.QMainWindow):
         self.say("  ·  ".join([*summary(self.session.surface), *unseen(recipe, STYLES[self.page.style])]))
 
     def _show_surface(self, opened: Opened) -> None:
-        self._opened, self._hovered, self._views = opened, None, Trail()
+        self._opened, self._hovered = opened, None
+        self.views.begin()
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
         self.grid.show_surface()
         self._say_what_is_open()
@@ -334,37 +329,11 @@ class MainWindow(QtWidgets.QMainWindow):
     def dropEvent(self, event: QtGui.QDropEvent) -> None:
         self.open_any(event.mimeData().urls()[0].toLocalFile())
 
-    # ------------------------------------------------------------------ back and forth
-    def _look(self, view: View) -> None:
-        """The camera sees this now."""
-        self.session.look(view)
-        self._still.start()
-
-    def _see(self, view: View) -> None:
-        """Let the camera see something else."""
-        self.grid.look(view)
-        self._look(view)
-
-    def _remember_view(self) -> None:
-        self._views.visit(self.session.document.camera)
-
-    def view_back(self) -> None:
-        """Look from where one looked before."""
-        self._remember_view()
-        self._see_again(self._views.back())
-
-    def view_on(self) -> None:
-        self._see_again(self._views.on())
-
-    def _see_again(self, view: View | None) -> None:
-        if view is not None:
-            self._see(view)
-
     # ------------------------------------------------------------------ the user's commands
     def reset_view(self, view: str = "home") -> None:
         """See the surface from a standard view."""
         if self.session.surface is not None:
-            self._see(view)
+            self.views.see(view)
 
     def leave_boxes(self) -> None:
         """A box that has the keyboard takes digits and Ctrl+E for itself."""
@@ -423,22 +392,6 @@ class MainWindow(QtWidgets.QMainWindow):
             self._once_built(lambda: self.session_file.open(path))
         else:
             self.open(path)
-
-    def choose_mesh_instead(self, message: str, path: str) -> str:
-        """Ask for the mesh of a session whose own is gone, or has changed and is still at `path`; empty if none."""
-        self.refused.emit(message)
-        if self.quiet:
-            return path
-        box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=self)
-        choose = box.addButton("Choose the mesh …", QtWidgets.QMessageBox.ButtonRole.ActionRole)
-        as_it_is = box.addButton("Show it as it is", QtWidgets.QMessageBox.ButtonRole.AcceptRole) if path else None
-        box.addButton(QtWidgets.QMessageBox.StandardButton.Cancel)
-        box.exec()
-        if as_it_is is not None and box.clickedButton() is as_it_is:
-            return path
-        if box.clickedButton() is choose:
-            return QtWidgets.QFileDialog.getOpenFileName(self, "The mesh of this session", "", MESH_FILES)[0]
-        return ""
 
     def say(self, text: str) -> None:
         """In the status bar."""

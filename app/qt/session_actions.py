@@ -21,6 +21,7 @@ from ..session.recipe_file import recipe_written
 from ..version import version
 from . import remembered
 
+MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 SESSIONS = "Sessions and recipes (*.json);;All files (*)"
 KEEP_MS = 2000
 """What the window shows is kept so long after a change, in case of a crash."""
@@ -133,7 +134,7 @@ class SessionFile:
             message, path = f"The mesh {mesh.path} is not what it was when this was written.", mesh.path
         else:
             return recipe
-        chosen = self._window.choose_mesh_instead(message, path)
+        chosen = _mesh_instead(self._window, message, path)
         if not chosen:
             return None
         surfaces = (replace(mesh, path=chosen, sha256=""),)
@@ -160,6 +161,23 @@ class SessionFile:
         """The window closes as it should."""
         self._keep_soon.stop()
         remembered.forget_state()
+
+
+def _mesh_instead(window, message: str, path: str) -> str:
+    """Ask for the mesh of a session whose own is gone, or has changed and is still at `path`; empty if none."""
+    window.refused.emit(message)
+    if window.quiet:
+        return path
+    box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=window)
+    choose = box.addButton("Choose the mesh …", QtWidgets.QMessageBox.ButtonRole.ActionRole)
+    as_it_is = box.addButton("Show it as it is", QtWidgets.QMessageBox.ButtonRole.AcceptRole) if path else None
+    box.addButton(QtWidgets.QMessageBox.StandardButton.Cancel)
+    box.exec()
+    if as_it_is is not None and box.clickedButton() is as_it_is:
+        return path
+    if box.clickedButton() is choose:
+        return QtWidgets.QFileDialog.getOpenFileName(window, "The mesh of this session", "", MESH_FILES)[0]
+    return ""
 
 
 def _absolute(path: str) -> str:

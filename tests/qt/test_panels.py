@@ -183,7 +183,7 @@ def test_views_have_a_history_of_their_own(screen, mesh_file):
         return s.window.grid.camera.GetPosition()
 
     for step, place in [(-1, 1), (-1, 0), (-1, 0), (1, 1), (1, 2), (1, 2), (-1, 1)]:
-        s.window.view_back() if step < 0 else s.window.view_on()
+        s.window.views.back() if step < 0 else s.window.views.on()
         assert np.allclose(there(), cameras[place])
     assert not s.session.history.can_undo
 

@@ -99,7 +99,9 @@ def test_a_recipe_opened_and_exported_again_has_the_same_bytes(screen, mesh_file
     assert (tmp_path / "g.png").read_bytes() == (tmp_path / "f.png").read_bytes()
 
 
-def test_a_mesh_that_is_gone_or_has_changed_is_said_and_another_can_be_pointed_at(screen, mesh_file, tmp_path):
+def test_a_mesh_that_is_gone_or_has_changed_is_said_and_another_can_be_pointed_at(
+    screen, mesh_file, tmp_path, monkeypatch
+):
     s = screen()
     mesh = mesh_file(bumpy(300))
     arranged(s, mesh)
@@ -109,7 +111,8 @@ def test_a_mesh_that_is_gone_or_has_changed_is_said_and_another_can_be_pointed_a
     s.window.session_file.open(str(tmp_path / "s.json"))
     assert "is not there" in s.refusals[-1]
     assert s.document == before
-    s.window.choose_mesh_instead = lambda message, path: str(tmp_path / "elsewhere.off")
+    elsewhere = str(tmp_path / "elsewhere.off")
+    monkeypatch.setattr("app.qt.session_actions._mesh_instead", lambda window, message, path: elsewhere)
     s.window.session_file.open(str(tmp_path / "s.json"))
     s.until(lambda: s.session.is_complete and s.session.surface.name == "elsewhere.off")
     assert (s.source, len(s.panels)) == (9, 4)
