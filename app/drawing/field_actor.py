@@ -15,8 +15,9 @@ from bihdist_core.surface import dots
 
 from .style import Style
 
-UNDEFINED = -1.0
-"""Stands for NaN in the scalars: distances are never negative, and the shader needs a number."""
+UNDEFINED = -1000.0
+"""Stands for NaN in the scalars: shares are never negative, and the shader needs a number.  As far from them as VTK
+allows, so that a face with an undefined corner is undefined up to the others, without a seam of other colours."""
 
 _DECLARE = "//VTK::PositionVC::Dec"
 _PASS_ON = "//VTK::PositionVC::Impl"

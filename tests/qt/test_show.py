@@ -155,6 +155,17 @@ def test_where_a_difference_is_nothing_no_line_is_drawn(shown):
     assert viewer._window.grid.panels[0].answer.largest is None
 
 
+def test_where_a_field_ends_there_is_no_seam_of_other_values(shown):
+    share = (HEIGHT - HEIGHT.min()) / np.ptp(HEIGHT)
+    viewer = shown(SURFACE, [], {"upper": np.where(share < 0.4, np.nan, 0.5 + share)})
+    viewer.panels  # noqa: B018
+    picture = viewer._window.grid.panels[0].interactor.screenshot(return_img=True).astype(int)
+    height = picture.shape[0]
+    blue = (picture[: int(0.8 * height), :, 2] - picture[: int(0.8 * height), :, 0] > 40).sum()
+    # All values are in the upper half of the colours, which has no blue.
+    assert blue < 20
+
+
 def test_the_screenshot_is_taken_once_all_is_there(shown, tmp_path):
     viewer = shown(SURFACE, ["biharmonic", "geodesic"])
     assert viewer.screenshot(tmp_path / "w.png").stat().st_size > 10_000
