@@ -2,7 +2,7 @@
 
 import argparse
 
-from ..document.document import Difference
+from ..document.quantities import Difference
 from .mesh import read_laplacian
 from .options import add_areas, add_distance, quantities, vertex
 from .terminal import accuracy, counted, progress_line

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 from .options import PANELS, add_areas, add_distance, check_parameters, given_parameters, quantities
 
 if TYPE_CHECKING:
-    from ..document.document import Document, Quantity
+    from ..document.document import Document
     from ..document.page import Recipe
+    from ..document.quantities import Quantity
 
 
 def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
@@ -121,8 +122,9 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
     """Other distances, parameters or sources; and how many panels a row then has, if they stand in rows."""
     from bihdist_core import ParameterError
 
-    from ..document.document import Panel, Point, free_names, from_point
+    from ..document.document import Panel, Point, free_names
     from ..document.edits import put_point, show_in
+    from ..document.quantities import from_point
 
     if options.distance or (options.source and len(options.source) != len(document.sources)):
         words = options.distance
@@ -156,7 +158,7 @@ def _respecified(shows: "Quantity", options: argparse.Namespace) -> "Quantity":
     """The quantity with those parameters that the options name and its distances have."""
     from bihdist_core.distances.kinds import Spec
 
-    from ..document.document import DistanceFrom
+    from ..document.quantities import DistanceFrom
 
     given = given_parameters(options)
 

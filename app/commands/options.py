@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from bihdist_core.distances.kinds import OURS, Spec, Value, kinds
 from bihdist_core.errors import ParameterError
 
-from ..document.document import AREAS, COMPARISON, Quantity, quantity
+from ..document.document import AREAS, COMPARISON
+from ..document.quantities import Quantity, quantity
 
 PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
 PARAMETERS = {p.name: p for kind in OURS for p in kind.parameters}

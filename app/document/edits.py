@@ -5,18 +5,8 @@ from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec, kinds
 
-from .document import (
-    COMPARISON,
-    DistanceFrom,
-    Document,
-    MeshFile,
-    Panel,
-    Place,
-    Point,
-    Quantity,
-    free_names,
-    own_fields,
-)
+from .document import COMPARISON, Document, MeshFile, Panel, Place, Point, free_names
+from .quantities import DistanceFrom, Quantity, own_fields
 
 
 def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> Document:

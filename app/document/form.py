@@ -7,22 +7,9 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 
 from .camera import Camera, View
-from .document import (
-    Anchor,
-    Difference,
-    DistanceFrom,
-    Document,
-    FieldArray,
-    MeshFile,
-    OwnField,
-    Panel,
-    Part,
-    Place,
-    Point,
-    Quantity,
-    Zoom,
-)
+from .document import Anchor, Document, FieldArray, MeshFile, Panel, Place, Point, Zoom
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
+from .quantities import Difference, DistanceFrom, OwnField, Part, Quantity
 
 
 def document_data(document: Document) -> dict[str, Any]:

@@ -5,10 +5,11 @@ from typing import Any
 from bihdist_core.distances.kinds import Parameter, Spec, kind_of
 from bihdist_core.errors import ParameterError
 
-from .document import Anchor, DistanceFrom, Document, MeshFile, Panel, Point
+from .document import Anchor, Document, MeshFile, Panel, Point
 from .form import read_view, read_zoom
 from .json_values import Reader, flag, listed, number, or_none, placed, record, text, whole
 from .page import Page, Recipe
+from .quantities import DistanceFrom
 
 DOCUMENT = {"areas": text, "zooms": listed(read_zoom), "isolines": whole, "shared_range": flag, "height": number}
 PAGE: dict[str, Reader] = {

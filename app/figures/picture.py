@@ -14,8 +14,9 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
 
 from ..document.camera import Camera, View
-from ..document.document import Anchor, Document, Point, Quantity, Zoom, free_names
+from ..document.document import Anchor, Document, Point, Zoom, free_names
 from ..document.page import Page, Recipe
+from ..document.quantities import Quantity
 from ..session.given import Given, Mesh, given_comparison
 from ..version import version
 from .description import Figure

@@ -8,8 +8,9 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Parameter, Spec, Value, kind_of, kinds
 
-from ..document.document import COMPARISON, Difference, DistanceFrom, OwnField, Part, Quantity
+from ..document.document import COMPARISON
 from ..document.edits import PANEL_EDITS
+from ..document.quantities import Difference, DistanceFrom, OwnField, Part, Quantity
 
 STEPS = 240
 """Positions of a slider, in equal steps of the parameter's logarithm."""

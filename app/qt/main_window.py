@@ -13,9 +13,10 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import BihdistError, OutputError
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..document.document import Document, Quantity
+from ..document.document import Document
 from ..document.edits import PANEL_EDITS, add_another, move_source, show_in
 from ..document.page import Page, Recipe
+from ..document.quantities import Quantity
 from ..drawing.prepared import prepare
 from ..drawing.style import STYLES
 from ..session.opened import Opened

@@ -11,7 +11,8 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 from bihdist_core import Surface
 from bihdist_core.distances.answers import Answer
 
-from ..document.document import COMPARISON, DistanceFrom, Zoom
+from ..document.document import COMPARISON, Zoom
+from ..document.quantities import DistanceFrom
 from ..drawing.field_actor import drawable
 from ..drawing.picking import Met, Picker, pixel_of
 from ..drawing.relief import relief, rise

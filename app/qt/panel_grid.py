@@ -5,8 +5,9 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from ..document.camera import Camera, View
-from ..document.document import Difference, Document
+from ..document.document import Document
 from ..document.edits import possible_edits
+from ..document.quantities import Difference
 from ..drawing.camera import camera_seen, place_camera, show_camera
 from ..drawing.relief import rise
 from ..drawing.style import PAPER, Style

@@ -20,8 +20,9 @@ from qtpy import QtCore
 
 from bihdist_core import BihdistError, ParameterError
 
-from ..document.document import Document, Quantity
+from ..document.document import Document
 from ..document.edits import move_source
+from ..document.quantities import Quantity
 from ..session.given import Mesh, given_comparison
 from ..session.opened import checked_path
 from ..session.questions import vertex_at

@@ -19,8 +19,9 @@ import numpy.typing as npt
 
 from bihdist_core import ParameterError, Surface
 
-from ..document.document import Document, FieldArray, MeshFile, Quantity, comparison, quantity
+from ..document.document import Document, FieldArray, MeshFile, comparison
 from ..document.page import Recipe
+from ..document.quantities import Quantity, quantity
 
 Mesh = str | os.PathLike[str] | Surface | tuple[Any, Any]
 """A file or the name of a sample, a surface, or its vertices (n, 3) and faces (m, 3)."""

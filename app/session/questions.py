@@ -8,7 +8,8 @@ import numpy as np
 from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.kinds import Spec
 
-from ..document.document import Difference, Document, FieldArray, MeshFile, OwnField, Part, Place, Quantity
+from ..document.document import Document, FieldArray, MeshFile, Place
+from ..document.quantities import Difference, OwnField, Part, Quantity
 
 
 @dataclass(frozen=True)

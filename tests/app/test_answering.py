@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from app.document.document import DistanceFrom, MeshFile
+from app.document.document import MeshFile
 from app.document.edits import add_panel
+from app.document.quantities import DistanceFrom
 from app.session.kept import KeptAnswers
 from app.session.questions import DistanceQuestion
 from bihdist_core import BiharmonicDistance, Cancelled

@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from app.document.camera import Camera
-from app.document.document import Difference, DistanceFrom, Document, comparison, without_camera
+from app.document.document import Document, comparison, without_camera
 from app.document.edits import add_panel, move_panel, move_source, put_point, remove_panel, show_in
 from app.document.form import document_data, document_from
 from app.document.history import History
+from app.document.quantities import Difference, DistanceFrom
 from app.session.session import Session
 from bihdist_core import Laplacian
 from bihdist_core.distances.kinds import Spec

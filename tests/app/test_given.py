@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.document.document import Difference, Document, FieldArray, OwnField, Panel, comparison, quantity
+from app.document.document import Document, FieldArray, Panel, comparison
 from app.document.edits import move_source, open_mesh, show_in
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
+from app.document.quantities import Difference, OwnField, quantity
 from app.session.given import Given, given_comparison, is_archive
 from app.session.recipe_file import recipe_written
 from bihdist_core import BiharmonicDistance, MeshError, OutputError, ParameterError, Surface

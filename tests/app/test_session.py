@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import DistanceFrom, comparison, quantity
+from app.document.document import comparison
 from app.document.edits import add_panel, remove_panel
+from app.document.quantities import DistanceFrom, quantity
 from bihdist_core import BiharmonicDistance, ParameterError, SolverError, Surface
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid, two_pieces

@@ -10,10 +10,11 @@ import pytest
 from PIL import Image
 
 from app.document.camera import Camera
-from app.document.document import Anchor, DistanceFrom, MeshFile, Panel, Place, Point, Zoom, comparison
+from app.document.document import Anchor, MeshFile, Panel, Place, Point, Zoom, comparison
 from app.document.edits import put_point
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
+from app.document.quantities import DistanceFrom
 from app.main import main
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy

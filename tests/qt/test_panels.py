@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import DistanceFrom, quantity
 from app.document.edits import add_panel, move_source, remove_panel
+from app.document.quantities import DistanceFrom, quantity
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 

@@ -12,10 +12,11 @@ import pytest
 from PIL import Image
 
 from app.document.camera import Camera
-from app.document.document import comparison, quantity
+from app.document.document import comparison
 from app.document.edits import add_panel, move_source
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
+from app.document.quantities import quantity
 from app.session.given import given_comparison
 from app.session.recipe_file import recipe_written
 from bihdist_core.distances.kinds import Spec

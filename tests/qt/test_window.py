@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from app.document.document import DistanceFrom
 from app.document.edits import move_source
+from app.document.quantities import DistanceFrom
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, fin, grid, two_pieces
 

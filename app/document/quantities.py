@@ -1,0 +1,170 @@
+"""What a panel can show: something with a value at every vertex, in words and as data."""
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
+
+
+@dataclass(frozen=True)
+class DistanceFrom:
+    """The distance of every vertex from a named point."""
+
+    spec: Spec
+    point: str = "source"
+
+    def __str__(self) -> str:
+        return str(self.spec)
+
+    @property
+    def parts(self) -> "tuple[Part, ...]":
+        return (self,)
+
+    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
+        (part,) = parts
+        return part
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return (self.point,)
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        """The distances it is made of."""
+        return (self.spec,)
+
+    @property
+    def word(self) -> str:
+        """Which distance it is, whatever its parameters."""
+        return self.spec.word
+
+    @property
+    def title(self) -> str:
+        """Its name within a sentence."""
+        return self.spec.kind.name.lower()
+
+    @property
+    def hint(self) -> str:
+        """What to look for."""
+        return self.spec.kind.hint
+
+
+@dataclass(frozen=True)
+class OwnField:
+    """One of the document's fields, by its name; it starts nowhere."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+    @property
+    def parts(self) -> "tuple[Part, ...]":
+        return (self,)
+
+    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
+        (part,) = parts
+        return part
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return ()
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return ()
+
+    @property
+    def word(self) -> str:
+        return f"field {self.name}"
+
+    @property
+    def title(self) -> str:
+        return self.name
+
+    @property
+    def hint(self) -> str:
+        return "a field of your own"
+
+
+Part = DistanceFrom | OwnField
+"""What a difference is made of."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One distance less another: each as a share of its maximum, or, if raw, as it is (in equal units)."""
+
+    minuend: Part
+    subtrahend: Part
+    raw: bool = False
+
+    def __str__(self) -> str:
+        return f"{'raw ' if self.raw else ''}{self.minuend} - {self.subtrahend}"
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        return (self.minuend, self.subtrahend)
+
+    def with_parts(self, parts: tuple[Part, ...]) -> "Difference":
+        """The difference of others."""
+        first, second = parts
+        return replace(self, minuend=first, subtrahend=second)
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys((*self.minuend.points, *self.subtrahend.points)))
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        """The distances it is made of."""
+        return (*self.minuend.specs, *self.subtrahend.specs)
+
+    @property
+    def hint(self) -> str:
+        """What to look for."""
+        return f"positive where {self.minuend.title} is larger, negative where {self.subtrahend.title} is"
+
+
+Quantity = DistanceFrom | OwnField | Difference
+"""What a panel can show: something with a value at every vertex."""
+
+
+def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
+    """Those that a quantity is made of."""
+    return tuple(part for part in shows.parts if isinstance(part, OwnField))
+
+
+def quantity(text: str, point: str = "source", fields: Collection[str] = (), **parameters: object) -> Quantity:
+    """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
+
+    fields: names of the user's own, each as good as a distance.  parameters: values of those not named in the text.
+    ParameterError for what is neither.
+    """
+    words = text.strip()
+    # A hyphen in a word has no spaces about it.
+    parts = words.removeprefix("raw ").split(" - ")
+    if len(parts) > 2:
+        raise ParameterError(f"{text!r} has {len(parts)} distances; a difference has two.")
+    found: list[Part] = []
+    for part in (part.strip() for part in parts):
+        try:
+            found.append(OwnField(part) if part in fields else DistanceFrom(Spec.parse(part, **parameters), point))
+        except ParameterError as error:
+            names = f" The fields are {', '.join(fields)}." if fields else ""
+            raise ParameterError(f"{error}{names}") from None
+    if len(found) == 1:
+        if words.startswith("raw "):
+            raise ParameterError(f"{text!r} is no difference, which alone may be raw.")
+        return found[0]
+    return Difference(found[0], found[1], words.startswith("raw "))
+
+
+def from_point(shows: "Spec | Quantity", point: str) -> Quantity:
+    """The same quantity from another point."""
+    if isinstance(shows, Spec):
+        return DistanceFrom(shows, point)
+    return shows.with_parts(
+        tuple(replace(part, point=point) if isinstance(part, DistanceFrom) else part for part in shows.parts)
+    )
