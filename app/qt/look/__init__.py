@@ -1,0 +1,1 @@
+"""How the window looks: colours, icons, and how numbers are written."""

@@ -1,0 +1,57 @@
+"""Icons: drawings of one colour in `assets/icons`, painted in the present colours at any scale."""
+
+from functools import lru_cache
+
+from qtpy import QtCore, QtGui, QtSvg, QtWidgets
+
+from .look import LOOK
+from .style_sheet import ICONS
+
+SIDE = 20
+"""Of an icon, in logical pixels."""
+
+SCALES = (1, 2, 3)
+"""Device pixels per logical pixel that an icon has pictures for."""
+
+
+def icon_names() -> list[str]:
+    return sorted(path.stem for path in ICONS.glob("*.svg"))
+
+
+def icon(name: str, colour: str = "") -> QtGui.QIcon:
+    """In the colours of the present theme, also disabled and checked; or in one colour."""
+    theme, mode, state = LOOK.theme, QtGui.QIcon.Mode, QtGui.QIcon.State
+    found = QtGui.QIcon()
+    for scale in SCALES:
+        found.addPixmap(pixmap(name, colour or theme.text, scale), mode.Normal, state.Off)
+        found.addPixmap(pixmap(name, colour or theme.accent, scale), mode.Normal, state.On)
+        for each in state.Off, state.On:
+            found.addPixmap(pixmap(name, theme.disabled, scale), mode.Disabled, each)
+    return found
+
+
+@lru_cache(maxsize=512)
+def pixmap(name: str, colour: str, scale: float = 1, side: int = SIDE) -> QtGui.QPixmap:
+    """One picture; side: in logical pixels."""
+    drawing = (ICONS / f"{name}.svg").read_text(encoding="utf-8").replace("currentColor", colour)
+    found = QtGui.QPixmap(round(side * scale), round(side * scale))
+    found.fill(QtCore.Qt.GlobalColor.transparent)
+    painter = QtGui.QPainter(found)
+    QtSvg.QSvgRenderer(drawing.encode()).render(painter)
+    painter.end()
+    found.setDevicePixelRatio(scale)
+    return found
+
+
+def put_icon(owner: "QtWidgets.QAbstractButton | QtWidgets.QAction", name: str, colour_of: str = "") -> None:
+    """Give a button or an action an icon that keeps up with the theme.
+
+    colour_of: the name of the theme's colour it is painted in whatever its state; empty for the usual ones.
+    """
+
+    def paint() -> None:
+        owner.setIcon(icon(name, getattr(LOOK.theme, colour_of) if colour_of else ""))
+
+    paint()
+    LOOK.changed.connect(paint)
+    owner.destroyed.connect(lambda: LOOK.changed.disconnect(paint))

@@ -1,0 +1,147 @@
+"""The colours of the window, light and dark; the one place where they are defined.
+
+Text has a contrast of at least 4.5 : 1 with each ground it stands on, except where it is disabled.
+"""
+
+from dataclasses import dataclass
+
+from qtpy import QtGui
+
+
+@dataclass(frozen=True)
+class Theme:
+    """Colours as #rrggbb.
+
+    window: menus, bars and docks; canvas: the panels, with their views; raised: fields, menus, buttons.  border: lines
+    between parts; strong: outlines of controls.  quiet: what is beside the point.  accent: focus, what is checked,
+    progress, links; fill: the one button that is meant, and on_fill on it.  selection: the ground of what is chosen.
+    label: the ground of the label at the pointer.  curves: of plots, in the order of panels.
+    """
+
+    word: str
+    window: str
+    canvas: str
+    raised: str
+    border: str
+    strong: str
+    text: str
+    quiet: str
+    disabled: str
+    hover: str
+    pressed: str
+    accent: str
+    fill: str
+    on_fill: str
+    selection: str
+    warning: str
+    warning_ground: str
+    error: str
+    error_ground: str
+    label: str
+    label_text: str
+    label_quiet: str
+    curves: tuple[str, ...]
+
+    @property
+    def is_dark(self) -> bool:
+        return lightness(self.canvas) < 0.5
+
+
+LIGHT = Theme(
+    word="light",
+    window="#F6F7F8",
+    canvas="#FFFFFF",
+    raised="#FFFFFF",
+    border="#DFE3E7",
+    strong="#C2C8CF",
+    text="#1D2125",
+    quiet="#5B626B",
+    disabled="#8A9199",
+    hover="#E9ECEF",
+    pressed="#DDE1E5",
+    accent="#0A7358",
+    fill="#0A7358",
+    on_fill="#FFFFFF",
+    selection="#DDF0EA",
+    warning="#7A4F00",
+    warning_ground="#FFF2D1",
+    error="#B3261E",
+    error_ground="#FDECEA",
+    label="#1D2125",
+    label_text="#FFFFFF",
+    label_quiet="#C3C9D0",
+    curves=("#0A7358", "#B45309", "#6D4AC7", "#1D2125", "#8A3A78", "#5F6B00"),
+)
+
+DARK = Theme(
+    word="dark",
+    window="#1E2125",
+    canvas="#16181B",
+    raised="#282C31",
+    border="#30353B",
+    strong="#4A5159",
+    text="#E8EAED",
+    quiet="#A6AEB7",
+    disabled="#6F7780",
+    hover="#2A2E33",
+    pressed="#343A40",
+    accent="#52CFA6",
+    fill="#1F7F62",
+    on_fill="#FFFFFF",
+    selection="#20392F",
+    warning="#F0C063",
+    warning_ground="#3A3018",
+    error="#FF8F86",
+    error_ground="#402322",
+    label="#F1F3F5",
+    label_text="#16181B",
+    label_quiet="#5B626B",
+    curves=("#52CFA6", "#F0A45A", "#B79CFF", "#E8EAED", "#E59BD3", "#C9CC5A"),
+)
+
+THEMES = {theme.word: theme for theme in (LIGHT, DARK)}
+
+
+def lightness(colour: str) -> float:
+    """Relative luminance, 0 for black to 1 for white (WCAG 2)."""
+    shares = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    red, green, blue = (s / 12.92 if s <= 0.04045 else ((s + 0.055) / 1.055) ** 2.4 for s in shares)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def contrast(one: str, other: str) -> float:
+    """From 1 to 21 (WCAG 2)."""
+    dark, light = sorted((lightness(one), lightness(other)))
+    return (light + 0.05) / (dark + 0.05)
+
+
+def palette(theme: Theme) -> QtGui.QPalette:
+    """For what Qt draws by itself."""
+    found = QtGui.QPalette()
+    role, group = QtGui.QPalette.ColorRole, QtGui.QPalette.ColorGroup
+    for each, colour in {
+        role.Window: theme.window,
+        role.WindowText: theme.text,
+        role.Base: theme.raised,
+        role.AlternateBase: theme.window,
+        role.ToolTipBase: theme.raised,
+        role.ToolTipText: theme.text,
+        role.PlaceholderText: theme.quiet,
+        role.Text: theme.text,
+        role.Button: theme.raised,
+        role.ButtonText: theme.text,
+        role.BrightText: theme.on_fill,
+        role.Highlight: theme.selection,
+        role.HighlightedText: theme.text,
+        role.Link: theme.accent,
+        role.LinkVisited: theme.accent,
+        role.Light: theme.raised,
+        role.Midlight: theme.border,
+        role.Mid: theme.strong,
+        role.Dark: theme.strong,
+        role.Shadow: theme.border,
+    }.items():
+        found.setColor(each, QtGui.QColor(colour))
+    for each in (role.WindowText, role.Text, role.ButtonText):
+        found.setColor(group.Disabled, each, QtGui.QColor(theme.disabled))
+    return found
