@@ -28,7 +28,7 @@ class Margins:
 
     side: float = 0.05
     top: float = 0.05
-    bottom: float = 0.12
+    bottom: float = 0.05
 
 
 def frame(camera: Camera) -> np.ndarray:

@@ -160,6 +160,11 @@ class FieldActor:
         self._uniforms.SetUniformf("isolineLast", float(last))
         self._uniforms.SetUniformf("isolineBold", float(half) if self.is_signed else -1.0)
 
+    @property
+    def isolines(self) -> np.ndarray:
+        """(k,) the values that have a line."""
+        return isoline_values(np.array([self._own_maximum]), self.maximum, self._count, self.is_signed)
+
     def set_scale(self, scale: float) -> None:
         """Device pixels per pixel have changed."""
         self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale)

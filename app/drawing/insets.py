@@ -28,16 +28,17 @@ Rectangle = tuple[float, float, float, float]
 class Insets:
     """Shows `actors` of a panel's renderer once more for each zoom.
 
-    scale: device pixels per pixel; below: the share of the view that its colour bar has.
+    scale: device pixels per pixel.
     """
 
-    def __init__(self, renderer: vtkRenderer, actors: Sequence[vtkActor], style: Style, scale: float, below: float):
-        self._main, self._actors, self._style, self._scale, self._below = renderer, actors, style, scale, below
+    def __init__(self, renderer: vtkRenderer, actors: Sequence[vtkActor], style: Style, scale: float):
+        self._main, self._actors, self._style, self._scale = renderer, actors, style, scale
         self._zooms: tuple[Zoom, ...] = ()
         self._positions = np.empty((0, 3))
         self._corners: list[str] = []
         self._unsettled: np.ndarray | None = None
-        self._shown: list[vtkRenderer] = []
+        self.renderers: list[vtkRenderer] = []
+        self._in_sight: list[bool] = []
         self._frames = self._lines()
         renderer.AddActor(self._frames)
         self._observer = renderer.AddObserver("StartEvent", lambda *_: self._place())
@@ -49,11 +50,11 @@ class Insets:
         self._zooms = zooms
         self._positions = vertices[[zoom.vertex for zoom in zooms]] if zooms else np.empty((0, 3))
         window = self._main.GetRenderWindow()
-        while len(self._shown) > len(zooms):
-            window.RemoveRenderer(self._shown.pop())
-        while len(self._shown) < len(zooms):
-            self._shown.append(self._new_renderer())
-            window.AddRenderer(self._shown[-1])
+        while len(self.renderers) > len(zooms):
+            window.RemoveRenderer(self.renderers.pop())
+        while len(self.renderers) < len(zooms):
+            self.renderers.append(self._new_renderer())
+            window.AddRenderer(self.renderers[-1])
         self._frames.SetVisibility(bool(zooms))
 
     def remove(self) -> None:
@@ -80,10 +81,10 @@ class Insets:
 
     def renderer_at(self, x: float, y: float) -> vtkRenderer:
         """Whose picture is at a device pixel, y up: that of an inset, or of the panel."""
-        for renderer in self._shown:
+        for renderer, is_seen in zip(self.renderers, self._in_sight, strict=False):
             left, bottom = renderer.GetOrigin()
             width, height = renderer.GetSize()
-            if renderer.GetDraw() and left <= x < left + width and bottom <= y < bottom + height:
+            if is_seen and left <= x < left + width and bottom <= y < bottom + height:
                 return renderer
         return self._main
 
@@ -92,9 +93,8 @@ class Insets:
         """By name: where an inset in a corner stands."""
         width, height = self._main.GetSize()
         side, gap = round(SIDE * min(width, height)), GAP * self._scale
-        low = max(gap, self._below * height)
         right, top = (width - gap - side, width - gap), (height - gap - side, height - gap)
-        left, bottom = (gap, gap + side), (low, low + side)
+        left, bottom = (gap, gap + side), (gap, gap + side)
         return {
             "top right": (*right, *top),
             "top left": (*left, *top),
@@ -137,9 +137,11 @@ class Insets:
             self._unsettled = None
         width, height = self._main.GetSize()
         boxes, projection, loops = self._boxes(), self._projection(), []
-        for renderer, corner, source in zip(self._shown, self._corners, self._sources(), strict=True):
+        self._in_sight = []
+        for renderer, corner, source in zip(self.renderers, self._corners, self._sources(), strict=True):
             left, right, bottom, top = source
             is_seen = bool(left < width and right > 0 and bottom < height and top > 0)
+            self._in_sight.append(is_seen)
             renderer.SetDraw(is_seen)
             if not is_seen:
                 continue

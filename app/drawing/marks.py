@@ -39,6 +39,8 @@ class Marks:
     def show(self, positions: np.ndarray, colours: Sequence[Colour] | np.ndarray) -> None:
         """Mark these positions (k, 3), each in a colour."""
         self.actor.SetVisibility(len(positions) > 0)
+        if not len(positions):
+            return
         points, cells, marked = vtkPoints(), vtkCellArray(), vtkPolyData()
         for number, position in enumerate(positions):
             points.InsertNextPoint(*position)

@@ -1,0 +1,76 @@
+"""The one OpenGL window, off the screen, in which all panels of a window are drawn, one after the other.
+
+What is drawn comes out as an array, so that the toolkit can put anything over it without drawing it again; and panels
+that show the same surface share its vertices in the graphics memory, and the compiled shaders.
+"""
+
+import os
+import sys
+
+import numpy as np
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the classes below are abstract without it)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
+
+from .scene import PanelScene
+from .style import PAPER, Style
+
+
+class Board:
+    """Made and used on one thread.  pictures: how many have been drawn."""
+
+    def __init__(self) -> None:
+        if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+            # VTK would otherwise try an X server first, and complain that there is none.
+            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+        self.pictures = 0
+        self._window = vtkRenderWindow()
+        self._window.SetOffScreenRendering(True)
+        # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
+        # the picture afterwards (FXAA) is nearly free.
+        self._window.SetMultiSamples(0)
+        self._scenes: list[PanelScene] = []
+        self._read = vtkUnsignedCharArray()
+
+    def new_scene(self, style: Style = PAPER, scale: float = 1.0) -> PanelScene:
+        """A scene that is drawn here until it is removed."""
+        renderer = vtkRenderer()
+        renderer.UseFXAAOn()
+        renderer.DrawOff()
+        self._window.AddRenderer(renderer)
+        scene = PanelScene(renderer, style, scale)
+        self._scenes.append(scene)
+        return scene
+
+    def remove(self, scene: PanelScene) -> None:
+        scene.remove()
+        self._scenes.remove(scene)
+        self._window.RemoveRenderer(scene.renderer)
+
+    def fit(self, size: tuple[int, int]) -> None:
+        """Let the pictures have this width and height in pixels from now on."""
+        if tuple(self._window.GetSize()) != size:
+            self._window.SetSize(*size)
+
+    def picture(self, scene: PanelScene, size: tuple[int, int]) -> np.ndarray:
+        """(height, width, 4) uint8, upright."""
+        self.fit(size)
+        for other in self._scenes:
+            for renderer in other.renderers:
+                renderer.DrawOff()
+        scene.renderer.DrawOn()
+        scene.renderer.ResetCameraClippingRange(*scene.bounds)
+        self._window.Render()
+        self.pictures += 1
+        width, height = size
+        self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._read)
+        picture = np.ascontiguousarray(vtk_to_numpy(self._read).reshape(height, width, 4)[::-1])
+        picture[..., 3] = 255  # what smoothing leaves there means nothing
+        return picture
+
+    def close(self) -> None:
+        """Give back what the graphics have."""
+        for scene in tuple(self._scenes):
+            self.remove(scene)
+        self._window.Finalize()
