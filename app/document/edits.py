@@ -8,6 +8,9 @@ from bihdist_core.distances.kinds import Spec, kinds
 from .document import COMPARISON, Document, MeshFile, Panel, Place, Point, free_names
 from .quantities import DistanceFrom, Quantity, own_fields
 
+MOST_ADDED = 6
+"""Up to which panels can be added; a recipe may have more."""
+
 
 def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> Document:
     """Another mesh under the same name; seen from home, and its points are where the first source is.

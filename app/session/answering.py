@@ -16,6 +16,9 @@ from .lane import Lane
 from .opened import Opened
 from .questions import Question, are_about_the_same
 
+SMALL = 12_000
+"""Vertices up to which an exact answer takes no longer than making its stand-in."""
+
 
 class AnswerView(Protocol):
     """Who is told, on the view's thread, by the ids of the panels."""
@@ -51,14 +54,14 @@ class _Request:
 class Answering:
     """See the module.
 
-    shown: what each panel shows; progress: what is going on for it, as a share done and a text; is_stopped: whether the
-    user has cancelled what was asked last.
+    shown: what each panel shows; progress: what is going on for it, as a share done and a text; stopped: the panels
+    for which the user has cancelled what was asked last.
     """
 
     def __init__(self, view: AnswerView, post: Callable[[Callable[[], None]], None]) -> None:
         self.shown: dict[int, Shown] = {}
         self.progress: dict[int, tuple[float, str]] = {}
-        self.is_stopped = False
+        self.stopped: set[int] = set()
         self._view = view
         self._post = post
         self._asked: dict[int, Question] = {}
@@ -74,6 +77,7 @@ class Answering:
         """
         for id, (question, opened) in asked.items():
             self._serial += 1
+            self.stopped.discard(id)
             if self.is_answered(id) and self.shown[id].answer.is_final:
                 # Asked anew: what is on its way from before is older.
                 self.shown[id] = replace(self.shown[id], serial=self._serial)
@@ -84,7 +88,6 @@ class Answering:
                 self._stop(id)
                 self._show(id, Shown(question, known, self._serial))
                 continue
-            self.is_stopped = False
             if id not in self._lanes:
                 self._lanes[id] = self._new_lane(id)
             self._lanes[id].submit(_Request(question, opened, self._serial, live))
@@ -95,6 +98,7 @@ class Answering:
         for id in self._lanes.keys() - asked.keys():
             self._lanes.pop(id).end()
             self.progress.pop(id, None)
+        self.stopped &= asked.keys()
         self.shown = {id: s for id, s in self.shown.items() if id in asked and s.asked.mesh == asked[id].mesh}
 
     def is_answered(self, panel: int) -> bool:
@@ -102,10 +106,11 @@ class Answering:
         shown = self.shown.get(panel)
         return shown is not None and not shown.is_preview and shown.asked == self._asked.get(panel)
 
-    def cancel(self) -> None:
-        """Stop everything; what is asked next is answered."""
-        self.is_stopped = True
-        for id in self._lanes:
+    def cancel(self, panel: int | None = None) -> None:
+        """Stop what is going on for a panel, for all if none is named; what is asked next is answered."""
+        for id in self._lanes if panel is None else {panel} & self._lanes.keys():
+            if not (self.is_answered(id) and self.shown[id].answer.is_final):
+                self.stopped.add(id)
             self._stop(id)
 
     def end(self) -> None:
@@ -150,11 +155,23 @@ class Answering:
         asking(0.9, str(question))
         stand_ins = (opened.distances(question.areas).stand_in(spec) or spec for spec in question.specs)
         quick = question.with_specs(tuple(stand_ins))
-        if quick != question and self._preview(id, request, quick, preparing, asking) and request.live:
+        if (
+            quick != question
+            and self._is_quicker(id, request, quick)
+            and self._preview(id, request, quick, preparing, asking)
+            and request.live
+        ):
             return
         answer = opened.answer(question, asking, at_once=lambda first: self._deliver(id, request, first))
         self._kept.put(question, answer)
         self._deliver(id, request, answer)
+
+    def _is_quicker(self, id: int, request: _Request, quick: Question) -> bool:
+        """Whether stand-ins come before the answer: at first, on a small surface, not if they have to be made."""
+        distances = request.opened.distances(quick.areas)
+        is_small = len(request.opened.surface.vertices) <= SMALL
+        is_next = request.live or id in self.shown
+        return is_next or not is_small or all(distances.is_ready(spec) for spec in quick.specs)
 
     def _preview(self, id: int, request: _Request, question: Question, preparing: Progress, asking: Progress) -> bool:
         """Hand on what quick distances answer; whether they did: their failure must not cost the answer."""

@@ -6,6 +6,7 @@ becomes a step of the history, and what it asks is answered (`answering`), as so
 
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
@@ -153,11 +154,12 @@ class Session:
             self.show(replace(self.document, points=points), key="walk")
             self._walk_end = points
 
-    def cancel(self) -> None:
-        """Stop everything that is going on; the next click or change asks again."""
-        self._opening = None
-        self._loader.submit(None)
-        self._answering.cancel()
+    def cancel(self, panel: int | None = None) -> None:
+        """Stop what is going on, for one panel or everything; the next click or change asks again."""
+        if panel is None:
+            self._opening = None
+            self._loader.submit(None)
+        self._answering.cancel(panel)
 
     def close(self) -> None:
         self._loader.end()
@@ -209,8 +211,12 @@ class Session:
 
     @property
     def is_stopped(self) -> bool:
-        """Whether the user has cancelled what was asked last."""
-        return self._answering.is_stopped
+        """Whether the user has cancelled something of what was asked last."""
+        return bool(self._answering.stopped)
+
+    def is_stopped_at(self, panel: int) -> bool:
+        """Whether that is for this panel."""
+        return panel in self._answering.stopped
 
     def is_answered(self, panel: int) -> bool:
         """Whether a panel shows the final answer to its present question, be its accuracy known or not."""
@@ -244,10 +250,15 @@ class Session:
             report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
             opened.prepared = self._prepare(opened.surface)
             # Told by the view, for whose thread going over all faces would take too long.
-            _ = opened.surface.remarks
+            _ = opened.surface.remarks, opened.surface.nonmanifold_edge_count
             found.append(opened)
         report(1, "")
         self._post(lambda: self._loaded(opening, found))
+        # While the window takes that in: at the start it is still busy with itself.
+        for question in questions(self.document).values():
+            for spec in question.specs:
+                with suppress(BihdistError):  # somebody else's, which says so when it is asked
+                    spec.load()
 
     def _loaded(self, opening: _Opening, found: list[Opened]) -> None:
         if opening is not self._opening:

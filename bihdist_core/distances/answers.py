@@ -139,6 +139,11 @@ class Distances:
             self._unbuilt[spec] = error
             raise
 
+    def is_ready(self, spec: Spec) -> bool:
+        """Whether it has been built already."""
+        with self._lock:
+            return spec in self._known
+
     def stand_in(self, spec: Spec, progress: Progress | None = None) -> Spec | None:
         """A distance that is quick and resembles this one, or None if it is quick itself."""
         return spec.quick(self.get(spec, progress))

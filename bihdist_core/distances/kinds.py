@@ -169,13 +169,17 @@ class Spec:
         """The same with other values."""
         return Spec.of(self.word, **{**dict(self.values), **values})
 
-    def build(self, laplacian: "Laplacian", progress: "Progress | None" = None) -> "Distance":
-        """The distance, ready to be asked; this is where the long work is."""
+    def load(self) -> Callable[..., "Distance"]:
+        """Import what makes it, so that `build` need not."""
         make = self.kind.make
         if isinstance(make, str):
             module, _, name = make.partition(":")
             make = getattr(import_module(module), name)
-        distance = make(laplacian, **dict(self.values), progress=progress)
+        return make
+
+    def build(self, laplacian: "Laplacian", progress: "Progress | None" = None) -> "Distance":
+        """The distance, ready to be asked; this is where the long work is."""
+        distance = self.load()(laplacian, **dict(self.values), progress=progress)
         distance.identity = self.in_full
         return distance
 

@@ -41,8 +41,8 @@ def test_a_click_asks_every_panel_anew(desk, mesh_file):
     assert not session.is_complete
     d.complete()
     assert d.sources_shown == [3, 3, 3]
-    # The heat method's answer comes before the exact one.
-    assert d.view.told.count("answer 1") == 4
+    # The heat method's answer comes before the exact one, but for the first on a small mesh.
+    assert d.view.told.count("answer 1") == 1 + 2
 
 
 def test_a_bad_vertex_changes_nothing(desk, mesh_file):
@@ -214,7 +214,9 @@ def test_a_difference_is_that_of_the_shares_or_of_the_values(desk, mesh_file):
     assert d.answers[2].is_signed
     assert d.answers[2].largest == np.abs(d.answers[2].field).argmax()
     # The heat method stands in for exact geodesic distance here, too.
-    assert d.view.told.count("answer 2") == 2
+    d.click(5)
+    d.complete()
+    assert d.view.told.count("answer 2") == 1 + 2
 
 
 def test_a_raw_difference_of_two_units_says_why_there_is_none(desk, mesh_file):
