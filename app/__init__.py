@@ -27,6 +27,9 @@ def __getattr__(name: str) -> object:
 
         return figure
     if name == "show":
+        from .qt.screen import check_libraries
+
+        check_libraries()
         from .qt.show import show
 
         return show

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Sequence
 
 from .commands import field, figure, info, movie, pairs, paper, view
+from .commands.mesh import check_mesh
 from .version import version
 
 COMMANDS = {module.__name__.rpartition(".")[2]: module for module in (view, field, pairs, figure, movie, info, paper)}
@@ -19,12 +20,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status: 0, 1 for a figure with a failed panel, 2 for what the user can
     mend, 130 when interrupted."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
-    if not arguments or (arguments[0] not in COMMANDS and not arguments[0].startswith("-")):
-        arguments.insert(0, "view")
-    options = _parser().parse_args(arguments)
     from bihdist_core.errors import BihdistError
 
     try:
+        options = _parser().parse_args(_with_command(arguments))
         status = COMMANDS[options.command].run(options) or 0
         sys.stdout.flush()
         return status
@@ -41,6 +40,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("bihdist: interrupted.", file=sys.stderr)
         return 130
+
+
+def _with_command(arguments: list[str]) -> list[str]:
+    """The arguments with `view` where no command is named; MeshError for a first word that means nothing."""
+    if arguments and (arguments[0] in COMMANDS or arguments[0].startswith("-")):
+        return arguments
+    if arguments:
+        # Before the options, which may be those of the command that was meant.
+        check_mesh(arguments[0], COMMANDS)
+    return ["view", *arguments]
 
 
 def _parser() -> argparse.ArgumentParser:

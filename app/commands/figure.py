@@ -4,7 +4,7 @@ import argparse
 
 from ..version import version
 from .figure_options import add_figure_options, chosen_recipe
-from .terminal import judged, progress_line, tell_repairs
+from .terminal import judged, progress_line, tell, tell_repairs
 
 WORDS = "the window's comparison as a picture, without a window"
 
@@ -19,8 +19,11 @@ def run(options: argparse.Namespace) -> int:
     from ..session.questions import vertex_at
 
     recipe = chosen_recipe(options)
+    remarks: list[str] = []
     with progress_line() as progress:
-        figure, recipe, answers = export(recipe, options.output, version(), progress)
+        figure, recipe, answers = export(recipe, options.output, version(), progress, remarks.append)
+    for text in remarks:
+        tell(text)
     surface = figure.panels[0].surface
     tell_repairs(surface)
     sources = ", ".join(str(vertex_at(at, surface)) for at in recipe.document.sources)

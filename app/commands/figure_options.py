@@ -71,7 +71,9 @@ def chosen_recipe(options: argparse.Namespace) -> "Recipe":
             raise ParameterError("There is nothing to draw; name a mesh, or a recipe with --recipe.")
         from ..document.document import comparison
         from ..document.page import Recipe
+        from .mesh import check_mesh
 
+        check_mesh(options.mesh)
         return _changed(Recipe(comparison(options.mesh)), options)
     if options.mesh is not None:
         raise ParameterError(f"With --recipe, another mesh is named as --mesh {options.mesh}.")
@@ -113,8 +115,11 @@ def _with_other_mesh(document: "Document", path: str) -> "Document":
     """The same points of another mesh, which may be any file."""
     from bihdist_core import ParameterError
 
+    from .mesh import check_mesh
+
     if len(document.surfaces) != 1:
         raise ParameterError(f"--mesh replaces one mesh, and this recipe has {len(document.surfaces)}.")
+    check_mesh(path)
     return replace(document, surfaces=(replace(document.surfaces[0], path=path, sha256=""),))
 
 

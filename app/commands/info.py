@@ -3,7 +3,7 @@
 import argparse
 
 from ..document.document import AREAS
-from ..samples import mesh_path
+from .mesh import found_mesh
 from .options import add_areas
 from .terminal import accuracy, progress_line
 
@@ -21,7 +21,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     from bihdist_core import read_surface
 
-    s = read_surface(mesh_path(options.mesh))
+    s = read_surface(found_mesh(options.mesh))
     genus = s.genus
     rows = [
         ("vertices", len(s.vertices)),

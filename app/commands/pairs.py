@@ -6,10 +6,13 @@ from typing import TYPE_CHECKING
 
 from .mesh import read_laplacian
 from .options import add_areas, add_distance, positive, specs, vertices
-from .terminal import accuracy, counted, progress_line
+from .terminal import accuracy, counted, progress_line, tell
 
 if TYPE_CHECKING:
     import numpy as np
+
+    from bihdist_core.analysis.all_pairs import Begun
+    from bihdist_core.distances.kinds import Spec
 
 WORDS = "distances between chosen vertices"
 WHOLE = re.compile("-?[0-9]{1,18}")
@@ -21,7 +24,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     which.add_argument("--vertices", type=vertices, metavar="I,J,K", help="all distances among these")
     which.add_argument("--pairs", type=_pair, nargs="+", metavar="I,J", help="the distances of these pairs")
     which.add_argument("--file", metavar="PAIRS.csv", help="the same from a file, a line `i,j` for each pair")
-    which.add_argument("--all", action="store_true", help="all pairs of the mesh, to a .npy; goes on if interrupted")
+    which.add_argument(
+        "--all",
+        action="store_true",
+        help="all pairs of the mesh, to a .npy; goes on where it was interrupted, from a hidden .part file beside it",
+    )
+    parser.add_argument("--fresh", action="store_true", help="for --all: discard what an interrupted run has left")
     parser.add_argument("--dtype", choices=("float32", "float64"), default="float32", help="for --all")
     parser.add_argument("--memory", type=positive, default=500, metavar="MB", help="for --all (default: 500)")
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy or .csv file")
@@ -32,7 +40,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     import numpy as np
 
-    from bihdist_core.analysis.all_pairs import write_all_pairs
     from bihdist_core.distances.answers import Distances
     from bihdist_core.errors import ParameterError
     from bihdist_core.formats.field_output import ARRAY_FORMATS, write_array
@@ -42,16 +49,14 @@ def run(options: argparse.Namespace) -> None:
     chosen = specs(options, list(dict.fromkeys(options.distance or ["biharmonic"])))
     if options.all and len(chosen) > 1:
         raise ParameterError("--all writes the pairs of one distance; name one.")
+    if options.fresh and not options.all:
+        raise ParameterError("--fresh goes with --all: nothing else is kept when it is interrupted.")
+    if options.all:
+        _write_all(options, chosen[0])
+        return
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         distances = Distances(laplacian)
-        if options.all:
-            distance = distances.get(chosen[0], progress)
-            said = accuracy(distance, everywhere=True)
-            write_all_pairs(distance, options.output, options.dtype, 1e6 * options.memory, progress)
-            count = len(laplacian.surface.vertices)
-            print(f"{options.output}: {distance.label}, all pairs of {count} vertices{said}")
-            return
         if options.vertices:
             among = laplacian.surface.check_vertices(options.vertices)
             pairs = np.array([(i, j) for k, i in enumerate(among) for j in among[k + 1 :]]).reshape(-1, 2)
@@ -71,6 +76,43 @@ def run(options: argparse.Namespace) -> None:
         write_array(options.output, np.column_stack([pairs, *answers]), ["i", "j", *names])
     for text in lines:
         print(f"{options.output}: {text}")
+
+
+def _write_all(options: argparse.Namespace, spec: "Spec") -> None:
+    """The pairs of all vertices, and what is said of the part of them that is there already, or is left."""
+    from bihdist_core.analysis.all_pairs import begun, left_by_others, write_all_pairs
+    from bihdist_core.distances.answers import Distances
+    from bihdist_core.errors import OutputError
+
+    with progress_line() as progress:
+        laplacian = read_laplacian(options)
+        distance = Distances(laplacian).get(spec, progress)
+        said = accuracy(distance, everywhere=True)
+    known = begun(distance, options.output, options.dtype)
+    if known and options.fresh:
+        tell(f"Discarding {_described(known)}.")
+    elif known:
+        tell(f"Going on from {_described(known)}; --fresh begins anew.")
+    for path in left_by_others(distance, options.output, options.dtype):
+        tell(f"{path} ({_size(path.stat().st_size)}) is left of a run with another mesh or other options; it may go.")
+    try:
+        with progress_line() as progress:
+            memory = 1e6 * options.memory
+            write_all_pairs(distance, options.output, options.dtype, memory, progress, options.fresh)
+    except (KeyboardInterrupt, OutputError, MemoryError):
+        if left := begun(distance, options.output, options.dtype):
+            tell(f"What is done is kept: {_described(left)}. The same command goes on from there.")
+        raise
+    count = len(laplacian.surface.vertices)
+    print(f"{options.output}: {distance.label}, all pairs of {count} vertices{said}")
+
+
+def _described(known: "Begun") -> str:
+    return f"{known.path}, {known.rows:,} of {known.n:,} rows ({_size(known.bytes)})"
+
+
+def _size(count: int) -> str:
+    return f"{count / 1e9:.2f} GB" if count >= 1e8 else f"{count / 1e6:.2f} MB"
 
 
 def pairs_in(path: str) -> "np.ndarray":

@@ -2,7 +2,7 @@
 
 import argparse
 
-from ..samples import mesh_path
+from .mesh import found_mesh
 from .terminal import progress_line
 
 WORDS = "every figure and table of the paper, computed anew, as one page"
@@ -21,7 +21,7 @@ def run(options: argparse.Namespace) -> None:
     from ..paper.reproduce import reproduce
 
     only = [word for word in options.only.split(",") if word]
-    mesh = mesh_path(options.mesh) if options.mesh else None
+    mesh = found_mesh(options.mesh) if options.mesh else None
     with progress_line() as progress:
         page = reproduce(options.out, only, mesh, options.quick, progress, say=lambda line: print(line, flush=True))
     print(f"{page}: open it in a browser")

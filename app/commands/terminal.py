@@ -34,6 +34,11 @@ def progress_line() -> "Iterator[Progress | None]":
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
+def tell(text: str) -> None:
+    """A sentence beside the result."""
+    print(f"bihdist: {text}", file=sys.stderr)
+
+
 def warn(text: str) -> None:
     print(f"bihdist: warning: {text}", file=sys.stderr)
 

@@ -5,6 +5,7 @@ import os
 import sys
 from typing import NoReturn
 
+from .mesh import found_mesh
 from .options import PANELS, add_areas, add_distance, given_parameters, quantities, vertex
 
 WORDS = "open the viewer"
@@ -12,25 +13,25 @@ WORDS = "open the viewer"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "mesh", nargs="?", help="mesh file, the name of a sample, or a session or recipe (default: figure)"
+        "mesh",
+        nargs="?",
+        help="mesh file, the name of a sample, or a session or recipe (default: choose in the window)",
     )
     parser.add_argument("--source", type=vertex, metavar="V", help="vertex id the distances start from")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
+    parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
     add_distance(parser, PANELS)
     add_areas(parser)
 
 
 def run(options: argparse.Namespace) -> NoReturn:
     from ..document.document import AREAS, COMPARISON, Document, comparison
-    from ..samples import mesh_path
 
-    path = mesh_path(options.mesh or "figure")
     # Not in the window, where a script would wait for ever.
-    if not os.path.exists(path):
-        from bihdist_core import MeshError
-
-        raise MeshError(f"There is no file {path}.")
+    is_choice = options.mesh is None and not (options.screenshot or options.save_session)
+    path = "" if is_choice else found_mesh(options.mesh or "figure")
+    from bihdist_core import ParameterError
     from bihdist_core.whole_file import check_output
 
     for output, extension in ((options.screenshot, ".png"), (options.save_session, ".json")):
@@ -42,9 +43,15 @@ def run(options: argparse.Namespace) -> NoReturn:
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
         shown = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
+    if is_choice and options.source is not None:
+        raise ParameterError("A source needs a mesh; name one.")
+    from ..qt.screen import check_screen
+
+    # Before anything imports Qt.
+    check_screen()
     from ..qt.start import run_viewer
 
-    status = run_viewer(shown, options.screenshot, options.save_session)
+    status = run_viewer(shown, is_choice, options.screenshot, options.save_session, options.theme)
     # All is saved and closed.  Left to the interpreter, Qt's and VTK's objects are taken down in an order that nobody
     # decides, which now and then, on a busy machine, ends in a crash.
     sys.stdout.flush()

@@ -8,20 +8,22 @@ from .camera import View, checked_view
 from .document import Document
 
 FORMATS = ("png", "pdf", "svg")
+"""Of figures, as their files end."""
 
 
 @dataclass(frozen=True)
 class Page:
     """How a document is put on paper.
 
-    size: as it is written, "" for the usual one.  style: a word of the drawing's styles.  format: of the file.  views:
-    pictures of each panel side by side, the document's camera if empty.  columns: panels side by side, all in one row
-    if None.  hints: what to look for, under the headings.  crop: without the empty margins.
+    size: as it is written, "" for the usual one.  style: a word of the drawing's styles.  format: of the file, "" where
+    there is none, as for a session.  views: pictures of each panel side by side, the document's camera if empty.
+    columns: panels side by side, all in one row if None.  hints: what to look for, under the headings.  crop: without
+    the empty margins.
     """
 
     size: str = ""
     style: str = "paper"
-    format: str = "png"
+    format: str = ""
     views: tuple[View, ...] = ()
     columns: int | None = None
     hints: bool = True
@@ -29,7 +31,7 @@ class Page:
     crop: bool = False
 
     def __post_init__(self) -> None:
-        if self.format not in FORMATS:
+        if self.format not in ("", *FORMATS):
             raise ParameterError(f"There is no format {self.format!r}; choose one of {', '.join(FORMATS)}.")
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")

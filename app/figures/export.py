@@ -1,24 +1,22 @@
 """From a recipe to a file: the fields computed, the figure drawn, and the recipe written beside it."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
 
-from bihdist_core import OutputError, ParameterError, SolverError
+from bihdist_core import ParameterError, SolverError
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output
 
 from ..document.document import Document, Panel
-from ..document.file import is_recipe
 from ..document.page import Recipe
 from ..drawing.style import STYLES
 from ..session.anchors import anchor_value, anchors_on
 from ..session.given import Given
 from ..session.opened import Opened, open_mesh
 from ..session.questions import questions, vertex_at
-from ..session.recipe_file import check_recipe_output, recipe_written
+from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from .description import Figure, FigurePanel, Mark
 from .draw import FIGURE_FORMATS, check_offscreen, save_figure
 from .size import Size
@@ -27,15 +25,11 @@ Surfaces = dict[str, Opened]
 """The surfaces of a document, by their names in it."""
 
 
-def check_export(document: Document, path: str | os.PathLike[str]) -> Path:
-    """Before long work: that a figure and its recipe can be written; the recipe's path.  OutputError if not."""
+def check_export(document: Document, path: str | os.PathLike[str]) -> None:
+    """Before long work: that a figure and its recipe can be written; OutputError if not."""
     check_output(path, FIGURE_FORMATS)
     check_offscreen()
-    recipe_path = Path(path).with_suffix(".json")
-    check_recipe_output(document, recipe_path)
-    if recipe_path.exists() and not is_recipe(recipe_path):
-        raise OutputError(f"{recipe_path}, where the recipe would go, is another file; give the figure another name.")
-    return recipe_path
+    check_recipe_beside(document, path)
 
 
 def open_document(recipe: Recipe, given: Given) -> tuple[Document, Surfaces]:
@@ -90,20 +84,40 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
     )
 
 
+def _silent(_text: str) -> None:
+    pass
+
+
 def write_figure(
-    figure: Figure, recipe: Recipe, given: Given, path: str, version: str, progress: Progress | None = None
+    figure: Figure,
+    recipe: Recipe,
+    given: Given,
+    path: str,
+    version: str,
+    progress: Progress | None = None,
+    say: Callable[[str], None] = _silent,
 ) -> None:
-    """The figure at `path` and its recipe beside it, all or nothing."""
-    recipe_path = check_export(recipe.document, path)
-    page = replace(recipe.page, format=Path(path).suffix.lower().removeprefix("."))
-    with recipe_written(replace(recipe, page=page), given, recipe_path, version):
+    """The figure at `path` and its recipe beside it, all or nothing; `say` gets a sentence on an unusual place."""
+    check_export(recipe.document, path)
+    place, format = place_beside(path, recipe)
+    usual, is_new = recipe_paths(path)[0], not place.exists()
+    with recipe_written(recipe, given, place, version, format=format):
         save_figure(figure, path, progress)
+    if place != usual and is_new:
+        say(f"The recipe is in {place}: {usual.name} is that of something else, and stays.")
 
 
 def export(
-    recipe: Recipe, path: str, version: str, progress: Progress | None = None
+    recipe: Recipe,
+    path: str,
+    version: str,
+    progress: Progress | None = None,
+    say: Callable[[str], None] = _silent,
 ) -> tuple[Figure, Recipe, list[Answer]]:
-    """Everything: read, compute, draw, write.  Returns the figure, the recipe with its sources, and the answers."""
+    """Everything: read, compute, draw, write.  Returns the figure, the recipe with its sources, and the answers.
+
+    say: as in `write_figure`.
+    """
     check_export(recipe.document, path)
     given = Given.read(recipe)
     document, surfaces = open_document(recipe, given)
@@ -112,7 +126,7 @@ def export(
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
     answers = compute(document, surfaces, part(progress, 0.0, 0.6))
     figure = figure_of(recipe, surfaces, answers)
-    write_figure(figure, recipe, given, path, version, part(progress, 0.6, 1.0))
+    write_figure(figure, recipe, given, path, version, part(progress, 0.6, 1.0), say)
     return figure, recipe, answers
 
 

@@ -45,6 +45,10 @@ class FigureJob:
         with suppress(OSError):
             self._process.stdin.close()
 
+    @property
+    def is_running(self) -> bool:
+        return self._thread.is_alive()
+
     def wait(self, timeout: float | None = None) -> None:
         self._thread.join(timeout)
 

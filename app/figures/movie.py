@@ -27,6 +27,9 @@ from .layout import lay_out
 
 MOVIE_FORMATS = (".mp4", ".gif")
 
+SETTING_UP = 0.03
+"""The share of a movie's progress before its first frame; the rest goes evenly with the frames."""
+
 
 @dataclass(frozen=True)
 class Movie:
@@ -78,8 +81,8 @@ def write_movie(
         raise ParameterError("The recipe has no panels.")
     document, surfaces = open_document(movie.recipe, given or Given.read(movie.recipe))
     movie = replace(movie, recipe=replace(movie.recipe, document=document))
-    fields = _Fields(movie, surfaces, part(progress, 0.0, 0.3))
-    pictures = _pictures(movie, fields, part(progress, 0.3, 1.0))
+    fields = _Fields(movie, surfaces, part(progress, 0.0, SETTING_UP))
+    pictures = _pictures(movie, fields, part(progress, SETTING_UP, 1.0))
     with whole_file(path) as temporary:
         (_write_mp4 if temporary.suffix.lower() == ".mp4" else _write_gif)(temporary, pictures, movie)
     return fields.examples

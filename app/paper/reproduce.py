@@ -1,6 +1,7 @@
 """Run experiments, draw them, and write the page."""
 
 import io
+import textwrap
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from bihdist_core import (
 )
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
-from bihdist_core.experiments import EXPERIMENTS, Experiment, Shapes
+from bihdist_core.experiments import EXPERIMENTS, Experiment, Result, Shapes
 from bihdist_core.formats.mesh_io import MESH_FORMATS
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import whole_file
@@ -30,6 +31,11 @@ from .pictures import figures
 
 FOLDER_EXPERIMENTS = ("fig1", "claims")
 """What is done for each mesh of a folder: a picture and the numbers."""
+
+PAGE = "index.html"
+
+SHORT = 100
+"""Letters of a statement, and of what was measured, in a line."""
 
 SHEET, SHEET_COLUMNS = 40, 5
 """Meshes on a contact sheet, and side by side on it."""
@@ -56,7 +62,7 @@ def reproduce(
     if mesh is not None and Path(mesh).is_dir():
         return _each_mesh(folder, Path(mesh), only, quick, progress, say)
     shapes = Shapes(own=read_surface(mesh)) if mesh is not None else Shapes.from_folder(SAMPLES)
-    sections = _sections(folder, chosen, shapes, quick, progress, say)
+    sections = _sections(folder, chosen, shapes, quick, progress, say, lambda id: f"{folder / PAGE}#{id}")
     about = "the bundled meshes" if mesh is None else Path(mesh).name
     return _write_page(folder, sections, about, quick)
 
@@ -81,7 +87,9 @@ def _sections(
     quick: bool,
     progress: Progress | None,
     say: Callable[[str], None],
+    read_more: Callable[[str], str],
 ) -> list[Section]:
+    """read_more: by an experiment's id, where the page has it."""
     sections = []
     for k, experiment in enumerate(chosen):
         mine = part(progress, k / len(chosen), (k + 1) / len(chosen))
@@ -90,10 +98,30 @@ def _sections(
         if section.result is None:
             say(f"{experiment.id}: not done: {section.failure}")
         else:
-            claims = section.result.claims
-            held = sum(claim.holds is True for claim in claims)
-            say(f"{experiment.id}: {held} of {len(claims)} statements hold, {section.result.seconds:.1f} s")
+            say(f"{experiment.id}: {_judged(section.result)}, {section.result.seconds:.1f} s")
+            for line in _not_held(section.result, read_more(experiment.id)):
+                say(line)
     return sections
+
+
+def _judged(result: Result) -> str:
+    """How many of the statements hold, of those that a number can judge."""
+    judged = [claim for claim in result.claims if claim.holds is not None]
+    if not judged:
+        return "no statements that a number can judge"
+    return f"{sum(claim.holds is True for claim in judged)} of {len(judged)} statements hold"
+
+
+def _not_held(result: Result, where: str) -> list[str]:
+    """A line for each statement that does not hold, and where to read more."""
+    lines = []
+    for claim in result.claims:
+        if claim.holds is False:
+            text, measured = (
+                textwrap.shorten(words, SHORT, placeholder=" …") for words in (claim.text, claim.measured)
+            )
+            lines.append(f"  does not hold: {text.rstrip('.')} (measured: {measured.rstrip('.')})")
+    return [*lines, f"  more in {where}"] if lines else []
 
 
 def _section(folder: Path, experiment: Experiment, shapes: Shapes, quick: bool, progress: Progress) -> Section:
@@ -141,7 +169,11 @@ def _each_mesh(
             continue
         place = folder / path.stem
         _make(place)
-        for section in _sections(place, chosen, shapes, quick, mine, say):
+
+        def read_more(id: str, stem: str = path.stem) -> str:
+            return f"{folder / PAGE}#{stem}-{id}"
+
+        for section in _sections(place, chosen, shapes, quick, mine, say, read_more):
             named = _named(section.experiment, path)
             sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
         surfaces.append(shapes.own)
@@ -180,7 +212,7 @@ def _write_page(folder: Path, sections: Sequence[Section], about: str, quick: bo
     )
     if quick:
         introduction += " This is the quick version, with smaller meshes and fewer samples."
-    path = folder / "index.html"
+    path = folder / PAGE
     with whole_file(path) as temporary:
         temporary.write_text(page("Biharmonic Distance, reproduced", introduction, sections), encoding="utf-8")
     return path

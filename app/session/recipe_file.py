@@ -8,13 +8,72 @@ from pathlib import Path
 
 import numpy as np
 
-from bihdist_core import OutputError
+from bihdist_core import OutputError, ParameterError
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.document import Document
-from ..document.file import recipe_text, with_meshes_from
-from ..document.page import Recipe
+from ..document.file import is_recipe, read_recipe, recipe_text, with_meshes_from
+from ..document.page import FORMATS, Recipe
 from .given import Given, is_archive, is_given
+
+
+def recipe_paths(figure: str | os.PathLike[str]) -> tuple[Path, Path]:
+    """Where the recipe of a figure may stand: `hand.json`, or where that is something else's `hand.pdf.json`."""
+    figure = Path(figure)
+    return figure.with_suffix(".json"), figure.with_name(f"{figure.name}.json")
+
+
+def check_recipe_beside(document: Document, figure: str | os.PathLike[str]) -> None:
+    """Before long work: that a figure's recipe can be written; OutputError if not."""
+    usual, own = recipe_paths(figure)
+    check_recipe_output(document, usual)
+    if usual.exists():
+        check_recipe_output(document, own)
+    for path in (usual, own):
+        if path.exists() and not is_recipe(path):
+            raise OutputError(f"{path}, where the recipe would go, is another file; give the figure another name.")
+
+
+def place_beside(figure: str | os.PathLike[str], recipe: Recipe) -> tuple[Path, str]:
+    """Where a figure's recipe is to be written, and for which format it is written there.
+
+    A recipe that is there already is replaced if it says the same, for whatever format, or if it is this figure's and
+    no other's.  OutputError if there is no such place.
+    """
+    figure = Path(figure)
+    format = figure.suffix.lower().removeprefix(".")
+    usual, own = recipe_paths(figure)
+    if not own.exists():
+        if not usual.exists():
+            return usual, format
+        there = _read(usual)
+        if there is not None and _without_format(there, usual) == _without_format(recipe, usual):
+            return usual, there.page.format
+        if there is not None and there.page.format == format and figure.exists() and not _may_be_shared(figure):
+            return usual, format
+        return own, format
+    there = _read(own)
+    if there is None or (there.page.format != format and _without_format(there, own) != _without_format(recipe, own)):
+        raise OutputError(f"{own}, where the recipe would go, is of something else; give the figure another name.")
+    return own, format
+
+
+def _may_be_shared(figure: Path) -> bool:
+    """Whether there is a figure of the same stem in another format that has no recipe to itself."""
+    others = (figure.with_suffix(f".{format}") for format in FORMATS if f".{format}" != figure.suffix.lower())
+    return any(other.exists() and not recipe_paths(other)[1].exists() for other in others)
+
+
+def _read(path: Path) -> Recipe | None:
+    try:
+        return read_recipe(path)
+    except ParameterError:  # of another version
+        return None
+
+
+def _without_format(recipe: Recipe, path: Path) -> Recipe:
+    recipe = with_meshes_from(recipe, path)
+    return replace(recipe, page=replace(recipe.page, format=""))
 
 
 def check_recipe_output(document: Document, path: str | os.PathLike[str]) -> None:
@@ -29,14 +88,16 @@ def check_recipe_output(document: Document, path: str | os.PathLike[str]) -> Non
 
 @contextmanager
 def recipe_written(
-    recipe: Recipe, given: Given, path: str | os.PathLike[str], version: str, stays: bool = False
+    recipe: Recipe, given: Given, path: str | os.PathLike[str], version: str, stays: bool = False, format: str = ""
 ) -> Iterator[None]:
     """Write a recipe, and the arrays it names; they are there when the block ends, and if that fails, neither is.
 
-    stays: the file will not be moved, with its meshes or without them, and names these as the recipe does.
+    format: of the figure that it belongs to, if any.  stays: the file will not be moved, with its meshes or without
+    them, and names these as the recipe does.
     """
     check_recipe_output(recipe.document, path)
-    recipe = replace(recipe if stays else with_meshes_from(recipe, path), arrays="")
+    page = replace(recipe.page, format=format)
+    recipe = replace(recipe if stays else with_meshes_from(recipe, path), page=page, arrays="")
     archive = _archive_of(path) if is_given(recipe.document) else None
     with ExitStack() as files:
         # The last that is begun is the first that is in its place: the arrays, before anything names them.

@@ -8,7 +8,9 @@ much of it.
 
 import hashlib
 import os
+import re
 import shutil
+from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 
@@ -26,18 +28,46 @@ BYTES_PER_VALUE = 40
 """In memory, at once, for each distance of a block: the fields, what they are made from, and their rounded copy."""
 
 
+@dataclass(frozen=True)
+class Begun:
+    """What an interrupted computation has left: the file, its bytes, and how many of the n rows are there."""
+
+    path: Path
+    bytes: int
+    rows: int
+    n: int
+
+
+def begun(distance: Distance, path: str | os.PathLike[str], dtype: npt.DTypeLike = np.float32) -> Begun | None:
+    """What `write_all_pairs` would go on from with these arguments, if anything."""
+    dtype, n = np.dtype(dtype), len(distance.surface.vertices)
+    partial = _partial_path(distance, Path(os.path.realpath(path)), dtype)
+    rows = _rows_done(partial, _header(n, dtype), n * dtype.itemsize)
+    return Begun(partial, partial.stat().st_size, rows, n) if rows > 0 else None
+
+
+def left_by_others(distance: Distance, path: str | os.PathLike[str], dtype: npt.DTypeLike = np.float32) -> list[Path]:
+    """Files that interrupted computations of other numbers have left beside this path."""
+    target = Path(os.path.realpath(path))
+    mine = _partial_path(distance, target, np.dtype(dtype))
+    name = re.compile(rf"\.{re.escape(target.stem[:60])}-[0-9a-f]{{16}}\.npy\.part")
+    return sorted(p for p in target.parent.iterdir() if name.fullmatch(p.name) and p != mine)
+
+
 def write_all_pairs(
     distance: Distance,
     path: str | os.PathLike[str],
     dtype: npt.DTypeLike = np.float32,
     memory: float = MEMORY,
     progress: Progress | None = None,
+    fresh: bool = False,
 ) -> None:
     """Write the (n, n) array of all distances as .npy; NaN in the rows and columns of vertices that have none.
 
     dtype: float32 or float64.  memory: bytes for the arrays of a block, besides what the distance itself holds; at
     least one row is computed at a time.  After an interruption, `Cancelled` from the progress included, the same
-    call goes on with the rows that are missing.  Raises OutputError if the file cannot be written or the disk is too
+    call goes on with the rows that are missing; `begun` tells which are there, and fresh computes all of them anew.
+    Raises OutputError if the file cannot be written or the disk is too
     small for it, which is looked up first.
     """
     dtype = np.dtype(dtype)
@@ -54,8 +84,8 @@ def write_all_pairs(
     row_bytes = n * dtype.itemsize
     rows = int(np.clip(memory / (n * BYTES_PER_VALUE), 1, n))
     try:
-        done = _rows_done(partial, header, row_bytes)
-        _check_space(target, len(header) + n * row_bytes, len(header) + done * row_bytes if done else 0)
+        done = 0 if fresh else _rows_done(partial, header, row_bytes)
+        _check_space(target, len(header) + n * row_bytes, partial.stat().st_size if partial.exists() else 0)
         with partial.open("r+b" if done else "wb") as file:
             # A row that was cut off is written again.
             file.truncate(len(header) + done * row_bytes if done else 0)

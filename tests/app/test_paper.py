@@ -6,6 +6,7 @@ import shutil
 import numpy as np
 import pytest
 
+from app.paper import reproduce as reproducing
 from app.paper.charts import chart_svg
 from app.paper.page import Section, page
 from app.paper.pictures import figures
@@ -72,6 +73,24 @@ def test_an_experiment_on_the_readers_mesh(mesh_file, tmp_path):
     assert said[0].startswith("fig1: ")
 
 
+def test_statements_that_do_not_hold_are_told_in_their_words(tmp_path, monkeypatch):
+    undecided = Claim("It looks well.", "by eye", None)
+    long = Claim(f"It is {60 * 'very '}long.", "no", False)
+    claims = (*result().claims, undecided, long)
+    made = {"fig1": result(panels=(), claims=claims), "fig3": result(panels=(), claims=(undecided,))}
+    monkeypatch.setattr(reproducing.Experiment, "compute", lambda self, *_: made[self.id])
+    said = []
+    page = reproduce(str(tmp_path), ["fig1", "fig3"], say=said.append)
+    assert said[0].startswith("fig1: 1 of 3 statements hold, ")
+    assert said[1] == "  does not hold: It does not (measured: 5 %)"
+    assert said[2].startswith("  does not hold: It is very very")
+    assert len(said[2]) < 150
+    assert said[3] == f"  more in {page}#fig1"
+    assert said[4].startswith("fig3: no statements that a number can judge, ")
+    assert len(said) == 5
+    assert '<section id="fig1">' in page.read_text(encoding="utf-8")
+
+
 def test_one_bad_mesh_of_a_folder_does_not_stop_the_others(mesh_file, tmp_path):
     folder = tmp_path / "meshes"
     folder.mkdir()
@@ -86,6 +105,19 @@ def test_one_bad_mesh_of_a_folder_does_not_stop_the_others(mesh_file, tmp_path):
     assert (path.parent / "contact-sheet-1.png").exists()
     assert (path.parent / "a" / "fig1.npz").exists()
     assert (path.parent / "c" / "fig1.npz").exists()
+
+
+def test_where_more_is_to_be_read_has_its_place_on_the_page_of_a_folder(mesh_file, tmp_path, monkeypatch):
+    monkeypatch.setattr(reproducing.Experiment, "compute", lambda *_: result(panels=()))
+    folder = tmp_path / "meshes"
+    folder.mkdir()
+    for name in ("a.off", "c.off"):
+        shutil.copy(mesh_file(bumpy(100)), folder / name)
+    said = []
+    path = reproduce(str(tmp_path / "out"), ["fig1"], str(folder), say=said.append)
+    places = [line.partition("#")[2] for line in said if line.startswith(f"  more in {path}#")]
+    assert places == ["a-fig1", "c-fig1"]
+    assert all(f'<section id="{place}">' in path.read_text(encoding="utf-8") for place in places)
 
 
 def test_what_cannot_be_is_refused(mesh_file, tmp_path):

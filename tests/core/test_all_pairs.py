@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import BiharmonicDistance, DiffusionDistance, GeodesicDistance, Laplacian
-from bihdist_core.analysis.all_pairs import write_all_pairs
+from bihdist_core.analysis.all_pairs import begun, left_by_others, write_all_pairs
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import Cancelled, OutputError, ParameterError
 from tests.shapes import bumpy, two_pieces
@@ -98,6 +98,24 @@ def test_takes_up_nothing_that_is_not_the_same(distance, tmp_path, monkeypatch):
         write_all_pairs(other, path, dtype)
         assert asked == list(range(150))
         monkeypatch.undo()
+
+
+def test_what_was_begun_is_told_and_may_be_computed_anew(distance, tmp_path, monkeypatch):
+    path, memory = tmp_path / "D.npy", 10 * 150 * 40
+    assert begun(distance, path) is None
+    with pytest.raises(Cancelled):
+        write_all_pairs(distance, path, memory=memory, progress=stop_after(0.6))
+    (partial,) = tmp_path.iterdir()
+    known = begun(distance, path)
+    assert (known.path, known.rows, known.n, known.bytes) == (partial, 90, 150, partial.stat().st_size)
+    assert begun(distance, path, np.float64) is None
+    assert left_by_others(distance, path) == []
+    assert left_by_others(distance, path, np.float64) == [partial]
+    assert left_by_others(distance, tmp_path / "D2.npy", np.float64) == []
+    asked = counted(distance, monkeypatch)
+    write_all_pairs(distance, path, fresh=True)
+    assert asked == list(range(150))
+    assert [p.name for p in tmp_path.iterdir()] == ["D.npy"]
 
 
 def test_a_disk_too_small_is_refused_before_the_work(distance, tmp_path, monkeypatch):

@@ -12,10 +12,12 @@ from PIL import Image
 from app.document.camera import Camera
 from app.document.document import Anchor, MeshFile, Panel, Place, Point, Zoom, comparison
 from app.document.edits import put_point
-from app.document.file import read_recipe, recipe_text
+from app.document.file import checksum, read_recipe, recipe_text
 from app.document.page import Page, Recipe
 from app.document.quantities import DistanceFrom
 from app.main import main
+from app.session.given import Given
+from app.session.recipe_file import recipe_written
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 
@@ -386,7 +388,13 @@ def test_a_recipe_without_panels_is_refused(mesh, tmp_path, capsys):
 
 def test_a_mesh_that_is_missing_is_not_to_be_named_twice(tmp_path, capsys):
     said = refused(capsys, "figure", tmp_path / "gone.off", "-o", tmp_path / "x.png")
-    assert said.endswith("gone.off is not there.")
+    assert "gone.off. The samples are animal, " in said
+    assert "--mesh" not in said
+
+
+def test_another_mesh_that_is_missing_is_named(drawn, capsys):
+    figure = ["figure", "--recipe", drawn / "f.json", "-o", drawn / "x.png"]
+    assert "no file hnad; did you mean hand?" in refused(capsys, *figure, "--mesh", "hnad")
 
 
 def test_what_is_no_recipe_at_all_gets_a_sentence(tmp_path, capsys):
@@ -422,6 +430,107 @@ def test_another_json_file_is_not_replaced(mesh, tmp_path, capsys):
     assert "another file" in refused(capsys, "figure", mesh, *SMALL, "-o", tmp_path / "f.png")
     assert (tmp_path / "f.json").read_text() == '{"mine": 1}'
     assert not (tmp_path / "f.png").exists()
+
+
+# ---------------------------------------------------------------------- several files of one stem
+def drawn_as(tmp_path, capsys, mesh, name, *words):
+    """Draw a figure; what is said on standard error."""
+    capsys.readouterr()
+    assert main(["figure", mesh, "--distance", "biharmonic", *SMALL, *words, "-o", str(tmp_path / name)]) == 0
+    return capsys.readouterr().err
+
+
+def jsons(tmp_path):
+    return {path.name: path.read_bytes() for path in tmp_path.glob("*.json")}
+
+
+def test_one_recipe_does_for_all_formats_of_a_figure(mesh, tmp_path, capsys):
+    assert drawn_as(tmp_path, capsys, mesh, "f.png") == ""
+    before = jsons(tmp_path)
+    assert list(before) == ["f.json"]
+    for name in ("f.svg", "f.png", "f.svg"):
+        assert drawn_as(tmp_path, capsys, mesh, name) == ""
+        assert jsons(tmp_path) == before
+
+
+def test_another_figure_of_the_same_stem_has_a_recipe_of_its_own(mesh, tmp_path, capsys):
+    drawn_as(tmp_path, capsys, mesh, "f.png")
+    before = jsons(tmp_path)
+    assert "f.svg.json: f.json is that of something else" in drawn_as(
+        tmp_path, capsys, mesh, "f.svg", "--isolines", "5"
+    )
+    after = jsons(tmp_path)
+    assert after["f.json"] == before["f.json"]
+    assert read_recipe(tmp_path / "f.svg.json").document.isolines == 5
+    for name, words in (("f.svg", ["--isolines", "5"]), ("f.png", [])):
+        assert drawn_as(tmp_path, capsys, mesh, name, *words) == ""
+        assert jsons(tmp_path) == after
+    assert main(["figure", "--recipe", str(tmp_path / "f.svg.json"), "-o", str(tmp_path / "again.svg")]) == 0
+    assert (tmp_path / "again.svg").read_bytes() == (tmp_path / "f.svg").read_bytes()
+    # A figure's own recipe goes with it.
+    assert drawn_as(tmp_path, capsys, mesh, "f.svg", "--isolines", "7") == ""
+    assert drawn_as(tmp_path, capsys, mesh, "f.png", "--isolines", "9") == ""
+    isolines = {name: read_recipe(tmp_path / name).document.isolines for name in jsons(tmp_path)}
+    assert isolines == {"f.json": 9, "f.svg.json": 7, "again.json": 5}
+
+
+def test_a_recipe_of_two_figures_is_kept_for_the_one_that_is_not_drawn_anew(mesh, tmp_path, capsys):
+    drawn_as(tmp_path, capsys, mesh, "f.png")
+    drawn_as(tmp_path, capsys, mesh, "f.svg")
+    before = jsons(tmp_path)
+    assert "f.png.json" in drawn_as(tmp_path, capsys, mesh, "f.png", "--isolines", "5")
+    assert jsons(tmp_path)["f.json"] == before["f.json"]
+    assert main(["figure", "--recipe", str(tmp_path / "f.json"), "-o", str(tmp_path / "again.svg")]) == 0
+    assert (tmp_path / "again.svg").read_bytes() == (tmp_path / "f.svg").read_bytes()
+
+
+def test_a_session_is_not_replaced_by_a_figure_of_its_name(mesh, tmp_path, capsys):
+    session = tmp_path / "f.json"
+    with recipe_written(Recipe(comparison(mesh, (Spec.of("biharmonic"),), (4,))), Given(), session, "0.1"):
+        pass
+    before = session.read_bytes()
+    (tmp_path / "f.png").write_bytes(b"a picture from elsewhere")
+    for _ in range(2):
+        said = drawn_as(tmp_path, capsys, mesh, "f.png", "--source", "9")
+        assert session.read_bytes() == before
+        assert read_recipe(tmp_path / "f.png.json").document.sources == (9,)
+    assert said == ""
+    # Drawn as it is, it stays a session.
+    settled = json.loads(before)
+    settled["document"]["surfaces"][0]["sha256"] = checksum(mesh)
+    session.write_text(json.dumps(settled))
+    assert main(["figure", "--recipe", str(session), "-o", str(tmp_path / "f.svg")]) == 0
+    assert read_recipe(session).page.format == ""
+    assert not (tmp_path / "f.svg.json").exists()
+
+
+def test_a_recipe_that_was_put_there_is_not_replaced_by_a_variant(drawn, capsys):
+    put = drawn / "put"
+    put.mkdir()
+    for name in ("f.json", "mesh.off"):
+        os.rename(drawn / name, put / name)
+    before = (put / "f.json").read_bytes()
+    variant = ["figure", "--recipe", str(put / "f.json"), "--isolines", "5", "-o", str(put / "f.png")]
+    for _ in range(2):
+        assert main(variant) == 0
+        assert (put / "f.json").read_bytes() == before
+        assert read_recipe(put / "f.png.json").document.isolines == 5
+
+
+def test_a_recipe_of_a_newer_program_is_not_replaced(mesh, tmp_path, capsys):
+    newer = '{"format": 99, "program": "bihdist 9.0", "document": {}}'
+    (tmp_path / "f.json").write_text(newer)
+    assert "f.png.json" in drawn_as(tmp_path, capsys, mesh, "f.png")
+    assert (tmp_path / "f.json").read_text() == newer
+
+
+def test_where_both_places_are_taken_nothing_is_written(mesh, tmp_path, capsys):
+    (tmp_path / "f.json").write_text('{"format": 99, "program": "bihdist 9.0", "document": {}}')
+    for content, words in (('{"mine": 1}', "is another file"), ((tmp_path / "f.json").read_text(), "something else")):
+        (tmp_path / "f.png.json").write_text(content)
+        assert words in refused(capsys, "figure", mesh, *SMALL, "-o", tmp_path / "f.png")
+        assert (tmp_path / "f.png.json").read_text() == content
+        assert not (tmp_path / "f.png").exists()
 
 
 def test_svg_has_text_paths_and_one_image_for_each_panel(mesh, tmp_path):

@@ -1,0 +1,126 @@
+"""Whether a window can be shown here.  Asked before Qt and VTK, which do not raise but end the process.
+
+Nothing is imported here that needs what is asked for.
+"""
+
+import ctypes
+import os
+import re
+import sys
+import threading
+from importlib import import_module
+from importlib.util import find_spec
+
+from bihdist_core.errors import BihdistError
+
+DRAWING = ("libEGL.so.1", "libGL.so.1")
+"""What VTK opens by itself."""
+
+PACKAGES = (
+    "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon-x11-0 libxcb-icccm4 libxcb-image0 "
+    "libxcb-keysyms1 libxcb-render-util0 libxcb-shape0 libxcb-xinerama0 libxcursor1"
+)
+"""Of Debian and Ubuntu: what the libraries in the wheels of VTK and Qt need."""
+
+ANSWER_S = 10.0
+"""A display that has not answered by then is not there."""
+
+_held: dict[str, int] = {}
+"""A connection to each display that has answered: a server such as Xvfb starts anew, and for a moment lets nobody in,
+when its last client leaves, which would be just before Qt comes."""
+
+_BINDINGS = ("PyQt5", "PySide6", "PyQt6", "PySide2")
+
+
+def check_screen() -> None:
+    """BihdistError where there is no display, or one that does not answer, or a library is missing."""
+    check_display()
+    check_libraries()
+
+
+def check_display() -> None:
+    """BihdistError where there is no display, or where it does not answer."""
+    if not sys.platform.startswith("linux"):
+        return
+    display = os.environ.get("DISPLAY", "")
+    if not (display or os.environ.get("WAYLAND_DISPLAY")):
+        raise BihdistError(
+            "The viewer needs a display and there is none (DISPLAY is not set); `bihdist figure` draws without one."
+        )
+    if _uses_x() and not _answers(display):
+        raise BihdistError(
+            f"The viewer needs a display, and the one that DISPLAY names ({display}) does not answer; "
+            "`bihdist figure` draws without one."
+        )
+
+
+def check_libraries() -> None:
+    """BihdistError, with what to install, where Qt or what draws lacks libraries of the system."""
+    is_linux = sys.platform.startswith("linux")
+    try:
+        for library in DRAWING if is_linux else ():
+            ctypes.CDLL(library)
+        for part in ("QtCore", "QtGui", "QtWidgets"):
+            import_module(f"qtpy.{part}")
+        if is_linux and _uses_x():
+            _load_x_plugin()
+    except (ImportError, OSError) as error:
+        reason = _reason(error)
+        library = re.match(r"lib[\w.+-]+\.so[.\d]*", reason)
+        if library is None:
+            raise BihdistError(f"The window needs Qt, which cannot be loaded: {reason}.") from None
+        raise BihdistError(
+            f"The window needs {library[0]}, which is not installed; on Debian or Ubuntu: apt-get install {PACKAGES}"
+        ) from None
+
+
+def _uses_x() -> bool:
+    """Whether Qt will show its windows through X."""
+    platform = os.environ.get("QT_QPA_PLATFORM", "")
+    return platform.startswith("xcb") if platform else bool(os.environ.get("DISPLAY"))
+
+
+def _answers(display: str) -> bool:
+    """Whether an X server lets this user in."""
+    try:
+        xcb = ctypes.CDLL("libxcb.so.1")
+    except OSError:
+        return True  # the libraries are looked at next
+    xcb.xcb_connect.restype = ctypes.c_void_p
+    xcb.xcb_connect.argtypes = ctypes.c_char_p, ctypes.c_void_p
+    xcb.xcb_connection_has_error.argtypes = xcb.xcb_disconnect.argtypes = (ctypes.c_void_p,)
+    errors: list[int] = []
+
+    def connect() -> None:
+        connection = xcb.xcb_connect(os.fsencode(display), None)
+        errors.append(xcb.xcb_connection_has_error(connection))
+        if errors[0] or _held.setdefault(display, connection) != connection:
+            xcb.xcb_disconnect(connection)
+
+    # On a thread, as a computer that is not there lets one wait for minutes.
+    thread = threading.Thread(target=connect, name="display", daemon=True)
+    thread.start()
+    thread.join(ANSWER_S)
+    return errors == [0]
+
+
+def _load_x_plugin() -> None:
+    """OSError, which names the library, where Qt's own plugin for X cannot be loaded."""
+    info = import_module("qtpy.QtCore").QLibraryInfo
+    kinds = getattr(info, "LibraryPath", None) or getattr(info, "LibraryLocation", info)
+    plugins = (getattr(info, "path", None) or info.location)(kinds.PluginsPath)
+    plugin = os.path.join(plugins, "platforms", "libqxcb.so")
+    if os.path.exists(plugin):
+        ctypes.CDLL(plugin)
+
+
+def _reason(error: Exception) -> str:
+    """Why an import failed; of several bindings, of which none can be imported, the first that is installed."""
+    if type(error).__name__ == "QtBindingsNotFoundError":
+        for binding in _BINDINGS:
+            if find_spec(binding):
+                try:
+                    import_module(f"{binding}.QtCore")
+                except ImportError as first:
+                    return str(first)
+    return str(error)
