@@ -20,6 +20,8 @@ def icon_names() -> list[str]:
 
 def icon(name: str, colour: str = "") -> QtGui.QIcon:
     """In the colours of the present theme, also disabled and checked; or in one colour."""
+    # Qt 5 takes the pictures for scale 1 otherwise; Qt 6 needs no telling.
+    QtCore.QCoreApplication.setAttribute(QtCore.Qt.ApplicationAttribute.AA_UseHighDpiPixmaps)
     theme, mode, state = LOOK.theme, QtGui.QIcon.Mode, QtGui.QIcon.State
     found = QtGui.QIcon()
     for scale in SCALES:
@@ -53,5 +55,4 @@ def put_icon(owner: "QtWidgets.QAbstractButton | QtWidgets.QAction", name: str, 
         owner.setIcon(icon(name, getattr(LOOK.theme, colour_of) if colour_of else ""))
 
     paint()
-    LOOK.changed.connect(paint)
-    owner.destroyed.connect(lambda: LOOK.changed.disconnect(paint))
+    LOOK.follow(owner, paint)

@@ -1,12 +1,20 @@
 """The look that all windows of the process have at present, as the user has chosen it."""
 
+from collections.abc import Callable
+
 from qtpy import QtCore, QtGui, QtWidgets
 
+from .desktop import DESKTOP
 from .style_sheet import style_sheet
-from .theme import DARK, LIGHT, THEMES, Theme, lightness, palette
+from .theme import LIGHT, THEMES, Theme, palette
 
 TALK = 1.35
 """By how much letters are larger on the full screen of a talk."""
+
+
+USUAL_DOTS = 96.0
+LEAST_LARGER = 1.1
+"""By how much a screen's dots must be denser than usual to be meant."""
 
 
 class Look(QtCore.QObject):
@@ -18,23 +26,32 @@ class Look(QtCore.QObject):
         super().__init__()
         self.choice = "desktop"
         self.theme = LIGHT
-        self.scale = 1.0
+        self.scale = self._usual = 1.0
+        DESKTOP.changed.connect(self._follow_desktop)
 
     def choose(self, word: str) -> None:
         """ "light", "dark", or "desktop" for what the desktop has."""
         self.choice = word
-        self._become(THEMES.get(word) or desktop_theme(), self.scale)
+        self._become(THEMES.get(word) or DESKTOP.theme(), self.scale)
 
     def enlarge(self, scale: float) -> None:
         """Letters as a multiple of the usual size."""
-        self._become(self.theme, scale)
+        self._become(self.theme, self._usual * scale)
+
+    def fit_to(self, dots_per_inch: float) -> None:
+        """Letters of the size that is usual on a screen."""
+        share = dots_per_inch / USUAL_DOTS
+        self._usual = share if share >= LEAST_LARGER else 1.0
+        self._become(self.theme, self._usual)
 
     def dress(self, window: QtWidgets.QWidget) -> None:
         """Put a window, with all in it, into the present colours, and in those that come."""
-        wearing = lambda: _put_on(window, self)  # noqa: E731  (a connection that ends with the window)
-        wearing()
-        self.changed.connect(wearing)
-        window.destroyed.connect(lambda: self.changed.disconnect(wearing))
+        _put_on(window, self)
+        self.follow(window, lambda: _put_on(window, self))
+
+    def follow(self, owner: QtCore.QObject, function: Callable[[], None]) -> None:
+        """Call a function whenever the look has changed, as long as its owner lives."""
+        self.changed.connect(_Follower(owner, function).follow)
 
     def font(self, size: float = 13, bold: bool = False) -> QtGui.QFont:
         """The system's font in logical pixels."""
@@ -43,27 +60,31 @@ class Look(QtCore.QObject):
         font.setWeight(QtGui.QFont.Weight.DemiBold if bold else QtGui.QFont.Weight.Normal)
         return font
 
+    def _follow_desktop(self) -> None:
+        if self.choice not in THEMES:
+            self.choose(self.choice)
+
     def _become(self, theme: Theme, scale: float) -> None:
         if (theme, scale) != (self.theme, self.scale):
             self.theme, self.scale = theme, scale
             self.changed.emit()
 
 
+class _Follower(QtCore.QObject):
+    """A child of the owner: Qt ends its connections with it, also when the process ends."""
+
+    def __init__(self, owner: QtCore.QObject, function: Callable[[], None]) -> None:
+        super().__init__(owner)
+        self._function = function
+
+    def follow(self) -> None:
+        self._function()
+
+
 def _put_on(window: QtWidgets.QWidget, look: Look) -> None:
     window.setPalette(palette(look.theme))
     window.setFont(look.font())
     window.setStyleSheet(style_sheet(look.theme, look.scale))
-
-
-_desktop: list[Theme] = []
-
-
-def desktop_theme() -> Theme:
-    """What the desktop has, by the palette that Qt took from it."""
-    if not _desktop:
-        ground = QtWidgets.QApplication.palette().color(QtGui.QPalette.ColorRole.Window)
-        _desktop.append(DARK if lightness(ground.name()) < 0.2 else LIGHT)
-    return _desktop[0]
 
 
 LOOK = Look()

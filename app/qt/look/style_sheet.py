@@ -1,6 +1,7 @@
 """The style sheet of a window: all that Qt's own widgets need to look like the rest."""
 
 from ...samples import SAMPLES
+from .marks_in_controls import mark_rules
 from .theme import Theme
 
 ICONS = SAMPLES / "icons"
@@ -25,12 +26,12 @@ QMenu::item {{ padding: 5px 24px 5px 12px; border-radius: 5px; background: trans
 QMenu::item:selected {{ background: {theme.selection}; color: {theme.text}; }}
 QMenu::item:disabled {{ color: {theme.disabled}; }}
 QMenu::separator {{ height: 1px; background: {theme.border}; margin: 4px 8px; }}
+QMenu {{ icon-size: 20px; }}
 QMenu::icon {{ padding-left: 8px; }}
-QMenu::indicator {{ width: 14px; height: 14px; padding-left: 6px; }}
 
 QToolBar {{ background: {theme.window}; border: none; border-bottom: 1px solid {theme.border}; spacing: 4px;
   padding: 0px 8px; }}
-QToolBar::separator {{ background: {theme.border}; width: 1px; margin: 10px 6px; }}
+QToolBar::separator {{ background: {theme.border}; width: 1px; margin: 4px 6px; }}
 QToolButton {{ background: transparent; color: {theme.text}; border: 1px solid transparent; border-radius: 6px;
   padding: 4px; }}
 QToolButton:hover {{ background: {theme.hover}; }}
@@ -38,16 +39,18 @@ QToolButton:pressed, QToolButton:open {{ background: {theme.pressed}; }}
 QToolButton:checked {{ background: {theme.selection}; }}
 QToolButton:disabled {{ color: {theme.disabled}; }}
 QToolButton::menu-indicator {{ image: none; }}
+QToolButton::menu-button {{ background: transparent; border: none; width: 18px; }}
 QToolButton[keys="true"]:focus {{ border: 2px solid {theme.accent}; padding: 3px; }}
 
 QPushButton {{ background: {theme.raised}; color: {theme.text}; border: 1px solid {theme.strong}; border-radius: 6px;
-  padding: 5px 12px; min-height: 18px; }}
+  padding: 5px 12px; min-height: 20px; icon-size: 20px; }}
 QPushButton:hover {{ background: {theme.hover}; }}
 QPushButton:pressed {{ background: {theme.pressed}; }}
 QPushButton:focus {{ border: 2px solid {theme.accent}; padding: 4px 11px; }}
 QPushButton:disabled {{ color: {theme.disabled}; border-color: {theme.border}; }}
 QPushButton:default, QPushButton#fill, QToolButton#fill {{ background: {theme.fill}; color: {theme.on_fill};
   border: 1px solid {theme.fill}; }}
+QPushButton#fill, QToolButton#fill {{ font-weight: 600; }}
 QPushButton:default:focus, QPushButton#fill:focus {{ border: 2px solid {theme.text}; }}
 QPushButton#fill:disabled, QPushButton:default:disabled, QToolButton#fill:disabled {{ background: {theme.window};
   color: {theme.disabled}; border-color: {theme.border}; }}
@@ -64,17 +67,26 @@ QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus {{ border
 QLineEdit[wrong="true"] {{ border: 2px solid {theme.error}; padding: 2px 5px; }}
 QLineEdit:disabled, QSpinBox:disabled, QComboBox:disabled {{ background: {theme.window}; color: {theme.disabled};
   border-color: {theme.border}; }}
+QComboBox QLineEdit, QComboBox QLineEdit:focus, QAbstractSpinBox QLineEdit, QAbstractSpinBox QLineEdit:focus {{
+  border: none; padding: 0px; background: transparent; }}
 QComboBox::drop-down {{ border: none; width: 20px; }}
+QComboBox {{ combobox-popup: 0; }}
 QComboBox QAbstractItemView {{ background: {theme.raised}; color: {theme.text}; border: 1px solid {theme.strong};
+  padding: 3px;
   selection-background-color: {theme.selection}; selection-color: {theme.text}; outline: none; }}
 
 QSlider::groove:horizontal {{ height: 2px; background: {theme.strong}; border-radius: 1px; }}
 QSlider::sub-page:horizontal {{ height: 2px; background: {theme.accent}; border-radius: 1px; }}
+QSlider::groove:vertical {{ width: 2px; background: {theme.accent}; border-radius: 1px; }}
+QSlider::sub-page:vertical {{ width: 2px; background: {theme.strong}; border-radius: 1px; }}
+QSlider::sub-page:disabled, QSlider::groove:disabled {{ background: {theme.border}; }}
 QSlider::handle:horizontal {{ width: 10px; height: 10px; margin: -5px 0; border-radius: 6px;
   background: {theme.canvas}; border: 1px solid {theme.accent}; }}
-QSlider::handle:horizontal:hover, QSlider::handle:horizontal:focus {{ background: {theme.accent}; }}
+QSlider::handle:vertical {{ width: 10px; height: 10px; margin: 0 -5px; border-radius: 6px;
+  background: {theme.canvas}; border: 1px solid {theme.accent}; }}
+QSlider::handle:hover, QSlider::handle:focus {{ background: {theme.accent}; }}
+QSlider::handle:disabled {{ background: {theme.window}; border-color: {theme.strong}; }}
 
-QCheckBox {{ spacing: 8px; }}
 QProgressBar {{ background: {theme.border}; border: none; border-radius: 2px; max-height: 4px; }}
 QProgressBar::chunk {{ background: {theme.accent}; border-radius: 2px; }}
 QStatusBar {{ background: {theme.window}; border-top: 1px solid {theme.border}; color: {theme.quiet}; }}
@@ -84,7 +96,9 @@ QScrollBar:horizontal {{ background: transparent; height: 10px; margin: 0; }}
 QScrollBar::handle {{ background: {theme.strong}; border-radius: 4px; min-height: 24px; min-width: 24px; margin: 1px; }}
 QScrollBar::add-line, QScrollBar::sub-line {{ width: 0; height: 0; }}
 QScrollArea {{ background: transparent; border: none; }}
-QHeaderView::section {{ background: {theme.window}; color: {theme.quiet}; border: none;
+QHeaderView {{ background: {theme.window}; border: none; }}
+QTableCornerButton::section {{ background: {theme.window}; border: none; }}
+QHeaderView::section {{ font-weight: 400; background: {theme.window}; color: {theme.quiet}; border: none;
   border-bottom: 1px solid {theme.border}; padding: 4px 8px; font-size: {small}px; }}
 QTableView, QTableWidget, QListView, QTreeView {{ background: {theme.raised}; color: {theme.text};
   border: 1px solid {theme.border}; gridline-color: {theme.border}; selection-background-color: {theme.selection};
@@ -93,4 +107,60 @@ QLabel {{ background: transparent; }}
 QLabel[quiet="true"] {{ color: {theme.quiet}; }}
 QLabel[small="true"] {{ font-size: {small}px; }}
 QLabel[error="true"] {{ color: {theme.error}; }}
-"""
+#popUp {{ background: {theme.raised}; border: 1px solid {theme.strong}; }}
+QLabel[refusal="true"] {{ background: {theme.error_ground}; color: {theme.error}; border-radius: 6px;
+  padding: 8px 12px; }}
+QLabel[warning="true"] {{ color: {theme.warning}; background: {theme.warning_ground}; border-radius: 9px;
+  padding: 1px 8px; font-size: {small}px; }}
+QLabel[heading="true"] {{ font-weight: 600; }}
+
+QCheckBox, QRadioButton {{ spacing: 8px; }}
+QCheckBox::indicator, QRadioButton::indicator, QAbstractItemView::indicator {{ width: 14px; height: 14px;
+  border: 1px solid {theme.strong}; background: {theme.raised}; }}
+QCheckBox::indicator, QAbstractItemView::indicator {{ border-radius: 4px; }}
+QRadioButton::indicator {{ border-radius: 8px; }}
+QCheckBox::indicator:hover, QRadioButton::indicator:hover {{ border-color: {theme.quiet}; }}
+QCheckBox::indicator:checked, QCheckBox::indicator:indeterminate, QRadioButton::indicator:checked,
+QAbstractItemView::indicator:checked {{ background: {theme.fill}; border: 1px solid {theme.fill}; }}
+QCheckBox:focus, QRadioButton:focus {{ outline: none; }}
+QCheckBox::indicator:focus, QRadioButton::indicator:focus {{ border-color: {theme.accent}; }}
+QCheckBox::indicator:disabled, QRadioButton::indicator:disabled {{ background: {theme.window};
+  border-color: {theme.border}; }}
+
+QPushButton[segment="first"], QPushButton[segment="middle"], QPushButton[segment="last"] {{ padding: 3px 12px;
+  min-height: 18px; border-radius: 0px; }}
+QPushButton[segment="middle"], QPushButton[segment="last"] {{ border-left: none; }}
+QPushButton[segment="first"] {{ border-top-left-radius: 5px; border-bottom-left-radius: 5px; }}
+QPushButton[segment="last"] {{ border-top-right-radius: 5px; border-bottom-right-radius: 5px; }}
+QPushButton[segment]:checked {{ background: {theme.selection}; color: {theme.accent}; font-weight: 600; }}
+QPushButton[segment]:focus {{ border: 2px solid {theme.accent}; }}
+
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {{ subcontrol-origin: border; width: 20px; border: none;
+  background: transparent; }}
+QAbstractSpinBox::up-button {{ subcontrol-position: top right; top: 1px; }}
+QAbstractSpinBox::down-button {{ subcontrol-position: bottom right; bottom: 1px; }}
+QGroupBox {{ border: none; margin-top: 22px; font-weight: 600; }}
+QGroupBox::title {{ subcontrol-origin: margin; subcontrol-position: top left; }}
+QTabBar {{ background: {theme.window}; }}
+QTabBar::tab {{ background: {theme.window}; color: {theme.quiet}; border: none; border-bottom: 2px solid transparent;
+  padding: 7px 12px; }}
+QTabBar::tab:hover {{ background: {theme.hover}; color: {theme.text}; }}
+QTabBar::tab:selected {{ color: {theme.text}; border-bottom: 2px solid {theme.accent}; }}
+QTabWidget::pane {{ border: none; border-top: 1px solid {theme.border}; }}
+QMainWindow::separator {{ background: {theme.border}; width: 1px; height: 1px; }}
+QSplitter::handle {{ background: {theme.border}; }}
+QDockWidget {{ background: {theme.window}; color: {theme.text}; }}
+QDockWidget::title {{ background: {theme.window}; color: {theme.text}; padding: 9px 12px; text-align: left;
+  border-bottom: 1px solid {theme.border}; }}
+QFrame#footer {{ border: none; border-top: 1px solid {theme.border}; background: {theme.window}; }}
+QFrame#hairline {{ background: {theme.border}; border: none; max-height: 1px; min-height: 1px; }}
+QRadioButton[row="true"] {{ border: 1px solid transparent; border-radius: 6px; padding: 5px 8px; spacing: 8px; }}
+QRadioButton[row="true"]:hover {{ background: {theme.hover}; }}
+QRadioButton[row="true"]:checked {{ background: {theme.selection}; font-weight: 600; }}
+QRadioButton[row="true"]:focus {{ border-color: {theme.accent}; }}
+QRadioButton[row="true"]::indicator {{ width: 12px; height: 12px; border: 1px solid {theme.strong};
+  border-radius: 7px; background: {theme.raised}; }}
+QRadioButton[row="true"]::indicator:checked {{ width: 6px; height: 6px; border: 4px solid {theme.fill};
+  background: {theme.on_fill}; }}
+QSpinBox[wrong="true"], QDoubleSpinBox[wrong="true"] {{ border: 2px solid {theme.error}; padding: 2px 5px; }}
+{mark_rules(theme, ICONS)}"""
