@@ -1,0 +1,166 @@
+"""The colour bar under a panel's view: what the colours mean, and the value under the pointer."""
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ..look.look import LOOK
+from ..look.numbers import number, paint_number
+from ..look.theme import contrast
+from .bar_layout import UNDEFINED, Reading, lay_out
+
+FAINT = 1.3
+"""Colours of less contrast with the ground need an outline."""
+
+
+class ColourBar(QtWidgets.QWidget):
+    """Colours with round values under them, above them the value at the pointer; grey while there is no field."""
+
+    def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._reading: Reading | None = None
+        self._has_shares, self._is_compact = True, False
+        self._colours, self._line_colour = QtGui.QBrush(), QtGui.QColor()
+        self._ends: tuple[str, ...] = ()
+        self._layout = lay_out(None, self.width())
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
+        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setAccessibleName("Colour bar")
+        LOOK.changed.connect(self._dress)
+        self._dress()
+
+    def show_range(
+        self,
+        colours: npt.ArrayLike,
+        low: float,
+        high: float,
+        lines: npt.ArrayLike,
+        unit: str,
+        signed: bool = False,
+        line_colour: tuple[float, float, float] = (1, 1, 1),
+        maximum: float | None = None,
+    ) -> None:
+        """A new field, of which nothing is said yet: colours (k, 3), 0 to 1, evenly from low to high, in `unit`.
+
+        lines: (m,) the isolines' values.  signed: low is -high, and 0 in the middle has a bold line.  maximum: the
+        field's own (of its absolute values, if signed), which may be less than high.
+        """
+        colours = np.clip(np.asarray(colours, float), 0, 1).reshape(-1, 3)
+        own = high if maximum is None else maximum
+        if not (all(map(math.isfinite, (low, high, own))) and low <= high and len(colours)):
+            raise ValueError(f"{len(colours)} colours from {low} to {high}, maximum {own}, make no colour bar.")
+        values = tuple(sorted(float(value) for value in np.ravel(lines)))
+        self._reading = Reading(low, high, values, unit, signed, own, self._has_shares)
+        if high == low:
+            colours = colours[[len(colours) // 2 if signed else 0]]
+        self._colours = _gradient(colours)
+        self._ends = tuple(QtGui.QColor.fromRgbF(*colours[k]).name() for k in (0, -1))
+        self._line_colour = QtGui.QColor.fromRgbF(*line_colour)
+        self._lay_out()
+
+    def show_shares(self, shown: bool) -> None:
+        """Whether the value is also given as a share of the maximum."""
+        self._has_shares = shown
+        self._say(has_shares=shown)
+
+    def show_value(self, value: float | None) -> None:
+        """The value at the pointer, NaN where there is none, or None for no pointer."""
+        undefined = value is not None and not math.isfinite(value)
+        self._say(value=None if undefined else value, words=UNDEFINED if undefined else "")
+
+    def show_words(self, text: str) -> None:
+        """Words in the place of a value."""
+        self._say(value=None, words=text)
+
+    def show_note(self, text: str) -> None:
+        """A remark in the place of the maximum; empty for none."""
+        self._say(note=text)
+
+    def clear(self) -> None:
+        """No field: empty and grey."""
+        self._reading = None
+        self._lay_out()
+
+    def set_compact(self, compact: bool) -> None:
+        """Less high, for low panels."""
+        self._is_compact = compact
+        self._dress()
+
+    def _say(self, **changes: object) -> None:
+        """While there is no field, there is nothing to say."""
+        if self._reading is not None and (said := replace(self._reading, **changes)) != self._reading:
+            self._reading = said
+            self._lay_out()
+
+    def _dress(self) -> None:
+        self.setFixedHeight(round((50 if self._is_compact else 60) * LOOK.scale))
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        self._layout, reading = lay_out(self._reading, self.width(), self._is_compact), self._reading
+        said = "" if reading is None else reading.sentence
+        ends = "no values" if reading is None else f"{number(reading.low)} to {number(reading.high)}"
+        self.setToolTip("" if self._layout.is_whole else said)
+        self.setAccessibleDescription(f"{ends}: {said}" if said else ends)
+        self.update()
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        self._lay_out()
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter, theme, layout = QtGui.QPainter(self), LOOK.theme, self._layout
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        painter.fillRect(self.rect(), QtGui.QColor(theme.canvas))
+        self._paint_bar(painter)
+        for word in (*layout.line, *layout.ticks):
+            metrics, box = QtGui.QFontMetricsF(word.font), word.box
+            baseline = round(box.top() + (box.height() + metrics.ascent() - metrics.descent()) / 2)
+            painter.setFont(word.font)
+            painter.setPen(QtGui.QColor(theme.quiet if word.is_quiet else theme.text))
+            paint_number(painter, box.left(), baseline, word.text)
+
+    def _paint_bar(self, painter: QtGui.QPainter) -> None:
+        theme, bar = LOOK.theme, self._layout.bar
+        painter.setPen(QtCore.Qt.PenStyle.NoPen)
+        painter.setBrush(QtGui.QColor(theme.hover) if self._reading is None else self._colours)
+        painter.drawRoundedRect(bar, 2, 2)
+        for x in self._layout.isolines:
+            self._paint_line(painter, x, 1, self._line_colour)
+        if self._layout.zero is not None:
+            self._paint_line(painter, self._layout.zero, 2, self._line_colour)
+        if self._reading is not None and any(contrast(end, theme.canvas) < FAINT for end in self._ends):
+            painter.setPen(QtGui.QPen(QtGui.QColor(theme.strong), 1))
+            painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
+            painter.drawRoundedRect(bar.adjusted(0.5, 0.5, -0.5, -0.5), 2, 2)
+        if self._layout.pointer is not None:
+            self._paint_line(painter, self._layout.pointer, 6, QtGui.QColor(theme.canvas), beyond=3)
+            self._paint_line(painter, self._layout.pointer, 2, QtGui.QColor(theme.text), beyond=3)
+
+    def _paint_line(self, painter: QtGui.QPainter, x: float, width: int, colour: QtGui.QColor, beyond: int = 0) -> None:
+        """Across the bar, on whole pixels of the screen, so that all lines are equally sharp."""
+        bar, ratio = self._layout.bar, self.devicePixelRatioF()
+        thick = round(width * ratio)
+        left = math.floor(x * ratio - thick / 2 + 0.5)
+        box = QtCore.QRectF(left / ratio, bar.top() - beyond, thick / ratio, bar.height() + 2 * beyond)
+        painter.fillRect(box, colour)
+
+
+def _gradient(colours: np.ndarray) -> QtGui.QBrush:
+    """Colours (k, 3) from the left to the right end of whatever is filled with them."""
+    return _gradient_of(colours.tobytes(), len(colours))
+
+
+@lru_cache(maxsize=16)
+def _gradient_of(content: bytes, count: int) -> QtGui.QBrush:
+    """The same of the bytes of an array."""
+    colours = np.frombuffer(content).reshape(count, 3)
+    gradient = QtGui.QLinearGradient(0, 0, 1, 0)
+    gradient.setCoordinateMode(QtGui.QGradient.CoordinateMode.ObjectMode)
+    shown = colours[np.linspace(0, len(colours) - 1, min(len(colours), 129)).round().astype(int)]
+    ends = np.linspace(0, 1, len(shown)) if len(shown) > 1 else [0.0]
+    gradient.setStops([(float(at), QtGui.QColor.fromRgbF(*rgb)) for at, rgb in zip(ends, shown, strict=True)])
+    return QtGui.QBrush(gradient)

@@ -1,0 +1,128 @@
+"""A button without an outline: an icon, or words with the arrow of a menu, cut short where there is no room."""
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ..look.icons import pixmap
+from ..look.look import LOOK
+from ..look.numbers import number_width, paint_number
+
+HEIGHT = 26
+PAD = 6
+"""Between the words and the edge."""
+
+GAP = 6
+"""Between a symbol and its value."""
+
+ARROW = 14
+"""The room of the arrow, whose drawing has air of its own."""
+
+ICON_SIDE = 28
+
+
+class FlatButton(QtWidgets.QToolButton):
+    """Paints itself; with a menu or a pop-up it opens on Space, Enter and Down.
+
+    text: what it says; symbol: quiet, before the text; icon_name: instead of words.
+    """
+
+    opened = QtCore.Signal()  # by mouse or keyboard, where there is no menu
+
+    def __init__(
+        self,
+        parent: QtWidgets.QWidget,
+        icon_name: str = "",
+        bold: bool = False,
+        quiet: bool = False,
+        has_arrow: bool = True,
+    ) -> None:
+        super().__init__(parent)
+        self.symbol, self.icon_name = "", icon_name
+        self.bold, self.quiet = bold, quiet
+        self.has_arrow = has_arrow and not icon_name
+        self._by_keyboard = False
+        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
+        self.setPopupMode(QtWidgets.QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.clicked.connect(self.opened)
+        LOOK.changed.connect(self.update)
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether there is less room than the words need."""
+        return self.width() < self.sizeHint().width()
+
+    def sizeHint(self) -> QtCore.QSize:
+        if self.icon_name:
+            return QtCore.QSize(ICON_SIDE, ICON_SIDE)
+        symbol = self._width(self.symbol) + GAP if self.symbol else 0
+        arrow = ARROW if self.has_arrow else 0
+        return QtCore.QSize(round(2 * PAD + symbol + self._width(self.text()) + arrow + 0.5), HEIGHT)
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(0, HEIGHT)
+
+    def _width(self, text: str) -> float:
+        return number_width(LOOK.font(bold=self.bold), text)
+
+    # ------------------------------------------------------------------ keys and focus
+    def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
+        keys = QtCore.Qt.Key
+        opens = event.key() in (keys.Key_Return, keys.Key_Enter, keys.Key_Space, keys.Key_Down)
+        if not opens or event.modifiers() & ~QtCore.Qt.KeyboardModifier.KeypadModifier:
+            super().keyPressEvent(event)
+        elif self.menu() is not None:
+            self.showMenu()
+        else:
+            self.click()
+
+    def focusInEvent(self, event: QtGui.QFocusEvent) -> None:
+        reasons = QtCore.Qt.FocusReason
+        # A menu that closes gives the focus back, however it was opened.
+        if event.reason() not in (reasons.PopupFocusReason, reasons.ActiveWindowFocusReason):
+            self._by_keyboard = event.reason() != reasons.MouseFocusReason
+        super().focusInEvent(event)
+
+    # ------------------------------------------------------------------ painting
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme = LOOK.theme
+        painter = QtGui.QPainter(self)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        is_open = self.isDown() or (self.menu() is not None and self.menu().isVisible())
+        if self.isEnabled() and (is_open or self.underMouse()):
+            painter.setPen(QtCore.Qt.PenStyle.NoPen)
+            painter.setBrush(QtGui.QColor(theme.pressed if is_open else theme.hover))
+            painter.drawRoundedRect(QtCore.QRectF(self.rect()), 6, 6)
+        if self._by_keyboard and self.hasFocus():
+            paint_ring(painter, QtCore.QRectF(self.rect()))
+        text, quiet = (theme.text, theme.quiet) if self.isEnabled() else (theme.disabled, theme.disabled)
+        if self.icon_name:
+            side = 20
+            picture = pixmap(self.icon_name, quiet, self.devicePixelRatioF(), side)
+            painter.drawPixmap((self.width() - side) // 2, (self.height() - side) // 2, picture)
+            return
+        self._paint_words(painter, text, quiet)
+
+    def _paint_words(self, painter: QtGui.QPainter, text: str, quiet: str) -> None:
+        painter.setFont(LOOK.font(bold=self.bold))
+        metrics = QtGui.QFontMetricsF(painter.font())
+        baseline = round((self.height() + metrics.ascent() - metrics.descent()) / 2)
+        x: float = PAD
+        if self.symbol:
+            painter.setPen(QtGui.QColor(quiet))
+            x = paint_number(painter, x, baseline, self.symbol) + GAP
+        room = self.width() - x - PAD - (ARROW if self.has_arrow else 0)
+        words = self.text()
+        if self._width(words) > room + 0.5:
+            words = metrics.elidedText(words, QtCore.Qt.TextElideMode.ElideRight, max(room, 0))
+        painter.setPen(QtGui.QColor(quiet if self.quiet else text))
+        x = paint_number(painter, x, baseline, words)
+        if self.has_arrow:
+            side = 16
+            picture = pixmap("chevron", quiet, self.devicePixelRatioF(), side)
+            painter.drawPixmap(QtCore.QPointF(round(x + 3), (self.height() - side) // 2 + 1), picture)
+
+
+def paint_ring(painter: QtGui.QPainter, around: QtCore.QRectF) -> None:
+    """The outline of what has the focus by keyboard."""
+    painter.setPen(QtGui.QPen(QtGui.QColor(LOOK.theme.accent), 2))
+    painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
+    painter.drawRoundedRect(around.adjusted(1, 1, -1, -1), 6, 6)

@@ -1,0 +1,339 @@
+"""The panels of the window, equal in size and seen from one camera.  Shows what a session knows; decides nothing."""
+
+from collections.abc import Callable
+
+import numpy as np
+from qtpy import QtCore, QtGui, QtWidgets
+from vtkmodules.vtkRenderingCore import vtkCamera
+
+from ...document.camera import Camera, View
+from ...document.document import Document
+from ...document.edits import MOST_ADDED, possible_edits
+from ...document.quantities import Difference
+from ...drawing.board import Board
+from ...drawing.camera import camera_seen, place_camera, show_camera
+from ...drawing.relief import rise
+from ...drawing.style import PAPER, Style
+from ...session.anchors import anchors_on
+from ...session.questions import vertex_at
+from ...session.session import Session
+from ..look.look import LOOK
+from .panel import DistancePanel
+
+SIDE_BY_SIDE = 3
+"""Panels in a row at most; more stand in rows as even as can be."""
+
+LEAST_WIDTH, LEAST_HEIGHT = 280, 220
+"""Of a panel, in logical pixels; where there is less room panels stand below each other, and the grid is scrolled."""
+
+LINE = 1
+"""Pixels between panels."""
+
+
+class PanelGrid(QtWidgets.QWidget):
+    """A panel for each of the document's, by its id; gestures come out as signals that name the panel."""
+
+    clicked = QtCore.Signal(int, object)  # panel, where the surface is met
+    dragged = QtCore.Signal(int, int)  # the source's mark, over a vertex
+    released = QtCore.Signal()
+    chosen = QtCore.Signal(int, object)  # panel, quantity
+    asked = QtCore.Signal(int, str)  # panel, a word of PANEL_EDITS
+    hovered = QtCore.Signal(int, object)  # panel, a `Met` or None beside the surface
+    looked = QtCore.Signal(Camera)  # where the user has turned or moved the camera to
+    menu_wanted = QtCore.Signal(int, object, object)  # panel, a `Met` or None, where on the screen
+    cancelled = QtCore.Signal(int)  # what is computed for a panel
+    activated = QtCore.Signal(int)
+
+    def __init__(self, session: Session, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.board = Board()
+        self.camera = vtkCamera()
+        self.active = -1  # the id of the panel that the keys go to
+        self.wheel_factor = 1.0
+        self.keys: Callable[[QtGui.QKeyEvent], bool] = lambda event: False  # what a key does on a view
+        self._panels: dict[int, DistancePanel] = {}
+        self._spare: list[DistancePanel] = []
+        self._style = PAPER
+        self._is_closed = False
+        self._fitted = QtCore.QSize()  # of the views that the camera was placed for
+        self._pointed: tuple[int, int] | None = None  # panel, vertex
+        LOOK.changed.connect(self.update)
+        self.show_panels(session.document)
+
+    @property
+    def panels(self) -> list[DistancePanel]:
+        """In the order of the document."""
+        return list(self._panels.values())
+
+    def panel(self, id: int) -> DistancePanel:
+        return self._panels[id]
+
+    @property
+    def aspect(self) -> float:
+        """Width / height of a view."""
+        if not self._panels:
+            return 1.0
+        size = self.panels[0].view.size()
+        return size.width() / max(size.height(), 1)
+
+    # ------------------------------------------------------------------ where the panels are
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, QtGui.QPainter(self)
+        painter.fillRect(event.rect(), QtGui.QColor(theme.canvas))
+        for panel in self.panels:
+            # A hairline to the right and below, where there is another.
+            edges = panel.geometry().adjusted(0, 0, LINE, LINE)
+            painter.fillRect(edges, QtGui.QColor(theme.border))
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._arrange()
+
+    def _arrange(self) -> None:
+        """All panels of one size, whatever is in them; what is left over stands at the right and below."""
+        count = len(self._panels)
+        if not count:
+            return
+        room = self.parentWidget().size() if self.parentWidget() is not None else self.size()
+        fitting = max(1, (room.width() + LINE) // (round(LEAST_WIDTH * LOOK.scale) + LINE))
+        rows = -(-count // min(SIDE_BY_SIDE, fitting))
+        columns = -(-count // rows)
+        self.setMinimumHeight(rows * (LEAST_HEIGHT + LINE) - LINE)
+        width = (self.width() - (columns - 1) * LINE) // columns
+        height = (self.height() - (rows - 1) * LINE) // rows
+        for number, panel in enumerate(self.panels):
+            row, column = divmod(number, columns)
+            # The last in a row has what is left over: a pixel or two, no more than a panel has columns.
+            panel.setGeometry(column * (width + LINE), row * (height + LINE), width, height)
+        self._keep_in_view()  # panels that were kept for later may have had this size before
+
+    # ------------------------------------------------------------------ the document
+    def show_panels(self, document: Document) -> None:
+        """Make, leave out and put in order the panels, and let their heads say what they show."""
+        wanted = {panel.id: panel for panel in document.panels}
+        for id in self._panels.keys() - wanted.keys():
+            gone = self._panels.pop(id)
+            gone.hide()
+            gone.rest()
+            # Kept for the next: VTK does not give back all the memory of a scene that is gone.
+            self._spare.append(gone)
+        for id, panel in wanted.items():
+            if id not in self._panels:
+                self._panels[id] = self._spare.pop() if self._spare else self._new_panel()
+                self._begin(self._panels[id], id)
+            fields = [field.name for field in document.fields if field.surface == panel.surface]
+            self._panels[id].head.show_quantity(panel.shows, fields)
+        self._panels = {id: self._panels[id] for id in wanted}
+        self._arrange()
+        self.update()
+        for id, panel in self._panels.items():
+            panel.head.allow(possible_edits(document, id, MOST_ADDED))
+        if self.active not in self._panels:
+            self.activate(next(iter(self._panels), -1))
+        self._show_active()
+
+    def _new_panel(self) -> DistancePanel:
+        panel = DistancePanel(self.board, self)
+        view = panel.view
+        view.pressed.connect(lambda: self.activate(panel.id))
+        view.clicked.connect(lambda met: self.clicked.emit(panel.id, met))
+        view.dragged.connect(lambda vertex: self.dragged.emit(panel.id, vertex))
+        view.released.connect(self.released)
+        view.hovered.connect(lambda met: self.hovered.emit(panel.id, met))
+        view.moved.connect(self._looked)
+        view.resized.connect(self._keep_in_view)
+        view.menu_wanted.connect(lambda met, where: self.menu_wanted.emit(panel.id, met, where))
+        view.centred.connect(lambda met: view.centre(met.position))
+        view.installEventFilter(self)
+        panel.head.clicked.connect(lambda: self.activate(panel.id))
+        panel.head.changed.connect(lambda chosen: self.chosen.emit(panel.id, chosen))
+        panel.head.asked.connect(lambda word: self.asked.emit(panel.id, word))
+        panel.cancelled.connect(lambda: self.cancelled.emit(panel.id))
+        view.scene.renderer.SetActiveCamera(self.camera)
+        panel.show_style(self._style)
+        return panel
+
+    def _begin(self, panel: DistancePanel, id: int) -> None:
+        """Let a panel be that of an id, without a field yet."""
+        panel.id = id
+        opened = self._session.opened()
+        panel.show_style(self._style)
+        if opened is not None:
+            panel.show_surface(opened)
+        panel.view.wheel_factor = self.wheel_factor
+        panel.show_isolines(self._session.document.isolines)
+        panel.show()
+
+    def show_style(self, style: Style) -> bool:
+        """Let all panels look like this; whether what they show has to be shown again."""
+        if self._is_closed:
+            return False  # the colours of the desktop have changed, or those of another window
+        self._style = style
+        changed = [panel.show_style(style) for panel in (*self.panels, *self._spare)]
+        return any(changed)
+
+    def show_surface(self) -> None:
+        """Another surface is there."""
+        for panel in self.panels:
+            panel.show_surface(self._session.opened())
+        self._pointed = None
+
+    def show_nothing(self) -> None:
+        """There is no surface."""
+        for panel in self.panels:
+            panel.rest()
+
+    def expect_sources(self, document: Document) -> None:
+        """Tell each panel where its field starts."""
+        for panel in document.panels:
+            opened = self._session.opened(panel.surface)
+            starts = [vertex_at(document.point(name).at, opened.surface) for name in panel.shows.points]
+            self._panels[panel.id].expect_source(starts[0] if starts else None)
+
+    def mark_anchors(self, document: Document) -> None:
+        """Put the anchors of each panel's surface where they are."""
+        for panel in document.panels:
+            opened = self._session.opened(panel.surface)
+            self._panels[panel.id].mark_anchors(anchors_on(document, panel.surface, opened))
+
+    def show_insets(self, document: Document) -> None:
+        """Enlarge the document's places in each panel."""
+        for panel in self.panels:
+            panel.show_insets(document.zooms)
+        self._settle_insets()
+
+    def _settle_insets(self) -> None:
+        for panel in self.panels if self._session.surface is not None else ():
+            panel.settle_insets()
+
+    @property
+    def _rise(self) -> float:
+        """How far up the panels' reliefs go; 0 if they are none."""
+        opened, height = self._session.opened(), self._session.document.height
+        return rise(opened.prepared.bounds, height) if height and opened and opened.prepared.is_flat else 0.0
+
+    def show_isolines(self, count: int) -> None:
+        for panel in self.panels:
+            panel.show_isolines(count)
+
+    # ------------------------------------------------------------------ answers
+    def show_answer(self, id: int) -> None:
+        """The answer that the session has now for a panel."""
+        document, shown = self._session.document, self._session.shown
+        for other in shown if document.shared_range else (id,):
+            if other in self._panels:
+                self._panels[other].show_answer(shown[other], self._maximum(other), document.height)
+        self._point_again()
+
+    def show_certificate(self, id: int) -> None:
+        self._panels[id].show_certificate(self._session.shown[id])
+
+    def _maximum(self, id: int) -> float | None:
+        """The end of a panel's colour bar; None for the field's own maximum."""
+        document, shown = self._session.document, self._session.shown
+        if not document.shared_range:
+            return document.panel(id).maximum
+        unit = shown[id].answer.unit
+        ends = [
+            document.panel(other).maximum or shown[other].answer.maximum
+            for other in shown
+            if shown[other].answer.unit == unit
+        ]
+        return max(ends)
+
+    # ------------------------------------------------------------------ the camera
+    def look(self, view: View) -> None:
+        """See the surface from a standard view, fitted closely, or as a camera saw it."""
+        self._fitted = self.panels[0].view.size() if self._panels else QtCore.QSize()
+        if isinstance(view, Camera):
+            show_camera(self.camera, view, self.aspect)
+        else:
+            points, up = self._session.opened().prepared.points, self._rise
+            if up:
+                signed = any(isinstance(panel.shows, Difference) for panel in self._session.document.panels)
+                down = np.array([0, 0, up if signed else 0])
+                points = np.concatenate([points - down, points + np.array([0, 0, up])])
+            place_camera(self.camera, points, self.aspect, "relief" if up and view == "home" else view)
+        self._settle_insets()
+        self.redraw()
+
+    def _looked(self) -> None:
+        """The user has moved the camera."""
+        if self._session.surface is not None:
+            self.redraw()
+            self.looked.emit(camera_seen(self.camera, self.aspect))
+
+    def _keep_in_view(self) -> None:
+        """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""
+        if self._session.surface is not None and self._panels and self.panels[0].view.size() != self._fitted:
+            self.look(self._session.document.camera)
+
+    def redraw(self) -> None:
+        """Draw each panel once more, when Qt paints next."""
+        for panel in self.panels:
+            panel.view.redraw()
+        self._point_again()
+
+    # ------------------------------------------------------------------ the pointer
+    def point_at(self, id: int, vertex: int | None) -> None:
+        """Mark a vertex in every panel, and show its values; id: the panel under the pointer."""
+        self._pointed = None if vertex is None else (id, vertex)
+        for other, panel in self._panels.items():
+            # Panels with the same shape show the same of it.
+            is_hidden = (
+                vertex is not None
+                and panel.positions is not self._panels[id].positions
+                and not panel.view.sees(panel.positions[vertex])
+            )
+            panel.point_at(vertex, other == id, is_hidden)
+
+    def _point_again(self) -> None:
+        """The field or the camera has changed under the pointer."""
+        QtCore.QTimer.singleShot(0, self._point_now)
+
+    def _point_now(self) -> None:
+        if self._pointed is not None and self._pointed[0] in self._panels:
+            id, vertex = self._pointed
+            self._panels[id].view.point_again()
+            if self._pointed == (id, vertex):
+                self.point_at(id, vertex)
+
+    # ------------------------------------------------------------------ the keys
+    def activate(self, id: int) -> None:
+        """Let a panel be the one that the keys and the menu Panels mean."""
+        if id != self.active:
+            self.active = id
+            self._show_active()
+            self.activated.emit(id)
+
+    def _show_active(self) -> None:
+        for id, panel in self._panels.items():
+            panel.show_active(id == self.active and len(self._panels) > 1)
+
+    def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
+        if event.type() == QtCore.QEvent.Type.FocusIn:
+            for id, panel in self._panels.items():
+                if panel.view is watched:
+                    self.activate(id)
+        if event.type() == QtCore.QEvent.Type.KeyPress and self.keys(event):
+            return True
+        return super().eventFilter(watched, event)
+
+    def turn_wheel(self, factor: float) -> None:
+        """-1 for a wheel that goes the other way."""
+        self.wheel_factor = factor
+        for panel in (*self.panels, *self._spare):
+            panel.view.wheel_factor = factor
+
+    def focus(self, step: int = 0) -> None:
+        """Give the keys to the active panel, or to another, so many steps on."""
+        ids = list(self._panels)
+        if ids:
+            place = ids.index(self.active) if self.active in ids else 0
+            self._panels[ids[(place + step) % len(ids)]].view.setFocus(QtCore.Qt.FocusReason.ShortcutFocusReason)
+
+    def close_views(self) -> None:
+        """For good: nothing is drawn from now on."""
+        self._is_closed = True
+        self.board.close()

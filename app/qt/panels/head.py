@@ -1,0 +1,302 @@
+"""The line over a panel: what it shows, the parameters, and the panel's own menu."""
+
+from collections.abc import Callable, Sequence
+from html import escape
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ...document.edits import PANEL_EDITS
+from ...document.quantities import Difference, DistanceFrom, OwnField, Quantity
+from ..look.icons import pixmap
+from ..look.look import LOOK
+from .flat_button import ICON_SIDE, FlatButton
+from .number_box import PopUp
+from .parameters import ChoiceControl, Control, FixedWord, NumberControl, parameter_control, signs
+from .quantity_menu import RAW_WORDS, Choices, fill_menu, part_name, quantity_name
+
+HEIGHT, COMPACT_HEIGHT = 36, 32
+
+SLIDERS_FROM, ALL_FROM, FIRST_FROM = 440, 300, 200
+"""Widths from which there are sliders and the button with remarks, all parameters, the first of them."""
+
+MARGIN, BETWEEN = 8, 4
+DOT, DOT_ROOM, WARNING_ROOM = 8, 18, 22
+
+EXACT = ("biharmonic", "commute-time")
+"""Distances of all eigenpairs, of which nothing can be left out."""
+
+
+class PanelHead(QtWidgets.QWidget):
+    """One line that says what a panel shows and changes it.
+
+    `changed(Quantity)` for each choice; `asked(str)`, a word of PANEL_EDITS; `clicked()` when it is pressed or
+    reached by keyboard.  With less room, words go into the menus; the name is cut last.
+    """
+
+    changed = QtCore.Signal(object)
+    asked = QtCore.Signal(str)
+    clicked = QtCore.Signal()
+
+    def __init__(self, shows: Quantity, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.shows = shows
+        self.controls: list[Control] = []
+        self._choices = Choices()
+        self._made_of: object = None
+        self._info, self._warning, self._curve = "", "", ""
+        # Panels are equally wide whatever is in here.
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
+        self.name = FlatButton(self, bold=True)
+        self.name.setMenu(self._menu(self._fill_name_menu))
+        self.warning = QtWidgets.QLabel(self)
+        self.warning.hide()
+        self.info = FlatButton(self, "info")
+        self.info.setAccessibleName("What to look for, and how exact it is")
+        self.info.opened.connect(lambda: self._open_info(self.info))
+        self.more = FlatButton(self, "more")
+        self.more.setToolTip("Add, duplicate, move or remove panels")
+        self.more.setAccessibleName("The panel: add, duplicate, move, remove")
+        self.more.setMenu(self._menu(None))
+        self._about = self.more.menu().addAction("What to look for …")
+        self._about.triggered.connect(lambda: QtCore.QTimer.singleShot(0, lambda: self._open_info(self.more)))
+        self._line_under_about = self.more.menu().addSeparator()
+        self.edits = {word: self.more.menu().addAction(word) for word in PANEL_EDITS}
+        for word, action in self.edits.items():
+            action.triggered.connect(lambda *_, word=word: self.asked.emit(word))
+        self._sheet = PopUp(self)
+        self._sheet_words = QtWidgets.QLabel(self._sheet)
+        self._sheet_words.setWordWrap(True)
+        self._sheet_words.setFixedWidth(280)
+        row = QtWidgets.QVBoxLayout(self._sheet)
+        row.setContentsMargins(12, 10, 12, 12)
+        row.addWidget(self._sheet_words)
+        for widget in (self.name, self.info, self.more):
+            widget.installEventFilter(self)
+        self.set_compact(False)
+        LOOK.changed.connect(self._restyle)
+        self.show_quantity(shows)
+        self.show_info("")
+        self.show_warning("")
+
+    # ------------------------------------------------------------------ what is told
+    def show_quantity(self, shows: Quantity, fields: Sequence[str] | None = None) -> None:
+        """Say what is shown, without emitting.  fields: the user's own that are there to choose."""
+        self.shows = shows
+        if fields is not None:
+            self._choices.fields = tuple(fields)
+        self._choices.keep(shows)
+        made_of = (type(shows), *(part.word for part in shows.parts))
+        # Controls that fit stay, as a hand may be on one of them.
+        if made_of != self._made_of:
+            self._made_of = made_of
+            self._make_controls()
+        name = quantity_name(shows)
+        self.name.setText(name)
+        self._show_values()
+        self.name.setToolTip(f"{name}\nClick to show something else here")
+        self.name.setAccessibleName(f"Shown here: {name}")
+        self.show_info(self._info)
+
+    def allow(self, words: set[str]) -> None:
+        """Which of the panel's edits are possible."""
+        for word, action in self.edits.items():
+            action.setEnabled(word in words)
+
+    def show_info(self, text: str) -> None:
+        """What to look for, the accuracy and remarks, as rich text; empty for the hint alone."""
+        self._info = text
+        hint = self.shows.hint
+        said = text or f"{escape(hint[:1].upper() + hint[1:])}."
+        if self._warning:
+            said += f"<p>{escape(self._warning)}</p>"
+        # A plain sentence on one line would become a tip as wide as the screen.
+        self.info.setToolTip(f"<qt>{said}</qt>")
+        self._said = said  # laid out when somebody wants to read it
+
+    def show_warning(self, text: str) -> None:
+        """That the answer is poor, and why; empty for one that is not."""
+        if text == self._warning:
+            return
+        self._warning = text
+        self.warning.setToolTip(text)
+        self.warning.setAccessibleName(text)
+        self.show_info(self._info)
+        self._restyle()
+
+    def show_curve(self, colour: str | None) -> None:
+        """The colour, #rrggbb, that this panel has in a plot; None where there is no plot."""
+        self._curve = colour or ""
+        self._restyle()
+
+    def set_compact(self, compact: bool) -> None:
+        """Lower, for a panel with little height."""
+        self._is_compact = compact
+        self.setFixedHeight(round((COMPACT_HEIGHT if compact else HEIGHT) * LOOK.scale))
+
+    # ------------------------------------------------------------------ choices
+    def _choose(self, shows: Quantity) -> None:
+        if shows != self.shows:
+            self.show_quantity(shows)
+            self.changed.emit(shows)
+
+    def _set(self, place: int, name: str, value: object) -> None:
+        spec = self.shows.parts[place].spec.changed(**{name: value})
+        self._choose(self._choices.with_part(self.shows, place, spec))
+
+    def _menu(self, fill: Callable[[QtWidgets.QMenu], None] | None) -> QtWidgets.QMenu:
+        menu = QtWidgets.QMenu(self)
+        menu.setToolTipsVisible(True)
+        if fill is not None:
+            menu.aboutToShow.connect(lambda: fill(menu))
+        return menu
+
+    def _fill_name_menu(self, menu: QtWidgets.QMenu) -> None:
+        fill_menu(menu, self.shows, self._choices, self._choose)
+        # How a difference is taken stands in this menu anyway.
+        hidden = [c for c in self.controls if not c.isVisibleTo(self) and c is not self._mode]
+        if any(not isinstance(control, FixedWord) for control in hidden):
+            menu.addSeparator()
+        for control in hidden:
+            control.add_to(menu)
+
+    def _open_info(self, control: QtWidgets.QWidget) -> None:
+        self._sheet_words.setText(self._said)
+        self._sheet.open_under(control)
+
+    # ------------------------------------------------------------------ parameters
+    def _make_controls(self) -> None:
+        for control in self.controls:
+            control.hide()
+            control.deleteLater()
+        parts = [part for part in self.shows.parts if isinstance(part, DistanceFrom)]
+        signed = iter(signs([p for part in parts for p in part.spec.kind.parameters]))
+        self._mode: ChoiceControl | None = None
+        self._of_parameter: dict[tuple[int, str], Control] = {}
+        is_difference = isinstance(self.shows, Difference)
+        for place, part in enumerate(self.shows.parts):
+            for parameter in () if isinstance(part, OwnField) else part.spec.kind.parameters:
+                of_what = f" ({('first', 'second')[place]}: {part_name(part)})" if is_difference else ""
+                control = parameter_control(self, parameter, next(signed), of_what)
+                control.chosen.connect(lambda value, of=(place, parameter.name): self._set(*of, value))
+                self._of_parameter[place, parameter.name] = control
+        self.controls = list(self._of_parameter.values())
+        if is_difference:
+            self._mode = ChoiceControl(self, RAW_WORDS, "How the two are subtracted")
+            self._mode.chosen.connect(
+                lambda raw: self._choose(Difference(self.shows.minuend, self.shows.subtrahend, raw))
+            )
+            self.controls.append(self._mode)
+        elif not self.controls and self.shows.word in EXACT:
+            self.controls.append(FixedWord(self, "exact", "Of all eigenpairs; there is nothing to choose"))
+        order = [self.name]
+        for control in self.controls:
+            inside = [control.slider, control.button] if isinstance(control, NumberControl) else [control]
+            order += [each for each in inside if not isinstance(control, FixedWord)]
+            for each in inside:
+                each.installEventFilter(self)
+        for before, after in zip(order, [*order[1:], self.info], strict=True):
+            self.setTabOrder(before, after)
+        self.setTabOrder(self.info, self.more)
+
+    def _show_values(self) -> None:
+        for (place, name), control in self._of_parameter.items():
+            control.show_value(self.shows.parts[place].spec[name])
+        if self._mode is not None:
+            self._mode.show_value(self.shows.raw)
+        self._lay_out()
+
+    # ------------------------------------------------------------------ where things are
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(2 * MARGIN + 2 * ICON_SIDE, self.height())
+
+    sizeHint = minimumSizeHint
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._lay_out()
+
+    def _restyle(self) -> None:
+        """Colours, letters or marks are others."""
+        self.warning.setPixmap(pixmap("warning", LOOK.theme.warning, self.devicePixelRatioF(), 16))
+        for control in self.controls:
+            if isinstance(control, NumberControl):
+                control.show_value(control.value)
+        self.set_compact(self._is_compact)
+        self._lay_out()
+        self.update()
+
+    def _lay_out(self) -> None:
+        """From the left dot, name, warning, parameters; from the right the two buttons."""
+        controls = [c for c in self.controls if not (self._warning and isinstance(c, FixedWord))]
+        left = MARGIN + (DOT_ROOM if self._curve else 0)
+        right = self.width() - MARGIN - ICON_SIDE
+        self.more.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)
+        name = self.name.sizeHint().width()
+        warning = WARNING_ROOM if self._warning else 0
+        shown, sliders, has_info = self._fitting(controls, right - left - name - warning)
+        if has_info:
+            right -= ICON_SIDE
+            self.info.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)
+        self.info.setVisible(has_info)
+        self._about.setVisible(not has_info)
+        self._line_under_about.setVisible(not has_info)
+        taken = sum(BETWEEN + control.least(sliders) for control in shown)
+        name = max(min(name, right - left - warning - taken), 0)
+        self.name.setGeometry(left, self._top(self.name.sizeHint().height()), name, self.name.sizeHint().height())
+        left += name
+        self.warning.setVisible(bool(self._warning))
+        if self._warning:
+            self.warning.setGeometry(left + 3, self._top(16), 16, 16)
+            left += warning
+        for control in self.controls:
+            if control not in shown:
+                control.hide()
+        spare = right - left - taken
+        for control in shown:
+            control.show_slider(sliders)
+            more = min(control.most(sliders) - control.least(sliders), max(spare, 0))
+            width, height = control.least(sliders) + more, self.name.sizeHint().height()
+            control.setGeometry(left + BETWEEN, self._top(height), width, height)
+            control.show()
+            left, spare = left + BETWEEN + width, spare - more
+
+    def _fitting(self, controls: list[Control], room: int) -> tuple[list[Control], bool, bool]:
+        """Which of the controls there is room for, whether with sliders, and whether beside the button with remarks."""
+        wide = self.width()
+        most = len(controls) if wide >= ALL_FROM else 1 if wide >= FIRST_FROM else 0
+        plans = [(most, True, True)] if wide >= SLIDERS_FROM else []
+        # The button goes before the parameters, since its words stand in the menu beside it, too.
+        for count in range(min(most, len(controls)), -1, -1):
+            plans += [(count, False, has_info) for has_info in ((True, False) if wide >= SLIDERS_FROM else (False,))]
+        for count, sliders, has_info in plans:
+            taken = sum(BETWEEN + control.least(sliders) for control in controls[:count])
+            if taken + (ICON_SIDE if has_info else 0) <= room:
+                return controls[:count], sliders, has_info
+        return [], False, False
+
+    def _top(self, height: int) -> int:
+        return (self.height() - height) // 2
+
+    # ------------------------------------------------------------------ events
+    def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
+        reasons = QtCore.Qt.FocusReason
+        pressed = event.type() == QtCore.QEvent.Type.MouseButtonPress
+        reached = event.type() == QtCore.QEvent.Type.FocusIn and event.reason() in (
+            reasons.TabFocusReason,
+            reasons.BacktabFocusReason,
+        )
+        if pressed or reached:
+            self.clicked.emit()
+        return super().eventFilter(watched, event)
+
+    def mousePressEvent(self, event: QtGui.QMouseEvent) -> None:
+        self.clicked.emit()
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter = QtGui.QPainter(self)
+        painter.fillRect(self.rect(), QtGui.QColor(LOOK.theme.canvas))
+        if self._curve:
+            painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+            painter.setPen(QtCore.Qt.PenStyle.NoPen)
+            painter.setBrush(QtGui.QColor(self._curve))
+            painter.drawEllipse(QtCore.QRectF(MARGIN + 6, (self.height() - DOT) / 2, DOT, DOT))

@@ -1,0 +1,241 @@
+"""One number to be set: a slider, and a pop-up with a slider and a box for the exact value."""
+
+from math import exp, log
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import ParameterError
+from bihdist_core.distances.kinds import Parameter
+
+from ..look.look import LOOK
+from ..look.numbers import MINUS, number
+from .flat_button import paint_ring
+
+STEPS = 240
+"""Positions of a slider, in equal steps of the parameter, or of its logarithm."""
+
+SYMBOLS = {"alpha": "α"}
+
+
+def value_of_step(parameter: Parameter, step: int) -> float:
+    """The value at a slider position; one of the marks where it is within half a step."""
+    for mark in parameter.marks:
+        if step_of_value(parameter, mark) == step:
+            return mark
+    low, high = _ends(parameter)
+    value = low + (high - low) * step / STEPS
+    value = exp(value) if parameter.logarithmic else value
+    return round(value) if parameter.is_whole else float(f"{value:.3g}")
+
+
+def step_of_value(parameter: Parameter, value: float) -> int:
+    """The slider position of a value; outside of 0 to STEPS for what no slider offers."""
+    low, high = _ends(parameter)
+    if parameter.logarithmic and value <= 0:
+        return 0
+    return round(STEPS * ((log(value) if parameter.logarithmic else value) - low) / (high - low))
+
+
+def _ends(parameter: Parameter) -> tuple[float, float]:
+    low, high = parameter.shown
+    return (log(low), log(high)) if parameter.logarithmic else (low, high)
+
+
+def symbol(parameter: Parameter) -> str:
+    return SYMBOLS.get(parameter.name, parameter.name)
+
+
+def meaning(parameter: Parameter) -> str:
+    """As a sentence begins."""
+    return f"{parameter.meaning[:1].upper()}{parameter.meaning[1:]}"
+
+
+def shown_value(parameter: Parameter, value: float | int | str) -> str:
+    """As it stands in the head: a mark as a fraction, else three digits, or four where three do not say it."""
+    if isinstance(value, str):
+        return value
+    if parameter.is_whole:
+        return f"{value:,}".replace("-", MINUS)
+    written = parameter.written(value)
+    if value in parameter.marks and "/" in written:
+        return written
+    text = number(value)
+    is_short = "." in text and "e" not in text and float(f"{value:.3g}") == value
+    return text[:-1].rstrip(".") if is_short and text.endswith("0") else text
+
+
+class ValueSlider(QtWidgets.QSlider):
+    """A parameter on a slider; `chosen(value)` by the user.
+
+    A whole number, which counts what has to be computed, is chosen when the slider is let go.
+    """
+
+    chosen = QtCore.Signal(object)
+
+    def __init__(self, parameter: Parameter, parent: QtWidgets.QWidget) -> None:
+        super().__init__(QtCore.Qt.Orientation.Horizontal, parent)
+        self.parameter = parameter
+        self.setRange(0, STEPS)
+        self.setPageStep(STEPS // 10)
+        self.setTracking(not parameter.is_whole)
+        # A wheel that scrolls past must not change what is shown.
+        self.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
+        self.setToolTip(meaning(parameter))
+        self.setAccessibleName(meaning(parameter))
+        self.valueChanged.connect(lambda step: self.chosen.emit(value_of_step(parameter, step)))
+        self._by_keyboard = False
+        LOOK.changed.connect(self.update)
+
+    def show_value(self, value: float) -> None:
+        """Without emitting, and not under the user's hand."""
+        if not self.isSliderDown():
+            with QtCore.QSignalBlocker(self):
+                self.setValue(min(max(step_of_value(self.parameter, value), 0), STEPS))
+
+    def wheelEvent(self, event: QtGui.QWheelEvent) -> None:
+        if self.hasFocus():
+            super().wheelEvent(event)
+        else:
+            event.ignore()
+
+    def focusInEvent(self, event: QtGui.QFocusEvent) -> None:
+        self._by_keyboard = event.reason() != QtCore.Qt.FocusReason.MouseFocusReason
+        super().focusInEvent(event)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        super().paintEvent(event)
+        if self._by_keyboard and self.hasFocus():
+            painter = QtGui.QPainter(self)
+            painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+            paint_ring(painter, QtCore.QRectF(self.rect()))
+
+
+class ExactBox(QtWidgets.QLineEdit):
+    """A line to type in that leaves the window's own shortcuts to the window."""
+
+    def event(self, event: QtCore.QEvent) -> bool:
+        if event.type() == QtCore.QEvent.Type.ShortcutOverride and not self._edits(event):
+            event.ignore()
+            return True
+        return super().event(event)
+
+    def _edits(self, event: QtGui.QKeyEvent) -> bool:
+        """Whether a key is for the text rather than for the window."""
+        modifier, keys = QtCore.Qt.KeyboardModifier, QtGui.QKeySequence.StandardKey
+        if not event.modifiers() & (modifier.ControlModifier | modifier.AltModifier | modifier.MetaModifier):
+            return True
+        if event.matches(keys.Undo):
+            return self.isUndoAvailable()
+        if event.matches(keys.Redo):
+            return self.isRedoAvailable()
+        always = (keys.SelectAll, keys.Copy, keys.Cut, keys.Paste)
+        moves = (keys.MoveToNextWord, keys.MoveToPreviousWord, keys.SelectNextWord, keys.SelectPreviousWord)
+        deletes = (keys.DeleteStartOfWord, keys.DeleteEndOfWord)
+        return any(event.matches(key) for key in (*always, *moves, *deletes))
+
+
+class PopUp(QtWidgets.QFrame):
+    """A small sheet under a control, gone at a click beside it or Esc."""
+
+    closed = QtCore.Signal()
+
+    def __init__(self, parent: QtWidgets.QWidget, objectName: str = "popUp") -> None:
+        super().__init__(parent, QtCore.Qt.WindowType.Popup | QtCore.Qt.WindowType.FramelessWindowHint)
+        self.setObjectName(objectName)
+        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
+        # The click that closes it does not also press what is under it, which might open it again.
+        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_NoMouseReplay)
+
+    def open_under(self, control: QtWidgets.QWidget) -> None:
+        """Below a control, on the screen."""
+        self.setFont(LOOK.font())
+        self.adjustSize()
+        place = control.mapToGlobal(QtCore.QPoint(0, control.height() + 2))
+        screen = control.screen().availableGeometry() if control.screen() else QtCore.QRect(place, self.size())
+        place.setX(max(screen.left(), min(place.x(), screen.right() - self.width())))
+        if place.y() + self.height() > screen.bottom():
+            place.setY(control.mapToGlobal(QtCore.QPoint(0, 0)).y() - self.height() - 2)
+        self.move(place)
+        self.show()
+
+    def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
+        if event.key() == QtCore.Qt.Key.Key_Escape:
+            self.close()
+        else:
+            super().keyPressEvent(event)
+
+    def hideEvent(self, event: QtGui.QHideEvent) -> None:
+        super().hideEvent(event)
+        self.closed.emit()
+
+
+class NumberPopUp(PopUp):
+    """The slider and the box of one number; `chosen(value)` by the user."""
+
+    chosen = QtCore.Signal(object)
+
+    def __init__(self, parameter: Parameter, parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent)
+        self.parameter = parameter
+        self._value: float = 0.0
+        self.slider = ValueSlider(parameter, self)
+        self.slider.setMinimumWidth(150)
+        self.slider.sliderMoved.connect(lambda step: self._write(value_of_step(parameter, step)))
+        self.slider.chosen.connect(self.chosen)
+        self.box = ExactBox(self)
+        self.box.setFixedWidth(76)
+        self.box.setAccessibleName(f"{meaning(parameter)}, the exact value")
+        self.box.setToolTip(f"{symbol(parameter)}: any number above {parameter.above:g}; Enter sets it")
+        self.box.returnPressed.connect(self._typed)
+        self.box.textEdited.connect(lambda: self._complain(""))
+        self.words = QtWidgets.QLabel(meaning(parameter), self)
+        self.words.setProperty("quiet", True)
+        self.complaint = QtWidgets.QLabel("", self)
+        self.complaint.setProperty("error", True)
+        self.complaint.setWordWrap(True)
+        self.complaint.hide()
+        grid = QtWidgets.QGridLayout(self)
+        grid.setContentsMargins(12, 10, 12, 12)
+        grid.setHorizontalSpacing(12)
+        grid.setVerticalSpacing(8)
+        grid.addWidget(self.words, 0, 0, 1, 2)
+        grid.addWidget(self.slider, 1, 0)
+        grid.addWidget(self.box, 1, 1)
+        grid.addWidget(self.complaint, 2, 0, 1, 2)
+
+    def show_value(self, value: float) -> None:
+        """Without emitting; what is being typed stays."""
+        self._value = value
+        self.slider.show_value(value)
+        if not (self.isVisible() and self.box.isModified()):
+            self._write(value)
+
+    def open_under(self, control: QtWidgets.QWidget) -> None:
+        self._write(self._value)
+        super().open_under(control)
+        self.box.setFocus(QtCore.Qt.FocusReason.PopupFocusReason)
+        self.box.selectAll()
+
+    def _write(self, value: float) -> None:
+        self.box.setText(self.parameter.written(value))
+        self._complain("")
+
+    def _typed(self) -> None:
+        try:
+            value = self.parameter.parsed(self.box.text().strip().replace(MINUS, "-"))
+        except ParameterError as error:
+            self._complain(str(error))
+            return
+        self.box.setModified(False)
+        self.close()
+        if value != self._value:
+            self.chosen.emit(value)
+
+    def _complain(self, text: str) -> None:
+        if text != self.complaint.text():
+            self.complaint.setText(text)
+            self.complaint.setVisible(bool(text))
+            self.box.setProperty("wrong", bool(text))
+            self.box.style().unpolish(self.box)
+            self.box.style().polish(self.box)
+            self.adjustSize()

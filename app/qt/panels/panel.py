@@ -1,0 +1,315 @@
+"""One panel: its head, its view, and its colour bar.  Gestures become signals; it decides nothing."""
+
+from collections.abc import Sequence
+from html import escape
+
+import numpy as np
+from qtpy import QtCore, QtGui, QtWidgets
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from bihdist_core import Surface
+from bihdist_core.distances.answers import Answer
+
+from ...document.document import COMPARISON, Zoom
+from ...document.quantities import Difference, DistanceFrom
+from ...drawing.board import Board
+from ...drawing.field_actor import drawable
+from ...drawing.picking import Met, Picker
+from ...drawing.relief import relief, rise
+from ...drawing.style import Style
+from ...session.anchors import anchor_value
+from ...session.answering import Shown
+from ...session.opened import Opened
+from ..look.look import LOOK
+from ..look.numbers import number, share
+from .colour_bar import ColourBar
+from .head import PanelHead
+from .view import Pointed, View
+from .waiting import Waiting
+
+COMPACT_BELOW = 360
+"""Logical pixels of a panel's height under which its head and its bar are lower."""
+
+ACCENT = 2
+"""Height of the line over the panel that the keys go to."""
+
+NOT_CONNECTED, UNDEFINED = "not connected to the source", "undefined here"
+
+
+class DistancePanel(QtWidgets.QWidget):
+    """See the module.  id: that of the document's panel."""
+
+    cancelled = QtCore.Signal()
+
+    def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.id = -1
+        self.head = PanelHead(DistanceFrom(COMPARISON[0]), self)
+        self.view = View(board, self)
+        self.bar = ColourBar(self)
+        self.waiting = Waiting(self.view)
+        self.waiting.cancelled.connect(self.cancelled)
+        self._accent = QtWidgets.QWidget(self)
+        self._accent.setAttribute(QtCore.Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        layout = QtWidgets.QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.head)
+        layout.addWidget(self.view, 1)
+        layout.addWidget(self.bar)
+        self.view.resized.connect(lambda: self.waiting.fit(self.view.width()))
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Ignored)
+        self._opened: Opened | None = None
+        self._shape: Surface | None = None
+        self._raised: tuple[int, float, float] | None = None  # the field, its top, and the height
+        self._positions = np.empty((0, 3))
+        self._source: int | None = None
+        self._zooms: tuple[Zoom, ...] = ()
+        self._anchors: Sequence[tuple[int, float | None]] = ()
+        self.answer: Answer | None = None
+        self._is_preview = self._is_waiting = False
+        self._paint_accent(False)
+
+    # ------------------------------------------------------------------ how it looks
+    def show_style(self, style: Style) -> bool:
+        """Whether that is another look, so that all has to be shown again."""
+        return self.view.show_style(style)
+
+    def show_active(self, is_active: bool) -> None:
+        """Whether this is the panel that the keys go to."""
+        self._paint_accent(is_active)
+
+    def _paint_accent(self, is_active: bool) -> None:
+        self._accent.setVisible(is_active)
+        self._accent.setStyleSheet(f"background: {LOOK.theme.accent}")
+        self._accent.raise_()
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        is_compact = self.height() < COMPACT_BELOW * LOOK.scale
+        self.head.set_compact(is_compact)
+        self.bar.set_compact(is_compact)
+        self._accent.setGeometry(0, 0, self.width(), ACCENT)
+
+    def rest(self) -> None:
+        """Show nothing, and keep nothing of what was shown."""
+        self._opened = self.answer = self._source = self._shape = self._raised = None
+        self._positions = np.empty((0, 3))
+        self._anchors, self._zooms = (), ()
+        self.view.picker = self.view.source = None
+        self.view.scene.show_surface(vtkPolyData(), (0, 1, 0, 1, 0, 1))
+        self.view.show_empty(True)
+        self.bar.clear()
+        self.head.show_warning("")
+        self.show_waiting(None)
+
+    # ------------------------------------------------------------------ state into pixels
+    def show_surface(self, opened: Opened) -> None:
+        """Another surface, without a field yet."""
+        self.rest()
+        self._opened, self._positions = opened, opened.surface.vertices
+        self.view.picker = opened.prepared.picker
+        self.view.scene.show_surface(opened.prepared.mesh, opened.prepared.bounds)
+        self.view.scene.show_bare()
+        self.view.show_empty(False)
+
+    def expect_source(self, vertex: int | None) -> None:
+        """Where the field starts, None for one that starts nowhere; marked once that field is there."""
+        self._source = vertex
+
+    def mark_source(self) -> None:
+        """Put the mark where the field starts."""
+        self.view.source = self._position(self._source)
+        self.view.scene.mark_source(self.view.source)
+        self.view.redraw()
+
+    def show_insets(self, zooms: tuple[Zoom, ...]) -> None:
+        """Enlarge these places."""
+        self._zooms = zooms
+        self.view.scene.insets.show(zooms, self._positions)
+        self.view.redraw()
+
+    def settle_insets(self) -> None:
+        """Put the insets where they hide the least."""
+        if self._opened is not None and self._zooms:
+            samples = self._opened.prepared.samples if self._raised is None else self._positions
+            self.view.scene.insets.settle(samples)
+
+    def show_isolines(self, count: int) -> None:
+        self.view.scene.show_isolines(count)
+        self._show_bar()
+        self.view.redraw()
+
+    def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
+        """Vertices with a value each; without one it is the field's own."""
+        self._anchors = anchors
+        values = [anchor_value(value, vertex, self.answer) for vertex, value in anchors]
+        self.view.scene.mark_anchors(self._positions[[vertex for vertex, _ in anchors]], values)
+        self.view.redraw()
+
+    @property
+    def source(self) -> int | None:
+        """Where its field starts."""
+        return self._source
+
+    @property
+    def positions(self) -> np.ndarray:
+        """(n, 3) where the vertices are drawn."""
+        return self._positions
+
+    def _position(self, vertex: int | None) -> np.ndarray | None:
+        return None if vertex is None else self._positions[vertex]
+
+    # ------------------------------------------------------------------ answers
+    def show_answer(self, shown: Shown, maximum: float | None = None, height: float = 0.0) -> None:
+        """A field with its colour bar up to `maximum`, its own if None; or why there is none.
+
+        height: of the relief that a flat surface becomes.
+        """
+        self.answer = answer = shown.answer
+        self._raise(answer, maximum or answer.maximum, height)
+        if answer.field is None:
+            self.view.scene.show_bare()
+        else:
+            self.view.scene.show_field(answer.field, maximum, answer.is_signed)
+        self.mark_source()
+        self.mark_anchors(self._anchors)
+        self.view.scene.mark_largest(self._position(answer.largest))
+        self.show_waiting(None)
+        self.show_certificate(shown)
+        self._show_bar()
+
+    def _show_bar(self) -> None:
+        answer, scene = self.answer, self.view.scene
+        if answer is None or answer.field is None or self._is_waiting:
+            self.bar.clear()
+            return
+        top, style = scene.maximum, scene.style
+        self.bar.show_range(
+            style.colours(signed=answer.is_signed),
+            -top if answer.is_signed else 0.0,
+            top,
+            scene.isolines,
+            answer.unit,
+            answer.is_signed,
+            style.line(answer.is_signed),
+            maximum=answer.maximum,
+        )
+        self.bar.show_shares(not answer.is_signed)
+        if answer.largest is not None:
+            value = float(answer.field[answer.largest])
+            self.bar.show_note(f"largest {number(value, signed=True)} at vertex {answer.largest}")
+        else:
+            self.bar.show_note("")
+
+    def _raise(self, answer: Answer, top: float, height: float) -> None:
+        """Let the surface be a relief of the answer, or flat again."""
+        prepared, surface = self._opened.prepared, self._opened.surface
+        is_relief = bool(height) and answer.field is not None and prepared.is_flat
+        raised = (id(answer.field), top, height) if is_relief else None
+        if raised == self._raised:
+            return
+        self._raised = raised
+        bounds = prepared.bounds
+        if is_relief:
+            up = rise(bounds, height)
+            surface = relief(surface, answer.field, top, up)
+            *others, low, high = bounds
+            bounds = (*others, low - up, high + up)
+        # Of a relief it is made when somebody points at it.
+        self.view.picker = LatePicker(surface) if is_relief else prepared.picker
+        self._positions = surface.vertices
+        self.view.scene.show_shape(drawable(surface) if is_relief else prepared.mesh, bounds)
+        self.show_insets(self._zooms)
+        self.settle_insets()
+
+    def show_certificate(self, shown: Shown) -> None:
+        """How accurate the field is."""
+        self.answer, self._is_preview = shown.answer, shown.is_preview
+        accuracy = shown.answer.accuracy
+        self.head.show_warning(f"Not exact here: only {accuracy.text}." if accuracy.is_poor else "")
+        said = [shown.answer.label, self.head.shows.hint, accuracy.text]
+        self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in said if text))
+
+    def show_waiting(self, progress: tuple[float, str] | None, is_old: bool = True) -> None:
+        """What is being computed; None when nothing is.  is_old: the field that is shown is not what is asked for."""
+        is_waiting = progress is not None and is_old
+        changes = is_waiting != self._is_waiting
+        self._is_waiting = is_waiting
+        self.view.dim(is_waiting)
+        # Why there is no field is not said of one that is on its way.
+        self.view.say("" if is_waiting or self.answer is None else self.answer.failure)
+        if progress is None:
+            self.waiting.hide()
+        else:
+            self.waiting.show_progress(*progress)
+        if changes and is_waiting:
+            # It takes a while: let the place be seen meanwhile.
+            self.mark_source()
+        if changes:
+            self._show_bar()
+
+    def show_stopped(self) -> None:
+        """The user has stopped it."""
+        self.show_waiting(None)
+        self._is_waiting = True
+        self.view.dim(True)
+        self.view.say("Stopped. Click a point to ask again.")
+        self._show_bar()
+
+    # ------------------------------------------------------------------ the pointer
+    def point_at(self, vertex: int | None, is_own: bool, is_hidden: bool = False) -> None:
+        """Put the ring at a vertex, and its value into the bar and, under the pointer, beside it."""
+        words = self._words_of(vertex)
+        if vertex is None or self._opened is None:
+            self.view.point_at(None)
+        else:
+            value, part = words if is_own else ("", "")
+            self.view.point_at(Pointed(self._positions[vertex], is_own, is_hidden, value, part))
+        answer = self.answer
+        if vertex is None or answer is None or answer.field is None or self._is_waiting:
+            self.bar.show_value(None)
+        elif np.isnan(answer.field[vertex]):
+            self.bar.show_words(words[0])
+        else:
+            self.bar.show_value(float(answer.field[vertex]))
+
+    def _words_of(self, vertex: int | None) -> tuple[str, str]:
+        """A vertex' value and its share of the maximum."""
+        answer = self.answer
+        if vertex is None or answer is None or answer.field is None or self._is_waiting:
+            return "", ""
+        value = float(answer.field[vertex])
+        if np.isnan(value):
+            return (NOT_CONNECTED if self.head.shows.points else UNDEFINED), ""
+        if answer.is_signed:
+            return number(value, signed=True), ""
+        return number(value), share(value / answer.maximum) if answer.maximum > 0 else ""
+
+    def said_of(self, vertex: int) -> str:
+        """Its value in words, for the clipboard."""
+        value, part = self._words_of(vertex)
+        unit = self.answer.unit if self.answer is not None else ""
+        name = self.answer.label if self.answer is not None else ""
+        is_difference = isinstance(self.head.shows, Difference)
+        return f"{name}: {value} {unit}{f' ({part})' if part and not is_difference else ''}".strip()
+
+
+class LatePicker:
+    """A picker that is made when it is needed."""
+
+    def __init__(self, surface: Surface) -> None:
+        self._surface = surface
+        self._made: Picker | None = None
+
+    @property
+    def _picker(self) -> Picker:
+        if self._made is None:
+            self._made = Picker(self._surface)
+        return self._made
+
+    def met_at(self, *where: object) -> Met | None:
+        return self._picker.met_at(*where)
+
+    def sees(self, *where: object) -> bool:
+        return self._picker.sees(*where)

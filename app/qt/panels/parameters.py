@@ -1,0 +1,227 @@
+"""The parameters in a panel's head: a word with its menu, or a number with its slider or its pop-up."""
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core.distances.kinds import Parameter, Value
+
+from ..look.icons import icon
+from ..look.look import LOOK
+from ..look.numbers import number_width
+from .flat_button import GAP, HEIGHT, PAD, FlatButton
+from .number_box import STEPS, NumberPopUp, ValueSlider, meaning, shown_value, symbol, value_of_step
+
+SLIDER_MOST, SLIDER_LEAST = 88, 72
+"""Pixels of a slider in the head; where there is less room it is in the pop-up."""
+
+
+class ChoiceControl(FlatButton):
+    """Some words of which one holds; `chosen(word)` by the user.  words: as they are given, to how they are shown."""
+
+    chosen = QtCore.Signal(object)
+
+    def __init__(self, parent: QtWidgets.QWidget, words: dict[Value, str], tip: str) -> None:
+        super().__init__(parent, quiet=True)
+        self.words, self.tip = words, tip
+        self.value: Value = next(iter(words))
+        menu = QtWidgets.QMenu(self)
+        menu.aboutToShow.connect(lambda: fill_choices(menu, words, self.value, self._choose))
+        self.setMenu(menu)
+
+    def show_value(self, value: Value) -> None:
+        """Without emitting."""
+        self.value = value
+        self.setText(self.words.get(value, str(value)))
+        self.setToolTip(self.tip)
+        self.setAccessibleName(f"{self.tip}: {self.text()}")
+
+    def least(self, with_slider: bool) -> int:
+        """Pixels that it needs."""
+        return self.sizeHint().width()
+
+    most = least
+
+    def show_slider(self, shown: bool) -> None:
+        """There is none."""
+
+    def add_to(self, menu: QtWidgets.QMenu) -> None:
+        """Offer the same in another menu."""
+        inner = menu.addMenu(f"{self.tip.partition(';')[0]}: {self.text()}")
+        fill_choices(inner, self.words, self.value, self._choose)
+
+    def _choose(self, value: Value) -> None:
+        if value != self.value:
+            self.show_value(value)
+            self.chosen.emit(value)
+
+
+class NumberControl(QtWidgets.QWidget):
+    """A number: symbol, slider and value in a row, or symbol and value over a pop-up; `chosen(value)` by the user."""
+
+    chosen = QtCore.Signal(object)
+
+    def __init__(self, parent: QtWidgets.QWidget, parameter: Parameter, sign: str = "", tip: str = "") -> None:
+        super().__init__(parent)
+        self.parameter = parameter
+        self.sign, self.tip = sign or symbol(parameter), tip or meaning(parameter)
+        self.value: Value = parameter.default
+        self._has_slider = False
+        # How many of something is typed; a slider for it is in the pop-up.
+        self._may_have_slider = not parameter.is_whole
+        self.slider = ValueSlider(parameter, self)
+        self.slider.setToolTip(self.tip)
+        self.slider.setAccessibleName(self.tip)
+        self.slider.chosen.connect(self._choose)
+        self.button = FlatButton(self)
+        self.button.opened.connect(lambda: self.open_under(self))
+        self.pop_up = NumberPopUp(parameter, self)
+        self.pop_up.chosen.connect(self._choose)
+        self.show_slider(False)
+
+    def show_value(self, value: Value) -> None:
+        """Without emitting."""
+        self.value = value
+        self.slider.show_value(value)
+        self.pop_up.show_value(value)
+        self.button.setText(shown_value(self.parameter, value))
+        self.button.setToolTip(f"{self.tip}: {self.parameter.written(value)}\nClick to type a value")
+        self.button.setAccessibleName(f"{self.tip}: {self.parameter.written(value)}")
+
+    def show_slider(self, shown: bool) -> None:
+        self._has_slider = shown and self._may_have_slider
+        self.slider.setVisible(self._has_slider)
+        self.button.symbol = "" if self._has_slider else self.sign
+        # In a row the value looks like what it is; alone it shows that there is more.
+        self.button.has_arrow = not shown
+        self._lay_out()
+
+    def least(self, with_slider: bool) -> int:
+        """Pixels that it needs."""
+        return self._needed(with_slider, SLIDER_LEAST)
+
+    def most(self, with_slider: bool) -> int:
+        """Pixels that it can use."""
+        return self._needed(with_slider, SLIDER_MOST)
+
+    def open_under(self, control: QtWidgets.QWidget) -> None:
+        self.pop_up.open_under(control)
+
+    def add_to(self, menu: QtWidgets.QMenu) -> None:
+        """Offer the same in another menu."""
+        action = menu.addAction(f"{self.tip}: {shown_value(self.parameter, self.value)} …")
+        # After the menu has given back mouse and keys.
+        action.triggered.connect(lambda: QtCore.QTimer.singleShot(0, lambda: self.open_under(self.parentWidget())))
+
+    def _choose(self, value: Value) -> None:
+        self.show_value(value)
+        self.chosen.emit(value)
+
+    def _needed(self, with_slider: bool, slider: int) -> int:
+        if with_slider and self._may_have_slider:
+            return self._sign_width() + slider + self._value_width()
+        shown = self.button.symbol, self.button.has_arrow
+        self.button.symbol, self.button.has_arrow = self.sign, not with_slider
+        width = self.button.sizeHint().width()
+        self.button.symbol, self.button.has_arrow = shown
+        return width
+
+    def _sign_width(self) -> int:
+        return round(PAD + number_width(LOOK.font(), self.sign) + GAP + 0.5)
+
+    def _value_width(self) -> int:
+        # Room for all that the slider gives, so that nothing moves with it.
+        widest = max((self.button.text(), _longest(self.parameter)), key=lambda text: number_width(LOOK.font(), text))
+        return round(2 * PAD + number_width(LOOK.font(), widest) + 0.5)
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        if not self._has_slider:
+            self.button.setGeometry(self.rect())
+            return
+        left, value = self._sign_width(), self._value_width()
+        self.slider.setGeometry(left, 0, max(self.width() - left - value, 0), self.height())
+        self.button.setGeometry(self.width() - value, 0, value, self.height())
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        if self._has_slider:
+            painter = QtGui.QPainter(self)
+            painter.setFont(LOOK.font())
+            painter.setPen(QtGui.QColor(LOOK.theme.quiet))
+            metrics = QtGui.QFontMetricsF(painter.font())
+            baseline = round((self.height() + metrics.ascent() - metrics.descent()) / 2)
+            painter.drawText(QtCore.QPointF(PAD, baseline), self.sign)
+
+
+@lru_cache
+def _longest(parameter: Parameter) -> str:
+    """Of the values that a slider gives."""
+    return max((shown_value(parameter, value_of_step(parameter, step)) for step in range(STEPS + 1)), key=len)
+
+
+class FixedWord(QtWidgets.QLabel):
+    """What holds of a distance that has no parameters."""
+
+    def __init__(self, parent: QtWidgets.QWidget, text: str, tip: str) -> None:
+        super().__init__(text, parent)
+        self.setProperty("quiet", True)
+        self.setToolTip(tip)
+        self.setFixedHeight(HEIGHT)
+        self.setContentsMargins(PAD, 0, PAD, 0)
+        self.setIndent(0)
+
+    def least(self, with_slider: bool) -> int:
+        """Pixels that it needs."""
+        return round(2 * PAD + number_width(LOOK.font(), self.text()) + 2)
+
+    most = least
+
+    def show_slider(self, shown: bool) -> None:
+        """There is none."""
+
+    def add_to(self, menu: QtWidgets.QMenu) -> None:
+        """There is nothing to choose."""
+
+
+Control = ChoiceControl | NumberControl | FixedWord
+"""What stands after the name; its height is that of a flat button."""
+
+
+def parameter_control(parent: QtWidgets.QWidget, parameter: Parameter, sign: str, of_what: str) -> Control:
+    """of_what: which of two distances it belongs to, or nothing."""
+    tip = f"{meaning(parameter)}{of_what}"
+    if parameter.choices:
+        head, semicolon, rest = meaning(parameter).partition(";")
+        return ChoiceControl(parent, {word: word for word in parameter.choices}, f"{head}{of_what}{semicolon}{rest}")
+    return NumberControl(parent, parameter, sign, tip)
+
+
+def fill_choices(menu: QtWidgets.QMenu, words: dict[Value, str], now: Value, choose: Callable[[Value], None]) -> None:
+    """Let a menu offer these words, the present one ticked."""
+    menu.clear()
+    for value, shown in words.items():
+        action = menu.addAction(shown)
+        tick(action, value == now)
+        action.triggered.connect(lambda *_, value=value: choose(value))
+
+
+def tick(action: QtWidgets.QAction, is_chosen: bool) -> None:
+    """Show that an entry of a menu is the one that holds."""
+    action.setCheckable(True)
+    action.setChecked(is_chosen)
+    if is_chosen:
+        action.setIcon(icon("check", LOOK.theme.accent))
+
+
+def signs(parameters: Sequence[Parameter]) -> list[str]:
+    """How the parameters of one head are called: those with the same symbol are numbered, t₁ and t₂."""
+    symbols = [symbol(parameter) for parameter in parameters]
+    found = []
+    for place, each in enumerate(symbols):
+        count = symbols[: place + 1].count(each)
+        found.append(f"{each}{'₁₂₃₄'[count - 1]}" if symbols.count(each) > 1 else each)
+    return found

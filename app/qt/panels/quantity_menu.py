@@ -1,0 +1,144 @@
+"""The menu of what a panel can show: distances, the user's own fields, and differences of two."""
+
+from collections.abc import Callable
+
+from qtpy import QtWidgets
+
+from bihdist_core import ParameterError
+from bihdist_core.distances.kinds import Kind, Spec, kind_of, kinds
+
+from ...document.quantities import Difference, DistanceFrom, OwnField, Part, Quantity
+from .parameters import tick
+
+RAW_WORDS = {False: "shares of the maximum", True: "in units"}
+"""How the two ways to subtract are called, by `Difference.raw`."""
+
+
+def offered_kinds() -> list[Kind]:
+    """The distances that there are."""
+    found = []
+    for word in kinds():
+        try:
+            found.append(kind_of(word))
+        except ParameterError:
+            continue  # somebody else's that cannot be loaded; asked for by its word it says why
+    return found
+
+
+def kind_name(kind: Kind) -> str:
+    """With the power of the family's weights as a raised letter."""
+    return kind.name.replace("^α", "ᵅ")
+
+
+def part_name(part: Part) -> str:
+    return part.name if isinstance(part, OwnField) else kind_name(part.spec.kind)
+
+
+def quantity_name(shows: Quantity) -> str:
+    """Its name in the head: "Biharmonic", "Biharmonic − Geodesic", "1/λᵅ"."""
+    return " − ".join(part_name(part).removesuffix(" family") for part in shows.parts)
+
+
+class Choices:
+    """Choices of quantities as pure steps from one to the next; each distance keeps the parameters it had last."""
+
+    def __init__(self) -> None:
+        self.fields: tuple[str, ...] = ()
+        self._before: tuple[dict[str, Spec], dict[str, Spec]] = ({}, {})
+
+    def keep(self, shows: Quantity) -> None:
+        """Remember the parameters of what is shown, for each place of a difference."""
+        for before, part in zip(self._before, shows.parts, strict=False):
+            if isinstance(part, DistanceFrom):
+                before[part.word] = part.spec
+
+    def with_part(self, shows: Quantity, place: int, chosen: str | OwnField | Spec) -> Quantity:
+        """Another distance, by its word or with parameters, or field at a place of what is shown."""
+        parts = list(shows.parts)
+        # Where distances start, nobody chooses here.
+        point = [*parts[place].points, *shows.points, "source"][0]
+        parts[place] = self._part(chosen, place, point)
+        return shows.with_parts(tuple(parts))
+
+    def difference(self, shows: Part, chosen: str | OwnField) -> Difference:
+        """What is shown less another."""
+        return Difference(shows, self._part(chosen, 1, [*shows.points, "source"][0]))
+
+    def _part(self, chosen: str | OwnField | Spec, place: int, point: str) -> Part:
+        if isinstance(chosen, OwnField):
+            return chosen
+        spec = self._before[place].get(chosen) or Spec.of(chosen) if isinstance(chosen, str) else chosen
+        return DistanceFrom(spec, point)
+
+
+def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: Callable[[Quantity], None]) -> None:
+    """Make the entries; `choose` is called with the quantity that one stands for."""
+    menu.clear()
+    if isinstance(shows, Difference):
+        _fill_for_difference(menu, shows, choices, choose)
+        return
+    _add_parts(menu, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
+    menu.addSeparator()
+    inner = _inner(menu, "Difference with")
+    _add_parts(inner, choices, None, lambda chosen: choose(choices.difference(shows, chosen)), _can_differ_from(shows))
+
+
+def _can_differ_from(shows: Part) -> Callable[[Part], bool]:
+    """Less itself it would be zero, unless a parameter can be another."""
+    return lambda part: part.word != shows.word or (isinstance(part, DistanceFrom) and bool(part.spec.values))
+
+
+def _fill_for_difference(
+    menu: QtWidgets.QMenu, shows: Difference, choices: Choices, choose: Callable[[Quantity], None]
+) -> None:
+    for place, (word, part) in enumerate(zip(("First", "Second"), shows.parts, strict=True)):
+        inner = _inner(menu, f"{word}: {part_name(part)}")
+        _add_parts(inner, choices, part, lambda chosen, place=place: choose(choices.with_part(shows, place, chosen)))
+    swapped = Difference(shows.subtrahend, shows.minuend, shows.raw)
+    _add(menu, "Swap them", f"Show {quantity_name(swapped)}", lambda: choose(swapped))
+    menu.addSeparator()
+    for raw, words in RAW_WORDS.items():
+        tip = "As they are, where both have the same units" if raw else "Each as a share of its own maximum"
+        other = Difference(shows.minuend, shows.subtrahend, raw)
+        entry = f"{words[0].upper()}{words[1:]}"
+        tick(_add(menu, entry, tip, lambda other=other: choose(other)), raw == shows.raw)
+    menu.addSeparator()
+    _add(menu, "Show the first alone", f"Show {part_name(shows.minuend)}", lambda: choose(shows.minuend))
+
+
+def _add_parts(
+    menu: QtWidgets.QMenu,
+    choices: Choices,
+    now: Part | None,
+    choose: Callable[[str | OwnField], None],
+    is_offered: Callable[[Part], bool] = lambda part: True,
+) -> None:
+    """Every distance, then every field."""
+    for kind in offered_kinds():
+        if is_offered(DistanceFrom(Spec.of(kind.word))):
+            hint = f"{kind.hint[:1].upper()}{kind.hint[1:]}"
+            action = _add(menu, kind_name(kind), hint, lambda word=kind.word: choose(word))
+            tick(action, now is not None and now.word == kind.word)
+    fields = [field for field in map(OwnField, choices.fields) if is_offered(field)]
+    if fields:
+        menu.addSeparator()
+    for field in fields:
+        tick(_add(menu, field.name, "A field of your own", lambda field=field: choose(field)), field == now)
+
+
+def _inner(menu: QtWidgets.QMenu, text: str) -> QtWidgets.QMenu:
+    inner = menu.addMenu(_plain(text))
+    inner.setToolTipsVisible(True)
+    return inner
+
+
+def _add(menu: QtWidgets.QMenu, text: str, tip: str, choose: Callable[[], None]) -> QtWidgets.QAction:
+    action = menu.addAction(_plain(text))
+    action.setToolTip(tip)
+    action.triggered.connect(lambda *_: choose())
+    return action
+
+
+def _plain(text: str) -> str:
+    """An "&" in a name is one."""
+    return text.replace("&", "&&")

@@ -1,0 +1,358 @@
+"""The picture of a panel, and what the mouse does in it.  Gestures become signals; it decides nothing.
+
+The surface is drawn off the screen, once for each change; what lies over it is painted by Qt, and costs no drawing.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from qtpy import QtCore, QtGui, QtWidgets
+from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
+
+from ...drawing import moves
+from ...drawing.board import Board
+from ...drawing.picking import Met, Picker, pixel_of
+from ...drawing.style import Style
+from ..look.look import LOOK
+from . import overlay
+
+MARK_SLACK = 4.0
+"""Pixels beside the mark of the source at which it can still be taken hold of."""
+
+NOTCH = 1.1
+"""By how much a notch of the wheel enlarges."""
+
+DIMMED = 0.28
+"""How opaque a field is that is no longer the answer."""
+
+KEY_TURN, KEY_SHIFT = 15.0, 0.05
+"""Degrees, and shares of the view's height, for a key."""
+
+
+@dataclass(frozen=True)
+class Pointed:
+    """The place that is pointed at, in this panel or in another.
+
+    position: (3,); is_hidden: whether the surface is before it; value, share: what the label at the pointer says.
+    """
+
+    position: np.ndarray
+    is_own: bool
+    is_hidden: bool = False
+    value: str = ""
+    share: str = ""
+
+
+class View(QtWidgets.QWidget):
+    """A scene on the screen."""
+
+    pressed = QtCore.Signal()  # any button
+    clicked = QtCore.Signal(object)  # a `Met`, clicked without dragging
+    dragged = QtCore.Signal(int)  # the mark of the source, over a vertex
+    released = QtCore.Signal()  # the mark
+    hovered = QtCore.Signal(object)  # a `Met`, or None beside the surface
+    moved = QtCore.Signal()  # the camera
+    resized = QtCore.Signal()
+    menu_wanted = QtCore.Signal(object, object)  # a `Met` or None, and where on the screen
+    centred = QtCore.Signal(object)  # double click on a `Met`
+
+    def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._board = board
+        self.scene = board.new_scene(scale=self.devicePixelRatioF())
+        self.picker: Picker | None = None
+        self.source: np.ndarray | None = None  # where its mark is
+        self.wheel_factor = 1.0  # -1 for a wheel that goes the other way
+        self._picture: QtGui.QImage | None = None
+        self._drawing = np.empty((0, 0, 4), np.uint8)
+        self._is_stale = True
+        self._is_empty = True
+        self._is_dimmed = False
+        self.sentence = ""
+        self._pointed: Pointed | None = None
+        self._covered = QtCore.QRect()
+        self._press: QtCore.QPoint | None = None
+        self._last = QtCore.QPoint()
+        self._button = QtCore.Qt.MouseButton.NoButton
+        self._dragging = self._holds_mark = False
+        self.setMouseTracking(True)
+        self.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
+        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setMinimumSize(1, 1)
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Ignored)
+        LOOK.changed.connect(self.update)
+
+    # ------------------------------------------------------------------ what is seen
+    @property
+    def renderer(self) -> vtkRenderer:
+        self._board.fit(self.pixels)
+        return self.scene.renderer
+
+    @property
+    def camera(self) -> vtkCamera:
+        return self.scene.renderer.GetActiveCamera()
+
+    @property
+    def pixels(self) -> tuple[int, int]:
+        """Width and height in device pixels."""
+        ratio = self.devicePixelRatioF()
+        return max(round(self.width() * ratio), 1), max(round(self.height() * ratio), 1)
+
+    @property
+    def is_empty(self) -> bool:
+        return self._is_empty
+
+    def show_style(self, style: Style) -> bool:
+        """Look like this from now on; whether that is another look, so that all has to be shown again."""
+        ratio = self.devicePixelRatioF()
+        if (style, ratio) == (self.scene.style, self.scene.scale):
+            return False
+        camera = self.camera
+        self._board.remove(self.scene)
+        self.scene = self._board.new_scene(style, ratio)
+        self.scene.renderer.SetActiveCamera(camera)
+        self.redraw()
+        return True
+
+    def show_empty(self, is_empty: bool) -> None:
+        """Whether there is no surface: then nothing is drawn."""
+        self._is_empty, self._picture, self._pointed = is_empty, None, None
+        self.redraw()
+
+    def redraw(self) -> None:
+        """The surface, its field, its marks or the camera have changed: draw once, when Qt paints next."""
+        self._is_stale = True
+        self.update()
+
+    def dim(self, is_dimmed: bool) -> None:
+        """Let a field that is no longer the answer stand back."""
+        if is_dimmed != self._is_dimmed:
+            self._is_dimmed = is_dimmed
+            self.update()
+
+    def say(self, sentence: str) -> None:
+        """In the middle of the view: why there is no field; "" for nothing."""
+        if sentence != self.sentence:
+            self.sentence = sentence
+            self.update()
+
+    def point_at(self, pointed: Pointed | None) -> None:
+        """Put the ring somewhere; the surface is not drawn for it."""
+        self._pointed = pointed
+        before, self._covered = self._covered, self._cover()
+        self.update(before | self._covered)
+
+    # ------------------------------------------------------------------ painting
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter = QtGui.QPainter(self)
+        ground = QtGui.QColor(LOOK.theme.canvas)
+        if self._is_empty:
+            painter.fillRect(event.rect(), ground)
+            return
+        picture = self._drawn()
+        if self._is_dimmed:
+            painter.fillRect(event.rect(), ground)
+            painter.setOpacity(DIMMED)
+        painter.drawImage(QtCore.QPointF(0, 0), picture)
+        painter.setOpacity(1.0)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        if self.sentence:
+            overlay.paint_sentence(painter, self.rect(), self.sentence)
+        if self._pointed is not None and not self._is_dimmed:
+            at = self.place_of(self._pointed.position)
+            overlay.paint_ring(painter, at, self._pointed.is_own, self._pointed.is_hidden)
+            if self._pointed.value:
+                value, share = self._pointed.value, self._pointed.share
+                place = overlay.label_place(at, value, share, QtCore.QRectF(self.rect()))
+                overlay.paint_label(painter, place, value, share)
+
+    def _drawn(self) -> QtGui.QImage:
+        """The picture, drawn if something has changed since."""
+        width, height = self.pixels
+        size = QtCore.QSize(width, height)
+        if self._is_stale or self._picture is None or self._picture.size() != size:
+            pixels = self._board.picture(self.scene, (width, height))
+            image = QtGui.QImage(pixels.data, width, height, 4 * width, QtGui.QImage.Format.Format_RGBX8888)
+            self._drawing = pixels  # the image's memory
+            self._picture = image
+            self._picture.setDevicePixelRatio(self.devicePixelRatioF())
+            self._is_stale = False
+            self._covered = self._cover()
+        return self._picture
+
+    def shot(self) -> np.ndarray:
+        """(height, width, 3) uint8: the surface as it is drawn now, without what lies over it."""
+        self._drawn()
+        return self._drawing[..., :3].copy()
+
+    def _cover(self) -> QtCore.QRect:
+        """What the ring and its label take."""
+        if self._pointed is None:
+            return QtCore.QRect()
+        at = self.place_of(self._pointed.position)
+        found = QtCore.QRectF(at.x() - overlay.REACH, at.y() - overlay.REACH, 2 * overlay.REACH, 2 * overlay.REACH)
+        if self._pointed.value:
+            view = QtCore.QRectF(self.rect())
+            found |= overlay.label_place(at, self._pointed.value, self._pointed.share, view)
+        return found.toAlignedRect().adjusted(-2, -2, 2, 2)
+
+    # ------------------------------------------------------------------ places
+    def place_of(self, point: np.ndarray) -> QtCore.QPointF:
+        """Where a point (3,) is seen, in logical pixels."""
+        x, y = pixel_of(self.renderer, point)
+        ratio = self.devicePixelRatioF()
+        return QtCore.QPointF(x / ratio, self.height() - y / ratio)
+
+    def met_at(self, position: QtCore.QPoint) -> Met | None:
+        """Where the surface is met under a point of the view."""
+        if self.picker is None or self._is_empty:
+            return None
+        pixel = self._pixel(position)
+        self._board.fit(self.pixels)
+        return self.picker.met_at(self.scene.insets.renderer_at(*pixel), *pixel)
+
+    def sees(self, point: np.ndarray) -> bool:
+        """Whether no part of the surface is before a point (3,) of it."""
+        return self.picker is None or self.picker.sees(self.renderer, point)
+
+    def _pixel(self, position: QtCore.QPoint) -> tuple[float, float]:
+        """Device pixels, y up."""
+        ratio = self.devicePixelRatioF()
+        return (position.x() + 0.5) * ratio, (self.height() - position.y() - 0.5) * ratio
+
+    def _is_on_mark(self, position: QtCore.QPoint) -> bool:
+        """Whether the mark of the source is seen under a point of the view."""
+        if self.source is None or self.picker is None or self._is_empty:
+            return False
+        x, y = self._pixel(position)
+        renderer = self.renderer
+        if self.scene.insets.renderer_at(x, y) is not renderer:
+            return False
+        at = pixel_of(renderer, self.source)
+        reach = (self.scene.style.marker_size / 2 + MARK_SLACK) * self.devicePixelRatioF()
+        return bool(np.hypot(x - at[0], y - at[1]) <= reach) and self.sees(self.source)
+
+    # ------------------------------------------------------------------ the mouse
+    def mousePressEvent(self, event: QtGui.QMouseEvent) -> None:
+        self.pressed.emit()
+        if self._button != QtCore.Qt.MouseButton.NoButton:
+            return  # another button is down already
+        self._button, self._press, self._last, self._dragging = event.button(), event.pos(), event.pos(), False
+        is_plain = event.modifiers() == QtCore.Qt.KeyboardModifier.NoModifier
+        is_left = event.button() == QtCore.Qt.MouseButton.LeftButton
+        self._holds_mark = is_left and is_plain and self._is_on_mark(event.pos())
+        if self._holds_mark:
+            self.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
+
+    def mouseMoveEvent(self, event: QtGui.QMouseEvent) -> None:
+        if event.buttons() == QtCore.Qt.MouseButton.NoButton:
+            self._button = QtCore.Qt.MouseButton.NoButton
+            self.hovered.emit(self.met_at(event.pos()))
+            shape = QtCore.Qt.CursorShape.OpenHandCursor if self._is_on_mark(event.pos()) else None
+            self.unsetCursor() if shape is None else self.setCursor(shape)
+            return
+        if self._press is not None and not self._dragging:
+            # A hand that trembles still clicks.
+            if (event.pos() - self._press).manhattanLength() < QtWidgets.QApplication.startDragDistance():
+                return
+            self._dragging = True
+            self.hovered.emit(None)
+        step, self._last = event.pos() - self._last, event.pos()
+        if self._holds_mark:
+            met = self.met_at(event.pos())
+            if met is not None:
+                self.dragged.emit(met.vertex)
+        elif not self._is_empty:
+            self._drag(step, event.modifiers())
+
+    def _drag(self, step: QtCore.QPoint, modifiers: QtCore.Qt.KeyboardModifiers) -> None:
+        button, shift = QtCore.Qt.MouseButton, QtCore.Qt.KeyboardModifier.ShiftModifier
+        if self._button == button.LeftButton and not modifiers & shift:
+            moves.turn(self.camera, step.x(), -step.y(), (self.width(), self.height()))
+        elif self._button == button.RightButton:
+            moves.zoom(self.camera, float(np.exp(-4 * step.y() / max(self.height(), 1))), self._focal_point())
+        else:
+            moves.shift(self.camera, step.x(), -step.y(), self.height())
+        self.moved.emit()
+
+    def mouseReleaseEvent(self, event: QtGui.QMouseEvent) -> None:
+        if event.button() != self._button:
+            return
+        self._button = QtCore.Qt.MouseButton.NoButton
+        press, self._press = self._press, None
+        held, self._holds_mark = self._holds_mark, False
+        if held:
+            self.unsetCursor()
+        if self._dragging:
+            if held:
+                self.released.emit()
+            self.point_again()
+        elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
+            self.menu_wanted.emit(self.met_at(press), self.mapToGlobal(press))
+        elif press is not None and event.button() == QtCore.Qt.MouseButton.LeftButton and not held:
+            met = self.met_at(press)
+            if met is not None:
+                self.clicked.emit(met)
+
+    def mouseDoubleClickEvent(self, event: QtGui.QMouseEvent) -> None:
+        """The first click has moved the source there."""
+        if event.button() == QtCore.Qt.MouseButton.LeftButton:
+            met = self.met_at(event.pos())
+            if met is not None:
+                self.centred.emit(met)
+        self._press = None
+
+    def contextMenuEvent(self, event: QtGui.QContextMenuEvent) -> None:
+        """By the keyboard; that of the mouse comes when its button is let go."""
+        if event.reason() == QtGui.QContextMenuEvent.Reason.Keyboard and not self._is_empty:
+            middle = self.rect().center()
+            self.menu_wanted.emit(self.met_at(middle), self.mapToGlobal(middle))
+
+    def wheelEvent(self, event: QtGui.QWheelEvent) -> None:
+        if not self._is_empty and event.angleDelta().y():
+            notches = event.angleDelta().y() / 120 * self.wheel_factor
+            self.zoom(NOTCH**notches, event.position().toPoint())
+        event.accept()
+
+    def leaveEvent(self, event: QtCore.QEvent) -> None:
+        self.hovered.emit(None)
+
+    def point_again(self) -> None:
+        """What is under the pointer now, after the camera or the surface has moved."""
+        position = self.mapFromGlobal(QtGui.QCursor.pos())
+        if self._button == QtCore.Qt.MouseButton.NoButton and self.underMouse() and self.rect().contains(position):
+            self.hovered.emit(self.met_at(position))
+
+    # ------------------------------------------------------------------ the camera
+    def zoom(self, factor: float, position: QtCore.QPoint | None = None) -> None:
+        """Nearer by a factor, about what is under a point of the view; about the middle if none is given."""
+        about = self._focal_point()
+        if position is not None:
+            met = self.met_at(position)
+            about = moves.at_focal_depth(self.renderer, *self._pixel(position)) if met is None else met.position
+        moves.zoom(self.camera, factor, about)
+        self.moved.emit()
+
+    def turn_by(self, right: int, up: int) -> None:
+        """A step by the keyboard: the surface turns as if it was dragged."""
+        step = KEY_TURN / moves.TURN
+        moves.turn(self.camera, right * step, up * step, (1, 1))
+        self.moved.emit()
+
+    def shift_by(self, right: int, up: int) -> None:
+        """The same sideways."""
+        moves.shift(self.camera, right * KEY_SHIFT, up * KEY_SHIFT, 1)
+        self.moved.emit()
+
+    def centre(self, point: np.ndarray) -> None:
+        """Let a point (3,) be in the middle, and what is turned about."""
+        moves.centre(self.camera, point)
+        self.moved.emit()
+
+    def _focal_point(self) -> np.ndarray:
+        return np.array(self.camera.GetFocalPoint())
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._is_stale = True
+        self.resized.emit()

@@ -1,0 +1,62 @@
+"""What a panel says while its field is computed: how far that is, in words, and a way to stop it."""
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ..look.icons import put_icon
+from ..look.look import LOOK
+from ..look.numbers import number_width, paint_number
+
+HEIGHT = 28
+LINE = 2
+
+
+class Waiting(QtWidgets.QWidget):
+    """Over the top of the view; `cancelled` by its cross."""
+
+    cancelled = QtCore.Signal()
+
+    def __init__(self, parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent)
+        self._fraction, self._words = 0.0, ""
+        self.stop = QtWidgets.QToolButton(self, autoRaise=True)
+        self.stop.setToolTip("Stop computing this panel (Esc stops all)")
+        self.stop.setAccessibleName("Stop computing this panel")
+        self.stop.clicked.connect(self.cancelled)
+        put_icon(self.stop, "close")
+        self.hide()
+
+    def show_progress(self, fraction: float, words: str) -> None:
+        """Words such as "eigenpairs", and the share done; NaN where that is not known."""
+        self._fraction, self._words = fraction, words
+        self.setAccessibleDescription(self.text)
+        self.show()
+        self.raise_()
+        self.update()
+
+    @property
+    def text(self) -> str:
+        known = 0.0 <= self._fraction <= 1.0
+        return f"{self._words}, {self._fraction:.0%}".replace("%", " %") if known else f"{self._words} …"
+
+    def fit(self, width: int) -> None:
+        """Take the width of a view."""
+        self.setGeometry(0, 0, width, LINE + round(HEIGHT * LOOK.scale))
+        side = self.height() - LINE
+        self.stop.setGeometry(width - side - 4, LINE, side, side)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, QtGui.QPainter(self)
+        ground = QtGui.QColor(theme.canvas)
+        ground.setAlphaF(0.85)
+        painter.fillRect(self.rect(), ground)
+        painter.fillRect(0, 0, self.width(), LINE, QtGui.QColor(theme.border))
+        if 0.0 <= self._fraction <= 1.0:
+            painter.fillRect(QtCore.QRectF(0, 0, self._fraction * self.width(), LINE), QtGui.QColor(theme.accent))
+        painter.setFont(LOOK.font(12))
+        painter.setPen(QtGui.QColor(theme.quiet))
+        metrics = painter.fontMetrics()
+        text, room = self.text, self.stop.x() - 16
+        if number_width(painter.font(), text) > room:
+            text = metrics.elidedText(text, QtCore.Qt.TextElideMode.ElideMiddle, max(room, 0))
+        baseline = LINE + (self.height() - LINE + metrics.ascent() - metrics.descent()) / 2
+        paint_number(painter, 14, baseline, text)
