@@ -8,9 +8,11 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+import qtpy
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import BihdistError
+from .look.look import LOOK
+from .screen import check_screen as check_screen
 
 POLL_MS = 20
 """How often it is looked whether the waiting has an end."""
@@ -19,25 +21,28 @@ _kept: list[QtWidgets.QApplication] = []
 """Qt's application must not be taken down while there are windows."""
 
 
-def check_screen() -> None:
-    """BihdistError where there is no display: Qt would end the process."""
-    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        raise BihdistError(
-            "The viewer needs a display and there is none (DISPLAY is not set); `bihdist figure` draws without one."
-        )
-
-
 def application() -> QtWidgets.QApplication:
     """Qt's application, made if there is none; the environment and the locale stay as they are."""
     known = QtWidgets.QApplication.instance()
     if known is not None:
         return known
-    QtWidgets.QApplication.setHighDpiScaleFactorRoundingPolicy(QtCore.Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)
+    for word in ("AA_EnableHighDpiScaling", "AA_UseHighDpiPixmaps"):
+        # Qt 6 does it by itself.
+        if qtpy.QT5:
+            QtWidgets.QApplication.setAttribute(getattr(QtCore.Qt.ApplicationAttribute, word))
+    policy = QtCore.Qt.HighDpiScaleFactorRoundingPolicy
+    # X servers make up sizes of screens, and at 1.04 every line is blurred; letters still take the size that is meant.
+    is_x = sys.platform.startswith("linux")
+    QtWidgets.QApplication.setHighDpiScaleFactorRoundingPolicy(policy.RoundPreferFloor if is_x else policy.PassThrough)
     spoken = locale.setlocale(locale.LC_ALL)
     with _drawn_through_x():
         _kept.append(QtWidgets.QApplication(sys.argv[:1]))
     # Qt takes the user's, and then C libraries write 0,5 for a half.
     locale.setlocale(locale.LC_ALL, spoken)
+    # The one that looks the same everywhere, and takes our colours.
+    _kept[-1].setStyle("Fusion")
+    if is_x:
+        LOOK.fit_to(_kept[-1].primaryScreen().logicalDotsPerInch())
     return _kept[-1]
 
 
@@ -61,12 +66,11 @@ def run_until(condition: Callable[[], bool]) -> None:
     timer = QtCore.QTimer(interval=POLL_MS)
     timer.timeout.connect(loop.quit)
     timer.start()
-    with _interrupts_noted():
-        while not condition():
+    with interrupts_noted():
+        while not (condition() or _interrupts):
             loop.exec()
-            if _interrupts:
-                _interrupts.clear()
-                raise KeyboardInterrupt
+        if _interrupts:
+            raise KeyboardInterrupt
 
 
 _interrupts: list[int] = []
@@ -77,8 +81,8 @@ def _note(number: int, frame: object) -> None:
 
 
 @contextmanager
-def _interrupts_noted() -> Iterator[None]:
-    """Ctrl+C is noted instead of raised, which inside a slot would end the process."""
+def interrupts_noted() -> Iterator[None]:
+    """Ctrl+C is noted, and raised at the end: within a slot it would end the process."""
     is_python = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if not is_python or threading.current_thread() is not threading.main_thread():
         yield
@@ -88,3 +92,7 @@ def _interrupts_noted() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        noted = bool(_interrupts)
+        _interrupts.clear()
+    if noted:
+        raise KeyboardInterrupt

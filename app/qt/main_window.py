@@ -1,47 +1,56 @@
 """The window: shows what a `Session` shows, and hands on what the user does.  Decides nothing itself.
 
-It opens at once and imports what draws (VTK, pyvista) only then.
+It opens at once and imports what draws (VTK) only then.
 """
 
 import os
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core import BihdistError, OutputError
-from bihdist_core.whole_file import check_output, whole_file
+from bihdist_core import BihdistError
 
 from ..document.document import Document
-from ..document.edits import PANEL_EDITS, add_another, move_source, show_in
+from ..document.edits import move_source
 from ..document.page import Page, Recipe
-from ..document.quantities import Quantity
 from ..drawing.prepared import prepare
 from ..drawing.style import STYLES
 from ..session.opened import Opened
 from ..session.questions import vertex_at
 from ..session.session import Session
 from . import remembered
-from .bars import fill_menus, fill_tool_bar, no_source, show_source
-from .controls import MOST_PANELS
-from .look import STYLE_SHEET
-from .session_actions import MESH_FILES, SESSIONS, SessionFile
-from .status_bar import StatusBar, summary, unseen
+from .actions import Actions
+from .bars.menus import Menus
+from .bars.status_bar import StatusBar, unseen
+from .bars.tool_bar import ToolBar
+from .choices import Choices
+from .files.exports import ExportChip, Exports
+from .files.files import Files
+from .files.session_actions import SessionFile
+from .look.canvas import canvas_style
+from .look.look import LOOK
+from .pages.guide import Guide
+from .pages.messages import Notice, tell
+from .preferences import Preferences, fit_to_screen
 from .views import Views
+from .waits import Waits
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Met
+    from .panels.view import View
 
-PROGRESS_MS = 200
-"""How often progress is shown at most, and from when on."""
+
+LONGEST_NOTICE = 160
+"""Letters of a message that needs no dialog."""
+
+NOTICE_SECONDS = 20
 
 
 class MainWindow(QtWidgets.QMainWindow):
     """`complete` is emitted whenever every panel has been painted with its final answer.
 
     page: of the recipe that was opened last, for the figures that are exported.  quiet: no questions and no messages.
-    remembers: recent files and, in case of a crash, what is shown.
+    remembers: recent files, preferences and, in case of a crash, what is shown.
     """
 
     complete = QtCore.Signal()
@@ -50,60 +59,90 @@ class MainWindow(QtWidgets.QMainWindow):
     closed = QtCore.Signal()
     _posted = QtCore.Signal(object)
 
-    def __init__(self, document: Document | None = None) -> None:
+    def __init__(self, document: Document | None = None, preferences: Preferences | None = None) -> None:
         super().__init__()
         self.setWindowTitle("Biharmonic distance")
-        self.setAcceptDrops(True)
-        self.resize(1322, 660)
-        self.setStyleSheet(STYLE_SHEET)
+        self.preferences = preferences or Preferences()
         self._posted.connect(lambda function: function())
         self.session = Session(self, self._posted.emit, prepare, document)
         self.page = Page()
         self.session_file = SessionFile(self)
+        self.files, self.choices, self.guide = Files(self), Choices(self), Guide(self)
+        self.exports = Exports(self)
         self.grid: Any = None  # a PanelGrid, once what draws has been imported
+        self.gestures: Any = None  # what the mouse means in it
+        self._start_page: Any = None
         self._opened: Opened | None = None  # the surface in the panels
-        self._hovered: int | None = None
         self._waiting: list[Callable[[], None]] = []
         self.quiet = False
         self.remembers = True
-        self.status = StatusBar(self)
-        self.status.cancelled.connect(self.session.cancel)
+        self.actions_by_word = Actions(self)
+        self.menus = Menus(self)
+        self.tool_bar = ToolBar(self, self.actions_by_word, self.menus)
+        self.tools = self.tool_bar.buttons
+        self.source_box = self.tool_bar.source_box
+        self.source_box.chosen.connect(self.choose_source)
+        self.source_box.left.connect(self.leave_boxes)
+        self.addToolBar(self.tool_bar)
+        self.status = StatusBar(self, ExportChip(self.exports))
         self.setStatusBar(self.status)
         self.views = Views(self)
-        self._progress_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
-        self._progress_soon.timeout.connect(self._show_progress)
-        self.source_box, self.isolines_box = fill_tool_bar(self)
-        self._undo, self._redo = fill_menus(self)
-        self._empty = QtWidgets.QLabel("Opening …", objectName="hint")
-        self._empty.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
-        self._middle = QtWidgets.QStackedWidget()
-        self._middle.addWidget(self._empty)
-        self.setCentralWidget(self._middle)
-        no_source(self.source_box)
+        self.waits = Waits(self)
+        self.notice = Notice()
+        self._opening = QtWidgets.QLabel("Opening …")
+        self._opening.setProperty("quiet", True)
+        self._opening.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
+        self._stack = QtWidgets.QStackedWidget()
+        self._stack.addWidget(self._opening)
+        middle = QtWidgets.QWidget()
+        column = QtWidgets.QVBoxLayout(middle)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.notice)
+        column.addWidget(self._stack, 1)
+        self.setCentralWidget(middle)
+        LOOK.dress(self)
+        LOOK.follow(self, self.wear)
+        fit_to_screen(self)
+        self.setMinimumSize(320, 240)
+        self._allow(False)
+        self.choices.show()
 
     # ------------------------------------------------------------------ start and end
     def build_panels(self) -> None:
         """Import what draws and make the panels; called once, after the window is on the screen."""
-        from .panel_grid import PanelGrid
+        if self.grid is not None:
+            return
+        from .gestures import Gestures
+        from .panels.grid import PanelGrid
 
         self.grid = PanelGrid(self.session)
-        self.grid.clicked.connect(self._click)
-        self.grid.dragged.connect(self._drag)
-        self.grid.released.connect(lambda: self.session.show(self.session.document))
-        self.grid.chosen.connect(self._choose)
-        self.grid.asked.connect(self._edit_panels)
-        self.grid.hovered.connect(self._hover)
+        self.grid.keys = self.actions_by_word.key_of_view
+        self.grid.wheel_factor = -1.0 if self.preferences.wheel_reversed else 1.0
+        self.gestures = Gestures(self)
+        self.grid.chosen.connect(self.gestures.choose)
+        self.grid.asked.connect(self.choices.edit_panel)
         self.grid.looked.connect(self.views.moved)
-        self._middle.addWidget(self.grid)
-        self._middle.setCurrentWidget(self.grid)
-        self.leave_boxes()
+        self.grid.cancelled.connect(self.session.cancel)
+        self.wear()
+        self._scroll = QtWidgets.QScrollArea()
+        self._scroll.setWidgetResizable(True)
+        self._scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
+        self._scroll.setWidget(self.grid)
+        self._stack.addWidget(self._scroll)
+        if not self.session.is_opening and not self._waiting:
+            self.show_start()
+        else:
+            self._stack.setCurrentWidget(self._scroll)
         waiting, self._waiting = self._waiting, []
         for function in waiting:
             function()
 
     def open(self, path: str, source: int | None = None) -> None:
         """Open a mesh, also before the panels are made."""
-        self._once_built(lambda: self.session.open(path, source))
+        self.notice.clear()
+        self.session.open(path, source)
 
     def show_document(
         self, document: Document, page: Page | None = None, arrived: Callable[[], None] = lambda: None
@@ -115,24 +154,42 @@ class MainWindow(QtWidgets.QMainWindow):
 
         def arriving() -> None:
             if page is not None:
-                self._take_page(page)
+                self.take_page(page)
 
-        self._once_built(lambda: self.session.show_instead(document, arriving, arrived))
+        self.session.show_instead(document, arriving, arrived)
 
-    def _once_built(self, function: Callable[[], None]) -> None:
+    def once_built(self, function: Callable[[], None]) -> None:
         if self.grid is None:
             self._waiting.append(function)
         else:
             function()
+
+    def show_start(self) -> None:
+        """Nothing is open: how to begin."""
+        if self._start_page is None:
+            from .pages.start_page import StartPage
+
+            self._start_page = StartPage()
+            self._start_page.open_wanted.connect(self.files.choose)
+            self._start_page.chosen.connect(self.files.open)
+            self._start_page.tour_wanted.connect(self.guide.start_tour)
+            self._start_page.keys_wanted.connect(self.guide.show_keys)
+            self._stack.addWidget(self._start_page)
+        self._stack.setCurrentWidget(self._start_page)
 
     def closeEvent(self, event: QtGui.QCloseEvent) -> None:
         if not (self.quiet or self.session_file.may_close(self._ask_about_changes)):
             event.ignore()
             return
         self.session_file.forget()
+        if self.remembers:
+            self.choices.remember_place()
+        self.exports.close()
         self.session.close()
         if self.grid is not None:
             self.grid.close_views()
+        if self.choices.is_full_screen:
+            LOOK.enlarge(1.0)
         super().closeEvent(event)
         self.closed.emit()
 
@@ -143,10 +200,16 @@ class MainWindow(QtWidgets.QMainWindow):
         )
         return {button.Save: "save", button.Discard: "discard"}.get(answer, "cancel")
 
+    def changeEvent(self, event: QtCore.QEvent) -> None:
+        super().changeEvent(event)
+        if event.type() == QtCore.QEvent.Type.WindowStateChange:
+            self.choices.window_state_changed()
+
     # ------------------------------------------------------------------ what the session tells
     def document_changed(self, before: Document) -> None:
+        self.build_panels()
         document, opened = self.session.document, self.session.opened()
-        self._middle.setCurrentWidget(self.grid)
+        self._stack.setCurrentWidget(self._scroll)
         is_other = opened is not self._opened
         other_panels = is_other or (document.panels, document.fields) != (before.panels, before.fields)
         if other_panels:
@@ -154,15 +217,13 @@ class MainWindow(QtWidgets.QMainWindow):
         if is_other:
             self._show_surface(opened)
         if other_panels or document.points != before.points:
-            self.grid.mark_points(document)
+            self.grid.expect_sources(document)
             self._show_source()
         if other_panels or (document.points, document.anchors) != (before.points, before.anchors):
             self.grid.mark_anchors(document)
         if other_panels or document.zooms != before.zooms:
             self.grid.show_insets(document)
         if is_other or document.isolines != before.isolines:
-            with QtCore.QSignalBlocker(self.isolines_box):
-                self.isolines_box.setValue(document.isolines)
             self.grid.show_isolines(document.isolines)
         is_raised = document.height != before.height
         if other_panels or is_raised or document.shared_range != before.shared_range:
@@ -173,227 +234,181 @@ class MainWindow(QtWidgets.QMainWindow):
             self.grid.look(document.camera)
             self.views.rest_soon()
         self._offer_steps()
-        self.grid.repaint_views()
+        self.choices.show()
+        self.waits.expect(before)
         self.session_file.document_changed()
 
-    def _take_page(self, page: Page) -> None:
+    def take_page(self, page: Page) -> None:
         """Look as figures on this page do, from the next change of the document on."""
         if page != self.page:
-            self.grid.show_style(STYLES[page.style])
-            self.page, self._opened = page, None  # all is shown anew
-
-    def _say_what_is_open(self) -> None:
-        recipe = Recipe(self.session.document, self.page)
-        self.say("  ·  ".join([*summary(self.session.surface), *unseen(recipe, STYLES[self.page.style])]))
+            self.page = page
+            if self.grid is not None and self.grid.show_style(canvas_style(page.style, LOOK.theme)):
+                self._opened = None  # all is shown anew
 
     def _show_surface(self, opened: Opened) -> None:
-        self._opened, self._hovered = opened, None
+        self._opened = opened
         self.views.begin()
+        self.gestures.begin()
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
         self.grid.show_surface()
-        self._say_what_is_open()
+        recipe = Recipe(self.session.document, self.page)
+        self.status.show_surface(opened.surface, unseen(recipe, STYLES[self.page.style]))
+        self._allow(True)
+        self.leave_boxes()
         if self.remembers and opened.mesh.path and os.path.exists(opened.mesh.path):
             remembered.remember(opened.mesh.path)
 
+    def _show_all_again(self) -> None:
+        """Another style, or other colours of the window."""
+        opened = self.session.opened()
+        if opened is None:
+            return
+        document = self.session.document
+        self.grid.show_surface()
+        self.grid.expect_sources(document)
+        self.grid.show_isolines(document.isolines)
+        self.grid.mark_anchors(document)
+        self.grid.show_insets(document)
+        for id in self.session.shown:
+            self.grid.show_answer(id)
+        self.waits.show()
+
     def answer_changed(self, panel: int) -> None:
         self.grid.show_answer(panel)
-        self.grid.panel(panel).show_value(self._hovered)
-        self._note(panel)
+        self.waits.note(panel)
+        self._say_what_is_inexact()
 
     def certificate_changed(self, panel: int) -> None:
         self.grid.show_certificate(panel)
-        self._note(panel)
-        if self.session.is_complete and not self.session.progress:
-            QtCore.QTimer.singleShot(0, self._announce)
+        self.waits.note(panel)
+        self._say_what_is_inexact()
+        self.announce_soon()
+
+    def _say_what_is_inexact(self) -> None:
+        answers = [
+            self.session.shown[panel.id].answer
+            for panel in self.session.document.panels
+            if panel.id in self.session.shown
+        ]
+        poor = dict.fromkeys(f"{a.label}: only {a.accuracy.text}" for a in answers if a.accuracy.is_poor)
+        self.status.show_inexact(list(poor))
 
     def _offer_steps(self) -> None:
-        self._undo.setEnabled(self.session.can_undo)
-        self._redo.setEnabled(self.session.can_redo)
+        self.actions_by_word["undo"].setEnabled(self.session.can_undo)
+        self.actions_by_word["redo"].setEnabled(self.session.can_redo)
 
     def progress_changed(self) -> None:
         self._offer_steps()
-        if not self.session.progress:
-            self._show_progress()
-        elif not self._progress_soon.isActive():
-            self._progress_soon.start()
-
-    def _show_progress(self) -> None:
-        self._progress_soon.stop()
-        going = [self.session.progress[name] for name in sorted(self.session.progress, key=str)]
-        self.status.show_progress(going)
-        for panel in self.session.document.panels if self.grid is not None else ():
-            self._note(panel.id)
-        if self.session.is_complete and not going:
-            # Once the repaints that are queued have been done.
-            QtCore.QTimer.singleShot(0, self._announce)
-
-    def _note(self, panel: int) -> None:
-        """Say in a panel what it is waiting for; how far that is, the status bar says, which is cheap to paint."""
-        session = self.session
-        _, text = session.progress.get(panel, (0, ""))
-        if text:
-            text = f"{text.partition(':')[0]} …"
-        elif session.is_stopped and not session.is_answered(panel):
-            text = "stopped; click a point to ask again"
-        elif session.surface and panel not in session.shown and session.progress:
-            text = "waiting …"
-        self.grid.panel(panel).show_note(text)
+        self.waits.progress_changed()
 
     def failed(self, message: str) -> None:
         self.refused.emit(message)
-        if self.session.surface is None:
-            self._empty.setText(
-                "No mesh is open. Open one with Ctrl+O, drop a file here, or choose one of File > Samples."
-            )
-            self._middle.setCurrentWidget(self._empty)
-        if not self.quiet:
-            # Above a dialog that is open, it would otherwise get no keys.
-            above = QtWidgets.QApplication.activeModalWidget() or self
-            box = QtWidgets.QMessageBox(
-                QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=above
-            )
-            box.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
-            box.open()
+        if self.session.surface is None and self.grid is not None:
+            self.waits.end()
+            self.show_start()
+            self._start_page.show_message(message)
+        elif not self.quiet:
+            self._tell(message)
+
+    def _tell(self, message: str) -> None:
+        """Above the panels; what is longer, or said while a dialog is open, in a dialog."""
+        if len(message) > LONGEST_NOTICE or QtWidgets.QApplication.activeModalWidget() is not None:
+            tell(self, message)
+            return
+
+        def copy() -> None:
+            QtWidgets.QApplication.clipboard().setText(message)
+
+        self.notice.show_text(message, "error", ("Copy", copy), NOTICE_SECONDS)
+
+    def announce_soon(self) -> None:
+        """Once the repaints that are queued have been done."""
+        if self.session.is_complete and not self.session.progress:
+            QtCore.QTimer.singleShot(0, self._announce)
 
     def _announce(self) -> None:
         if self.session.is_complete and not self.session.progress:
             self.complete.emit()
 
-    # ------------------------------------------------------------------ gestures
-    def _click(self, panel: int, met: "Met") -> None:
-        self.picked.emit(panel, met)
-        self.session.show(move_source(self.session.document, panel, met.vertex))
-
-    def _drag(self, panel: int, vertex: int) -> None:
-        self.session.show(move_source(self.session.document, panel, vertex), key=f"drag in {panel}", live=True)
-
-    def _choose(self, panel: int, shows: Quantity) -> None:
-        """Another quantity is a step; the values that a slider passes are one."""
-        before = self.session.document.panel(panel).shows
-        words = [tuple(part.word for part in each.parts) for each in (before, shows)]
-        key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
-        self.session.show(show_in(self.session.document, panel, shows), key)
-
-    def add_panel(self) -> None:
-        """One more, with a distance that is not shown yet."""
-        document = self.session.document
-        if self.session.surface is not None and len(document.panels) < MOST_PANELS:
-            self.session.show(add_another(document))
-
-    def _edit_panels(self, panel: int, word: str) -> None:
-        self.session.show(PANEL_EDITS[word](self.session.document, panel))
-
-    def choose_isolines(self, count: int) -> None:
-        self.session.show(replace(self.session.document, isolines=count), key="isolines")
-
+    # ------------------------------------------------------------------ what the user chooses
     def choose_source(self, vertex: int) -> None:
         """The vertex that the first panel's field starts from."""
         document = self.session.document
         if self.session.surface is not None and document.panels:
+            try:
+                self.session.surface.check_vertex(vertex)
+            except BihdistError as error:
+                self.refused.emit(str(error))
+                self.source_box.refuse(str(error))
+                return
             self.session.show(move_source(document, document.panels[0].id, vertex))
             self._show_source()
 
+    def type_source(self) -> None:
+        if self.source_box.isEnabled():
+            self.source_box.setFocus(QtCore.Qt.FocusReason.ShortcutFocusReason)
+            self.source_box.selectAll()
+
     def _show_source(self) -> None:
         """Let the box say which vertex the first panel's field starts from."""
-        sources = self.session.document.sources
-        if self.session.surface is None or not sources:
-            no_source(self.source_box)
-        else:
-            show_source(self.source_box, vertex_at(sources[0], self.session.surface))
+        sources, surface = self.session.document.sources, self.session.surface
+        known = vertex_at(sources[0], surface) if surface is not None and sources else None
+        self.source_box.show_source(known, 0 if surface is None else len(surface.vertices))
 
     def cancel(self) -> None:
-        """Esc: out of a box, which then says what it said before; elsewhere, stop what is being computed."""
-        if self.source_box.hasFocus() or self.isolines_box.hasFocus():
-            self._show_source()
-            with QtCore.QSignalBlocker(self.isolines_box):
-                self.isolines_box.setValue(self.session.document.isolines)
-                self.isolines_box.lineEdit().setText(str(self.session.document.isolines))
+        """Esc: out of a box, the tour, the live source or the full screen; otherwise stop what is being computed."""
+        if self.source_box.hasFocus():
+            self.source_box.give_up()
             self.leave_boxes()
-        else:
-            self.session.cancel()
-
-    def _hover(self, vertex: int | None) -> None:
-        if vertex == self._hovered or self.session.surface is None:
+        elif self.guide.end_tour():
             return
-        self._hovered = vertex
-        self.grid.point_at(vertex)
-        if vertex is None:
-            self.status.pointer.setText("")
+        elif self.gestures is not None and self.gestures.is_live:
+            self.actions_by_word["live"].trigger()
+        elif self.session.progress or not self.choices.is_full_screen:
+            self.session.cancel()
+            self.waits.show()
         else:
-            x, y, z = self.session.surface.vertices[vertex]
-            self.status.pointer.setText(f"vertex {vertex}   ({x:.4g}, {y:.4g}, {z:.4g})")
+            self.choices.toggle_full_screen()
 
-    def dragEnterEvent(self, event: QtGui.QDragEnterEvent) -> None:
-        if event.mimeData().hasUrls():
-            event.acceptProposedAction()
+    def with_view(self, do: "Callable[[View], object]") -> None:
+        """Do something to the view of the active panel."""
+        if self.session.surface is not None and self.grid.active >= 0:
+            do(self.grid.panel(self.grid.active).view)
 
-    def dropEvent(self, event: QtGui.QDropEvent) -> None:
-        self.open_any(event.mimeData().urls()[0].toLocalFile())
-
-    # ------------------------------------------------------------------ the user's commands
     def reset_view(self, view: str = "home") -> None:
         """See the surface from a standard view."""
         if self.session.surface is not None:
             self.views.see(view)
 
+    # ------------------------------------------------------------------ how it looks
+    def wear(self) -> None:
+        """Other colours, or another style of the fields."""
+        if self.grid is not None and self.grid.show_style(canvas_style(self.page.style, LOOK.theme)):
+            self._show_all_again()
+
+    def _allow(self, has_mesh: bool) -> None:
+        self.actions_by_word.allow(has_mesh)
+        self.tool_bar.allow(has_mesh)
+        self._offer_steps()
+
+    # ------------------------------------------------------------------ the keys
     def leave_boxes(self) -> None:
-        """A box that has the keyboard takes digits and Ctrl+E for itself."""
-        if self.grid.panels:
-            self.grid.panels[0].interactor.setFocus()
+        """Give the keys to the panels."""
+        if self.grid is not None:
+            self.grid.focus()
 
-    def choose_file(self) -> None:
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Open a mesh", "", MESH_FILES)
-        if path:
-            self.open(path)
-
-    def picture(self) -> QtGui.QImage:
-        """The whole window as it is on the screen."""
-        picture = self.grab().toImage()
-        painter = QtGui.QPainter(picture)
-        self.grid.paint_into(painter, self)
-        painter.end()
-        return picture
-
-    def choose_screenshot(self) -> None:
-        dialog = QtWidgets.QFileDialog(self, "Save a picture of the window", "bihdist.png", "Pictures (*.png)")
-        dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("png")
-        if dialog.exec():
-            try:
-                self.save_screenshot(dialog.selectedFiles()[0])
-            except BihdistError as error:
-                self.failed(str(error))
-
-    def save_screenshot(self, path: str) -> None:
-        """The window as a PNG; OutputError if it cannot be written, and then what was there stays."""
-        check_output(path, (".png",))
-        with whole_file(path) as temporary:
-            if not self.picture().save(str(temporary), "PNG"):
-                raise OutputError(f"{path} could not be written.")
-        self.say(f"Saved {os.path.basename(path)}")
-
-    def export_figure(self) -> None:
-        from .figure_actions import export_figure
-
-        export_figure(self)
-
-    def export_movie(self) -> None:
-        from .figure_actions import export_movie
-
-        export_movie(self)
-
-    def choose_session(self) -> None:
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Open a session or recipe", "", SESSIONS)
-        if path:
-            self.session_file.open(path)
-
-    def open_any(self, path: str) -> None:
-        """A mesh, or a session or recipe."""
-        if path.lower().endswith(".json"):
-            self._once_built(lambda: self.session_file.open(path))
+    def change_part(self) -> None:
+        """From the panels to the tool bar, and back."""
+        if self.tool_bar.isAncestorOf(self.focusWidget() or self):
+            self.leave_boxes()
         else:
-            self.open(path)
+            self.tools["open"].setFocus(QtCore.Qt.FocusReason.TabFocusReason)
+
+    def show_dropping(self, is_dropping: bool) -> None:
+        """Whether something is held over the window that may be dropped."""
+        if self._start_page is not None:
+            self._start_page.set_dropping(is_dropping)
 
     def say(self, text: str) -> None:
-        """In the status bar."""
-        self.status.message.setText(text)
+        """In the status bar, for a while."""
+        self.status.say(text)

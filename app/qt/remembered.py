@@ -7,6 +7,8 @@ import json
 import os
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
+from datetime import datetime, timezone
 from pathlib import Path
 
 from qtpy import QtCore
@@ -24,21 +26,46 @@ def folder() -> Path:
 
 
 # ---------------------------------------------------------------------- recent files
-def recent() -> list[str]:
+@dataclass(frozen=True)
+class Recent:
+    """A file that was opened; when, in local time, is unknown of those remembered without it."""
+
+    path: str
+    opened: datetime | None
+
+
+def recent_files() -> list[Recent]:
     """Meshes and sessions opened last, the last first, as far as they are still there."""
     try:
-        paths = json.loads((folder() / "recent.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        entries = json.loads((folder() / "recent.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
         return []
-    known = [path for path in paths if isinstance(path, str)] if isinstance(paths, list) else []
-    return [path for path in known if os.path.exists(path)]
+    files = [_file_of(entry) for entry in entries] if isinstance(entries, list) else []
+    return [file for file in files if file is not None and os.path.exists(file.path)]
+
+
+def recent() -> list[str]:
+    """The paths of `recent_files`."""
+    return [file.path for file in recent_files()]
 
 
 def remember(path: str) -> None:
     """Put a file first among the recent ones."""
     path = os.path.abspath(path)
-    paths = [path, *(other for other in recent() if other != path)]
-    _write(folder() / "recent.json", json.dumps(paths[:MOST_RECENT], indent=1))
+    files = [Recent(path, datetime.now(timezone.utc)), *(file for file in recent_files() if file.path != path)]
+    entries = [{"path": file.path, "opened": file.opened and file.opened.isoformat()} for file in files]
+    _write(folder() / "recent.json", json.dumps(entries[:MOST_RECENT], indent=1))
+
+
+def _file_of(entry: object) -> Recent | None:
+    """An entry of the list: a path with its time, or, as it used to be, a path alone."""
+    path, opened = (entry.get("path"), entry.get("opened")) if isinstance(entry, dict) else (entry, None)
+    if not isinstance(path, str):
+        return None
+    try:
+        return Recent(path, datetime.fromisoformat(opened).astimezone())
+    except (TypeError, ValueError, OverflowError, OSError):
+        return Recent(path, None)
 
 
 # ---------------------------------------------------------------------- the state of windows that are open

@@ -26,8 +26,10 @@ from ..document.quantities import Quantity
 from ..session.given import Mesh, given_comparison
 from ..session.opened import checked_path
 from ..session.questions import vertex_at
-from .application import application, check_screen, run_until
+from .application import application, check_screen, interrupts_noted, run_until
+from .look.look import LOOK
 from .main_window import MainWindow
+from .preferences import load
 
 if TYPE_CHECKING:
     from ..drawing.picking import Met
@@ -125,8 +127,19 @@ class Viewer:
     def screenshot(self, path: str | os.PathLike[str]) -> Path:
         """The window as a PNG, once everything has been computed; OutputError if it cannot be written."""
         self._complete()
-        self._there.save_screenshot(os.fspath(path))
+        self._there.files.save_screenshot(os.fspath(path))
         return Path(path)
+
+    def plotter(self) -> Any:
+        """A PyVista window with the mesh and all that is shown on it, to go on with there.
+
+        A `pyvistaqt.BackgroundPlotter`; its mesh has each panel's field as an array (n,) under the panel's quantity,
+        and the first is drawn.  Waits until all has been computed.
+        """
+        from .plotter import background_plotter
+
+        fields = {panel.quantity: panel.field for panel in self.panels if panel.field is not None}
+        return background_plotter(self._session.surface, fields)
 
     def close(self) -> None:
         """Close the window, without questions; nothing happens if it is closed already."""
@@ -258,21 +271,26 @@ def show(
     shell = _ipython()
     waits = block if block is not None else shell is None and not hasattr(sys, "ps1")
     app = application()
-    window = MainWindow(document)
-    window.remembers = False
-    window.setAttribute(QtCore.Qt.WidgetAttribute.WA_QuitOnClose, False)
-    viewer = Viewer(window, on_pick)
-    window.session.given.update(given)
+    viewer = None
     try:
-        window.show()
-        # It is painted before the imports, which take a second.
-        app.processEvents()
-        window.build_panels()
-        if shell is not None and not waits:
-            _share_event_loop(shell)
-        viewer._show(document)
+        with interrupts_noted():
+            preferences = load()
+            LOOK.choose(preferences.theme)
+            window = MainWindow(document, preferences)
+            window.remembers = False
+            window.setAttribute(QtCore.Qt.WidgetAttribute.WA_QuitOnClose, False)
+            viewer = Viewer(window, on_pick)
+            window.session.given.update(given)
+            window.show()
+            # It is painted before the imports, which take a moment.
+            app.processEvents()
+            window.build_panels()
+            if shell is not None and not waits:
+                _share_event_loop(shell)
+            viewer._show(document)
     except BaseException:
-        viewer.close()
+        if viewer is not None:
+            viewer.close()
         raise
     if waits:
         try:

@@ -56,7 +56,7 @@ class Screen:
             self.application.processEvents()
             time.sleep(0.005)
 
-    def settle(self, seconds=0.3):
+    def settle(self, seconds=0.2):
         """Let queued repaints happen."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
@@ -66,20 +66,18 @@ class Screen:
     def open(self, path, source=None):
         self.window.open(str(path), source)
         self.until(lambda: self.session.is_complete)
-        self.settle()
+        self.settle(0.1)
 
     def pictures(self):
-        return [panel.interactor.screenshot(return_img=True).copy() for panel in self.panels]
+        """Of the surfaces, (height, width, 3) each, without what lies over them."""
+        return [panel.view.shot() for panel in self.panels]
 
     def point_of(self, panel, vertex):
-        """Where a vertex is seen in a panel, in its own coordinates."""
+        """Where a vertex is seen in a panel's view, in its own coordinates."""
         from qtpy.QtCore import QPoint
 
-        renderer, ratio = panel.renderer, panel.interactor.devicePixelRatioF()
-        renderer.SetWorldPoint(*self.session.surface.vertices[vertex], 1)
-        renderer.WorldToDisplay()
-        x, y, _ = renderer.GetDisplayPoint()
-        return QPoint(round(x / ratio - 0.5), round(panel.interactor.height() - y / ratio - 0.5))
+        place = panel.view.place_of(self.session.surface.vertices[vertex])
+        return QPoint(round(place.x() - 0.5), round(place.y() - 0.5))
 
 
 @pytest.fixture

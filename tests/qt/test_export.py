@@ -17,14 +17,14 @@ pytest.importorskip("qtpy")
 
 def exported(s, path, **choices):
     """The dialog's figure at a path, once it is there."""
-    from app.qt.figure_actions import export_figure
+    from app.qt.files.figure_actions import export_figure
 
     dialog = export_figure(s.window)
     for name, text in choices.items():
         getattr(dialog, name).setText(text)
     ended = []
-    dialog.saved.connect(ended.append)
-    dialog.failed.connect(ended.append)
+    s.window.exports.saved.connect(ended.append)
+    s.window.exports.failed.connect(ended.append)
     dialog.export(str(path))
     s.until(lambda: ended)
     assert ended == [str(path)]
@@ -36,7 +36,7 @@ def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tm
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
     s.window.grid.camera.Azimuth(40)
-    s.panels[0].moved.emit()
+    s.panels[0].view.moved.emit()
     exported(s, tmp_path / "window.png", size_text="600x300")
     assert main(["figure", "--recipe", str(tmp_path / "window.json"), "-o", str(tmp_path / "again.png")]) == 0
     window, again = ((tmp_path / name).read_bytes() for name in ("window.png", "again.png"))
@@ -50,7 +50,7 @@ def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tm
 
 
 def test_an_export_that_is_cancelled_leaves_nothing(screen, mesh_file, tmp_path):
-    from app.qt.figure_actions import export_figure
+    from app.qt.files.figure_actions import export_figure
 
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
@@ -58,55 +58,66 @@ def test_an_export_that_is_cancelled_leaves_nothing(screen, mesh_file, tmp_path)
     dialog.size_text.setText("12000px")
     out = tmp_path / "out"
     out.mkdir()
-    told = []
-    dialog._progress.connect(lambda fraction, text: told.append(fraction))
     dialog.export(str(out / "large.png"))
-    s.until(lambda: told)
-    dialog.reject()
-    s.until(lambda: dialog.job is None)
-    assert os.listdir(out) == []
-    assert dialog.isVisible()
-    dialog.reject()
     assert not dialog.isVisible()
+    (export,) = s.window.exports.running
+    s.until(lambda: export.fraction > 0)
+    s.window.exports.cancel(export)
+    s.until(lambda: not s.window.exports.running)
+    assert os.listdir(out) == []
+    assert s.refusals == []
+
+
+def test_closing_the_window_cancels_what_is_drawn(screen, mesh_file, tmp_path):
+    from app.qt.files.figure_actions import export_movie
+
+    s = screen()
+    s.open(mesh_file(bumpy(800)), 5)
+    dialog = export_movie(s.window)
+    dialog.frames.setValue(2000)
+    out = tmp_path / "out"
+    out.mkdir()
+    dialog.export(str(out / "long.gif"))
+    (export,) = s.window.exports.running
+    s.until(lambda: export.words.startswith("frame"))
+    s.window.close()
+    assert s.window.exports.running == []
+    assert os.listdir(out) == []
 
 
 def test_what_cannot_be_exported_is_said_at_once(screen, mesh_file, tmp_path):
-    from app.qt.figure_actions import export_figure
+    from app.qt.files.figure_actions import export_figure
 
     s = screen()
     assert export_figure(s.window) is None
     assert "not complete" in s.refusals[-1]
     s.open(mesh_file(bumpy(300)), 5)
     dialog = export_figure(s.window)
-    dialog.size_text.setText("wide")
-    dialog.export(str(tmp_path / "f.png"))
-    assert "'wide' is not a size" in s.refusals[-1]
-    dialog.size_text.setText("")
     dialog.export(str(tmp_path / "no" / "f.png"))
-    assert "no folder" in s.refusals[-1]
+    assert "no folder" in dialog.refusal.text()
+    assert dialog.isVisible()
     dialog.close()
 
 
-def test_a_movie_is_made_and_its_mistakes_are_said(screen, mesh_file, tmp_path):
+def test_a_movie_is_made_and_announced(screen, mesh_file, tmp_path):
     from PIL import Image
 
-    from app.qt.figure_actions import export_movie
+    from app.qt.files.figure_actions import export_movie
 
     s = screen()
     s.open(mesh_file(bumpy(200)), 5)
     dialog = export_movie(s.window)
     dialog.size_text.setText("300x120")
-    dialog.path_text.setText("5,here")
-    out = tmp_path / "m.gif"
-    dialog.export(str(out))
-    assert "'5,here' is not vertex ids" in s.refusals[-1]
     dialog.path_text.setText("5,90")
     dialog.turn.setValue(0)
     dialog.frames.setValue(2)
-    ended = []
-    dialog.saved.connect(ended.append)
+    ended, said = [], []
+    s.window.exports.saved.connect(ended.append)
+    s.window.say = said.append
+    out = tmp_path / "m.gif"
     dialog.export(str(out))
     s.until(lambda: ended)
+    assert said[-1] == "Saved m.gif"
     with Image.open(out) as film:
         assert film.n_frames == 2
 
@@ -126,7 +137,7 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     s.open(mesh_file(bumpy(400), "other.off"))
     s.window.session_file.open(str(tmp_path / "f.json"))
     s.until(lambda: s.document.mesh().path == mesh and s.session.is_complete)
-    assert [p.title.text() for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
+    assert [p.answer.label for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
     assert s.source == 7
     assert s.document.isolines == 12
     assert np.allclose(s.window.grid.camera.GetPosition(), (3, 1, 2))
@@ -142,7 +153,7 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
 def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tmp_path):
     s = screen()
     s.open(mesh_file(bumpy(200)), source=5)
-    before, lines = s.document, s.window.isolines_box.value()
+    before = s.document
     (tmp_path / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
     document = comparison("bad.off", (Spec.of("commute-time"),), (0,), "barycentric")
     (tmp_path / "bad.json").write_text(recipe_text(Recipe(replace(document, isolines=7, camera="top")), "0"))
@@ -151,8 +162,7 @@ def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tm
     s.settle()
     assert s.document == before
     assert s.window.page == Page()
-    assert s.window.isolines_box.value() == lines
-    assert s.panels[0].controls.shows == before.panels[0].shows
+    assert s.panels[0].head.shows == before.panels[0].shows
     s.open(mesh_file(grid(3, 3), "other.off"))
     assert s.document.panels == before.panels
 
@@ -177,8 +187,8 @@ def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, m
     s.settle()
     assert s.window.source_box.value() == surface.faces[3][2]
     assert s.pictures()[0].std() > 20
-    s.window._hover(5)
-    assert s.panels[0].value.text()
+    s.window.grid.point_at(s.panels[0].id, 5)
+    assert s.panels[0].bar.accessibleDescription()
     s.open(mesh_file(grid(4, 4), "other.off"))
     assert [mesh.name for mesh in s.document.surfaces] == ["M"]
 
@@ -199,18 +209,18 @@ def test_recipes_that_the_window_cannot_show_say_so(screen, mesh_file, tmp_path)
 
 
 def test_a_recipe_without_panels_leaves_an_empty_window_that_works(screen, mesh_file, tmp_path):
-    from app.qt.figure_actions import export_figure
+    from app.qt.files.figure_actions import export_figure
 
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
     opened_recipe(s, tmp_path, replace(s.document, panels=(), isolines=500))
     s.settle()
     assert s.panels == []
-    assert s.window.isolines_box.value() == 500
+    assert s.document.isolines == 500
     s.window.reset_view("top")
     assert export_figure(s.window) is None
     assert "no panels" in s.refusals[-1]
-    s.window.add_panel()
+    s.window.choices.add_panel()
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert s.pictures()[0].std() > 20

@@ -14,6 +14,12 @@ from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
+
+from qtpy.QtGui import QColor
+
+from app.qt.look.canvas import canvas_style
+from app.qt.look.look import LOOK
+
 SIZE = 2  # device pixels by which a place may be off
 USUAL = Page()
 
@@ -36,25 +42,38 @@ def shown(screen, mesh_file, tmp_path):
     return show
 
 
+@pytest.fixture
+def theme(application):
+    """Choose the window's theme, for one test."""
+    before = LOOK.choice
+    yield LOOK.choose
+    LOOK.choose(before)
+
+
 def seen_at(panel, vertex, renderer=None):
     """The device pixel at which a vertex of a panel's surface is drawn, y up."""
-    renderer = renderer or panel.renderer
-    renderer.SetWorldPoint(*panel._positions[vertex], 1)
+    renderer = renderer or panel.view.renderer
+    renderer.SetWorldPoint(*panel.positions[vertex], 1)
     renderer.WorldToDisplay()
     return np.array(renderer.GetDisplayPoint()[:2])
 
 
 def colour_at(panel, pixel):
     """RGB, 0 to 1, the mean of a few pixels."""
-    picture = panel.interactor.screenshot(return_img=True)[::-1]
+    picture = panel.view.shot()[::-1]
     x, y = np.round(pixel).astype(int)
-    return picture[y - 1 : y + 2, x - 1 : x + 2, :3].mean(axis=(0, 1)) / 255
+    return picture[y - 1 : y + 2, x - 1 : x + 2].mean(axis=(0, 1)) / 255
 
 
 def facing(s):
     """A vertex in the middle of what is seen."""
-    renderer, width, height = s.panels[0].renderer, *s.panels[0].renderer.GetSize()
-    return s.panels[0]._picker.met_at(renderer, width / 2, 0.55 * height).vertex
+    return met(s.panels[0], 0.55).vertex
+
+
+def met(panel, height):
+    """What is seen in the middle, at a share of the view's height."""
+    width, top = panel.view.pixels
+    return panel.view.picker.met_at(panel.view.renderer, width / 2, height * top)
 
 
 # ---------------------------------------------------------------------- insets
@@ -65,7 +84,7 @@ def test_an_inset_enlarges_what_the_panel_shows(shown):
     s.session.show(replace(s.document, zooms=(Zoom(vertex, 4.0, "top left"),)))
     s.settle()
     panel = s.panels[0]
-    (inset,) = panel.scene.insets._shown
+    (inset,) = panel.view.scene.insets.renderers
     centre = np.array(inset.GetOrigin()) + np.array(inset.GetSize()) / 2
     assert np.abs(seen_at(panel, vertex, inset) - centre).max() <= SIZE
     # Four times as far from each other, whatever the direction.
@@ -73,27 +92,29 @@ def test_an_inset_enlarges_what_the_panel_shows(shown):
         apart = seen_at(panel, other) - seen_at(panel, vertex)
         assert np.allclose(seen_at(panel, other, inset) - seen_at(panel, vertex, inset), 4 * apart, atol=SIZE)
     # It is square, in its corner, and follows the camera.
-    width, height = panel.renderer.GetSize()
+    width, height = panel.view.pixels
     assert inset.GetSize()[0] == pytest.approx(0.4 * min(width, height), abs=2)
     assert inset.GetOrigin()[0] < 10
     assert inset.GetOrigin()[1] + inset.GetSize()[1] > height - 10
     s.window.grid.camera.Azimuth(20)
-    panel.interactor.render()
+    s.window.grid.redraw()
+    s.settle()
     assert np.abs(seen_at(panel, vertex, inset) - centre).max() <= SIZE
 
 
 def test_a_click_in_an_inset_selects_what_is_seen_there(shown):
     from qtpy import QtCore, QtTest
 
-    s = shown(bumpy(2000))
+    s = shown(bumpy(2000), source=9)
     vertex = facing(s)
+    assert vertex != s.source
     s.session.show(replace(s.document, zooms=(Zoom(vertex, 5.0, "top right"),)))
     s.settle()
     panel = s.panels[1]
-    (inset,) = panel.scene.insets._shown
+    (inset,) = panel.view.scene.insets.renderers
     x, y = np.array(inset.GetOrigin()) + np.array(inset.GetSize()) / 2
-    place = QtCore.QPoint(int(x), int(panel.interactor.height() - y))
-    QtTest.QTest.mouseClick(panel.interactor, QtCore.Qt.MouseButton.LeftButton, pos=place)
+    place = QtCore.QPoint(int(x), int(panel.view.height() - y))
+    QtTest.QTest.mouseClick(panel.view, QtCore.Qt.MouseButton.LeftButton, pos=place)
     assert s.source == vertex
 
 
@@ -106,17 +127,17 @@ def test_an_inset_that_may_stand_anywhere_hides_the_least(shown):
     used = np.unique(strip.faces)
     middle = int(used[np.abs(x[used] - x[used].mean(axis=0)).sum(axis=1).argmin()])
     s = shown(strip, source=middle, zooms=(Zoom(middle, 6.0), Zoom(middle, 6.0)))
-    assert sorted(s.panels[0].scene.insets._corners) == ["bottom right", "top left"]
+    assert sorted(s.panels[0].view.scene.insets._corners) == ["bottom right", "top left"]
 
 
 def test_insets_come_and_go_with_the_document(shown):
     s = shown(bumpy(300), zooms=(Zoom(7), Zoom(9, corner="bottom left")))
-    window = s.panels[0].renderer.GetRenderWindow()
+    window = s.panels[0].view.renderer.GetRenderWindow()
     count = window.GetRenderers().GetNumberOfItems()
     before = s.pictures()
     s.session.show(replace(s.document, zooms=()))
     s.settle()
-    assert window.GetRenderers().GetNumberOfItems() == count - 2
+    assert window.GetRenderers().GetNumberOfItems() == count - 2 * len(s.panels)  # one window draws all panels
     assert all((a != b).any() for a, b in zip(before, s.pictures(), strict=True))
     s.session.undo()
     s.settle()
@@ -138,7 +159,7 @@ def test_anchors_have_the_colours_of_their_values(shown):
         assert np.abs(found / found.max() - expected / expected.max()).max() < 0.12
     s.session.show(replace(s.document, anchors=()))
     s.settle(0.1)
-    assert not s.panels[0].scene._anchored.actor.GetVisibility()
+    assert not s.panels[0].view.scene._anchored.actor.GetVisibility()
 
 
 # ---------------------------------------------------------------------- reliefs
@@ -147,40 +168,69 @@ def test_a_flat_surface_becomes_a_relief_of_each_panels_field_and_flat_again(sho
     s = shown(surface, height=0.4)
     for panel, answer in zip(s.panels, s.answers, strict=True):
         raised = surface.vertices[:, 2] + 0.4 * np.ptp(surface.vertices, axis=0).max() * answer.field / answer.maximum
-        assert np.allclose(panel._positions[:, 2], raised)
+        assert np.allclose(panel.positions[:, 2], raised)
         # A click finds the vertices where they are now.
         vertex = int(np.abs(surface.vertices - surface.vertices.mean(axis=0)).sum(axis=1).argmin())
-        assert panel._current_picker().met_at(panel.renderer, *seen_at(panel, vertex)).vertex == vertex
+        assert panel.view.picker.met_at(panel.view.renderer, *seen_at(panel, vertex)).vertex == vertex
     s.session.show(replace(s.document, height=0.0))
     s.settle()
-    assert all(np.array_equal(panel._positions, surface.vertices) for panel in s.panels)
+    assert all(np.array_equal(panel.positions, surface.vertices) for panel in s.panels)
     s.session.undo()
     s.settle()
-    assert all(np.ptp(panel._positions[:, 2]) > 0 for panel in s.panels)
+    assert all(np.ptp(panel.positions[:, 2]) > 0 for panel in s.panels)
 
 
 def test_a_surface_that_is_not_flat_stays_as_it_is(shown):
     surface = bumpy(300)
     s = shown(surface, height=0.4)
-    assert all(np.array_equal(panel._positions, s.session.surface.vertices) for panel in s.panels)
+    assert all(np.array_equal(panel.positions, s.session.surface.vertices) for panel in s.panels)
 
 
 # ---------------------------------------------------------------------- styles
-def test_a_recipe_is_shown_in_its_style_and_the_next_in_its_own(shown, tmp_path):
-    s = shown(bumpy(300), Page(style="dark"), zooms=(Zoom(7),))
-    for panel in s.panels:
-        assert np.allclose(colour_at(panel, (5, panel.interactor.height() / 2)), STYLES["dark"].background, atol=0.02)
-        assert panel.scene._field.maximum > 0
-    s.window.add_panel()
+def is_on_the_windows_ground(panel):
+    return np.allclose(colour_at(panel, (5, 5)), QColor(LOOK.theme.canvas).getRgbF()[:3], atol=0.01)
+
+
+def test_a_recipe_is_shown_in_its_style_on_the_windows_ground_and_the_next_in_its_own(shown, tmp_path):
+    s = shown(bumpy(300), Page(style="uniform"), zooms=(Zoom(7, corner="top right"),))
+
+    def styles():
+        assert all(is_on_the_windows_ground(panel) for panel in s.panels)
+        assert all(panel.view.scene.maximum > 0 for panel in s.panels)
+        return {panel.view.scene.style for panel in s.panels}
+
+    assert styles() == {canvas_style("uniform", LOOK.theme)}
+    s.window.choices.add_panel()
     s.until(lambda: s.session.is_complete)
     s.settle()
-    assert {panel.scene.style for panel in s.panels} == {STYLES["dark"]}
+    assert (len(s.panels), styles()) == (3, {canvas_style("uniform", LOOK.theme)})
     (tmp_path / "p.json").write_text(recipe_text(Recipe(s.document), "0"))
     s.window.session_file.open(str(tmp_path / "p.json"))
     s.until(lambda: s.window.page == Page())
     s.settle()
-    for panel in s.panels:
-        assert np.allclose(colour_at(panel, (5, 5)), (1, 1, 1), atol=0.02)
+    assert styles() == {canvas_style("paper", LOOK.theme)}
+
+
+def test_another_theme_has_the_twin_of_a_style_and_changes_no_page_and_nothing_of_what_is_shown(shown, theme):
+    theme("dark")
+    anchor = {"anchors": (Anchor("source", 0.1),), "height": 0.3}
+    s = shown(grid(12, 12), Page(style="dark"), zooms=(Zoom(7, corner="top right"),), **anchor)
+    pictures = {}
+    # The menu bar has its height from the first change of the theme on, and so have the views.
+    for word, style in (("light", "paper"), ("dark", "dark"), ("light again", "paper"), ("dark again", "dark")):
+        theme(word.split()[0])
+        s.settle()
+        pictures[word] = s.pictures()
+        assert s.window.page == Page(style="dark")
+        for panel in s.panels:
+            scene = panel.view.scene
+            assert (scene.style.stops, is_on_the_windows_ground(panel)) == (STYLES[style].stops, True)
+            assert (len(scene.insets.renderers), len(scene.isolines)) == (1, 19)
+            assert scene._anchored.actor.GetVisibility()
+            assert np.ptp(panel.positions[:, 2]) > 0
+    for word in ("light", "dark"):
+        assert all(np.array_equal(a, b) for a, b in zip(pictures[word], pictures[f"{word} again"], strict=True))
+    assert all((a != b).mean() > 0.5 for a, b in zip(pictures["light"], pictures["dark"], strict=True))
 
 
 def test_a_relief_higher_than_its_colour_bar_stays_in_view(shown):
@@ -190,10 +240,10 @@ def test_a_relief_higher_than_its_colour_bar_stays_in_view(shown):
     s.session.show(replace(s.document, panels=panels))
     s.settle()
     extent = np.ptp(surface.vertices, axis=0).max()
-    assert s.panels[0]._positions[:, 2].max() == pytest.approx(surface.vertices[0, 2] + 0.4 * extent)
+    assert s.panels[0].positions[:, 2].max() == pytest.approx(surface.vertices[0, 2] + 0.4 * extent)
     pixels = np.array([seen_at(s.panels[0], vertex) for vertex in range(len(surface.vertices))])
     assert (pixels >= 0).all()
-    assert (pixels <= s.panels[0].renderer.GetSize()).all()
+    assert (pixels <= s.panels[0].view.pixels).all()
 
 
 # ---------------------------------------------------------------------- what cannot be, and what must not stay
@@ -207,19 +257,16 @@ def test_an_inset_at_a_vertex_that_there_is_not_is_refused_and_nothing_changes(s
 
 
 def test_the_mark_of_the_source_is_not_held_through_an_inset_over_it(shown):
-    from qtpy import QtCore
-
     s = shown(bumpy(2000))
     panel = s.panels[0]
-    width, height = panel.renderer.GetSize()
-    vertex = panel._current_picker().met_at(panel.renderer, width / 2, 0.75 * height).vertex
+    vertex = met(panel, 0.75).vertex
     s.session.show(move_source(s.document, s.document.panels[0].id, vertex))
     s.settle()
-    x, y = seen_at(panel, vertex)
-    place = QtCore.QPoint(round(x - 0.5), round(height - y - 0.5))
-    assert panel._is_on_mark(place)
-    panel.scene.insets.renderer_at = lambda x, y: None  # an inset stands there
-    assert not panel._is_on_mark(place)
+    s.until(lambda: s.session.is_complete)
+    place = s.point_of(panel, vertex)
+    assert panel.view._is_on_mark(place)
+    panel.view.scene.insets.renderer_at = lambda x, y: None  # an inset stands there
+    assert not panel.view._is_on_mark(place)
 
 
 def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
@@ -229,7 +276,7 @@ def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
     s = shown(bumpy(300))
     shown_by = weakref.ref(s.answers[1].field)
     kept = s.panels[1]
-    s.window._edit_panels(s.document.panels[1].id, "Remove it")
+    s.window.choices.edit_panel(s.document.panels[1].id, "Remove it")
     s.session._answering._kept = type(s.session._answering._kept)()
     s.settle()
     gc.collect()
@@ -241,17 +288,23 @@ def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
     assert s.panels[1].answer.field is s.answers[1].field
 
 
-def test_a_style_leaves_nothing_of_the_one_before(shown):
+@pytest.mark.parametrize("chosen_in", ["recipe", "menu"])
+def test_a_style_leaves_nothing_of_the_one_before(shown, chosen_in):
     s = shown(bumpy(300), zooms=(Zoom(7),))
     panel = s.panels[0]
 
     def counted():
-        window, props = panel.renderer.GetRenderWindow(), panel.renderer.GetViewProps()
+        window, props = panel.view.renderer.GetRenderWindow(), panel.view.renderer.GetViewProps()
         return window.GetRenderers().GetNumberOfItems(), props.GetNumberOfItems()
 
-    before = counted()
-    for style in ("dark", "uniform", "paper"):
-        s.window.show_document(s.document, Page(style=style))
+    before, pictures = counted(), s.pictures()
+    for style in ("lines", "uniform", "paper"):
+        if chosen_in == "recipe":
+            s.window.show_document(s.document, Page(style=style))
+        else:
+            next(each for each in s.window.menus.colours.actions() if each.data() == style).trigger()
         s.settle(0.1)
-        assert panel.scene.style is STYLES[style]
+        assert panel.view.scene.style.stops == STYLES[style].stops
         assert counted() == before
+        assert all((a != b).any() == (style != "paper") for a, b in zip(pictures, s.pictures(), strict=True))
+    assert s.window.page == Page()

@@ -34,7 +34,7 @@ def drag(x, y, by):
 def corner(panel):
     from qtpy.QtCore import QPoint
 
-    point = panel.interactor.mapToGlobal(QPoint(0, 0))
+    point = panel.view.mapToGlobal(QPoint(0, 0))
     return point.x(), point.y()
 
 
@@ -58,13 +58,13 @@ def test_click_selects_and_drag_only_rotates_all_panels(opened):
     s.settle()
 
     for panel in s.panels:
-        before, camera = s.pictures(), np.array(panel.renderer.GetActiveCamera().GetPosition())
+        before, camera = s.pictures(), np.array(panel.view.camera.GetPosition())
         x0, y0 = corner(panel)
-        middle = x0 + panel.interactor.width() // 2, y0 + panel.interactor.height() // 2
+        middle = x0 + panel.view.width() // 2, y0 + panel.view.height() // 2
         drag(*middle, 90)
         s.settle(0.5)
         assert s.source == target
-        assert np.linalg.norm(np.array(panel.renderer.GetActiveCamera().GetPosition()) - camera) > 0.1
+        assert np.linalg.norm(np.array(panel.view.camera.GetPosition()) - camera) > 0.1
         assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
 
 
@@ -75,17 +75,22 @@ def test_dragging_the_mark_moves_the_source_and_not_the_view(opened):
     s.until(lambda: s.session.is_complete)
     s.settle()
     x0, y0 = corner(panel)
-    point, camera = s.point_of(panel, front), panel.renderer.GetActiveCamera().GetPosition()
-    titles = []
-    s.panels[1].title.setText = lambda text: titles.append(text)
+    point, camera = s.point_of(panel, front), panel.view.camera.GetPosition()
+    labels, tell = [], s.window.answer_changed
+
+    def note(id):
+        labels.append(s.session.shown[1].answer.label)
+        tell(id)
+
+    s.window.answer_changed = note
     drag(x0 + point.x(), y0 + point.y(), 70)
     s.until(lambda: s.session.is_complete and s.source != front)
-    assert panel.renderer.GetActiveCamera().GetPosition() == camera
+    assert panel.view.camera.GetPosition() == camera
     there = s.point_of(panel, s.source)
     assert abs(there.x() - point.x() - 70) < 25
     assert abs(there.y() - point.y() - 8) < 25
-    assert "geodesic, heat method" in titles
-    assert titles[-1] == "geodesic, exact"
+    assert "geodesic, heat method" in labels
+    assert labels[-1] == "geodesic, exact"
     s.session.undo()
     assert s.source == front
 
@@ -98,11 +103,11 @@ def test_the_mark_behind_the_surface_is_not_taken_hold_of(opened):
     s.until(lambda: s.session.is_complete)
     s.settle()
     x0, y0 = corner(panel)
-    point, camera = s.point_of(panel, back), panel.renderer.GetActiveCamera().GetPosition()
+    point, camera = s.point_of(panel, back), panel.view.camera.GetPosition()
     drag(x0 + point.x(), y0 + point.y(), 70)
     s.settle(0.5)
     assert s.source == back
-    assert panel.renderer.GetActiveCamera().GetPosition() != camera
+    assert panel.view.camera.GetPosition() != camera
 
 
 def test_a_hand_that_trembles_still_clicks(opened):
@@ -110,19 +115,19 @@ def test_a_hand_that_trembles_still_clicks(opened):
     x0, y0 = corner(panel)
     target = int(s.session.surface.vertices[:, 2].argmax())
     point = s.point_of(panel, target)
-    camera = panel.renderer.GetActiveCamera().GetPosition()
+    camera = panel.view.camera.GetPosition()
     run("mousemove", x0 + point.x(), y0 + point.y())
     run("mousedown", 1)
     run("mousemove_relative", 2, 1)
     run("mouseup", 1)
     s.until(lambda: s.session.is_complete and s.source == target)
-    assert panel.renderer.GetActiveCamera().GetPosition() == camera
+    assert panel.view.camera.GetPosition() == camera
 
 
 def test_the_wheel_zooms_all_panels(opened):
     s = opened
     x0, y0 = corner(s.panels[2])
-    before, camera = s.pictures(), s.panels[2].renderer.GetActiveCamera()
+    before, camera = s.pictures(), s.panels[2].view.camera
     distance = camera.GetDistance()
     run("mousemove", x0 + 150, y0 + 200)
     run("click", "--repeat", 3, "--delay", 50, 4)

@@ -7,10 +7,13 @@ import pytest
 
 from app.document.edits import add_panel, move_source, remove_panel
 from app.document.quantities import DistanceFrom, quantity
+from app.qt.look.numbers import number
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
+
+from tests.qt.test_head import choose
 
 
 def test_as_many_panels_as_the_document_has_of_equal_size(screen, mesh_file):
@@ -25,13 +28,12 @@ def test_as_many_panels_as_the_document_has_of_equal_size(screen, mesh_file):
     s.settle()
     assert len(s.panels) == 6
     assert s.panels[0] is first
-    sizes = {(panel.width() // 2, panel.height() // 2) for panel in s.panels}
-    assert len(sizes) == 1
+    assert len({(panel.width(), panel.height()) for panel in s.panels}) == 1
     assert {panel.y() for panel in s.panels[3:]} == {s.panels[3].y()} != {first.y()}
     assert all(picture.std() > 20 for picture in s.pictures())
     s.session.show(remove_panel(remove_panel(document, 0), 4))
     s.settle()
-    assert [panel.title.text() for panel in s.panels][-1].startswith("1/λ")
+    assert s.panels[-1].answer.label.startswith("1/λ")
     assert len(s.panels) == 4
     assert first not in s.panels
     s.session.undo()
@@ -40,33 +42,61 @@ def test_as_many_panels_as_the_document_has_of_equal_size(screen, mesh_file):
     assert all(picture.std() > 20 for picture in s.pictures())
 
 
-def test_colour_bars_end_where_the_document_says(screen, mesh_file):
-    s = screen((Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("commute-time")))
-    s.open(mesh_file(bumpy(300)), 5)
-    own = [panel.scene._field.maximum for panel in s.panels]
-    panels = tuple(replace(panel, maximum=2 * own[0]) if panel.id == 0 else panel for panel in s.document.panels)
-    s.session.show(replace(s.document, panels=panels))
-    assert [panel.scene._field.maximum for panel in s.panels] == [2 * own[0], *own[1:]]
-    s.session.undo()
-    s.session.show(replace(s.document, shared_range=True))
-    largest = max(own[:2])
-    assert [panel.scene._field.maximum for panel in s.panels] == [largest, largest, own[2]]
-    s.session.undo()
-    assert [panel.scene._field.maximum for panel in s.panels] == own
-
-
-def test_undo_brings_back_source_controls_and_lines_but_not_the_view(screen, mesh_file):
+@pytest.mark.parametrize("place", [0, 2])
+def test_a_panel_that_comes_back_shows_what_it_did_before(screen, mesh_file, place):
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
     before = s.pictures()
-    s.window.isolines_box.setValue(7)
+    s.panels[place].head.edits["Remove it"].trigger()
+    s.settle()
+    assert all(picture.shape != before[0].shape for picture in s.pictures())
+    s.session.undo()
+    s.settle()
+    assert all(np.array_equal(a, b) for a, b in zip(before, s.pictures(), strict=True))
+
+
+def test_colours_and_their_bars_end_where_the_document_says(screen, mesh_file):
+    s = screen((Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("commute-time")))
+    s.open(mesh_file(bumpy(300)), 5)
+
+    def ends():
+        assert [panel.bar._reading.high for panel in s.panels] == [panel.view.scene.maximum for panel in s.panels]
+        return [panel.view.scene.maximum for panel in s.panels]
+
+    own = ends()
+    assert own == [answer.maximum for answer in s.answers]
+    panels = tuple(replace(panel, maximum=2 * own[0]) if panel.id == 0 else panel for panel in s.document.panels)
+    s.session.show(replace(s.document, panels=panels))
+    assert ends() == [2 * own[0], *own[1:]]
+    s.session.undo()
+    s.window.choices.range("shared")
+    largest = max(own[:2])
+    assert ends() == [largest, largest, own[2]]
+    s.session.undo()
+    assert ends() == own
+
+
+def test_undo_brings_back_source_parameters_and_lines_but_not_the_view(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    before = s.pictures()
+
+    def lines():
+        return s.window.tools["isolines"].accessibleDescription(), len(s.panels[0].view.scene.isolines)
+
+    assert lines() == ("20", 19)
+    s.window.choices.isolines(7)
+    assert lines() == ("7", 6)
     s.session.show(move_source(s.document, 0, 9))
-    s.panels[2].controls.changed.emit(DistanceFrom(Spec.of("diffusion", t=0.25)))
+    s.panels[2].head.changed.emit(DistanceFrom(Spec.of("diffusion", t=0.25)))
     s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert all((a != b).any() for a, b in zip(before, s.pictures(), strict=True))
     for _ in range(3):
         s.session.undo()
-    assert (s.window.source_box.value(), s.window.isolines_box.value()) == (5, 20)
-    assert s.panels[2].controls.shows == DistanceFrom(Spec.of("diffusion"))
+    assert (s.window.source_box.text(), lines()) == ("5", ("20", 19))
+    assert s.panels[2].head.shows == DistanceFrom(Spec.of("diffusion"))
+    s.until(lambda: s.session.is_complete)
     s.settle()
     assert all(np.array_equal(a, b) for a, b in zip(before, s.pictures(), strict=True))
     s.window.reset_view("back")
@@ -81,33 +111,34 @@ def test_a_panel_shows_the_difference_of_two_distances_and_names_the_largest(scr
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
     one, other = (answer.field / answer.maximum for answer in s.answers[:2])
-    controls = s.panels[0].controls
-    menu = controls.first.distance
-    menu.setCurrentIndex(menu.findText("Difference of two"))
-    s.until(lambda: s.session.is_complete)
-    s.settle()
-    assert s.panels[0].title.text() == "biharmonic, exact − geodesic, exact"
-    assert np.allclose(s.answers[0].field, one - other)
+    panel = s.panels[0]
+
+    def chosen(*path):
+        choose(panel.head, *path)
+        s.until(lambda: s.session.is_complete)
+        s.settle()
+        return panel.head.name.text(), panel.answer.label
+
+    def ends():
+        return panel.bar._reading.low, panel.bar._reading.high
+
+    assert chosen("Difference with", "Geodesic") == ("Biharmonic − Geodesic", "biharmonic, exact − geodesic, exact")
+    assert np.allclose(panel.answer.field, one - other)
     vertex = int(np.abs(one - other).argmax())
-    assert s.panels[0].hint.text() == f"largest {(one - other)[vertex]:+.3g} at vertex {vertex}"
-    assert controls.second.isVisible()
-    scene = s.panels[0].scene
-    assert scene._bar.GetLookupTable().GetRange() == pytest.approx((-s.answers[0].maximum, s.answers[0].maximum))
-    s.panels[0].show_value(vertex)
-    assert s.panels[0].value.text().startswith(f"{(one - other)[vertex]:+.5g} ")
-    second = controls.second.distance
-    second.setCurrentIndex(second.findData("commute-time"))
-    s.until(lambda: s.session.is_complete)
-    assert s.panels[0].title.text() == "biharmonic, exact − commute-time, exact"
-    controls.alone.click()
-    s.until(lambda: s.session.is_complete)
-    assert s.panels[0].title.text() == "biharmonic, exact"
-    assert not controls.second.isVisible()
-    for _ in range(3):
+    largest = number((one - other)[vertex], signed=True)
+    assert panel.bar._reading.remark == f"largest {largest} at vertex {vertex}"
+    assert ends() == pytest.approx((-panel.answer.maximum, panel.answer.maximum))
+    s.window.grid.point_at(panel.id, vertex)
+    assert (panel.view._pointed.value, panel.bar._reading.value) == (largest, panel.answer.field[vertex])
+    of_commute_time = "Biharmonic − Commute-time", "biharmonic, exact − commute-time, exact"
+    assert chosen("Second: Geodesic", "Commute-time") == of_commute_time
+    assert chosen("Show the first alone") == ("Biharmonic", "biharmonic, exact")
+    s.session.undo()
+    assert (panel.head.name.text(), ends()[0] < 0) == ("Biharmonic − Commute-time", True)
+    for _ in range(2):
         s.session.undo()
-    s.settle()
-    assert s.panels[0].title.text() == "biharmonic, exact"
-    assert scene._bar.GetLookupTable().GetRange()[0] == 0
+    assert (panel.head.name.text(), panel.answer.label) == ("Biharmonic", "biharmonic, exact")
+    assert (ends(), panel.bar._reading.note) == ((0, panel.answer.maximum), "")
 
 
 def test_panels_are_added_duplicated_moved_and_removed_from_their_menus(screen, mesh_file):
@@ -117,27 +148,27 @@ def test_panels_are_added_duplicated_moved_and_removed_from_their_menus(screen, 
     def shown():
         return [str(panel.shows) for panel in s.document.panels]
 
-    def choose(place, word):
-        s.panels[place].controls.edits[word].trigger()
+    def edit(place, word):
+        s.panels[place].head.edits[word].trigger()
 
     def possible(place):
-        return {word for word, action in s.panels[place].controls.edits.items() if action.isEnabled()}
+        return {word for word, action in s.panels[place].head.edits.items() if action.isEnabled()}
 
-    choose(0, "Duplicate this panel")
+    edit(0, "Duplicate this panel")
     assert shown() == ["biharmonic", "biharmonic", "geodesic", "diffusion"]
-    choose(0, "Remove it")
-    choose(0, "Move it on")
-    choose(2, "Move it back")
+    edit(0, "Remove it")
+    edit(0, "Move it on")
+    edit(2, "Move it back")
     assert shown() == ["geodesic", "diffusion", "biharmonic"]
     assert possible(0) == {"Add a panel", "Duplicate this panel", "Move it on", "Remove it"}
     for count in (4, 5, 6):
-        s.window.add_panel()
+        s.window.choices.add_panel()
         assert len(set(shown())) == count
     assert "Add a panel" not in possible(5)
-    s.window.add_panel()
+    s.window.choices.add_panel()
     assert len(s.panels) == 6
     for _ in range(5):
-        choose(0, "Remove it")
+        edit(0, "Remove it")
     assert possible(0) == {"Add a panel", "Duplicate this panel"}
     s.until(lambda: s.session.is_complete)
     for _ in range(5 + 3 + 4):
@@ -156,7 +187,7 @@ def test_undo_redo_and_the_walk_through_sources_by_keyboard(screen, mesh_file):
         s.session.show(move_source(s.document, 0, vertex))
     s.window.activateWindow()
     s.settle()
-    view, control, shift, alt = s.panels[0].interactor, Qt.ControlModifier, Qt.ShiftModifier, Qt.AltModifier
+    view, control, shift, alt = s.panels[0].view, Qt.ControlModifier, Qt.ShiftModifier, Qt.AltModifier
     QTest.keyClick(view, Qt.Key_Z, control)
     QTest.keyClick(view, Qt.Key_Z, control)
     assert s.source == 6
@@ -188,20 +219,19 @@ def test_views_have_a_history_of_their_own(screen, mesh_file):
     assert not s.session.history.can_undo
 
 
-def test_panels_are_equal_and_the_window_is_as_narrow_as_asked_whatever_the_controls(screen, mesh_file):
+def test_panels_are_equal_and_the_window_is_as_narrow_as_asked_whatever_is_in_their_heads(screen, mesh_file):
     s = screen((quantity("diffusion - biharmonic"), Spec.of("truncated"), Spec.of("power")))
     s.open(mesh_file(bumpy(300)), 5)
-    slider = s.panels[0].controls.first.parameters["t"].widget
+    slider = s.panels[2].head.controls[0].slider
     for width, has_room in ((900, False), (1580, True)):
         s.window.resize(width, 600)
         s.settle()
         assert s.window.width() == width
-        widths = [panel.width() for panel in s.panels]
-        assert max(widths) - min(widths) <= 1
+        assert len({panel.width() for panel in s.panels}) == 1
         assert slider.isVisible() is has_room
 
 
-def test_escape_puts_a_box_back_and_elsewhere_stops_the_work(screen, mesh_file):
+def test_escape_puts_the_box_back_and_elsewhere_stops_the_work(screen, mesh_file):
     from qtpy.QtCore import Qt
     from qtpy.QtTest import QTest
 
@@ -209,28 +239,54 @@ def test_escape_puts_a_box_back_and_elsewhere_stops_the_work(screen, mesh_file):
     s.open(mesh_file(bumpy(300)), 5)
     s.window.activateWindow()
     s.settle()
-    for box, value in ((s.window.source_box, 5), (s.window.isolines_box, 20)):
-        box.setFocus()
-        box.selectAll()
-        QTest.keyClicks(box, "7")
-        QTest.keyClick(box, Qt.Key_Escape)
-        assert (box.value(), box.text()) == (value, str(value))
-        assert s.window.focusWidget() is s.panels[0].interactor
-    assert not s.session.is_stopped
-    QTest.keyClick(s.panels[0].interactor, Qt.Key_Escape)
-    assert s.session.is_stopped
+    box, view = s.window.source_box, s.panels[0].view
+    QTest.keyClick(view, Qt.Key_G)
+    assert s.window.focusWidget() is box
+    QTest.keyClicks(box, "7")
+    assert box.text() == "7"
+    QTest.keyClick(box, Qt.Key_Escape)
+    assert (box.value(), box.text()) == (5, "5")
+    assert s.window.focusWidget() is view
+    QTest.keyClick(view, Qt.Key_Escape)
+    assert not s.session.is_stopped, "there is nothing to stop"
     assert not s.session.history.can_undo
+    s.session.show(move_source(s.document, 0, 9))
+    QTest.keyClick(view, Qt.Key_Escape)
+    assert s.session.is_stopped
+    s.settle()
+    assert "Stopped" in view.sentence
+    s.session.show(move_source(s.document, 0, 12))
+    s.until(lambda: s.session.is_complete)
+    assert (s.session.is_stopped, view.sentence) == (False, "")
 
 
-def test_a_first_mesh_that_fails_leaves_an_empty_window_that_says_what_to_do(screen, mesh_file, tmp_path):
+def test_what_was_stopped_and_is_not_asked_any_more_is_not_spoken_of(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    before, panel = s.pictures(), s.panels[0]
+    s.session.show(move_source(s.document, 0, 9))
+    s.window.cancel()
+    s.settle()
+    assert ("Stopped" in panel.view.sentence, panel.view._is_dimmed, panel.bar._reading) == (True, True, None)
+    s.session.undo()
+    s.settle()
+    assert (panel.view.sentence, panel.view._is_dimmed, panel.bar._reading.high) == ("", False, panel.answer.maximum)
+    assert all(np.array_equal(a, b) for a, b in zip(before, s.pictures(), strict=True))
+
+
+def test_a_first_mesh_that_fails_leaves_the_page_to_start_from_which_says_why(screen, mesh_file, tmp_path):
     s = screen()
     s.window.open(str(tmp_path / "gone.off"))
     s.until(lambda: s.refusals)
-    assert s.window._empty.isVisible()
-    assert "Ctrl+O" in s.window._empty.text()
-    assert not s.panels[0].isVisible()
-    assert (s.window.source_box.text(), s.window.source_box.isEnabled()) == ("–", False)
+    page = s.window._start_page
+    assert (page.isVisible(), page.message.isVisible(), page.message.said) == (True, True, s.refusals[-1])
+    assert "gone.off" in page.message.said
+    assert not s.window.grid.isVisible()
+    assert (s.window.source_box.text(), s.window.source_box.isEnabled()) == ("", False)
+    assert not s.window.actions_by_word["save"].isEnabled()
     s.open(mesh_file(bumpy(300)), 5)
     assert s.panels[0].isVisible()
-    assert s.window.source_box.value() == 5
+    assert not page.isVisible()
+    assert (s.window.source_box.value(), s.window.source_box.isEnabled()) == (5, True)
+    assert s.window.actions_by_word["save"].isEnabled()
     assert all(picture.std() > 20 for picture in s.pictures())

@@ -37,7 +37,7 @@ def arranged(s, mesh):
     s.open(mesh, 5)
     document = add_panel(move_source(s.document, 0, 9), quantity("biharmonic - geodesic"))
     s.session.show(replace(document, isolines=12))
-    s.panels[2].controls.first.parameters["t"].chosen.emit(0.25)
+    s.panels[2].head.controls[0].chosen.emit(0.25)
     s.window.reset_view("left")
     s.until(lambda: s.session.is_complete)
     s.settle()
@@ -75,7 +75,7 @@ def test_a_session_is_drawn_by_the_command_line_and_may_move_with_its_mesh(scree
 
 
 def test_a_recipe_opened_and_exported_again_has_the_same_bytes(screen, mesh_file, tmp_path):
-    from app.qt.figure_actions import export_figure
+    from app.qt.files.figure_actions import export_figure
 
     camera = Camera((3.0, 1.0, 2.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.4, 0.3))
     document = comparison(mesh_file(bumpy(300)), (Spec.of("biharmonic"), Spec.of("commute-time")), (4, 9))
@@ -92,8 +92,8 @@ def test_a_recipe_opened_and_exported_again_has_the_same_bytes(screen, mesh_file
     assert [p.shows.point for p in s.document.panels] == ["source", "source", "source 2", "source 2"]
     dialog = export_figure(s.window)
     ended = []
-    dialog.saved.connect(ended.append)
-    dialog.failed.connect(ended.append)
+    s.window.exports.saved.connect(ended.append)
+    s.window.exports.failed.connect(ended.append)
     dialog.export(str(tmp_path / "g.png"))
     s.until(lambda: ended)
     assert (tmp_path / "g.json").read_bytes() == (tmp_path / "f.json").read_bytes()
@@ -113,7 +113,7 @@ def test_a_mesh_that_is_gone_or_has_changed_is_said_and_another_can_be_pointed_a
     assert "is not there" in s.refusals[-1]
     assert s.document == before
     elsewhere = str(tmp_path / "elsewhere.off")
-    monkeypatch.setattr("app.qt.session_actions._mesh_instead", lambda window, message, path: elsewhere)
+    monkeypatch.setattr("app.qt.files.session_actions._mesh_instead", lambda window, message, path: elsewhere)
     s.window.session_file.open(str(tmp_path / "s.json"))
     s.until(lambda: s.session.is_complete and s.session.surface.name == "elsewhere.off")
     assert (s.source, len(s.panels)) == (9, 4)
@@ -169,7 +169,8 @@ def test_after_a_crash_what_was_shown_is_offered_and_after_a_proper_end_it_is_no
     s.until(lambda: remembered.own_state().exists(), seconds=10)
     assert remembered.lost_states() == []  # this process is there
     # Another process keeps its state, and ends without a word once it is told to.
-    code = "import os; from app.qt import remembered as r; text = input(); r.keep_state(lambda p: p.write_text(text)); "
+    code = "import os; from app.qt import remembered as r; text = input(); "
+    code += "r.keep_state(lambda p: p.write_text(text)); "
     command = [sys.executable, "-c", f"{code}print(r.own_state()); print(flush=True); input(); os._exit(1)"]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, cwd=ROOT, **pipes) as process:
@@ -237,7 +238,8 @@ def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh
     s = screen()
     s.window.session_file.open(str(tmp_path / "r.json"))
     s.until(lambda: s.session.is_complete)
-    assert s.window.status.message.text().endswith("in figures only: views but the first of 2, outlines")
+    assert s.window.status.repairs.sentences == ["in figures only: views but the first of 2, outlines"]
+    assert (s.window.status.repairs.isVisible(), s.window.status.repairs.words) == (True, "1 note")
     assert s.window.page == recipe.page
 
 
@@ -273,9 +275,9 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
         if action == 0:
             s.session.show(move_source(s.document, panel, int(random.integers(40))))
         elif action == 1:
-            s.window._choose(panel, shows[random.integers(len(shows))])
+            s.window.gestures.choose(panel, shows[random.integers(len(shows))])
         elif action == 2:
-            s.window.isolines_box.setValue(int(random.integers(5, 40)))
+            s.window.choices.isolines(int(random.integers(5, 40)))
         elif action == 3:
             possible = sorted(possible_edits(s.document, panel, 4))
             if possible:
@@ -283,12 +285,12 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
         elif number % 20 == 4:
             s.open(meshes[number // 20 % 2], 3)
         else:
-            s.window._drag(panel, int(random.integers(40)))
-            s.window._drag(panel, int(random.integers(40)))
-            s.session.show(s.document)
+            s.panels[0].view.dragged.emit(int(random.integers(40)))
+            s.panels[0].view.dragged.emit(int(random.integers(40)))
+            s.panels[0].view.released.emit()
     last, document = pictures(), s.document
     s.window.activateWindow()
-    s.window.isolines_box.setFocus()
+    s.window.type_source()
     s.settle()
 
     def press(modifiers, is_there):
@@ -312,12 +314,15 @@ def test_the_menu_offers_only_steps_that_there_are(screen, mesh_file):
     s = screen()
 
     def offered():
-        return s.window._undo.isEnabled(), s.window._redo.isEnabled()
+        actions, tools = s.window.actions_by_word, s.window.tools
+        found = [actions[word].isEnabled() for word in ("undo", "redo")]
+        assert found == [tools[word].isEnabled() for word in ("undo", "redo")]
+        return tuple(found)
 
     assert offered() == (False, False)
     s.open(mesh_file(bumpy(100)), 5)
     assert offered() == (False, False)
     s.session.show(move_source(s.document, 0, 9))
     assert offered() == (True, False)
-    s.window._undo.trigger()
+    s.window.actions_by_word["undo"].trigger()
     assert (offered(), s.source) == ((False, True), 5)

@@ -1,14 +1,5 @@
-"""`bihdist.show`: the window from Python, in scripts, in IPython and in notebooks."""
+"""`bihdist.show`: the window from Python."""
 
-import doctest
-import gc
-import importlib.util
-import json
-import locale
-import os
-import subprocess
-import sys
-import textwrap
 from dataclasses import replace
 from pathlib import Path
 
@@ -23,6 +14,9 @@ from bihdist_core import BiharmonicDistance, BihdistError, MeshError, ParameterE
 from tests.shapes import bumpy, two_pieces
 
 pytest.importorskip("qtpy")
+
+from tests.qt.test_head import choose
+
 ROOT = Path(__file__).resolve().parents[2]
 SURFACE = bumpy(300)
 HEIGHT = SURFACE.vertices[:, 1]
@@ -46,15 +40,6 @@ def shown(application):
     yield show
     for viewer in viewers:
         viewer.close()
-
-
-def script(tmp_path, text):
-    """Run a program of its own, with the package under its name."""
-    path = tmp_path / "script.py"
-    path.write_text(f"import app as bihdist\n{textwrap.dedent(text)}")
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    command = [sys.executable, str(path)]
-    return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120)
 
 
 # ---------------------------------------------------------------------- what it shows
@@ -147,8 +132,8 @@ def test_where_a_difference_is_nothing_no_line_is_drawn(shown):
         {"same": np.ones(len(HEIGHT)), "plateau": plateau, "nothing": np.zeros(len(HEIGHT))},
     )
     viewer.panels  # noqa: B018
-    views = [panel.interactor.screenshot(return_img=True) for panel in viewer._window.grid.panels]
-    # The middle of the colours is light; lines are dark, as are the numbers at the bar.
+    views = [panel.view.shot() for panel in viewer._window.grid.panels]
+    # The middle of the colours is light; lines are dark.
     dark = [(view.max(axis=2) < 90).mean() for view in views]
     assert dark[0] < 0.006
     assert dark[0] < dark[1] < 0.06
@@ -159,9 +144,8 @@ def test_where_a_field_ends_there_is_no_seam_of_other_values(shown):
     share = (HEIGHT - HEIGHT.min()) / np.ptp(HEIGHT)
     viewer = shown(SURFACE, [], {"upper": np.where(share < 0.4, np.nan, 0.5 + share)})
     viewer.panels  # noqa: B018
-    picture = viewer._window.grid.panels[0].interactor.screenshot(return_img=True).astype(int)
-    height = picture.shape[0]
-    blue = (picture[: int(0.8 * height), :, 2] - picture[: int(0.8 * height), :, 0] > 40).sum()
+    picture = viewer._window.grid.panels[0].view.shot().astype(int)
+    blue = (picture[..., 2] - picture[..., 0] > 40).sum()
     # All values are in the upper half of the colours, which has no blue.
     assert blue < 20
 
@@ -194,7 +178,7 @@ def test_after_closing_it_says_so(shown):
 def click(viewer, share=(0.5, 0.5)):
     from qtpy import QtCore, QtTest
 
-    view = viewer._window.grid.panels[0].interactor
+    view = viewer._window.grid.panels[0].view
     place = QtCore.QPoint(int(share[0] * view.width()), int(share[1] * view.height()))
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
 
@@ -249,7 +233,7 @@ def test_where_nothing_is_defined_a_pick_has_no_value(shown):
     surface = two_pieces()
     viewer = shown(surface, ["biharmonic"], source=int(surface.faces[-1, 0]), on_pick=picks.append)
     field = viewer.panels[0].field
-    viewer._window._click(0, _met(surface, int(np.flatnonzero(np.isnan(field))[0])))
+    viewer._window.gestures._click(0, _met(surface, int(np.flatnonzero(np.isnan(field))[0])))
     told(picks)
     assert np.isnan(picks[0].values[0])
 
@@ -299,70 +283,7 @@ def test_what_cannot_be_shown_is_raised_and_no_window_stays(application, monkeyp
     assert not [window for window in application.topLevelWidgets() if window.isVisible()]
 
 
-def test_without_a_display_it_says_so(tmp_path, monkeypatch):
-    monkeypatch.delenv("DISPLAY", raising=False)
-    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    done = script(tmp_path, "bihdist.show('hand')")
-    if sys.platform.startswith("linux"):
-        assert "BihdistError: The viewer needs a display" in done.stderr
-
-
-# ---------------------------------------------------------------------- the process
-def test_the_process_stays_as_it_was(shown, tmp_path):
-    def state():
-        return sys.excepthook, gc.get_freeze_count(), locale.setlocale(locale.LC_ALL), os.environ.get("QT_QPA_PLATFORM")
-
-    before = state()
-    shown(SURFACE, ["biharmonic"]).panels  # noqa: B018
-    assert state() == before
-    assert not (tmp_path / "data").exists()
-
-
-def test_a_script_waits_until_the_window_is_closed(application, tmp_path):
-    done = script(
-        tmp_path,
-        """
-        import os, sys
-        from qtpy import QtCore, QtWidgets
-        QtCore.QTimer.singleShot(3000, lambda: [w.close() for w in QtWidgets.QApplication.topLevelWidgets()])
-        application = QtWidgets.QApplication([])
-        QtCore.QTimer.singleShot(3000, lambda: [w.close() for w in QtWidgets.QApplication.topLevelWidgets()])
-        viewer = bihdist.show("hand", ["biharmonic"])
-        print(viewer, "QT_QPA_PLATFORM" in os.environ, sys.excepthook is sys.__excepthook__)
-        """,
-    )
-    assert (done.returncode, done.stdout.strip()) == (0, "Viewer(closed) False True"), done.stderr
-
-
-def test_a_script_may_go_on_and_end_with_the_window_open(application, tmp_path):
-    done = script(
-        tmp_path,
-        """
-        viewer = bihdist.show("hand", ["biharmonic"], block=False)
-        viewer.screenshot("w.png")
-        print(viewer.panels[0].field.max() > 0)
-        """,
-    )
-    assert (done.returncode, done.stdout.strip()) == (0, "True"), done.stderr
-    assert (tmp_path / "w.png").exists()
-
-
-@pytest.mark.skipif(not hasattr(os, "kill") or sys.platform == "win32", reason="needs POSIX signals")
-def test_an_interrupt_closes_the_window_and_is_raised(application, tmp_path):
-    done = script(
-        tmp_path,
-        """
-        import os, signal, threading
-        threading.Timer(3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-        try:
-            bihdist.show("hand", ["biharmonic"])
-        except KeyboardInterrupt:
-            print("interrupted", signal.getsignal(signal.SIGINT) is signal.default_int_handler)
-        """,
-    )
-    assert (done.returncode, done.stdout.strip()) == (0, "interrupted True"), done.stderr
-
-
+# ---------------------------------------------------------------------- what is done with it
 def test_the_session_of_such_a_window_is_saved_opened_and_drawn(shown, screen, tmp_path):
     from app.main import main
 
@@ -377,7 +298,7 @@ def test_the_session_of_such_a_window_is_saved_opened_and_drawn(shown, screen, t
     assert s.document == viewer.document
     for answer, field in zip(s.answers, fields, strict=True):
         assert np.array_equal(answer.field, field)
-    assert s.panels[1].controls.second.distance.currentText() == "height"
+    assert s.panels[1].head.name.text() == "Biharmonic − height"
     assert (
         main(["figure", "--recipe", str(tmp_path / "s.json"), "--size", "600x300", "-o", str(tmp_path / "f.png")]) == 0
     )
@@ -386,94 +307,14 @@ def test_the_session_of_such_a_window_is_saved_opened_and_drawn(shown, screen, t
 
 def test_a_field_is_chosen_in_a_panel_like_a_distance(shown):
     viewer = shown(SURFACE, ["biharmonic", "height"], {"height": HEIGHT}, 7)
-    controls = viewer._window.grid.panels[0].controls
-    box = controls.first.distance
-    box.setCurrentIndex(box.findText("height"))
+    head = viewer._window.grid.panels[0].head
+    choose(head, "height")
     assert [panel.quantity for panel in viewer.panels] == ["height", "height"]
-    box.setCurrentIndex(box.findText("Difference of two"))
+    choose(head, "Difference with", "Biharmonic")
     assert viewer.panels[0].quantity == "height - biharmonic"
-    controls.alone.click()
-    box.setCurrentIndex(box.findText("Diffusion"))
+    choose(head, "Show the first alone")
+    choose(head, "Diffusion")
     assert viewer.panels[0].quantity == "diffusion"
     for _ in range(3):
         viewer._window.session.undo()
-    assert viewer.panels[0].quantity == "height"
-
-
-# ---------------------------------------------------------------------- IPython and notebooks
-def test_the_example_in_the_docstring_runs(application, monkeypatch):
-    from app.qt import show
-
-    # In a checkout the package has another name.
-    monkeypatch.setitem(sys.modules, "bihdist", app)
-    (test,) = doctest.DocTestFinder(recurse=False).find(show.show, "show")
-    assert doctest.DocTestRunner().run(test) == (0, len(test.examples))
-
-
-def test_ipython_gets_its_prompt_back_while_the_window_lives(application, tmp_path):
-    pexpect = pytest.importorskip("pexpect")
-    pytest.importorskip("IPython")
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "IPYTHONDIR": str(tmp_path), "TERM": "xterm"}
-    options = ["-m", "IPython", "--no-banner", "--colors=NoColor", "--no-confirm-exit"]
-    shell = pexpect.spawn(sys.executable, options, cwd=str(tmp_path), env=environment, timeout=60, encoding="utf-8")
-    try:
-        for line in (
-            "import app as bihdist, pathlib; from qtpy.QtCore import QTimer",
-            "viewer = bihdist.show('hand', ['biharmonic'])",
-            # Heard only if Qt works while the prompt waits.
-            "QTimer.singleShot(500, lambda: pathlib.Path('alive').touch()); print('still', 'here')",
-        ):
-            shell.expect(r"In \[\d+\]:")
-            shell.sendline(line)
-        shell.expect("still here")
-        for _ in range(100):
-            if not (tmp_path / "alive").exists():
-                shell.expect(["no such words", pexpect.TIMEOUT], timeout=0.1)
-        assert (tmp_path / "alive").exists()
-        shell.sendline("viewer.close(); print(repr(viewer), viewer.is_open)")
-        shell.expect(r"Viewer\(closed\) False")
-        shell.sendline("exit()")
-        shell.expect(pexpect.EOF)
-    finally:
-        shell.close(force=True)
-
-
-@pytest.mark.skipif(importlib.util.find_spec("nbconvert") is None, reason="nbconvert is not installed")
-def test_a_notebook_shows_windows_and_draws_figures(application, tmp_path):
-    pytest.importorskip("ipykernel")
-    cells = [
-        "import app as bihdist, numpy as np",
-        "viewer = bihdist.show('hand', ['biharmonic', 'geodesic'], source=12)\nviewer",
-        "viewer.source = 900\nassert viewer.panels[0].field[900] == 0\nviewer.screenshot('w.png').name",
-        "bihdist.figure('hand', ['biharmonic'], source=12, size='300x200')",
-        "viewer.close()\nviewer.is_open",
-        # The kernel goes on listening, also while nothing of ours is open.
-        *["import asyncio\nawait asyncio.sleep(0.3)", "1 + 1"] * 3,
-    ]
-    notebook = {
-        "cells": [
-            {"cell_type": "code", "id": f"c{k}", "metadata": {}, "source": text, "outputs": [], "execution_count": None}
-            for k, text in enumerate(cells)
-        ],
-        "metadata": {},
-        "nbformat": 4,
-        "nbformat_minor": 5,
-    }
-    (tmp_path / "n.ipynb").write_text(json.dumps(notebook))
-    environment = {
-        **os.environ,
-        "PYTHONPATH": str(ROOT),
-        "IPYTHONDIR": str(tmp_path),
-        "JUPYTER_DATA_DIR": str(tmp_path),
-    }
-    command = [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--inplace", "n.ipynb"]
-    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=240)
-    assert done.returncode == 0, done.stderr
-    outputs = [cell["outputs"] for cell in json.loads((tmp_path / "n.ipynb").read_text())["cells"]]
-    said = [[output["data"] for output in each if "data" in output] for each in outputs]
-    assert said[1][0]["text/plain"] == ["Viewer(biharmonic, geodesic, of hand.ply)"]
-    assert said[2][0]["text/plain"] == ["'w.png'"]
-    assert len(said[3][0]["image/png"]) > 5000
-    assert said[4][0]["text/plain"] == ["False"]
-    assert said[-1][0]["text/plain"] == ["2"]
-    assert (tmp_path / "w.png").exists()
+    assert (viewer.panels[0].quantity, head.name.text()) == ("height", "height")

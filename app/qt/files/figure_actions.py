@@ -1,10 +1,13 @@
-"""The window's figures: File > Export figure, Export movie, Open recipe.  `window` is the main window."""
+"""The window's figures: File > Export figure, Export movie.  `window` is the main window, which has the `exports`."""
 
+import os
 from dataclasses import replace
 
-from ..document.page import Recipe
-from ..version import version
+from ...document.page import Recipe
+from ...figures.export import Surfaces
+from ...version import version
 from .export_dialog import ExportDialog, MovieDialog
+from .exports import Export
 from .job_dialog import JobDialog
 
 
@@ -14,15 +17,23 @@ def export_figure(window) -> ExportDialog | None:
     if recipe is None:
         return None
     session = window.session
-    surfaces = {mesh.name: session.opened(mesh.name) for mesh in recipe.document.surfaces}
     answers = [session.shown[panel.id].answer for panel in recipe.document.panels]
-    return _opened(ExportDialog(recipe, surfaces, session.given, answers, version(), window), window)
+    surfaces = _surfaces(window, recipe)
+    dialog = ExportDialog(recipe, surfaces, session.given, answers, version(), window.exports, window)
+    return _opened(dialog, window)
 
 
 def export_movie(window) -> MovieDialog | None:
     """The same for a movie."""
     recipe = _complete_recipe(window)
-    return None if recipe is None else _opened(MovieDialog(recipe, window.session.given, window), window)
+    if recipe is None:
+        return None
+    surfaces = _surfaces(window, recipe)
+    return _opened(MovieDialog(recipe, surfaces, window.session.given, window.exports, window), window)
+
+
+def _surfaces(window, recipe: Recipe) -> Surfaces:
+    return {mesh.name: window.session.opened(mesh.name) for mesh in recipe.document.surfaces}
 
 
 def _complete_recipe(window) -> Recipe | None:
@@ -36,8 +47,12 @@ def _complete_recipe(window) -> Recipe | None:
 
 
 def _opened(dialog: JobDialog, window) -> JobDialog:
-    dialog.saved.connect(lambda path: window.statusBar().showMessage(f"Saved {path}", 8000))
-    dialog.failed.connect(window.failed)
+    def announce(export: Export) -> None:
+        export.saved.connect(lambda path: window.say(f"Saved {os.path.basename(path)}"))
+        export.failed.connect(lambda sentence: window.failed(f"{os.path.basename(export.path)}: {sentence}"))
+
+    dialog.started.connect(announce)
+    dialog.finished.connect(dialog.deleteLater)
     dialog.open()
     return dialog
 

@@ -1,4 +1,4 @@
-"""File > Save session, Open session, Recent; what is asked on closing, and after a crash.  `window` is the main window.
+"""Sessions: saving and opening them, what is asked on closing, and after a crash.  `window` is the main window.
 
 A session is a recipe of what the window shows, so that `bihdist figure --recipe` draws it.
 """
@@ -12,17 +12,20 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
 
-from ..document.file import checksum, read_recipe
-from ..document.page import Recipe
-from ..drawing.style import STYLES
-from ..samples import mesh_path
-from ..session.given import Given
-from ..session.recipe_file import recipe_written
-from ..version import version
-from . import remembered
+from ...document.file import checksum, read_recipe
+from ...document.page import Recipe
+from ...drawing.style import STYLES
+from ...samples import mesh_path
+from ...session.given import Given
+from ...session.recipe_file import recipe_written
+from ...version import version
+from .. import remembered
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
-SESSIONS = "Sessions and recipes (*.json);;All files (*)"
+FILES = (
+    "Meshes, sessions and recipes (*.off *.obj *.ply *.stl *.vtk *.vtp *.json);;"
+    "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;Sessions and recipes (*.json);;All files (*)"
+)
 KEEP_MS = 2000
 """What the window shows is kept so long after a change, in case of a crash."""
 

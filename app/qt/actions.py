@@ -1,0 +1,220 @@
+"""All that can be done by a menu, a key or a button: each is one action, in one table.
+
+`window` is the main window throughout.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ..document.edits import PANEL_EDITS
+from .look.icons import put_icon
+
+VIEWS = ("front", "back", "left", "right", "top", "bottom")
+ISOLINES = (0, 10, 20, 30, 50)
+
+
+@dataclass(frozen=True)
+class Act:
+    """word: its name here; do: what it does with the window.
+
+    keys: the first is the one that is shown.  of_view: they work where a panel has the keys, and not in a box.
+    needs_mesh: it makes no sense without one.
+    """
+
+    word: str
+    text: str
+    do: Callable[[Any], object]
+    keys: tuple[str, ...] = ()
+    tip: str = ""
+    icon: str = ""
+    of_view: bool = False
+    needs_mesh: bool = False
+    is_check: bool = False
+
+
+def _turn(right: int, up: int) -> Callable[[Any], object]:
+    return lambda window: window.with_view(lambda view: view.turn_by(right, up))
+
+
+def _shift(right: int, up: int) -> Callable[[Any], object]:
+    return lambda window: window.with_view(lambda view: view.shift_by(right, up))
+
+
+def _zoom(factor: float) -> Callable[[Any], object]:
+    return lambda window: window.with_view(lambda view: view.zoom(factor))
+
+
+def _step(right: int, up: int) -> Callable[[Any], object]:
+    return lambda window: window.gestures.step_source(right, up)
+
+
+FILE = (
+    Act("open", "&Open …", lambda w: w.files.choose(), ("Ctrl+O",), "Open a mesh, a session or a recipe", "open"),
+    Act("save", "&Save session", lambda w: w.session_file.save_or_say(), ("Ctrl+S",), "", "save", needs_mesh=True),
+    Act(
+        "save as", "Save session &as …", lambda w: w.session_file.choose_and_save(), ("Ctrl+Shift+S",), needs_mesh=True
+    ),
+    Act(
+        "figure",
+        "&Export figure …",
+        lambda w: w.files.export_figure(),
+        ("Ctrl+E",),
+        "A figure of what is shown, for a paper or a slide",
+        "export-figure",
+        needs_mesh=True,
+    ),
+    Act("movie", "Export &movie …", lambda w: w.files.export_movie(), ("Ctrl+M",), needs_mesh=True),
+    Act(
+        "screenshot", "S&creenshot of the window …", lambda w: w.files.choose_screenshot(), ("Ctrl+P",), needs_mesh=True
+    ),
+    Act("quit", "&Quit", lambda w: w.close(), ("Ctrl+Q",)),
+)
+EDIT = (
+    Act("undo", "&Undo", lambda w: w.session.undo(), ("Ctrl+Z",), "Undo the last change", "undo"),
+    Act("redo", "&Redo", lambda w: w.session.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "Do it again", "redo"),
+    Act("preferences", "&Preferences …", lambda w: w.choices.ask_preferences(), ("Ctrl+,",), "", "settings"),
+)
+VIEW = (
+    Act("reset", "&Reset", lambda w: w.reset_view(), ("R", "Home"), "See all of it", "reset-view", needs_mesh=True),
+    *(
+        Act(name, f"&{name.capitalize()}", lambda w, name=name: w.reset_view(name), (str(number),), needs_mesh=True)
+        for number, name in enumerate(VIEWS, 1)
+    ),
+    Act(
+        "centre",
+        "&Centre the view here",
+        lambda w: w.gestures.centre_here(),
+        ("C",),
+        "What is under the pointer comes into the middle, and is turned about",
+        needs_mesh=True,
+    ),
+    Act(
+        "zoom to",
+        "&Zoom to it",
+        lambda w: w.gestures.zoom_here(),
+        ("Z",),
+        "What is pointed at, larger",
+        needs_mesh=True,
+    ),
+    Act("view before", "The view be&fore", lambda w: w.views.back(), ("Ctrl+[",), needs_mesh=True),
+    Act("view after", "The view af&ter", lambda w: w.views.on(), ("Ctrl+]",), needs_mesh=True),
+    Act(
+        "full screen",
+        "F&ull screen for talks",
+        lambda w: w.choices.toggle_full_screen(),
+        ("F11",),
+        "Panels and bars only, in larger letters",
+        is_check=True,
+    ),
+)
+TURNS = (
+    Act("turn left", "Turn to the left", _turn(-1, 0), ("Left",), of_view=True, needs_mesh=True),
+    Act("turn right", "Turn to the right", _turn(1, 0), ("Right",), of_view=True, needs_mesh=True),
+    Act("turn up", "Turn up", _turn(0, 1), ("Up",), of_view=True, needs_mesh=True),
+    Act("turn down", "Turn down", _turn(0, -1), ("Down",), of_view=True, needs_mesh=True),
+    Act("move left", "Move to the left", _shift(-1, 0), ("Shift+Left",), of_view=True, needs_mesh=True),
+    Act("move right", "Move to the right", _shift(1, 0), ("Shift+Right",), of_view=True, needs_mesh=True),
+    Act("move up", "Move up", _shift(0, 1), ("Shift+Up",), of_view=True, needs_mesh=True),
+    Act("move down", "Move down", _shift(0, -1), ("Shift+Down",), of_view=True, needs_mesh=True),
+    Act("nearer", "Nearer", _zoom(1.2), ("+", "="), of_view=True, needs_mesh=True),
+    Act("farther", "Farther", _zoom(1 / 1.2), ("-",), of_view=True, needs_mesh=True),
+)
+PANELS = (
+    Act(
+        "add panel",
+        "&Add a panel",
+        lambda w: w.choices.add_panel(),
+        ("Ctrl+T",),
+        "One more panel",
+        "add-panel",
+        needs_mesh=True,
+    ),
+    *(
+        Act(f"panel {word}", word, lambda w, word=word: w.choices.edit_panel(w.grid.active, word), needs_mesh=True)
+        for word in PANEL_EDITS
+        if word != "Add a panel"
+    ),
+    Act("next panel", "&Next panel", lambda w: w.grid.focus(1), ("Tab",), of_view=True, needs_mesh=True),
+    Act("previous panel", "&Previous panel", lambda w: w.grid.focus(-1), ("Shift+Tab",), of_view=True, needs_mesh=True),
+    Act("panels and bars", "Between panels and tool bar", lambda w: w.change_part(), ("F6",)),
+)
+TOOLS = (
+    Act("source id", "&Type a vertex id", lambda w: w.type_source(), ("G",), "", "source", needs_mesh=True),
+    Act("source before", "The source be&fore", lambda w: w.session.walk_sources(-1), ("Alt+Left",), needs_mesh=True),
+    Act("source after", "The source af&ter", lambda w: w.session.walk_sources(1), ("Alt+Right",), needs_mesh=True),
+    Act(
+        "live",
+        "&Live: the source follows the pointer",
+        lambda w: w.gestures.set_live(w.actions_by_word["live"].isChecked()),
+        ("L",),
+        "The source follows the pointer until this is switched off",
+        "live",
+        needs_mesh=True,
+        is_check=True,
+    ),
+    Act("step left", "Step along an edge to the left", _step(-1, 0), ("Ctrl+Left",), of_view=True, needs_mesh=True),
+    Act("step right", "Step along an edge to the right", _step(1, 0), ("Ctrl+Right",), of_view=True, needs_mesh=True),
+    Act("step up", "Step along an edge up", _step(0, 1), ("Ctrl+Up",), of_view=True, needs_mesh=True),
+    Act("step down", "Step along an edge down", _step(0, -1), ("Ctrl+Down",), of_view=True, needs_mesh=True),
+    Act("stop", "&Stop what is being computed", lambda w: w.cancel(), ("Esc",)),
+)
+HELP = (
+    Act("keys", "&Gestures and keys", lambda w: w.guide.show_keys(), ("F1",), "", "info"),
+    Act("tour", "A &tour in five steps", lambda w: w.guide.start_tour()),
+    Act("about", "&About", lambda w: w.guide.show_about()),
+)
+ALL = (*FILE, *EDIT, *VIEW, *TURNS, *PANELS, *TOOLS, *HELP)
+
+
+class Actions:
+    """The window's actions by their words; each also has its keys, wherever the focus is."""
+
+    def __init__(self, window: QtWidgets.QMainWindow) -> None:
+        self._window = window
+        self._made: dict[str, QtWidgets.QAction] = {}
+        self._of_view: dict[str, QtWidgets.QAction] = {}
+        for act in ALL:
+            self._made[act.word] = self._new(act)
+
+    def __getitem__(self, word: str) -> QtWidgets.QAction:
+        return self._made[word]
+
+    def allow(self, has_mesh: bool) -> None:
+        """What needs a mesh can be done while there is one."""
+        for act in ALL:
+            if act.needs_mesh:
+                self._made[act.word].setEnabled(has_mesh)
+
+    def key_of_view(self, event: QtGui.QKeyEvent) -> bool:
+        """Do what a key means in a panel that has the keys; whether it means anything."""
+        modifiers = event.modifiers() & ~QtCore.Qt.KeyboardModifier.KeypadModifier
+        is_tab_back = event.key() == QtCore.Qt.Key.Key_Backtab
+        key = QtCore.Qt.Key.Key_Tab if is_tab_back else event.key()
+        # The plus stands on a key with or without shift, as the keyboard has it.
+        plain = modifiers if key not in (QtCore.Qt.Key.Key_Plus, QtCore.Qt.Key.Key_Equal) else 0
+        action = self._of_view.get(QtGui.QKeySequence(int(plain) | int(key)).toString())
+        if action is None or not action.isEnabled():
+            return False
+        action.trigger()
+        return True
+
+    def _new(self, act: Act) -> QtWidgets.QAction:
+        action = QtWidgets.QAction(act.text, self._window)
+        action.setShortcuts([QtGui.QKeySequence(key) for key in act.keys])
+        action.setCheckable(act.is_check)
+        shown = action.shortcut().toString(QtGui.QKeySequence.SequenceFormat.NativeText)
+        words = act.tip or act.text.replace("&", "").replace(" …", "")
+        action.setToolTip(f"{words} ({shown})" if shown else words)
+        if act.icon:
+            put_icon(action, act.icon)
+        action.triggered.connect(lambda *_: act.do(self._window))
+        if act.of_view:
+            # Shown in the menu; a box and a slider have arrows of their own.
+            action.setShortcutContext(QtCore.Qt.ShortcutContext.WidgetShortcut)
+            self._of_view.update({QtGui.QKeySequence(key).toString(): action for key in act.keys})
+        else:
+            self._window.addAction(action)
+        return action

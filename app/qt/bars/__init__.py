@@ -1,0 +1,1 @@
+"""The window's bars: menus, tool bar, status bar."""

@@ -1,0 +1,135 @@
+"""The window's menus, made of its actions.  `window` is the main window."""
+
+from collections.abc import Callable, Sequence
+
+from qtpy import QtGui, QtWidgets
+
+from ...drawing.style import STYLES
+from ...samples import mesh_path, sample_names, thumbnail
+from .. import remembered
+from ..actions import ISOLINES, TURNS, VIEWS
+from ..look.canvas import STYLE_NAMES
+
+THUMBNAIL = 56
+
+
+class LargeIcons(QtWidgets.QProxyStyle):
+    """For menus whose icons are pictures."""
+
+    def pixelMetric(self, metric, option=None, widget=None) -> int:
+        if metric == QtWidgets.QStyle.PixelMetric.PM_SmallIconSize:
+            return THUMBNAIL
+        return super().pixelMetric(metric, option, widget)
+
+
+class NoUnderlines(QtWidgets.QProxyStyle):
+    """For menu bars: their keys are found without."""
+
+    def styleHint(self, hint, option=None, widget=None, returned=None) -> int:
+        if hint == QtWidgets.QStyle.StyleHint.SH_UnderlineShortcut:
+            return 0
+        return super().styleHint(hint, option, widget, returned)
+
+
+class Menus:
+    """Those that the tool bar shows, too, by name: open, isolines, colours, range, views, tools."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+        bar = window.menuBar()
+        no_underlines = NoUnderlines()
+        # Gone before the bar it would take the process with it.
+        no_underlines.setParent(bar)
+        bar.setStyle(no_underlines)
+        self.open = QtWidgets.QMenu("&Open", window)
+        self.samples = self._samples()
+        self.recent = QtWidgets.QMenu("Re&cent", window)
+        self.recent.aboutToShow.connect(self._fill_recent)
+        self.isolines = self._isolines()
+        self.colours = self._choices("&Colours", window.choices.style, [(w, STYLE_NAMES.get(w, w)) for w in STYLES])
+        self.range = self._choices(
+            "Ran&ge",
+            window.choices.range,
+            [("own", "Own: each panel ends at its maximum"), ("shared", "Shared: equal colours, equal values")],
+        )
+        self.theme = self._choices(
+            "&Theme", window.choices.theme, [("desktop", "As the desktop"), ("light", "Light"), ("dark", "Dark")]
+        )
+        self.views, self.tools = QtWidgets.QMenu("&Views", window), QtWidgets.QMenu("&Tools", window)
+        keys = QtWidgets.QMenu("Turn and move by &keys", window)
+        self._fill(keys, [act.word for act in TURNS])
+        self._fill(self.open, ["open", None, self.recent, self.samples])
+        self._fill(self.views, ["reset", *VIEWS, None, "centre", "zoom to", None, "view before", "view after"])
+        steps = ("step left", "step right", "step up", "step down")
+        self._fill(self.tools, ["source id", "live", None, "source before", "source after", None, *steps, None, "stop"])
+        file, edit, view, panels, tools, about = (
+            bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
+        )
+        self._fill(file, ["open", self.recent, self.samples, None, "save", "save as", None])
+        self._fill(file, ["figure", "movie", "screenshot", None, "quit"])
+        self._fill(edit, ["undo", "redo", None, "preferences"])
+        self._fill(view, [*self.views.actions(), None, keys, None, self.isolines, self.colours, self.range, None])
+        self._fill(view, [self.theme, "full screen"])
+        edits = ("Duplicate this panel", "Move it back", "Move it on", "Remove it")
+        self._fill(panels, ["add panel", None, *(f"panel {word}" for word in edits), None])
+        self._fill(panels, ["next panel", "previous panel", "panels and bars"])
+        self._fill(tools, self.tools.actions())
+        self._fill(about, ["keys", "tour", None, "about"])
+
+    def _fill(self, menu: QtWidgets.QMenu, entries: Sequence[object]) -> None:
+        """By words of actions, with None for a line; menus and actions as they are."""
+        for entry in entries:
+            if entry is None:
+                menu.addSeparator()
+            elif isinstance(entry, QtWidgets.QMenu):
+                menu.addMenu(entry)
+            else:
+                menu.addAction(self._window.actions_by_word[entry] if isinstance(entry, str) else entry)
+
+    def show_choice(self, menu: QtWidgets.QMenu, word: object) -> None:
+        """Tick one of a menu's choices."""
+        for action in menu.actions():
+            action.setChecked(action.data() == word)
+
+    def _choices(
+        self, title: str, choose: Callable[[str], object], words: Sequence[tuple[str, str]]
+    ) -> QtWidgets.QMenu:
+        menu = QtWidgets.QMenu(title, self._window)
+        group = QtWidgets.QActionGroup(menu)
+        for word, text in words:
+            action = menu.addAction(text)
+            action.setData(word)
+            action.setCheckable(True)
+            group.addAction(action)
+            action.triggered.connect(lambda *_, word=word: choose(word))
+        return menu
+
+    def _isolines(self) -> QtWidgets.QMenu:
+        words = [(str(count), f"{count} steps" if count else "None") for count in ISOLINES]
+        menu = self._choices("&Isolines", lambda word: self._window.choices.isolines(int(word)), words)
+        menu.addSeparator()
+        menu.addAction("Another number …", self._window.choices.ask_isolines)
+        return menu
+
+    def _samples(self) -> QtWidgets.QMenu:
+        menu = QtWidgets.QMenu("&Samples", self._window)
+        large_icons = LargeIcons()
+        large_icons.setParent(menu)
+        menu.setStyle(large_icons)
+        for name in sample_names():
+            action = menu.addAction(QtGui.QIcon(str(thumbnail(name))), name.replace("_", " ").capitalize())
+            action.triggered.connect(lambda *_, name=name: self._window.open(mesh_path(name)))
+        return menu
+
+    def _fill_recent(self) -> None:
+        self.recent.clear()
+        for path in remembered.recent():
+            action = self.recent.addAction(_shortened(path))
+            action.setToolTip(path)
+            action.triggered.connect(lambda *_, path=path: self._window.files.open(path))
+        if self.recent.isEmpty():
+            self.recent.addAction("Nothing yet").setEnabled(False)
+
+
+def _shortened(path: str) -> str:
+    return path if len(path) <= 70 else f"… {path[-68:]}"

@@ -1,0 +1,244 @@
+"""The line at the bottom of the window: what is open, what is remarkable about it, and what the pointer is at.
+
+Nothing in it has a width that the window would have to follow.
+"""
+
+from collections.abc import Callable, Sequence
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import Surface
+
+from ...document.page import Recipe
+from ...drawing.style import Style
+from ..look.icons import pixmap
+from ..look.look import LOOK
+from ..look.numbers import number, number_width, paint_number
+
+HEIGHT = 28
+SAID_MS = 8000
+LISTED = 20
+"""Sentences of a chip's list at most, as a higher menu would go into columns; all of them can be copied."""
+
+WIDEST_PLACE = "−0.00000"
+"""A coordinate as wide as they get, most often; wider ones are cut at the left."""
+
+
+class StatusBar(QtWidgets.QStatusBar):
+    """exports: what is being drawn in the background, if anything."""
+
+    def __init__(self, parent: QtWidgets.QWidget | None = None, exports: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setSizeGripEnabled(False)
+        self.counts = Words("quiet")
+        self.repairs, self.accuracy = Chip("repair"), Chip("panel not exact", "panels not exact")
+        self.message = Words("quiet")
+        self.progress = Words("quiet", is_meant=True)
+        self.vertex, self.place = Words("text", is_right=True), Words("text", is_right=True)
+        self._row = row = QtWidgets.QWidget()
+        layout = QtWidgets.QHBoxLayout(row)
+        layout.setContentsMargins(12, 0, 12, 0)
+        layout.setSpacing(12)
+        for widget in (self.counts, self.repairs, self.accuracy):
+            layout.addWidget(widget)
+        layout.addWidget(self.message, 1)
+        for widget in (self.progress, *(() if exports is None else (exports,)), self.vertex, self.place):
+            layout.addWidget(widget)
+        row.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
+        self.addPermanentWidget(row, 1)
+        self._vertices, self._faces = "", ""
+        self._forget_soon = QtCore.QTimer(self, singleShot=True, interval=SAID_MS)
+        self._forget_soon.timeout.connect(self._forget)
+        LOOK.changed.connect(self._fit)
+        self.show_surface(None)
+        self._fit()
+
+    # ------------------------------------------------------------------ what is said
+    def show_surface(self, surface: Surface | None, more: Sequence[str] = ()) -> None:
+        """Its counts and its repairs; more: what else is to be known."""
+        if surface is None:
+            self._vertices, self._faces = "No mesh", ""
+            self.repairs.show_list([])
+        else:
+            self._vertices, self._faces = f"{len(surface.vertices):,} vertices", f"{len(surface.faces):,} faces"
+            self.repairs.show_list([*remarks(surface), *more], len(surface.remarks))
+        self.accuracy.show_list([])
+        self.show_place(None, None)
+        self._fit()
+
+    def show_inexact(self, sentences: Sequence[str]) -> None:
+        """Which panels are not exact, and by how much."""
+        self.accuracy.show_list(list(sentences), len(sentences))
+
+    def show_place(self, vertex: int | None, position: Sequence[float] | None) -> None:
+        self.vertex.show_text("" if vertex is None else f"vertex {vertex}")
+        self.place.show_text("" if position is None else "  ".join(number(x) for x in position))
+
+    def say(self, text: str) -> None:
+        """For a while."""
+        self.message.show_text(text)
+        self._forget_soon.start()
+
+    def _forget(self) -> None:
+        self.message.show_text("")
+
+    def show_progress(self, text: str) -> None:
+        """What goes on beside the panels."""
+        self.progress.show_text(text)
+        self.progress.updateGeometry()
+
+    # ------------------------------------------------------------------ how it fits
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        """In a narrow window the faces, then the message, then the position go."""
+        font = LOOK.font(12.5)
+        self.setFixedHeight(round(HEIGHT * LOOK.scale))
+        self._row.setFixedHeight(self.height() - 2)
+        width = self.width()
+        is_narrow = width < 800 * LOOK.scale
+        self.counts.show_text(self._vertices if is_narrow or not self._faces else f"{self._vertices}  {self._faces}")
+        self.counts.fix(number_width(font, self.counts.text) + 4)
+        self.vertex.fix(number_width(font, "vertex 0000000"))
+        self.place.fix(3 * number_width(font, WIDEST_PLACE) + 2 * number_width(font, "  "))
+        self.place.setVisible(width >= 640 * LOOK.scale)
+        self.progress.setMaximumWidth(width // 3)
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(1, self.height())
+
+
+class Words(QtWidgets.QWidget):
+    """A line of words that takes the room it gets: what does not fit ends in dots and is in the tooltip.
+
+    is_meant: it asks for the room that it needs.
+    """
+
+    def __init__(self, colour: str, is_right: bool = False, is_meant: bool = False) -> None:
+        super().__init__()
+        self.text = ""
+        self._colour, self._is_right = colour, is_right
+        policy = QtWidgets.QSizePolicy.Policy
+        self.setSizePolicy(policy.Preferred if is_meant else policy.Ignored, policy.Preferred)
+
+    def show_text(self, text: str) -> None:
+        if text != self.text:
+            self.text = text
+            self.setAccessibleName(text)
+            self.update()
+
+    def fix(self, width: float) -> None:
+        """Always have this width."""
+        self.setFixedWidth(round(width))
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Fixed, QtWidgets.QSizePolicy.Policy.Preferred)
+
+    def sizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(round(number_width(LOOK.font(12.5), self.text)) + 2, HEIGHT - 4)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter = QtGui.QPainter(self)
+        painter.setFont(LOOK.font(12.5))
+        painter.setPen(QtGui.QColor(getattr(LOOK.theme, self._colour)))
+        metrics, text = painter.fontMetrics(), self.text
+        width = number_width(painter.font(), text)
+        is_cut = width > self.width()
+        if is_cut and not self._is_right:
+            text = metrics.elidedText(text, QtCore.Qt.TextElideMode.ElideRight, self.width())
+        self.setToolTip(self.text if is_cut else "")
+        baseline = (self.height() + metrics.ascent() - metrics.descent()) / 2
+        paint_number(painter, self.width() - width if self._is_right else 0.0, baseline, text)
+
+
+class Chip(QtWidgets.QToolButton):
+    """ "2 repairs": a click lists them; hidden while there are none."""
+
+    def __init__(self, one: str, many: str = "") -> None:
+        super().__init__()
+        self._one, self._many = one, many or f"{one}s"
+        self._sentences: list[str] = []
+        self._count = 0
+        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
+        self.setCursor(QtCore.Qt.CursorShape.PointingHandCursor)
+        self.clicked.connect(self._list)
+        self.hide()
+
+    def show_list(self, sentences: list[str], count: int = 0) -> None:
+        """count: of those that are meant as warnings; the others are told with them, or quietly."""
+        self._sentences, self._count = sentences, count
+        self.setVisible(bool(sentences))
+        self.setAccessibleName(self.words)
+        self.setToolTip(f"{self.words}: click for the list")
+        self.updateGeometry()
+        self.update()
+
+    @property
+    def sentences(self) -> list[str]:
+        return list(self._sentences)
+
+    @property
+    def words(self) -> str:
+        if not self._count:
+            return f"{len(self._sentences)} note{'' if len(self._sentences) == 1 else 's'}"
+        return f"{self._count} {self._one if self._count == 1 else self._many}"
+
+    def sizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(QtGui.QFontMetrics(LOOK.font(12)).horizontalAdvance(self.words) + 42, 20)
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(30, 20)
+
+    def _list(self) -> None:
+        menu = QtWidgets.QMenu(self)
+        metrics = QtGui.QFontMetrics(LOOK.font())
+        for sentence in self._sentences[:LISTED]:
+            shown = metrics.elidedText(sentence, QtCore.Qt.TextElideMode.ElideRight, 560)
+            menu.addAction(shown).setToolTip(sentence)
+        if len(self._sentences) > LISTED:
+            menu.addAction(f"and {len(self._sentences) - LISTED:,} more").setEnabled(False)
+        menu.addSeparator()
+        copy: Callable[[], None] = lambda: QtWidgets.QApplication.clipboard().setText("\n".join(self._sentences))  # noqa: E731
+        menu.addAction("Copy", copy)
+        menu.setToolTipsVisible(True)
+        menu.aboutToHide.connect(menu.deleteLater)
+        menu.popup(self.mapToGlobal(QtCore.QPoint(0, -menu.sizeHint().height())))
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, QtGui.QPainter(self)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        is_warning = self._count > 0
+        box = QtCore.QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
+        painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 2) if self.hasFocus() else QtCore.Qt.PenStyle.NoPen)
+        painter.setBrush(QtGui.QColor(theme.warning_ground if is_warning else theme.hover))
+        painter.drawRoundedRect(box, min(10, box.height() / 2), min(10, box.height() / 2))
+        colour = theme.warning if is_warning else theme.quiet
+        sign = pixmap("warning" if is_warning else "info", colour, self.devicePixelRatioF(), 14)
+        painter.drawPixmap(QtCore.QPointF(8, (self.height() - 14) / 2), sign)
+        painter.setFont(LOOK.font(12))
+        painter.setPen(QtGui.QColor(colour))
+        room = QtCore.QRectF(27, 0, self.width() - 33, self.height())
+        words = painter.fontMetrics().elidedText(self.words, QtCore.Qt.TextElideMode.ElideRight, int(room.width()) + 1)
+        painter.drawText(room, QtCore.Qt.AlignmentFlag.AlignVCenter, words)
+
+
+def unseen(recipe: Recipe, style: Style) -> list[str]:
+    """What a recipe has that panels do not show."""
+    parts = {
+        f"views but the first of {len(recipe.views)}": len(recipe.views) > 1,
+        "outlines": style.outline,
+    }
+    words = [word for word, part in parts.items() if part]
+    return [f"in figures only: {', '.join(words)}"] if words else []
+
+
+def remarks(surface: Surface) -> list[str]:
+    """What is remarkable about a surface: what was repaired, what is unusual, what has no colour."""
+    words = list(surface.remarks)
+    if surface.nonmanifold_edge_count:
+        words.append(f"{surface.nonmanifold_edge_count:,} edges with more than two faces")
+    if surface.component_count > 1:
+        words.append(f"{surface.component_count} components (grey: not connected to the source)")
+    if surface.unreferenced_count:
+        words.append(f"{surface.unreferenced_count:,} vertices without a face")
+    return words

@@ -1,0 +1,128 @@
+"""The tool bar: what one needs all the time, with the value that is chosen; where it is narrow words go first."""
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ..actions import Actions
+from ..look.look import LOOK
+from .menus import Menus
+from .source_box import SourceBox
+from .tool_button import FULL, ICONS, VALUES, ToolButton
+
+HEIGHT = 44
+
+LAST_TO_GO = ("views", "colours", "range", "isolines", "live", "tools", "redo", "undo")
+"""Where even the icons have no room: which buttons are left out, the first of these first; all are in the menus."""
+
+
+class ToolBar(QtWidgets.QToolBar):
+    """buttons: by name.  `window` is the main window."""
+
+    def __init__(self, window, actions: Actions, menus: Menus) -> None:
+        super().__init__("Tools", window)
+        self.setMovable(False)
+        self.setFloatable(False)
+        self.setContextMenuPolicy(QtCore.Qt.ContextMenuPolicy.PreventContextMenu)
+        self.buttons: dict[str, ToolButton] = {}
+        self._shown_as: dict[str, QtWidgets.QAction] = {}
+        self._lines: list[QtWidgets.QAction] = []
+        self._detail = FULL
+        self._menu("open", "open", "Open", menus.open, "Open a mesh, a recent file or a sample (Ctrl+O)")
+        self._line()
+        self._button("undo", "undo", "", actions["undo"])
+        self._button("redo", "redo", "", actions["redo"])
+        self._line()
+        self._menu("tools", "source", "", menus.tools, "The source: type it, step along edges, live")
+        self.source_box = SourceBox(self)
+        label = QtWidgets.QLabel("Source")
+        label.setProperty("quiet", True)
+        label.setBuddy(self.source_box)
+        label.setContentsMargins(6, 0, 2, 0)
+        self._shown_as["source label"] = self.addWidget(label)
+        self.addWidget(self.source_box)
+        self._button("live", "live", "Live", actions["live"])
+        self._line()
+        self._menu("isolines", "isolines", "Isolines", menus.isolines, "How many steps isolines make")
+        self._menu("colours", "colours", "Colours", menus.colours, "The colours of the fields")
+        self._menu("range", "range", "Range", menus.range, "Where the colours end: in each panel, or in all alike")
+        self._menu("views", "views", "View", menus.views, "Standard views (1 to 6, R), views before and after")
+        self._line()
+        self._button("add panel", "add-panel", "Panel", actions["add panel"])
+        gap = QtWidgets.QWidget()
+        gap.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Preferred)
+        self.addWidget(gap)
+        self._button("export", "export-figure", "Export", actions["figure"], is_meant=True)
+        self._button("preferences", "settings", "", actions["preferences"])
+        LOOK.changed.connect(self.fit)
+        self.fit()
+
+    def allow(self, has_mesh: bool) -> None:
+        for name in ("tools", "isolines", "colours", "range", "views"):
+            # The action a button is put in by enables it whenever it is shown or hidden.
+            self._shown_as[name].setEnabled(has_mesh)
+
+    def fit(self) -> None:
+        """Write as much as there is room for."""
+        room = self.width()
+        self.setFixedHeight(round(HEIGHT * max(1, LOOK.scale)))
+        for detail in (FULL, VALUES, ICONS):
+            if self._width_with(detail, set()) <= room:
+                break
+        left_out: set[str] = set()
+        for name in LAST_TO_GO:
+            if self._width_with(detail, left_out) <= room:
+                break
+            left_out.add(name)
+        for name, button in self.buttons.items():
+            # The one that is meant, and how to begin, keep their words longer.
+            button.show_detail(detail)
+            self._shown_as[name].setVisible(name not in left_out)
+        self._shown_as["source label"].setVisible(detail != ICONS)
+
+    def _width_with(self, detail: int, left_out: set[str]) -> int:
+        spacing = 4
+        widths = [button.width_with(detail) for name, button in self.buttons.items() if name not in left_out]
+        widths += [13] * len(self._lines) + [self.source_box.width(), 24]
+        if detail != ICONS:
+            widths.append(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance("Source") + 8)
+        return sum(widths) + spacing * (len(widths) + 2)
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.fit()
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(1, self.height())
+
+    def sizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(1, round(HEIGHT * max(1, LOOK.scale)))
+
+    def _line(self) -> None:
+        self._lines.append(self.addSeparator())
+
+    def _menu(self, name: str, icon: str, words: str, menu: QtWidgets.QMenu, tip: str) -> None:
+        button = ToolButton(icon, words)
+        button.setMenu(menu)
+        button.setToolTip(tip)
+        button.setAccessibleName(words or tip.partition(":")[0])
+        self._put(name, button)
+
+    def _button(self, name: str, icon: str, words: str, action: QtWidgets.QAction, is_meant: bool = False) -> None:
+        """One that does what an action does."""
+        button = ToolButton(icon, words, is_meant)
+        button.setCheckable(action.isCheckable())
+        button.setToolTip(action.toolTip())
+        button.setAccessibleName(words or action.text().replace("&", ""))
+
+        self._put(name, button)
+
+        def follow() -> None:
+            self._shown_as[name].setEnabled(action.isEnabled())
+            button.setChecked(action.isChecked())
+
+        action.changed.connect(follow)
+        button.clicked.connect(lambda *_: action.trigger())
+        follow()
+
+    def _put(self, name: str, button: ToolButton) -> None:
+        self.buttons[name] = button
+        self._shown_as[name] = self.addWidget(button)

@@ -1,0 +1,115 @@
+"""A button of the tool bar: an icon, quiet words, the value that is chosen; words go first where room is short."""
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ..look.icons import SIDE, pixmap
+from ..look.look import LOOK
+
+HEIGHT, PADDING, GAP = 32, 8, 6
+CHEVRON = 12
+
+FULL, VALUES, ICONS = 2, 1, 0
+"""How much is written: words and values, values, nothing."""
+
+
+class ToolButton(QtWidgets.QToolButton):
+    """icon: of `assets/icons`; words: what it is about; is_meant: the one button that is filled."""
+
+    def __init__(self, icon: str, words: str = "", is_meant: bool = False) -> None:
+        super().__init__()
+        self._icon, self._words, self._value = icon, words, ""
+        self._is_meant, self._detail = is_meant, FULL
+        self._has_keys = False
+        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
+        self.setPopupMode(QtWidgets.QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.setCursor(QtCore.Qt.CursorShape.ArrowCursor)
+        LOOK.changed.connect(self._refit)
+
+    def show_value(self, value: str) -> None:
+        if value != self._value:
+            self._value = value
+            self.setAccessibleDescription(value)
+            self._refit()
+
+    def show_detail(self, detail: int) -> None:
+        """FULL, VALUES or ICONS."""
+        if detail != self._detail:
+            self._detail = detail
+            self._refit()
+
+    def width_with(self, detail: int) -> int:
+        """How wide it is with so much written."""
+        texts = self._texts(detail)
+        metrics = QtGui.QFontMetrics(self._font)
+        width = 2 * PADDING + SIDE + sum(GAP + metrics.horizontalAdvance(text) for text, _ in texts)
+        return width + (GAP - 2 + CHEVRON if self.menu() is not None else 0)
+
+    @property
+    def _font(self) -> QtGui.QFont:
+        return LOOK.font(13, bold=self._is_meant)
+
+    def _texts(self, detail: int) -> list[tuple[str, bool]]:
+        """What is written, and whether it is quiet."""
+        words, value = (self._words, bool(self._value)), (self._value, False)
+        shown = {FULL: [words, value], VALUES: [value], ICONS: []}[detail]
+        return [(text, quiet) for text, quiet in shown if text]
+
+    def _refit(self) -> None:
+        self.updateGeometry()
+        self.update()
+
+    def sizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(self.width_with(self._detail), round(HEIGHT * max(1, LOOK.scale)))
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return self.sizeHint()
+
+    def focusInEvent(self, event: QtGui.QFocusEvent) -> None:
+        # Where the keys are is shown to those who use them.
+        self._has_keys = event.reason() not in (
+            QtCore.Qt.FocusReason.MouseFocusReason,
+            QtCore.Qt.FocusReason.PopupFocusReason,
+        )
+        super().focusInEvent(event)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, QtGui.QPainter(self)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        is_on = self.isEnabled()
+        is_filled = self._is_meant and is_on
+        is_pressed = is_on and (self.isDown() or (self.menu() is not None and self.menu().isVisible()))
+        ground = theme.fill if is_filled else ""
+        if self.isChecked():
+            ground = theme.selection
+        if is_on and self.underMouse() and not is_filled:
+            ground = theme.hover
+        if is_pressed and not is_filled:
+            ground = theme.pressed
+        box = QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1)
+        if ground:
+            painter.setPen(QtCore.Qt.PenStyle.NoPen)
+            painter.setBrush(QtGui.QColor(ground))
+            painter.drawRoundedRect(box, 6, 6)
+        if self.hasFocus() and self._has_keys:
+            painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
+            painter.setPen(QtGui.QPen(QtGui.QColor(theme.text if is_filled else theme.accent), 2))
+            painter.drawRoundedRect(box, 6, 6)
+        colour = theme.on_fill if is_filled else theme.text if is_on else theme.disabled
+        if self.isChecked() and is_on:
+            colour = theme.accent
+        ratio = self.devicePixelRatioF()
+        x, middle = PADDING, self.height() / 2
+        painter.drawPixmap(QtCore.QPointF(x, middle - SIDE / 2), pixmap(self._icon, colour, ratio))
+        x += SIDE
+        painter.setFont(self._font)
+        metrics = painter.fontMetrics()
+        baseline = middle + (metrics.ascent() - metrics.descent()) / 2
+        for text, is_quiet in self._texts(self._detail):
+            x += GAP
+            painter.setPen(QtGui.QColor(theme.quiet if is_quiet and is_on else colour))
+            painter.drawText(QtCore.QPointF(x, baseline), text)
+            x += metrics.horizontalAdvance(text)
+        if self.menu() is not None:
+            side = CHEVRON
+            chevron = pixmap("chevron", theme.quiet if is_on else theme.disabled, ratio, side)
+            painter.drawPixmap(QtCore.QPointF(x + GAP - 2, middle - side / 2), chevron)

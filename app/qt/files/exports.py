@@ -1,0 +1,324 @@
+"""The files that are drawn in the background while the window goes on, and the chip that says how far they are."""
+
+import os
+import threading
+import time
+from collections.abc import Callable
+from functools import partial
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import OutputError
+
+from ...figures.job import FigureJob
+from ..look.icons import pixmap, put_icon
+from ..look.look import LOOK
+from ..look.numbers import number_width, paint_number
+
+PATIENCE = 10.0
+"""Seconds that closing waits for drawings to stop; what still goes on then stops by itself, without a file."""
+
+
+class Export(QtCore.QObject):
+    """One file on its way; made by `Exports.start`.
+
+    path: of the file; what: "Movie" or "Figure"; fraction: the share done, 0 to 1; words: what is being done.
+    """
+
+    saved = QtCore.Signal(str)  # the path
+    failed = QtCore.Signal(str)  # a sentence
+    _progress = QtCore.Signal(float, str)
+    _ended = QtCore.Signal(object)
+
+    def __init__(self, work: Callable[..., None], path: str, what: str, exports: "Exports") -> None:
+        super().__init__(exports)
+        self.path, self.what = path, what
+        self.fraction, self.words = 0.0, "starting …"
+        self.is_stopping = False
+        self._exports = exports
+        self._progress.connect(self._go_on)
+        self._ended.connect(self._end)
+        self._line = _Line()
+        self.destroyed.connect(self._line.cut)
+        progress, ended = (partial(self._line.pass_on, signal) for signal in (self._progress, self._ended))
+        self.job = FigureJob(work, progress, ended)
+
+    @property
+    def percent(self) -> int:
+        """100 only at the end."""
+        return int(100 * self.fraction)
+
+    def _go_on(self, fraction: float, words: str) -> None:
+        if not self.is_stopping:
+            self.fraction, self.words = fraction, words or "writing the file …"
+            self._exports.changed.emit()
+
+    def _end(self, message: str | None) -> None:
+        """message: None if the file is there, "" if it was cancelled, otherwise why it is not there."""
+        if not self._exports.forget(self):
+            return
+        if message is None:
+            self.saved.emit(self.path)
+            self._exports.saved.emit(self.path)
+        elif message:
+            self.failed.emit(message)
+            self._exports.failed.emit(message)
+        self.deleteLater()
+
+
+class Exports(QtCore.QObject):
+    """All that is being drawn, a process each.  `saved` has the path, `failed` a sentence; a cancelled one has neither.
+
+    running: in the order of their starts.  folder: where the last one went, "" at first.
+    """
+
+    changed = QtCore.Signal()
+    saved = QtCore.Signal(str)
+    failed = QtCore.Signal(str)
+
+    def __init__(self, parent: QtCore.QObject | None = None) -> None:
+        super().__init__(parent)
+        self.running: list[Export] = []
+        self.folder = ""
+
+    def start(self, work: Callable[..., None], path: str, what: str) -> Export:
+        """Run `work(progress=...)`, whose result is the file at `path`.
+
+        Raises OutputError while another one is drawn to that path, and where no process can be started.
+        """
+        name = os.path.basename(path)
+        if any(_is_same(path, export.path) for export in self.running):
+            raise OutputError(f"{name} is being drawn already; wait for it, cancel it, or choose another name.")
+        try:
+            export = Export(work, path, what, self)
+        except OSError as error:
+            raise OutputError(f"{name} cannot be drawn in the background: {error.strerror or error}.") from error
+        self.folder = os.path.dirname(os.path.abspath(path))
+        self.running.append(export)
+        self.changed.emit()
+        return export
+
+    def cancel(self, export: Export) -> None:
+        """Stop it: what was at the path stays.  It runs on until its process has noticed."""
+        if export in self.running:
+            export.is_stopping, export.words = True, "stopping …"
+            export.job.cancel()
+            self.changed.emit()
+
+    def close(self) -> None:
+        """Cancel all and wait for them."""
+        for export in self.running:
+            export.is_stopping = True
+            export.job.cancel()
+        end = time.monotonic() + PATIENCE
+        for export in self.running:
+            export.job.wait(max(0.0, end - time.monotonic()))
+        self.running = []
+        self.changed.emit()
+
+    def forget(self, export: Export) -> bool:
+        """It has ended; False if it was forgotten before."""
+        if export not in self.running:
+            return False
+        self.running.remove(export)
+        self.changed.emit()
+        return True
+
+
+def _is_same(path: str, other: str) -> bool:
+    return os.path.normcase(os.path.realpath(path)) == os.path.normcase(os.path.realpath(other))
+
+
+class _Line:
+    """From the job's thread to the window, which may be gone before the job is: then a signal would be a crash."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._is_cut = False
+
+    def cut(self) -> None:
+        with self._lock:
+            self._is_cut = True
+
+    def pass_on(self, signal: QtCore.SignalInstance, *words: object) -> None:
+        with self._lock:
+            if not self._is_cut:
+                signal.emit(*words)
+
+
+# ---------------------------------------------------------------------- the chip
+class ExportChip(QtWidgets.QWidget):
+    """For the status bar: "Movie 34 %" with a bar and ✕, "2 exports, 40 %" with a menu; hidden when nothing runs."""
+
+    WIDEST = 220
+
+    def __init__(self, exports: Exports, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._exports = exports
+        self.setMaximumWidth(self.WIDEST)
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Maximum, QtWidgets.QSizePolicy.Policy.Fixed)
+        self.menu = QtWidgets.QMenu(self)
+        self._listed: list[tuple[Export, QtWidgets.QAction]] = []
+        self.share = _Share(self)
+        self.share.clicked.connect(self.open_menu)
+        self.stop = QtWidgets.QToolButton(self)
+        self.stop.setIconSize(QtCore.QSize(14, 14))
+        self.stop.setFixedSize(22, 22)
+        self.stop.clicked.connect(self._cancel_one)
+        put_icon(self.stop, "close")
+        row = QtWidgets.QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(2)
+        row.addWidget(self.share, 1)
+        row.addWidget(self.stop)
+        exports.changed.connect(self._show)
+        self._show()
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(0, 22)  # rather cut off than a wider window
+
+    def open_menu(self) -> None:
+        """All that run, each with what cancels it."""
+        self._list()
+        height = self.menu.sizeHint().height()
+        self.menu.popup(self.mapToGlobal(QtCore.QPoint(0, -height - 2)))
+
+    def _cancel_one(self) -> None:
+        for export in self._exports.running[:1]:
+            self._exports.cancel(export)
+
+    def _show(self) -> None:
+        running = self._exports.running
+        self.setVisible(bool(running))
+        if not running:
+            self.menu.close()
+            return
+        self.share.show_share(*_summary(running), has_menu=len(running) > 1)
+        self.stop.setVisible(len(running) == 1)
+        self.stop.setEnabled(not running[0].is_stopping)
+        self.stop.setToolTip(f"Cancel {running[0].what.lower()} {os.path.basename(running[0].path)}")
+        self.stop.setAccessibleName(self.stop.toolTip())
+        whole = "\n".join(f"{export.path}\n{export.words}" for export in running)
+        self.share.setToolTip(whole)
+        self.share.setAccessibleDescription(whole)
+        if self.menu.isVisible():
+            self._list()
+
+    def _list(self) -> None:
+        """Fill the menu; one that is open keeps its entries, which say how far they are."""
+        running = self._exports.running
+        if [export for export, _ in self._listed] != running:
+            self.menu.clear()
+            self._listed = [(export, self.menu.addAction("")) for export in running]
+            for export, action in self._listed:
+                put_icon(action, "close")
+                action.triggered.connect(lambda _=False, export=export: self._exports.cancel(export))
+            if len(running) > 1:
+                self.menu.addSeparator()
+                self.menu.addAction("Cancel all", lambda: [self._exports.cancel(export) for export in running])
+        for export, action in self._listed:
+            name = self.fontMetrics().elidedText(
+                os.path.basename(export.path), QtCore.Qt.TextElideMode.ElideMiddle, 240
+            )
+            how_far = "stopping …" if export.is_stopping else f"{export.percent} %"
+            # An ampersand in a name would underline the letter after it.
+            action.setText(f"Cancel {export.what.lower()} {name}, {how_far}".replace("&", "&&"))
+            action.setEnabled(not export.is_stopping)
+
+
+def _summary(running: list[Export]) -> tuple[str, float]:
+    """The words of the chip, and the share of its bar."""
+    mean = sum(export.fraction for export in running) / len(running)
+    if len(running) > 1:
+        return f"{len(running)} exports, {int(100 * mean)} %", mean
+    return (
+        f"{running[0].what}, stopping …" if running[0].is_stopping else f"{running[0].what} {int(100 * mean)} %"
+    ), mean
+
+
+class _Share(QtWidgets.QAbstractButton):
+    """Words and a bar, painted here: digits of one width, and no new picture while nothing that is seen changes."""
+
+    PAD, GAP, BAR, CHEVRON = 6, 8, 56, 14
+
+    def __init__(self, parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent)
+        self._fraction, self._has_menu, self._by_keys = 0.0, False, False
+        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
+        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_Hover)
+        LOOK.changed.connect(self._look_anew)
+
+    def _look_anew(self) -> None:
+        self.updateGeometry()
+        self.update()
+
+    def show_share(self, words: str, fraction: float, has_menu: bool) -> None:
+        """fraction: 0 to 1; has_menu: shown by an arrow."""
+        if (words, has_menu) != (self.text(), self._has_menu):
+            self._has_menu = has_menu
+            self.setText(words)
+            self.setAccessibleName(words)
+            self.updateGeometry()
+        self._fraction = fraction
+
+    def sizeHint(self) -> QtCore.QSize:
+        wide = number_width(LOOK.font(12.5), self._widest()) + self.GAP + self.BAR + 2 * self.PAD
+        return QtCore.QSize(round(wide) + (self.CHEVRON if self._has_menu else 0), 22)
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(0, 22)
+
+    def _widest(self) -> str:
+        """The words with room for three digits, so that the bar stands still."""
+        head, _, last = self.text().removesuffix(" %").rpartition(" ")
+        return f"{head} 100 %" if last.isdigit() else self.text()
+
+    def focusInEvent(self, event: QtGui.QFocusEvent) -> None:
+        reason = QtCore.Qt.FocusReason
+        self._by_keys = event.reason() in (reason.TabFocusReason, reason.BacktabFocusReason)
+        super().focusInEvent(event)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, QtGui.QPainter(self)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        self._paint_ground(painter)
+        painter.setFont(LOOK.font(12.5))
+        painter.setPen(QtGui.QColor(theme.text))
+        metrics = QtGui.QFontMetricsF(painter.font())
+        right = self.width() - self.PAD - (self.CHEVRON if self._has_menu else 0)
+        baseline = (self.height() + metrics.ascent() - metrics.descent()) / 2
+        if number_width(painter.font(), self.text()) <= right - self.PAD:
+            paint_number(painter, self.PAD, baseline, self.text())
+        else:
+            words = metrics.elidedText(self.text(), QtCore.Qt.TextElideMode.ElideRight, right - self.PAD)
+            painter.drawText(QtCore.QPointF(self.PAD, baseline), words)
+        left = self.PAD + number_width(painter.font(), self._widest()) + self.GAP
+        self._paint_bar(painter, QtCore.QRectF(left, self.height() / 2 - 2, right - left, 4))
+        if self._has_menu:
+            scale = self.devicePixelRatioF()
+            painter.drawPixmap(
+                QtCore.QPointF(right + 2, self.height() / 2 - 6), pixmap("chevron", theme.quiet, scale, 12)
+            )
+
+    def _paint_ground(self, painter: QtGui.QPainter) -> None:
+        theme, box = LOOK.theme, QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1)
+        painter.setPen(QtCore.Qt.PenStyle.NoPen)
+        if self.isDown() or self.underMouse():
+            painter.setBrush(QtGui.QColor(theme.pressed if self.isDown() else theme.hover))
+            painter.drawRoundedRect(box, 6, 6)
+        if self.hasFocus() and self._by_keys:
+            painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
+            painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 2))
+            painter.drawRoundedRect(box, 6, 6)
+
+    def _paint_bar(self, painter: QtGui.QPainter, box: QtCore.QRectF) -> None:
+        if box.width() < 16:
+            return
+        painter.setPen(QtCore.Qt.PenStyle.NoPen)
+        # Where the ground is that of the pointer, the usual line would be lost in it.
+        painter.setBrush(QtGui.QColor(LOOK.theme.strong if self.underMouse() else LOOK.theme.border))
+        painter.drawRoundedRect(box, 2, 2)
+        painter.setClipRect(QtCore.QRectF(box.left(), box.top(), box.width() * self._fraction, box.height()))
+        painter.setBrush(QtGui.QColor(LOOK.theme.accent))
+        painter.drawRoundedRect(box, 2, 2)
+        painter.setClipping(False)

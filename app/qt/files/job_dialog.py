@@ -1,0 +1,271 @@
+"""A dialog that asks how a file shall be, closes, and has the file drawn in the background."""
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import BihdistError
+
+from ..look.look import LOOK
+from ..look.segments import Segments
+from .exports import Exports
+
+WIDTH = 388
+"""Of the column of choices, at the usual size of letters, in logical pixels."""
+
+LABEL = 116
+"""Of the words before a box."""
+
+
+@dataclass(frozen=True)
+class FileKind:
+    """extension: with its dot; name: on the button; words: in the file dialog."""
+
+    extension: str
+    name: str
+    words: str
+
+
+class WrongBox(BihdistError):
+    """What stands in a box makes no sense; the message says why."""
+
+    def __init__(self, message: str, box: QtWidgets.QWidget) -> None:
+        super().__init__(message)
+        self.box = box
+
+
+@contextmanager
+def blamed_on(box: QtWidgets.QWidget) -> Iterator[None]:
+    """What is refused inside is the fault of what stands in the box."""
+    try:
+        yield
+    except BihdistError as error:
+        raise WrongBox(str(error), box) from error
+
+
+class JobDialog(QtWidgets.QDialog):
+    """`started` is emitted with the `Export`; then the dialog is closed.  What is refused is said in the dialog.
+
+    A class of its own for each sort of file adds sections and rows, and makes the work in `work(path)`.
+    """
+
+    started = QtCore.Signal(object)
+
+    def __init__(
+        self,
+        title: str,
+        what: str,
+        name: str,
+        kinds: tuple[FileKind, ...],
+        exports: Exports,
+        parent: QtWidgets.QWidget | None = None,
+    ) -> None:
+        """what: is drawn, "Movie"; name: of the file, as a proposal and without an extension."""
+        super().__init__(parent)
+        self.setWindowTitle(title)
+        self._what, self._name, self._kinds, self._exports = what, name, kinds, exports
+        self._sentences: dict[QtWidgets.QWidget, QtWidgets.QLabel] = {}
+        self._fill()
+        self.section("Format")
+        self.kinds = Segments({kind.name: kind.name for kind in kinds}, "The format of the file")
+        self.kinds.choose(kinds[0].name)
+        self.column.addWidget(self.kinds, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
+
+    def check(self) -> None:
+        """BihdistError, or `WrongBox`, for what stands in the dialog and makes no sense."""
+        raise NotImplementedError
+
+    def work(self, path: str) -> Callable[..., None]:
+        """What draws the file at `path`; BihdistError if it cannot be."""
+        raise NotImplementedError
+
+    def export(self, path: str) -> None:
+        """Have it drawn to a path, and close; what is refused is said here instead."""
+        with self._refusals_shown():
+            self.check()
+            export = self._exports.start(self.work(path), path, self._what)
+            self.started.emit(export)
+            self.accept()
+
+    def choose_path(self) -> None:
+        """Ask where to, if all in the dialog makes sense."""
+        with self._refusals_shown():
+            self.check()
+            self._ask_path()
+
+    def _ask_path(self) -> None:
+        kind = next(kind for kind in self._kinds if kind.name == self.kinds.choice())
+        files = QtWidgets.QFileDialog(
+            self, self.windowTitle(), self._exports.folder, f"{kind.words} (*{kind.extension})"
+        )
+        files.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
+        files.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
+        files.setDefaultSuffix(kind.extension.removeprefix("."))
+        files.selectFile(self._name + kind.extension)
+        files.fileSelected.connect(self.export)
+        files.open()
+
+    # ------------------------------------------------------------------ what is wrong
+    @contextmanager
+    def _refusals_shown(self) -> Iterator[None]:
+        self._forget_wrong()
+        try:
+            yield
+        except WrongBox as wrong:
+            self._show_wrong(wrong.box, str(wrong))
+        except BihdistError as error:
+            self._show(self.refusal, str(error))
+
+    def _show_wrong(self, box: QtWidgets.QWidget, sentence: str) -> None:
+        self._show(self._sentences[box], sentence)
+        _mark(box, True)
+        box.setAccessibleDescription(sentence)
+        box.setFocus()
+        self.scroll.ensureWidgetVisible(self._sentences[box])
+
+    def _show(self, label: QtWidgets.QLabel, sentence: str) -> None:
+        label.setText(sentence)
+        label.setVisible(True)
+        self._fit()
+
+    def _forget_wrong(self) -> None:
+        self.refusal.setVisible(False)
+        for box, sentence in self._sentences.items():
+            if not sentence.isHidden():
+                sentence.setVisible(False)
+                box.setAccessibleDescription("")
+                _mark(box, False)
+
+    # ------------------------------------------------------------------ how it is made
+    def section(self, title: str) -> None:
+        """A title; what is added next stands under it."""
+        label = QtWidgets.QLabel(title)
+        label.setProperty("heading", True)
+        if self.column.count():
+            self.column.addSpacing(12)
+        self.column.addWidget(label)
+
+    def row(self, label: str, box: QtWidgets.QWidget, tip: str) -> None:
+        """A box with words before it, and a place for what is wrong under it; label: with its access key."""
+        words = QtWidgets.QLabel(label)
+        words.setBuddy(box)
+        words.setToolTip(tip)
+        words.setMinimumWidth(round(LABEL * LOOK.scale))
+        self._name_box(box, label.replace("&", ""), tip)
+        line = QtWidgets.QHBoxLayout()
+        line.addWidget(words)
+        line.addWidget(box, 1)
+        self.column.addLayout(line)
+        self.room_for_wrong(box)
+
+    def tick(self, words: str, is_on: bool, tip: str) -> QtWidgets.QCheckBox:
+        box = QtWidgets.QCheckBox(words, checked=is_on)
+        self._name_box(box, words.replace("&", ""), tip)
+        self.column.addWidget(box)
+        return box
+
+    def room_for_wrong(self, box: QtWidgets.QWidget) -> None:
+        """Where the sentence stands if what is in the box makes no sense."""
+        self._sentences[box] = _sentence()
+        self.column.addWidget(self._sentences[box])
+
+    @staticmethod
+    def _name_box(box: QtWidgets.QWidget, name: str, tip: str) -> None:
+        box.setAccessibleName(name)
+        box.setToolTip(tip)
+
+    def _fill(self) -> None:
+        choices = QtWidgets.QWidget()
+        self.column = QtWidgets.QVBoxLayout(choices)
+        self.column.setContentsMargins(24, 20, 24, 20)
+        self.column.setSpacing(8)
+        self.scroll = QtWidgets.QScrollArea(widgetResizable=True)
+        self.scroll.setWidget(choices)
+        self.scroll.viewport().setAutoFillBackground(False)
+        choices.setAutoFillBackground(False)
+        self.scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
+        self.refusal = _sentence()
+        role = QtWidgets.QDialogButtonBox.ButtonRole
+        buttons = QtWidgets.QDialogButtonBox(self)  # which a default button must know of
+        self.save = buttons.addButton("Export …", role.AcceptRole)
+        self.save.setDefault(True)
+        self.save.setToolTip("Choose where the file goes; it is drawn in the background")
+        self.cancel = buttons.addButton("Cancel", role.RejectRole)
+        self.cancel.setToolTip("Close without a file (Esc)")
+        buttons.accepted.connect(self.choose_path)
+        buttons.rejected.connect(self.reject)
+        self._foot = foot = QtWidgets.QVBoxLayout()
+        foot.setContentsMargins(24, 12, 24, 12)
+        foot.setSpacing(8)
+        foot.addWidget(self.refusal)
+        foot.addWidget(buttons)
+        layout = QtWidgets.QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.scroll, 1)
+        layout.addWidget(QtWidgets.QFrame(objectName="hairline"))
+        layout.addLayout(foot)
+
+    def showEvent(self, event: QtGui.QShowEvent) -> None:
+        if not event.spontaneous():
+            self.ensurePolished()
+            self._fit()
+        super().showEvent(event)
+
+    def _fit(self) -> None:
+        """As high as all choices need, where the screen is; the rest is scrolled to."""
+        choices = self.scroll.widget()
+        wide = max(round(WIDTH * LOOK.scale), choices.minimumSizeHint().width())
+        needed = 1 + _height(self.column, wide) + _height(self._foot, wide)
+        screen = self.screen().availableGeometry().height() - 60
+        bar = 0 if needed <= screen else self.scroll.verticalScrollBar().sizeHint().width()
+        self.setMinimumWidth(wide + bar)
+        self.resize(max(self.width(), wide + bar), min(max(self.height(), needed), screen))
+
+
+class Choice(QtWidgets.QComboBox):
+    """A box with a list; it does not insist on the width of its longest entry."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setSizeAdjustPolicy(QtWidgets.QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.setMinimumContentsLength(12)
+
+
+class Count(QtWidgets.QSpinBox):
+    """A whole number, written or changed with the arrow keys."""
+
+    def __init__(self, least: int, most: int, value: int, suffix: str = "", nothing: str = "") -> None:
+        """nothing: what is said instead of the least number."""
+        super().__init__(minimum=least, maximum=most, value=value, suffix=suffix, specialValueText=nothing)
+        self.setButtonSymbols(QtWidgets.QAbstractSpinBox.ButtonSymbols.NoButtons)
+
+
+def stem(path: str, otherwise: str) -> str:
+    """A file's name without folder and extension."""
+    return os.path.splitext(os.path.basename(path))[0] or otherwise
+
+
+def _height(layout: QtWidgets.QLayout, width: int) -> int:
+    """What it needs at a width; sentences of several lines depend on it."""
+    layout.activate()
+    return layout.totalHeightForWidth(width) if layout.hasHeightForWidth() else layout.totalSizeHint().height()
+
+
+def _sentence() -> QtWidgets.QLabel:
+    label = QtWidgets.QLabel("", wordWrap=True, visible=False)
+    label.setTextFormat(QtCore.Qt.TextFormat.PlainText)
+    label.setTextInteractionFlags(QtCore.Qt.TextInteractionFlag.TextSelectableByMouse)
+    label.setProperty("error", True)
+    return label
+
+
+def _mark(box: QtWidgets.QWidget, is_wrong: bool) -> None:
+    """The style sheet's outline of what is wrong, which it looks for only when asked again."""
+    box.setProperty("wrong", is_wrong)
+    box.style().unpolish(box)
+    box.style().polish(box)

@@ -1,0 +1,165 @@
+"""What the mouse and the keys mean on the panels.  `window` is the main window."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from qtpy import QtCore, QtWidgets
+
+from ..document.edits import move_source, show_in
+from ..document.quantities import Quantity
+from .look.numbers import number
+
+if TYPE_CHECKING:
+    from ..drawing.picking import Met
+
+CLOSER = 2.0
+"""By how much "zoom to it" enlarges."""
+
+LEAST_TOWARDS = 0.3
+"""Cosine of the angle between a direction and an edge that still leads there."""
+
+
+class Gestures:
+    """See the module.  is_live: whether the source follows the pointer."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+        self._grid = grid = window.grid
+        self._met: Met | None = None  # what is under the pointer
+        self._met_in = -1  # in which panel
+        self.is_live = self.is_dragging = False
+        grid.clicked.connect(self._click)
+        grid.dragged.connect(self._drag)
+        grid.released.connect(self._release)
+        grid.hovered.connect(self._hover)
+        grid.menu_wanted.connect(self._open_menu)
+
+    def begin(self) -> None:
+        """Another surface is there."""
+        self._met = None
+        self.is_dragging = False
+
+    @property
+    def hovered(self) -> int | None:
+        """The vertex under the pointer."""
+        return None if self._met is None else self._met.vertex
+
+    # ------------------------------------------------------------------ the source
+    def _click(self, panel: int, met: "Met") -> None:
+        self._window.picked.emit(panel, met)
+        self._move(panel, met.vertex)
+
+    def _move(self, panel: int, vertex: int, **how: object) -> None:
+        session = self._window.session
+        session.show(move_source(session.document, panel, vertex), **how)
+
+    def _drag(self, panel: int, vertex: int) -> None:
+        self.is_dragging = True
+        self._move(panel, vertex, key=f"drag in {panel}", live=True)
+
+    def _release(self) -> None:
+        self.is_dragging = False
+        self._window.session.show(self._window.session.document)
+
+    def set_live(self, is_live: bool) -> None:
+        """Let the source follow the pointer, or no longer."""
+        if self.is_live and not is_live:
+            self._release()
+        self.is_live = is_live
+
+    def step_source(self, right: int, up: int) -> None:
+        """Along the edge that leads most nearly to where a direction of the screen points."""
+        session, id = self._window.session, self._grid.active
+        sources = session.document.panel(id).shows.points if id >= 0 else ()
+        surface = session.surface
+        if surface is None or not sources:
+            return
+        panel = self._grid.panel(id)
+        vertex = panel.source
+        if vertex is None:
+            return
+        faces = surface.faces[(surface.faces == vertex).any(axis=1)]
+        others = np.setdiff1d(faces, [vertex])
+        at = panel.view.place_of(panel.positions[vertex])
+        ways = []
+        for other in others:
+            place = panel.view.place_of(panel.positions[other])
+            ways.append((place.x() - at.x(), at.y() - place.y()))
+        ways = np.array(ways)
+        towards = ways @ (right, up) / np.maximum(np.linalg.norm(ways, axis=1), 1e-9)
+        if towards.max() > LEAST_TOWARDS:
+            self._move(id, int(others[towards.argmax()]), key=f"steps in {id}")
+
+    # ------------------------------------------------------------------ the pointer
+    def _hover(self, panel: int, met: "Met | None") -> None:
+        window = self._window
+        before, self._met, self._met_in = self.hovered, met, panel
+        vertex = self.hovered
+        if window.session.surface is None or (vertex is None and before is None):
+            return
+        self._grid.point_at(panel, vertex)
+        window.status.show_place(vertex, None if vertex is None else window.session.surface.vertices[vertex])
+        if self.is_live and vertex is not None and vertex != before:
+            self.is_dragging = True
+            self._move(panel, vertex, key="live", live=True)
+
+    def centre_here(self) -> None:
+        """What is under the pointer comes into the middle, and is turned about."""
+        if self._met is not None:
+            self._grid.panel(self._met_in).view.centre(self._met.position)
+
+    def zoom_here(self) -> None:
+        """What is under the pointer, in the middle and larger."""
+        if self._met is not None:
+            self._zoom_to(self._met_in, self._met)
+
+    def _zoom_to(self, panel: int, met: "Met") -> None:
+        view = self._grid.panel(panel).view
+        view.centre(met.position)
+        view.zoom(CLOSER)
+
+    # ------------------------------------------------------------------ what is chosen
+    def choose(self, panel: int, shows: Quantity) -> None:
+        """Another quantity is a step; the values that a slider passes are one."""
+        session = self._window.session
+        before = session.document.panel(panel).shows
+        words = [tuple(part.word for part in each.parts) for each in (before, shows)]
+        key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
+        session.show(show_in(session.document, panel, shows), key)
+
+    def _open_menu(self, panel: int, met: "Met | None", where: QtCore.QPoint) -> None:
+        """On the surface: what can be done with the place; beside it, with the view."""
+        window, actions = self._window, self._window.actions_by_word
+        menu = QtWidgets.QMenu(window)
+        if met is not None:
+            view, vertex = self._grid.panel(panel).view, met.vertex
+            self._grid.point_at(panel, vertex)
+            menu.addAction("Source here\tClick", lambda: self._click(panel, met))
+            menu.addSeparator()
+            menu.addAction("Centre the view here\tC", lambda: view.centre(met.position))
+            menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, met))
+            menu.addSeparator()
+            menu.addAction(f"Copy vertex id {vertex}", lambda: _copy(str(vertex)))
+            menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(vertex))))
+            menu.addAction("Copy values", lambda: _copy(self._values(vertex)))
+        else:
+            for word in ("reset", "view before", "view after"):
+                menu.addAction(actions[word])
+            menu.addSeparator()
+            for word in ("undo", "redo", "add panel"):
+                menu.addAction(actions[word])
+        menu.aboutToHide.connect(menu.deleteLater)
+        menu.popup(where)
+
+    def _place(self, vertex: int) -> np.ndarray:
+        return self._window.session.surface.vertices[vertex]
+
+    def _values(self, vertex: int) -> str:
+        """What every panel has there."""
+        place = " ".join(number(x) for x in self._place(vertex))
+        said = [panel.said_of(vertex) for panel in self._grid.panels]
+        return "\n".join([f"vertex {vertex} at {place}", *said])
+
+
+def _copy(text: str) -> None:
+    QtWidgets.QApplication.clipboard().setText(text)

@@ -1,0 +1,1 @@
+"""What stands before, over or beside the panels: the start page, messages, preferences, help."""

@@ -1,0 +1,328 @@
+"""What the user is told: a message to be read, which of several files, and a line above the panels."""
+
+import os
+from collections.abc import Callable, Sequence
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ..look.icons import pixmap, put_icon
+from ..look.look import LOOK
+
+
+# ---------------------------------------------------------------------- a message
+class Message(QtWidgets.QDialog):
+    """A sentence, and details that are folded away at first; all of it can be selected and copied."""
+
+    def __init__(self, sentence: str, details: str = "", parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Biharmonic distance")
+        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._whole = f"{sentence}\n\n{details}" if details else sentence
+        self.sentence = QtWidgets.QLabel(sentence, wordWrap=True)
+        self.sentence.setTextFormat(QtCore.Qt.TextFormat.PlainText)
+        flag = QtCore.Qt.TextInteractionFlag
+        self.sentence.setTextInteractionFlags(flag.TextSelectableByMouse | flag.TextSelectableByKeyboard)
+        self.sentence.setAccessibleName(sentence)
+        # Qt would otherwise guess a width, and make long sentences narrow towers.
+        self.sentence.setMinimumWidth(min(400, self.sentence.fontMetrics().horizontalAdvance(sentence) + 16))
+        self.fold = QtWidgets.QPushButton("Show details", objectName="link", visible=bool(details))
+        self.fold.setAutoDefault(False)
+        self.fold.setToolTip("What happened, in full")
+        self.details = QtWidgets.QPlainTextEdit(details, readOnly=True, visible=False)
+        self.details.setMinimumHeight(140)
+        self.details.setAccessibleName("Details")
+        self.fold.clicked.connect(self._unfold)
+        self.copy = QtWidgets.QPushButton("Copy", self)
+        self.copy.setToolTip("Copy all of it to the clipboard")
+        self.copy.setAutoDefault(False)
+        self.copy.clicked.connect(self._copy)
+        shut = QtWidgets.QPushButton("Close", self, default=True)
+        shut.setToolTip("Close this message (Esc)")
+        shut.clicked.connect(self.accept)
+        shut.setFocus()
+        buttons = QtWidgets.QHBoxLayout()
+        buttons.addWidget(self.copy)
+        buttons.addStretch(1)
+        buttons.addWidget(shut)
+        self._sign = QtWidgets.QLabel("")
+        self._paint_sign()
+        LOOK.changed.connect(self._paint_sign)
+        top = QtWidgets.QHBoxLayout()
+        top.setSpacing(12)
+        top.addWidget(self._sign, 0, QtCore.Qt.AlignmentFlag.AlignTop)
+        words = QtWidgets.QVBoxLayout()
+        words.setSpacing(4)
+        words.addWidget(self.sentence)
+        words.addWidget(self.fold, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
+        top.addLayout(words, 1)
+        self._layout = QtWidgets.QVBoxLayout(self)
+        self._layout.setContentsMargins(24, 20, 24, 16)
+        self._layout.setSpacing(8)
+        self._layout.addLayout(top)
+        self._layout.addWidget(self.details, 1)
+        self._layout.addSpacing(8)
+        self._layout.addLayout(buttons)
+
+    def _paint_sign(self) -> None:
+        self._sign.setPixmap(pixmap("warning", LOOK.theme.warning, self.devicePixelRatioF()))
+
+    def _unfold(self) -> None:
+        is_open = self.details.isHidden()
+        self.details.setVisible(is_open)
+        self.fold.setText("Hide details" if is_open else "Show details")
+        self._layout.activate()
+        wide = max(self.width(), 520) if is_open else self.width()
+        self.resize(wide, max(self._layout.heightForWidth(wide), self.minimumSizeHint().height()))
+
+    def _copy(self) -> None:
+        QtWidgets.QApplication.clipboard().setText(self._whole)
+        self.copy.setText("Copied")
+
+
+def tell(window: QtWidgets.QWidget | None, sentence: str, details: str = "") -> Message:
+    """Show what needs to be read, and go on; above a dialog that is open it is that one's, or it would get no keys."""
+    message = Message(sentence, details, QtWidgets.QApplication.activeModalWidget() or window)
+    message.open()
+    return message
+
+
+# ---------------------------------------------------------------------- which of several files
+class WhichFile(QtWidgets.QDialog):
+    """A list of files, of which one is chosen."""
+
+    def __init__(self, paths: Sequence[str], parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Open one of them")
+        question = QtWidgets.QLabel(f"{len(paths)} files were dropped. &Which one do you want to open?", wordWrap=True)
+        self.list = QtWidgets.QListWidget()
+        self.list.setItemDelegate(_PathRows(self.list))
+        self.list.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setAccessibleName("Files")
+        question.setBuddy(self.list)
+        for path in paths:
+            item = QtWidgets.QListWidgetItem(os.path.basename(path), self.list)
+            item.setData(QtCore.Qt.ItemDataRole.UserRole, path)
+            item.setToolTip(path)
+            item.setData(QtCore.Qt.ItemDataRole.AccessibleTextRole, f"{os.path.basename(path)} in {_folder(path)}")
+        self.list.setCurrentRow(0)
+        self.list.itemDoubleClicked.connect(lambda item: self.accept())
+        role = QtWidgets.QDialogButtonBox.ButtonRole
+        buttons = QtWidgets.QDialogButtonBox(self)
+        choose = buttons.addButton("Open", role.AcceptRole)
+        choose.setDefault(True)
+        choose.setToolTip("Open the selected file (Enter)")
+        leave = buttons.addButton("Cancel", role.RejectRole)
+        leave.setToolTip("Open none of them (Esc)")
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        layout = QtWidgets.QVBoxLayout(self)
+        layout.setContentsMargins(24, 20, 24, 16)
+        layout.setSpacing(12)
+        layout.addWidget(question)
+        layout.addWidget(self.list, 1)
+        layout.addWidget(buttons)
+        rows = min(max(len(paths), 2), 6) * _PathRows.HIGH + 2
+        self.list.setMinimumHeight(2 * _PathRows.HIGH)
+        self.resize(460, self.sizeHint().height() - self.list.sizeHint().height() + rows)
+        self.list.setFocus()
+
+    @property
+    def chosen(self) -> str:
+        return self.list.currentItem().data(QtCore.Qt.ItemDataRole.UserRole)
+
+
+class _PathRows(QtWidgets.QStyledItemDelegate):
+    """A file's name, and under it its folder, shortened in the middle: both ends tell folders apart."""
+
+    HIGH = 46
+
+    def sizeHint(self, option, index) -> QtCore.QSize:
+        return QtCore.QSize(100, self.HIGH)
+
+    def paint(self, painter: QtGui.QPainter, option, index) -> None:
+        theme, path = LOOK.theme, index.data(QtCore.Qt.ItemDataRole.UserRole)
+        state, middle = QtWidgets.QStyle.StateFlag, QtCore.Qt.TextElideMode.ElideMiddle
+        painter.save()
+        if option.state & state.State_Selected:
+            painter.fillRect(option.rect, QtGui.QColor(theme.selection))
+        elif option.state & state.State_MouseOver:
+            painter.fillRect(option.rect, QtGui.QColor(theme.hover))
+        box = option.rect.adjusted(12, 5, -12, -5)
+        for font, colour, words, align in (
+            (LOOK.font(), theme.text, os.path.basename(path), QtCore.Qt.AlignmentFlag.AlignTop),
+            (LOOK.font(12), theme.quiet, _folder(path), QtCore.Qt.AlignmentFlag.AlignBottom),
+        ):
+            painter.setFont(font)
+            painter.setPen(QtGui.QColor(colour))
+            shortened = QtGui.QFontMetrics(font).elidedText(words, middle, box.width())
+            painter.drawText(box, align | QtCore.Qt.TextFlag.TextSingleLine, shortened)
+        painter.restore()
+
+
+def _folder(path: str) -> str:
+    """With ~ for the user's own."""
+    folder, home = os.path.dirname(os.path.abspath(path)), os.path.expanduser("~")
+    return "~" + folder[len(home) :] if folder == home or folder.startswith(home + os.sep) else folder
+
+
+def ask_which(window: QtWidgets.QWidget | None, paths: Sequence[str]) -> str | None:
+    """Which of these files shall be opened; None if none.  Waits for the answer."""
+    dialog = WhichFile(paths, window)
+    answer = dialog.chosen if dialog.exec() else None
+    dialog.deleteLater()
+    return answer
+
+
+# ---------------------------------------------------------------------- a line above the panels
+class Notice(QtWidgets.QWidget):
+    """A sentence on a coloured ground, with one thing to do about it and ✕; hidden while there is nothing to say."""
+
+    def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.kind = "plain"
+        self._act: Callable[[], None] | None = None
+        self._sign = QtWidgets.QLabel("")
+        self.words = _TwoLines(self)
+        self.button = QtWidgets.QPushButton(objectName="link")
+        self.button.clicked.connect(self._do)
+        self.shut = QtWidgets.QToolButton()
+        self.shut.setIconSize(QtCore.QSize(14, 14))
+        self.shut.setToolTip("Close this message")
+        self.shut.setAccessibleName("Close this message")
+        self.shut.clicked.connect(self.clear)
+        put_icon(self.shut, "close")
+        self._soon = QtCore.QTimer(self, singleShot=True)
+        self._soon.timeout.connect(self.clear)
+        row = QtWidgets.QHBoxLayout(self)
+        row.setContentsMargins(12, 6, 8, 6)
+        row.setSpacing(8)
+        row.addWidget(self._sign)
+        row.addWidget(self.words, 1)
+        row.addWidget(self.button)
+        row.addWidget(self.shut)
+        policy = QtWidgets.QSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
+        policy.setHeightForWidth(True)
+        self.setSizePolicy(policy)
+        LOOK.changed.connect(self._paint)
+        self.setVisible(False)
+
+    def show_text(
+        self,
+        text: str,
+        kind: str = "plain",
+        action: tuple[str, Callable[[], None]] | None = None,
+        seconds: float = 0,
+    ) -> None:
+        """kind: "plain", "warning" or "error"; action: words and what they do; seconds: until it goes, 0 for never."""
+        self.kind = kind
+        self._soon.stop()
+        self.words.setText(text)
+        self.button.setVisible(action is not None)
+        self.button.setText(action[0] if action else "")
+        self._act = action[1] if action else None
+        self._sign.setVisible(kind != "plain")
+        self._paint()
+        self.setVisible(bool(text))
+        if text and seconds:
+            self._soon.start(round(1000 * seconds))
+
+    def clear(self) -> None:
+        self.show_text("")
+
+    def _do(self) -> None:
+        act = self._act
+        self.clear()  # first: what it does may have something to say
+        if act:
+            act()
+
+    @property
+    def colours(self) -> tuple[str, str]:
+        """Ground and words."""
+        theme = LOOK.theme
+        return {
+            "warning": (theme.warning_ground, theme.warning),
+            "error": (theme.error_ground, theme.error),
+        }.get(self.kind, (theme.hover, theme.text))
+
+    def _paint(self) -> None:
+        colour = self.colours[1]
+        self._sign.setPixmap(pixmap("warning", colour, self.devicePixelRatioF()))
+        self.words.colour = colour
+        self.words.updateGeometry()
+        self.update()
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter = QtGui.QPainter(self)
+        painter.fillRect(self.rect(), QtGui.QColor(self.colours[0]))
+        line = QtCore.QRect(0, self.height() - 1, self.width(), 1)
+        painter.fillRect(line, QtGui.QColor(LOOK.theme.border))
+
+
+class _TwoLines(QtWidgets.QWidget):
+    """Words on one or two lines; what does not fit ends in dots, and then all of it is in the tooltip."""
+
+    MOST = 2
+
+    def __init__(self, parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent)
+        self._text, self.colour = "", LOOK.theme.text
+        policy = QtWidgets.QSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Preferred)
+        policy.setHeightForWidth(True)
+        self.setSizePolicy(policy)
+
+    def text(self) -> str:
+        return self._text
+
+    def setText(self, text: str) -> None:
+        self._text = " ".join(text.split())
+        self.setAccessibleName(self._text)
+        self._note_width()
+        self.updateGeometry()
+        self.update()
+
+    def lines(self, width: int) -> list[str]:
+        """What is written at this width, in logical pixels."""
+        metrics = QtGui.QFontMetrics(LOOK.font())
+        layout = QtGui.QTextLayout(self._text, LOOK.font())
+        layout.beginLayout()
+        starts = []
+        while len(starts) <= self.MOST:
+            line = layout.createLine()
+            if not line.isValid():
+                break
+            line.setLineWidth(max(width, 1))
+            starts.append(line.textStart())
+        layout.endLayout()
+        ends = [*starts[1 : self.MOST], len(self._text)]
+        found = [self._text[start:end] for start, end in zip(starts[: self.MOST], ends, strict=False)]
+        return [metrics.elidedText(line.strip(), QtCore.Qt.TextElideMode.ElideRight, max(width, 1)) for line in found]
+
+    def sizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(200, self.heightForWidth(max(self.width(), 200)))
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(40, QtGui.QFontMetrics(LOOK.font()).height())
+
+    def hasHeightForWidth(self) -> bool:
+        return True
+
+    def heightForWidth(self, width: int) -> int:
+        return max(len(self.lines(width)), 1) * QtGui.QFontMetrics(LOOK.font()).lineSpacing() + 2
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._note_width()
+
+    def _note_width(self) -> None:
+        whole = "".join(self.lines(self.width()))
+        self.setToolTip(self._text if "…" in whole and whole != self._text else "")
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter, step = QtGui.QPainter(self), QtGui.QFontMetrics(LOOK.font()).lineSpacing()
+        painter.setFont(LOOK.font())
+        painter.setPen(QtGui.QColor(self.colour))
+        lines = self.lines(self.width())
+        top = (self.height() - len(lines) * step) // 2
+        for number, line in enumerate(lines):
+            box = QtCore.QRect(0, top + number * step, self.width(), step)
+            painter.drawText(box, QtCore.Qt.AlignmentFlag.AlignVCenter | QtCore.Qt.TextFlag.TextSingleLine, line)

@@ -1,0 +1,248 @@
+"""What the window shows while no mesh is open: a way to open one, recent files, and the samples by their pictures."""
+
+from datetime import datetime
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core.formats.mesh_io import MESH_FORMATS
+
+from ..look.icons import put_icon
+from ..look.look import LOOK
+from ..remembered import recent_files
+from .start_places import Place, RecentRow, Tiles
+
+WIDEST = 1120
+"""Of what is on the page, in logical pixels, as all lengths here."""
+
+LOW = 640
+"""Pages less high than this have a lower place for drops, and fewer recent files."""
+
+ROWS, ROWS_IN_LOW = 5, 4
+ZONE, ZONE_IN_LOW = 188, 156
+MESSAGE_LINES = 3
+
+
+class StartPage(QtWidgets.QWidget):
+    """`chosen` is emitted with the path of a recent file or of a sample, the others when the user asks for them."""
+
+    open_wanted = QtCore.Signal()
+    chosen = QtCore.Signal(str)
+    tour_wanted = QtCore.Signal()
+    keys_wanted = QtCore.Signal()
+
+    def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.message = Refusal()
+        self.title = QtWidgets.QLabel("Open a triangle mesh")
+        self.zone = DropZone()
+        self.zone.open.clicked.connect(lambda: self.open_wanted.emit())
+        self.rows = [RecentRow() for _ in range(ROWS)]
+        self.nothing = _quiet("Files that you open are listed here.")
+        self.tiles = Tiles()
+        for place in (*self.rows, *self.tiles.tiles):
+            place.clicked.connect(lambda *_, place=place: self.chosen.emit(place.path))
+        self.tour = _link("Take the five-step tour")
+        self.tour.clicked.connect(lambda: self.tour_wanted.emit())
+        self.keys = _link("Gestures and keys")
+        self.keys.clicked.connect(lambda: self.keys_wanted.emit())
+        self._fill()
+        self._dress()
+        LOOK.changed.connect(self._dress)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Read the recent files anew."""
+        files, now = recent_files(), datetime.now().astimezone()
+        most = ROWS_IN_LOW if self.height() < LOW else ROWS
+        for k, row in enumerate(self.rows):
+            row.setVisible(k < min(len(files), most))
+            if k < len(files):
+                row.show_file(files[k], now)
+        self.nothing.setVisible(not files)
+
+    def show_message(self, text: str) -> None:
+        """Say above the title why a file could not be opened; nothing if the text is empty."""
+        self.message.show_text(text)
+        self._under_message.setVisible(bool(text))
+        if text:
+            self.scroll.verticalScrollBar().setValue(0)
+
+    def set_dropping(self, dropping: bool) -> None:
+        """Whether a file that the page would take is held over the window."""
+        self.zone.set_dropping(dropping)
+
+    def showEvent(self, event: QtGui.QShowEvent) -> None:
+        super().showEvent(event)
+        self.refresh()
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        was_low, is_low = event.oldSize().height() < LOW, self.height() < LOW
+        self.zone.setFixedHeight(ZONE_IN_LOW if is_low else ZONE)
+        if was_low != is_low:
+            self.refresh()
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        QtGui.QPainter(self).fillRect(event.rect(), QtGui.QColor(LOOK.theme.canvas))
+
+    def _dress(self) -> None:
+        for widget, size in (self.title, 22), (self._recent, 13), (self._samples, 13), (self.zone.open, 13):
+            widget.setFont(LOOK.font(size, bold=True))
+        self.update()
+
+    # ------------------------------------------------------------------ how it is made
+    def _fill(self) -> None:
+        self._recent, self._samples = QtWidgets.QLabel("Recent"), QtWidgets.QLabel("Samples")
+        self._recent.setContentsMargins(Place.INSET, 0, 0, 0)
+        files = QtWidgets.QVBoxLayout(spacing=0)
+        files.addWidget(self._recent)
+        files.addSpacing(8)
+        self.nothing.setContentsMargins(Place.INSET, 4, 0, 0)
+        for widget in (self.nothing, *self.rows):
+            files.addWidget(widget)
+        files.addStretch(1)
+        ways = QtWidgets.QHBoxLayout(spacing=40)
+        ways.addWidget(self.zone, 1)
+        ways.addLayout(files, 1)
+        links = QtWidgets.QHBoxLayout(spacing=8)
+        links.addWidget(self.tour)
+        links.addSpacing(16)
+        links.addWidget(self.keys)
+        links.addWidget(_quiet("F1"))
+        links.addStretch(1)
+
+        self._under_message = QtWidgets.QWidget(visible=False)
+        self._under_message.setFixedHeight(20)
+        column = QtWidgets.QWidget(maximumWidth=WIDEST)
+        lines = QtWidgets.QVBoxLayout(column, spacing=0)
+        lines.setContentsMargins(0, 0, 0, 0)
+        lines.addWidget(self.message)
+        lines.addWidget(self._under_message)
+        lines.addWidget(self.title)
+        lines.addSpacing(4)
+        lines.addWidget(_quiet("Then click the surface: distances from that point appear side by side."))
+        lines.addSpacing(24)
+        lines.addLayout(ways)
+        lines.addSpacing(32)
+        lines.addWidget(self._samples)
+        lines.addSpacing(12)
+        lines.addWidget(self.tiles)
+        lines.addSpacing(24)
+        lines.addLayout(links)
+
+        sheet = QtWidgets.QWidget()
+        middle = QtWidgets.QGridLayout(sheet)
+        middle.setContentsMargins(24, 24, 24, 24)
+        middle.addWidget(column, 1, 1)
+        for before_and_after in (0, 2):
+            middle.setRowStretch(before_and_after, 1)
+            middle.setColumnStretch(before_and_after, 1)
+        middle.setColumnStretch(1, 1000)  # all the width there is, up to its widest
+        self.scroll = QtWidgets.QScrollArea(widgetResizable=True, frameShape=QtWidgets.QFrame.Shape.NoFrame)
+        self.scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
+        self.scroll.setWidget(sheet)
+        # The page paints the ground.
+        for widget in (self.scroll.viewport(), sheet):
+            widget.setAutoFillBackground(False)
+        whole = QtWidgets.QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.addWidget(self.scroll)
+
+
+def _quiet(text: str) -> QtWidgets.QLabel:
+    label = QtWidgets.QLabel(text)
+    label.setProperty("quiet", True)
+    return label
+
+
+def _link(text: str) -> QtWidgets.QPushButton:
+    return QtWidgets.QPushButton(text, objectName="link", cursor=QtCore.Qt.CursorShape.PointingHandCursor)
+
+
+class Refusal(QtWidgets.QLabel):
+    """Why a file could not be opened, on a few lines; all of it is in the tooltip."""
+
+    def __init__(self) -> None:
+        super().__init__(visible=False)
+        self.said = ""
+        self.setProperty("refusal", True)
+        self.setTextFormat(QtCore.Qt.TextFormat.PlainText)
+        self.setTextInteractionFlags(QtCore.Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
+
+    def show_text(self, text: str) -> None:
+        self.said = text
+        self.setToolTip(text)
+        self.setVisible(bool(text))
+        self._elide()
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._elide()
+
+    def _elide(self) -> None:
+        self.setText("\n".join(lines_of(self.said, self.font(), self.contentsRect().width(), MESSAGE_LINES)))
+
+
+def lines_of(text: str, font: QtGui.QFont, width: float, most: int) -> list[str]:
+    """A text broken into at most so many lines of a width; what does not fit ends in dots."""
+    text = " ".join(text.split())
+    layout = QtGui.QTextLayout(text, font)
+    option = QtGui.QTextOption()
+    option.setWrapMode(QtGui.QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
+    layout.setTextOption(option)
+    found: list[str] = []
+    layout.beginLayout()
+    while (line := layout.createLine()).isValid():
+        line.setLineWidth(max(width, 1))
+        rest = text[line.textStart() :]
+        if len(found) == most - 1:
+            found.append(QtGui.QFontMetrics(font).elidedText(rest, QtCore.Qt.TextElideMode.ElideRight, int(width)))
+            break
+        found.append(rest[: line.textLength()].rstrip())
+    layout.endLayout()
+    return found
+
+
+class DropZone(QtWidgets.QWidget):
+    """Where files are dropped, with the button that opens one."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.is_dropping = False
+        self.word = _quiet("")
+        self.open = QtWidgets.QPushButton("Open…", objectName="fill")
+        put_icon(self.open, "open", colour_of="on_fill")
+        self.open.setIconSize(QtCore.QSize(20, 20))
+        formats = ", ".join(extension.strip(".").upper() for extension in MESH_FORMATS)
+        known = _quiet(f"{formats}, or a saved session")
+        known.setWordWrap(True)
+        lines = QtWidgets.QVBoxLayout(self, spacing=12)
+        lines.setContentsMargins(16, 8, 16, 8)
+        lines.addStretch(1)
+        for widget in (self.word, self.open, known):
+            if isinstance(widget, QtWidgets.QLabel):
+                widget.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
+                lines.addWidget(widget)
+            else:
+                lines.addWidget(widget, 0, QtCore.Qt.AlignmentFlag.AlignHCenter)
+        lines.addStretch(1)
+        self.set_dropping(False)
+        LOOK.changed.connect(self.update)
+
+    def set_dropping(self, dropping: bool) -> None:
+        self.is_dropping = dropping
+        self.word.setText("Let go to open it" if dropping else "Drop a file here")
+        self.update()
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, QtGui.QPainter(self)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        pen = QtGui.QPen(QtGui.QColor(theme.accent if self.is_dropping else theme.strong), 2 if self.is_dropping else 1)
+        if not self.is_dropping:
+            pen.setDashPattern([3, 3])
+        painter.setPen(pen)
+        if self.is_dropping:
+            painter.setBrush(QtGui.QColor(theme.selection))
+        inset = pen.widthF() / 2
+        painter.drawRoundedRect(QtCore.QRectF(self.rect()).adjusted(inset, inset, -inset, -inset), 8, 8)

@@ -1,0 +1,248 @@
+"""What can be chosen on the start page: a recent file, as a row, or a sample, as a tile with its picture."""
+
+import os
+import re
+from datetime import datetime, timedelta
+from functools import lru_cache
+
+import numpy as np
+from PIL import Image
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ...samples import mesh_path, sample_names, thumbnail
+from ..look.look import LOOK
+from ..remembered import Recent
+
+ROW = 32
+"""Height of a row in logical pixels, as all lengths here."""
+
+NARROWEST_TILE, GAP = 112, 8
+SMALLEST_PICTURE, LARGEST_PICTURE = 88, 124
+MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
+
+WHITE = 250
+"""From which brightness on, of 255, a picture's pixel may be its ground."""
+
+LINE = 1
+"""Pixels: a white line, an isoline, is narrower than a pixel with so many to each side; the ground is not."""
+
+
+class Place(QtWidgets.QAbstractButton):
+    """Something that opens at a click, or at Enter when Tab has reached it.  path: of what is opened."""
+
+    INSET, RADIUS = 8, 6
+
+    def __init__(self, path: str = "") -> None:
+        super().__init__()
+        self.path = path
+        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_Hover)
+        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)  # a click opens; the outline is for the keyboard
+        LOOK.changed.connect(self._dress)
+
+    def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
+        if event.key() in (QtCore.Qt.Key.Key_Return, QtCore.Qt.Key.Key_Enter):
+            self.click()
+        else:
+            super().keyPressEvent(event)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, QtGui.QPainter(self)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.SmoothPixmapTransform)
+        ground = theme.pressed if self.isDown() else theme.hover if self.underMouse() else ""
+        painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 2) if self.hasFocus() else QtCore.Qt.PenStyle.NoPen)
+        if ground:
+            painter.setBrush(QtGui.QColor(ground))
+        painter.drawRoundedRect(QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1), self.RADIUS, self.RADIUS)
+        self.paint(painter)
+
+    def _dress(self) -> None:
+        self.updateGeometry()
+        self.update()
+
+    def paint(self, painter: QtGui.QPainter) -> None:
+        """What stands on the ground."""
+        raise NotImplementedError
+
+
+def _write(painter: QtGui.QPainter, box: QtCore.QRectF, text: str, colour: str, align: QtCore.Qt.AlignmentFlag) -> None:
+    """One line; what does not fit loses its middle."""
+    short = painter.fontMetrics().elidedText(text, QtCore.Qt.TextElideMode.ElideMiddle, int(box.width()) + 1)
+    painter.setPen(QtGui.QColor(colour))
+    painter.drawText(box, align | QtCore.Qt.AlignmentFlag.AlignVCenter, short)
+
+
+# ---------------------------------------------------------------------- recent files
+class RecentRow(Place):
+    """A file's name, its folder, and when it was opened."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.name = self.folder = self.when = ""
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
+
+    def show_file(self, file: Recent, now: datetime) -> None:
+        self.path = file.path
+        self.name, self.folder = os.path.basename(file.path), from_home(os.path.dirname(file.path))
+        self.when = when(file.opened, now)
+        self.setToolTip(file.path)
+        self.setAccessibleName(f"{self.name}, {self.folder}")
+        self.update()
+
+    def sizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(160, round(ROW * LOOK.scale))
+
+    minimumSizeHint = sizeHint
+
+    def paint(self, painter: QtGui.QPainter) -> None:
+        theme, inside = LOOK.theme, QtCore.QRectF(self.rect()).adjusted(self.INSET, 0, -self.INSET, 0)
+        painter.setFont(LOOK.font())
+        metrics = QtGui.QFontMetricsF(painter.font())
+        # The same in each row, so that they stand in columns.
+        times = max(metrics.horizontalAdvance(text) for text in ("today, 00:00", "00 Mmm 0000"))
+        names = (inside.width() - times) * 0.55
+        left, right = QtCore.Qt.AlignmentFlag.AlignLeft, QtCore.Qt.AlignmentFlag.AlignRight
+        _write(painter, QtCore.QRectF(inside.left(), 0, names - 8, self.height()), self.name, theme.text, left)
+        folders = QtCore.QRectF(inside.left() + names, 0, inside.width() - times - names - 8, self.height())
+        _write(painter, folders, self.folder, theme.quiet, left)
+        _write(painter, inside, self.when, theme.quiet, right)
+
+
+def when(opened: datetime | None, now: datetime) -> str:
+    """ "today, 14:20", "yesterday", "12 Nov", "12 Nov 2023"; both in local time."""
+    if opened is None:
+        return ""
+    if opened.date() == now.date():
+        return f"today, {opened:%H:%M}"
+    if opened.date() == now.date() - timedelta(days=1):
+        return "yesterday"
+    year = "" if opened.year == now.year else f" {opened.year}"
+    return f"{opened.day} {MONTHS[opened.month - 1]}{year}"
+
+
+def from_home(folder: str) -> str:
+    """A folder as the user writes it."""
+    home = os.path.expanduser("~")
+    inside = folder == home or folder.startswith(home.rstrip(os.sep) + os.sep)
+    return "~" + folder[len(home.rstrip(os.sep)) :] if inside and home != os.sep else folder
+
+
+# ---------------------------------------------------------------------- samples
+class Tiles(QtWidgets.QWidget):
+    """A tile for each sample, as many in a row as there is room for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tiles = [SampleTile(name) for name in sample_names()]
+        for tile in self.tiles:
+            tile.setParent(self)
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
+        LOOK.changed.connect(self._arrange)
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._arrange()
+
+    def _arrange(self) -> None:
+        columns = max(1, int((self.width() + GAP) // (NARROWEST_TILE * LOOK.scale + GAP)))
+        columns = min(columns, -(-len(self.tiles) // 2) or 1)  # at least two rows: the tiles grow instead
+        width = (self.width() + GAP) // columns - GAP
+        height = SampleTile.height_for(width)
+        for k, tile in enumerate(self.tiles):
+            row, column = divmod(k, columns)
+            tile.setGeometry(column * (width + GAP), row * (height + GAP), width, height)
+        self.setFixedHeight(-(-len(self.tiles) // columns) * (height + GAP) - GAP)
+
+
+class SampleTile(Place):
+    """A sample's picture, its name and how many vertices it has."""
+
+    RADIUS = 8
+
+    def __init__(self, name: str) -> None:
+        super().__init__(mesh_path(name))
+        self.sample, self.title = name, title_of(name)
+        count = vertex_count(self.path)
+        self.count = f"{count:,} vertices" if count else ""
+        self.setAccessibleName(f"{self.title}, {self.count}")
+
+    @staticmethod
+    def height_for(width: int) -> int:
+        return _picture_side(width) + round(18 + 40 * LOOK.scale)
+
+    def paint(self, painter: QtGui.QPainter) -> None:
+        theme, side, middle = LOOK.theme, _picture_side(self.width()), QtCore.Qt.AlignmentFlag.AlignHCenter
+        painter.drawPixmap(QtCore.QRect((self.width() - side) // 2, 8, side, side), cut_out(self.sample))
+        line = 18 * LOOK.scale
+        name = QtCore.QRectF(4, side + 12, self.width() - 8, line)
+        painter.setFont(LOOK.font())
+        _write(painter, name, self.title, theme.text, middle)
+        painter.setFont(LOOK.font(12))
+        _write(painter, name.translated(0, line), self.count, theme.quiet, middle)
+
+
+def _picture_side(width: int) -> int:
+    return min(max(width - 24, SMALLEST_PICTURE), LARGEST_PICTURE)
+
+
+def title_of(name: str) -> str:
+    """ "Figure pose 2" of figure_pose2."""
+    words = re.sub(r"(?<=[a-z])(?=[0-9])", " ", name.replace("_", " "))
+    return words[:1].upper() + words[1:]
+
+
+@lru_cache(maxsize=64)
+def vertex_count(path: str) -> int:
+    """As the head of a PLY file says; 0 if it does not."""
+    try:
+        with open(path, "rb") as file:
+            for line in file:
+                if line.startswith(b"element vertex "):
+                    return int(line.split()[2])
+                if line.startswith(b"end_header"):
+                    break
+    except (OSError, ValueError, IndexError):
+        pass
+    return 0
+
+
+@lru_cache(maxsize=64)
+def cut_out(name: str) -> QtGui.QPixmap:
+    """A sample's picture without its white ground, to stand on any; empty if there is none."""
+    try:
+        with Image.open(thumbnail(name)) as file:
+            picture = without_ground(np.asarray(file.convert("RGB")))
+    except OSError:
+        return QtGui.QPixmap()
+    high, wide = picture.shape[:2]
+    image = QtGui.QImage(picture.tobytes(), wide, high, 4 * wide, QtGui.QImage.Format.Format_RGBA8888)
+    return QtGui.QPixmap.fromImage(image)
+
+
+def without_ground(picture: np.ndarray) -> np.ndarray:
+    """(h, w, 3) bytes, of something on white, as (h, w, 4): white is seen through, but not lines that cross the thing.
+
+    The ground is what is white and wide.  A pixel beside it is a mixture of white with what is there, for which the
+    darkest of its neighbours stands.
+    """
+    edge = LINE + 1
+    padded = np.pad(picture, ((edge, edge), (edge, edge), (0, 0)), constant_values=255)
+    white = padded.min(axis=2) >= WHITE
+    wide = ~_largest(~white, LINE)
+    ground = _largest(wide, edge) & white
+    beside = _largest(ground, 1) & ~ground
+    darkest = -_largest(-padded.astype(np.int16), 1)
+    light, depth = 255.0 - padded, np.maximum(255.0 - darkest, 1)
+    opacity = np.where(beside, np.clip((light / depth).max(axis=2), 0, 1), ~ground)
+    colours = np.where(beside[..., None], darkest, padded)
+    found = np.dstack([colours, np.round(255 * opacity)]).astype(np.uint8)
+    return found[edge:-edge, edge:-edge]
+
+
+def _largest(values: np.ndarray, steps: int) -> np.ndarray:
+    """Over the square of so many pixels to each side."""
+    for axis in (0, 1):
+        before = values
+        for shift in range(1, steps + 1):
+            values = np.maximum(values, np.maximum(np.roll(before, shift, axis), np.roll(before, -shift, axis)))
+    return values

@@ -1,0 +1,19 @@
+"""From the viewer into PyVista: the mesh, and the fields on it, in a window of PyVista's own."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import pyvista
+from pyvistaqt import BackgroundPlotter
+
+from bihdist_core import Surface
+
+
+def background_plotter(surface: Surface, fields: Mapping[str, np.ndarray]) -> BackgroundPlotter:
+    """Fields (n,) by name become arrays of the points; the first is drawn, NaN in grey."""
+    mesh = pyvista.PolyData.from_regular_faces(surface.vertices, surface.faces)
+    for name, field in fields.items():
+        mesh.point_data[name] = field
+    plotter = BackgroundPlotter(title=f"{surface.name} - PyVista")
+    plotter.add_mesh(mesh, scalars=next(iter(fields), None), nan_color="lightgrey", smooth_shading=True)
+    return plotter

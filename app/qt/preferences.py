@@ -1,0 +1,203 @@
+"""What the user prefers, from one start to the next, in `preferences.ini` in the user's folder for application data.
+
+Whatever stands there, the program starts: each value is checked by itself, and a file that cannot be read is put aside.
+"""
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from qtpy import QtCore, QtWidgets
+
+from ..document.document import MOST_ISOLINES
+from . import remembered
+
+VERSION = 1
+"""Of the file; one of a newer program is left alone."""
+
+CHOICES = ("desktop", "light", "dark")
+
+
+FIRST_SIZE = QtCore.QSize(1400, 860)
+"""Of the window, in logical pixels, where the screen has room for it."""
+
+MARGIN = 40
+"""What a screen is larger than a window on it, in each direction."""
+
+REACHABLE = QtCore.QSize(120, 12)
+"""So much of a window's top has to be on a screen for the user to get hold of it."""
+
+
+@dataclass(frozen=True)
+class Preferences:
+    """theme: one of CHOICES.  isolines: steps between the isolines of a mesh that is opened anew.  wheel_reversed:
+    turning the wheel does the opposite.  geometry: where the window
+    was, in Qt's own words; empty if nowhere.  last_folder: where a file was opened last; empty if nowhere."""
+
+    theme: str = "desktop"
+    isolines: int = 20
+    wheel_reversed: bool = False
+    geometry: bytes = b""
+    last_folder: str = ""
+
+
+def path() -> Path:
+    return remembered.folder() / "preferences.ini"
+
+
+def load() -> Preferences:
+    """What was saved; what is missing or makes no sense is as at first."""
+    with _file() as settings:
+        if settings is None:
+            return Preferences()
+        read = {field.name: _READ[field.name](_value(settings, field.name)) for field in fields(Preferences)}
+        return Preferences(**{name: value for name, value in read.items() if value is not None})
+
+
+def save(preferences: Preferences) -> None:
+    """Other entries of the file stay; where nothing can be written, nothing is."""
+    with suppress(OSError):
+        remembered.folder().mkdir(parents=True, exist_ok=True)
+    with _file() as settings:
+        if settings is not None:
+            settings.setValue("version", VERSION)
+            for field in fields(Preferences):
+                settings.setValue(field.name, _written(getattr(preferences, field.name)))
+
+
+def reset() -> Preferences:
+    """Forget what was saved; gives what the user has then."""
+    with _file() as settings:
+        if settings is not None:
+            for field in fields(Preferences):
+                settings.remove(field.name)
+    return Preferences()
+
+
+@contextmanager
+def _file() -> Iterator[QtCore.QSettings | None]:
+    """The file, written at the end as far as it was changed; None if it is a newer program's."""
+    _put_aside_if_damaged()
+    settings = _opened()
+    yield settings if (_version(settings) or VERSION) <= VERSION else None
+    settings.sync()
+
+
+def _opened() -> QtCore.QSettings:
+    return QtCore.QSettings(str(path()), QtCore.QSettings.Format.IniFormat)
+
+
+def _version(settings: QtCore.QSettings) -> int | None:
+    return _whole(_value(settings, "version"), 1, 10**9)
+
+
+def _put_aside_if_damaged() -> None:
+    """What is there and is no file of ours is kept beside it."""
+    here = path()
+    if not os.path.lexists(here) or (here.is_file() and _is_ours(here)):
+        return
+    with suppress(OSError):
+        os.replace(here, here.with_name(here.name + ".damaged"))
+
+
+def _is_ours(here: Path) -> bool:
+    try:
+        whole = here.read_bytes()
+    except OSError:
+        return True  # it may be sound, and only not for us
+    if not whole.strip():
+        return True
+    settings = _opened()
+    return settings.status() == QtCore.QSettings.Status.NoError and _version(settings) is not None
+
+
+# ---------------------------------------------------------------------- values
+def _value(settings: QtCore.QSettings, name: str) -> Any:
+    """As it stands in the file; None for what Qt cannot read."""
+    try:
+        return settings.value(name)
+    except Exception:  # whatever reading an object of some other program raises
+        return None
+
+
+def _written(value: Any) -> Any:
+    return value.hex() if isinstance(value, bytes) else value
+
+
+def _whole(value: Any, low: int, high: int) -> int | None:
+    try:
+        found = int(value) if isinstance(value, str | int) else None
+    except ValueError:
+        return None
+    return found if found is not None and low <= found <= high else None
+
+
+def _flag(value: Any) -> bool | None:
+    return {"true": True, "false": False}.get(str(value).lower())
+
+
+def _hexadecimal(value: Any) -> bytes | None:
+    try:
+        return bytes.fromhex(value) if isinstance(value, str) else None
+    except ValueError:
+        return None
+
+
+_READ: dict[str, Callable[[Any], Any]] = {
+    "theme": lambda value: value if value in CHOICES else None,
+    "isolines": lambda value: _whole(value, 0, MOST_ISOLINES),
+    "wheel_reversed": _flag,
+    "geometry": _hexadecimal,
+    "last_folder": lambda value: value if isinstance(value, str) else None,
+}
+"""From what stands in the file to the value; None if it is none."""
+
+
+# ---------------------------------------------------------------------- where the window is
+def fit_to_screen(window: QtWidgets.QWidget) -> None:
+    """The first place of a window."""
+    window.setGeometry(first_place(window.screen().availableGeometry()))
+
+
+def restore_geometry(window: QtWidgets.QWidget, preferences: Preferences) -> None:
+    """Put a window where it was, as far as there still is a screen; called before it is shown."""
+    if not (preferences.geometry and window.restoreGeometry(QtCore.QByteArray(preferences.geometry))):
+        fit_to_screen(window)
+        return
+    states = QtCore.Qt.WindowState
+    is_maximized = bool(window.windowState() & states.WindowMaximized)
+    # A talk's full screen is over, and a window that starts as an icon looks like one that does not start.
+    window.setWindowState(states.WindowNoState)
+    screens = [screen.availableGeometry() for screen in QtWidgets.QApplication.screens()]
+    window.setGeometry(brought_back(window.geometry(), screens))
+    if is_maximized:
+        window.setWindowState(states.WindowMaximized)
+
+
+def first_place(available: QtCore.QRect) -> QtCore.QRect:
+    """In the middle of what a screen has."""
+    return _centred(FIRST_SIZE, available)
+
+
+def brought_back(place: QtCore.QRect, screens: list[QtCore.QRect]) -> QtCore.QRect:
+    """A place that can be seen and reached: the same if it can, else on the first screen.
+
+    screens: what is available of each.
+    """
+    top = QtCore.QRect(place.topLeft(), QtCore.QSize(place.width(), 2 * REACHABLE.height()))
+    for available in screens:
+        seen = top.intersected(available)
+        if seen.width() >= REACHABLE.width() and seen.height() >= REACHABLE.height():
+            is_too_large = place.width() > available.width() or place.height() > available.height()
+            return _centred(place.size(), available) if is_too_large else place
+    return _centred(place.size(), screens[0]) if screens else place
+
+
+def _centred(size: QtCore.QSize, available: QtCore.QRect) -> QtCore.QRect:
+    size = size.boundedTo(available.size() - QtCore.QSize(MARGIN, MARGIN))
+    place = QtCore.QRect(QtCore.QPoint(0, 0), size)
+    place.moveCenter(available.center())
+    return place

@@ -1,0 +1,102 @@
+"""What the window says while something is computed: in the panel that waits for it, and on meshes being read.
+
+`window` is the main window.
+"""
+
+from math import nan
+
+from qtpy import QtCore
+
+from ..document.document import Document
+
+PROGRESS_MS = 200
+"""How often progress is shown at most."""
+
+QUIET_MS = 150
+"""What takes less is not spoken of: it would flicker."""
+
+WAITING = (nan, "Waiting")
+
+
+class Waits:
+    """See the module."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+        self._is_late = False
+        self._show_soon = QtCore.QTimer(window, singleShot=True, interval=PROGRESS_MS)
+        self._show_soon.timeout.connect(self.show)
+        self._late_soon = QtCore.QTimer(window, singleShot=True, interval=QUIET_MS)
+        self._late_soon.timeout.connect(self._be_late)
+
+    def expect(self, before: Document) -> None:
+        """Something new may have been asked; before: what was shown."""
+        session = self._window.session
+        if session.is_complete:
+            for panel in session.document.panels:
+                self.note(panel.id)  # what was stopped may not be asked any more
+            return
+        self._is_late = False
+        self._late_soon.start()
+        names = {panel.id: [part.word for part in panel.shows.parts] for panel in before.panels}
+        for panel in session.document.panels:
+            words = [part.word for part in panel.shows.parts]
+            if names.get(panel.id, words) != words and not session.is_answered(panel.id):
+                # Never an old field under a new name.
+                self._window.grid.panel(panel.id).show_waiting(WAITING)
+
+    def progress_changed(self) -> None:
+        if not self._window.session.progress:
+            self.show()
+        elif not self._show_soon.isActive():
+            self._show_soon.start()
+
+    def end(self) -> None:
+        """There is nothing to wait for."""
+        self._show_soon.stop()
+        self._late_soon.stop()
+
+    def _be_late(self) -> None:
+        self._is_late = True
+        self.show()
+
+    def show(self) -> None:
+        self._show_soon.stop()
+        window = self._window
+        load = window.session.progress.get("load")
+        window.status.show_progress(_sentence(*load) if load and load[1] else "")
+        if window.grid is not None and window.session.surface is not None:
+            for panel in window.session.document.panels:
+                self.note(panel.id)
+        window.announce_soon()
+
+    def note(self, id: int) -> None:
+        """Say in a panel what it is waiting for."""
+        window, session = self._window, self._window.session
+        panel, shown = window.grid.panel(id), session.shown.get(id)
+        is_answered = session.is_answered(id)
+        fraction, text = session.progress.get(id, (nan, ""))
+        if session.is_stopped_at(id) and not is_answered:
+            panel.show_stopped()
+        elif is_answered or (shown is not None and shown.is_preview and not self._is_other(id)):
+            # A quick look, which the exact answer follows, or one whose accuracy is being found out.
+            panel.show_waiting((fraction, words_of(text)) if text else None, is_old=False)
+        elif window.gestures.is_dragging:
+            panel.show_waiting(None)  # it is a moment behind, all the time
+        elif text or self._is_late:
+            panel.show_waiting((fraction, words_of(text)) if text else WAITING)
+
+    def _is_other(self, id: int) -> bool:
+        """Whether what a panel shows is not what it is asked for now."""
+        shown, document = self._window.session.shown[id], self._window.session.document
+        return [str(spec) for spec in shown.asked.specs] != [str(spec) for spec in document.panel(id).shows.specs]
+
+
+def words_of(text: str) -> str:
+    """What is being done, in a word or two for the user: what stands before the colon."""
+    word = text.partition(":")[0].strip()
+    return f"{word[:1].upper()}{word[1:]}"
+
+
+def _sentence(fraction: float, text: str) -> str:
+    return f"{words_of(text)} {fraction:.0%}".replace("%", " %")

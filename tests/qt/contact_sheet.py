@@ -1,0 +1,359 @@
+"""`python -m tests.qt.contact_sheet OUT [--meshes FOLDER] [--beside FOLDER]`: the real window, all there is to see.
+
+It is driven with a pointer and keys, light and dark, in three sizes; the pictures come on one page, OUT/index.html.
+
+Each look runs on a screen of its own (Xvfb).  --meshes: a folder with meshes to be shown besides the samples; --beside:
+pictures (mock-ups, the window of before) to be put at the top of the page.
+"""
+
+import argparse
+import html
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 120.0
+STILL = 0.3
+
+
+@dataclass(frozen=True)
+class Look:
+    """A theme in a window of a size in logical pixels, each of them `scale` device pixels."""
+
+    theme: str
+    width: int
+    height: int
+    scale: int = 1
+
+    @property
+    def word(self) -> str:
+        return f"{self.theme}-{self.width}x{self.height}" + (f"@{self.scale}" if self.scale > 1 else "")
+
+
+LOOKS = [Look(theme, *size) for theme in ("light", "dark") for size in ((1600, 1000), (900, 600), (900, 600, 2))]
+
+
+# ---------------------------------------------------------------------- the page
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m tests.qt.contact_sheet")
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--meshes", type=Path)
+    parser.add_argument("--beside", type=Path)
+    parser.add_argument("--only", default="", help="looks whose names hold this")
+    parser.add_argument("--drive", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    if options.drive:
+        drive(next(look for look in LOOKS if look.word == options.drive), options.out, options.meshes)
+        return
+    for look in LOOKS:
+        if options.only in look.word:
+            print(look.word, flush=True)
+            _on_a_screen_of_its_own(look, options)
+    _write_page(options.out, options.beside)
+    print(options.out / "index.html")
+
+
+def _on_a_screen_of_its_own(look: Look, options: argparse.Namespace) -> None:
+    screen = f"-screen 0 {look.width * look.scale}x{look.height * look.scale}x24 -dpi 96"
+    command = ["xvfb-run", "-a", "-s", screen, sys.executable, "-m", "tests.qt.contact_sheet", str(options.out)]
+    command += ["--drive", look.word, *(["--meshes", str(options.meshes)] if options.meshes else [])]
+    with tempfile.TemporaryDirectory() as home:
+        scale = {"QT_SCALE_FACTOR": str(look.scale)} if look.scale > 1 else {}
+        subprocess.run(command, cwd=ROOT, check=True, env={**os.environ, **scale, "XDG_DATA_HOME": home})
+
+
+def _write_page(out: Path, beside: Path | None) -> None:
+    """All pictures there are, a row for each scene."""
+    parts = ["<!doctype html><meta charset=utf-8><title>The window</title>", "<style>body{font:14px sans-serif}"]
+    parts.append("img{width:32%;margin:2px;border:1px solid #ccc}h2{margin:24px 0 4px}</style>")
+    if beside is not None:
+        (out / "beside").mkdir(exist_ok=True)
+        parts.append("<h2>Beside</h2>")
+        for path in sorted(beside.glob("*.png")):
+            shutil.copy(path, out / "beside" / path.name)
+            parts.append(f'<a href="beside/{path.name}"><img src="beside/{path.name}" title="{path.name}"></a>')
+    scenes = {path.name for path in out.glob("*/*.png") if path.parent.name != "beside"}
+    for scene in sorted(scenes):
+        parts.append(f"<h2>{html.escape(scene.removesuffix('.png').replace('_', ' '))}</h2>")
+        for look in LOOKS:
+            place = f"{look.word}/{scene}"
+            if (out / place).exists():
+                parts.append(f'<a href="{place}"><img loading=lazy src="{place}" title="{look.word}"></a>')
+    (out / "index.html").write_text("\n".join(parts), encoding="utf-8")
+
+
+# ---------------------------------------------------------------------- one look
+class Driver:
+    """A window in the hands of a script, with a pointer."""
+
+    def __init__(self, look: Look, out: Path) -> None:
+        from app.document.document import COMPARISON, comparison
+        from app.qt.application import application
+        from app.qt.look.look import LOOK
+        from app.qt.main_window import MainWindow
+
+        self.look, self._out, self._count = look, out / look.word, 0
+        self._out.mkdir(exist_ok=True)
+        self.application = application()
+        LOOK.choose(look.theme)
+        self.window = MainWindow(comparison("", COMPARISON))
+        self.window.move(0, 0)
+        self.window.resize(look.width, look.height)
+        self.window.show()
+        self.spin(0.1)
+        self.window.build_panels()
+
+    def spin(self, seconds: float = STILL) -> None:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.application.processEvents()
+            time.sleep(0.005)
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            if time.monotonic() > end:
+                raise RuntimeError("The window did not get ready.")
+            self.spin(0.02)
+
+    def complete(self) -> None:
+        self.until(lambda: self.window.session.is_complete and not self.window.session.progress)
+        self.spin()
+
+    def open(self, path: object) -> None:
+        self.window.open(str(path))
+        self.until(lambda: not self.window.session.is_opening)
+        self.complete()
+
+    def shot(self, name: str) -> None:
+        """What is on the screen now."""
+        self.spin()
+        self._count += 1
+        screen = self.application.primaryScreen()
+        screen.grabWindow(0).save(str(self._out / f"{self._count:02}_{name.replace(' ', '_')}.png"))
+
+    def pointer(self, *words: object) -> None:
+        subprocess.run(["xdotool", *map(str, words)], check=True)
+        self.spin(0.2)
+
+    def point(self, panel: int, x: float, y: float) -> None:
+        """To a place of a view, as shares of its width and height."""
+        from qtpy import QtCore
+
+        view, scale = self.window.grid.panels[panel].view, self.look.scale
+        at = view.mapToGlobal(QtCore.QPoint(round(x * view.width()), round(y * view.height())))
+        self.pointer("mousemove", at.x() * scale, at.y() * scale)
+
+    def point_at_surface(self, panel: int = 0) -> None:
+        """To the surface, where it is met first on the way from the middle."""
+        from qtpy import QtCore
+
+        view = self.window.grid.panels[panel].view
+        for step in range(40):
+            x, y = 0.5 + 0.011 * step * (-1) ** step, 0.5 + 0.007 * step
+            if view.met_at(QtCore.QPoint(round(x * view.width()), round(y * view.height()))) is not None:
+                self.point(panel, x, y)
+                return
+
+    def close_dialogs(self) -> None:
+        from qtpy import QtWidgets
+
+        for each in self.application.topLevelWidgets():
+            if isinstance(each, QtWidgets.QDialog | QtWidgets.QMenu) and each.isVisible():
+                each.close()
+        self.spin(0.1)
+
+    def shot_while(self, act: Callable[[], object], name: str) -> None:
+        """Of what stays open until it is answered."""
+        from qtpy import QtCore
+
+        def look() -> None:
+            self.shot(name)
+            self.close_dialogs()
+
+        QtCore.QTimer.singleShot(400, look)
+        act()
+
+    def with_menu(self, button: str, name: str) -> None:
+        menu = self.window.tools[button].menu()
+        from qtpy import QtCore
+
+        menu.popup(self.window.tools[button].mapToGlobal(QtCore.QPoint(0, self.window.tools[button].height())))
+        self.shot(name)
+        menu.hide()
+
+
+def drive(look: Look, out: Path, meshes: Path | None) -> None:
+    """Through all there is to see."""
+    driver = Driver(look, out)
+    for scene in (_beginning, _pointing, _heads, _bars_and_menus, _panels, _waiting, _dialogs, _help, _talk):
+        scene(driver)
+    for path in sorted(meshes.glob("*.o[bf][jf]")) if meshes else ():
+        driver.open(path)
+        driver.point_at_surface(1)
+        driver.shot(f"mesh {path.stem}")
+    driver.window.quiet = True
+    driver.window.close()
+    sys.stdout.flush()
+    os._exit(0)
+
+
+def _beginning(d: Driver) -> None:
+    from app.samples import mesh_path
+
+    d.shot("empty")
+    d.window.open(str(ROOT / "README.md"))
+    d.spin(0.6)
+    d.shot("a file that is no mesh")
+    d.pointer("key", "Tab")
+    d.pointer("key", "Tab")
+    d.shot("keys in the empty window")
+    d.open(mesh_path("figure"))
+    d.shot("opened")
+
+
+def _pointing(d: Driver) -> None:
+    d.point_at_surface(0)
+    d.shot("hover")
+    d.pointer("click", 4)
+    d.pointer("click", 4)
+    d.shot("wheel")
+    d.pointer("click", 1)
+    d.complete()
+    d.shot("click")
+    d.pointer("click", 3)
+    d.shot("context menu")
+    d.pointer("key", "Escape")
+    d.pointer("key", "c")
+    d.shot("centred")
+    for key in ("Right", "shift+Up", "minus", "Tab", "ctrl+Left"):
+        d.pointer("key", key)
+    d.complete()
+    d.shot("after keys")
+    d.pointer("key", "r")
+
+
+def _heads(d: Driver) -> None:
+    panel = d.window.grid.panels[2]
+    d.shot_while(panel.head.name.click, "menu of quantities")
+    d.pointer("key", "g")
+    for key in ("9", "9", "9", "9", "9", "9", "Return"):
+        d.pointer("key", key)
+    d.shot("no such vertex")
+    d.pointer("key", "Escape")
+
+
+def _bars_and_menus(d: Driver) -> None:
+    for button in ("open", "isolines", "colours", "range", "views", "tools"):
+        d.with_menu(button, f"menu of {button}")
+    for style in ("uniform", "lines", "paper"):
+        d.window.choices.style(style)
+        d.shot(f"style {style}")
+
+
+def _panels(d: Driver) -> None:
+    from app.document.edits import add_panel
+    from app.document.quantities import quantity
+
+    document = d.window.session.document
+    d.window.session.show(add_panel(document, quantity("biharmonic - geodesic")))
+    d.complete()
+    d.point_at_surface(3)
+    d.shot("four panels")
+    document = d.window.session.document
+    for text in ("truncated(k=30)", "commute-time"):
+        document = add_panel(document, quantity(text))
+    d.window.session.show(document)
+    d.complete()
+    d.shot("six panels")
+    d.window.choices.range("shared")
+    d.shot("shared range")
+    d.window.choices.range("own")
+    while len(d.window.session.document.panels) > 3:
+        d.window.session.undo()
+    d.complete()
+
+
+def _waiting(d: Driver) -> None:
+    """A mesh that takes a while, with edges that have to be repaired."""
+    from app.document.quantities import quantity
+    from tests.bench.meshes import bumpy_sphere
+    from tests.qt.broken import with_fins
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "a large mesh.off")
+        with_fins(*bumpy_sphere(100_000), count=2500, path=path)
+        d.window.open(str(path))
+        d.until(lambda: bool(d.window.session.progress) and d.window.session.surface is not None)
+        d.spin(0.5)
+        d.shot("waiting for a large mesh")
+        d.complete()
+        d.point_at_surface(2)
+        d.shot("a hundred thousand vertices")
+        first = d.window.session.document.panels[0].id
+        d.window.gestures.choose(first, quantity("truncated(k=300)"))
+        d.spin(0.6)
+        d.shot("computing")
+        d.window.cancel()
+        d.spin(0.5)
+        d.shot("stopped")
+        d.window.status.repairs.click()
+        d.shot("repairs")
+        d.close_dialogs()
+        d.window.session.undo()
+        d.complete()
+
+
+def _dialogs(d: Driver) -> None:
+    from app.qt.pages.messages import WhichFile, tell
+
+    d.window.files.export_figure()
+    d.shot("export figure")
+    d.close_dialogs()
+    d.window.files.export_movie()
+    d.shot("export movie")
+    d.close_dialogs()
+    d.window.choices.ask_preferences()
+    d.shot("preferences")
+    d.close_dialogs()
+    tell(d.window, "The mesh hand.off cannot be read: face 12 has the corner 99, and there are 50 vertices.")
+    d.shot("message")
+    d.close_dialogs()
+    WhichFile(["/home/a/meshes/one.off", "/home/a/meshes/two.ply", "/home/b/session.json"], d.window).open()
+    d.shot("which file")
+    d.close_dialogs()
+    d.window.notice.show_text("The session was saved without the arrays of two panels.", "warning")
+    d.shot("notice")
+    d.window.notice.clear()
+
+
+def _help(d: Driver) -> None:
+    d.pointer("key", "F1")
+    d.shot("gestures and keys")
+    d.close_dialogs()
+    d.window.guide.start_tour()
+    for step in range(5):
+        d.window.guide.tour.go(step)
+        d.shot(f"tour {step + 1}")
+    d.window.guide.tour.end()
+
+
+def _talk(d: Driver) -> None:
+    d.window.choices.toggle_full_screen()
+    d.spin(0.6)
+    d.shot("full screen")
+    d.window.choices.toggle_full_screen()
+    d.spin(0.6)
+    d.shot("after the full screen")
+
+
+if __name__ == "__main__":
+    main()

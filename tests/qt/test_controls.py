@@ -1,0 +1,91 @@
+"""What every control of the window owes its user: a tooltip, and a name for those who do not see it."""
+
+import pytest
+
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+
+
+def controls(window):
+    """All that is there to be clicked or typed into."""
+    from qtpy import QtWidgets
+
+    kinds = (QtWidgets.QAbstractButton, QtWidgets.QLineEdit, QtWidgets.QAbstractSlider, QtWidgets.QComboBox)
+    found = [each for kind in kinds for each in window.findChildren(kind)]
+    return [each for each in found if each.isVisible() and not isinstance(each, QtWidgets.QScrollBar)]
+
+
+def test_every_control_has_a_tooltip_and_a_name(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    there = controls(s.window)
+    assert len(there) > 20
+    assert [each for each in there if not each.toolTip()] == []
+    assert [each for each in there if not (each.accessibleName() or each.text())] == []
+
+
+def test_the_empty_window_s_controls_too(screen):
+    s = screen()
+    s.settle(0.1)
+    there = controls(s.window)
+    assert [each for each in there if not (each.accessibleName() or each.text())] == []
+
+
+def test_every_action_of_the_tool_bar_names_its_key(screen):
+    s = screen()
+    for name, key in {"undo": "Ctrl+Z", "redo": "Ctrl+Shift+Z", "live": "L", "export": "Ctrl+E"}.items():
+        assert f"({key})" in s.window.tools[name].toolTip()
+
+
+def test_no_two_actions_have_one_key():
+    from app.qt.actions import ALL
+
+    keys = [key for act in ALL for key in act.keys]
+    assert len(keys) == len(set(keys))
+
+
+@pytest.mark.parametrize("key", ["Ctrl+E", "Ctrl+T", "R"])
+def test_keys_work_while_something_is_typed(screen, mesh_file, monkeypatch, key):
+    from qtpy import QtGui, QtTest
+
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    s.window.activateWindow()
+    done = []
+    for word in ("figure", "add panel", "reset"):
+        action = s.window.actions_by_word[word]
+        action.triggered.disconnect()
+        shown = action.shortcut().toString()
+        action.triggered.connect(lambda *_, shown=shown: done.append(shown))
+    s.window.source_box.setFocus()
+    s.settle(0.2)
+    code = QtGui.QKeySequence(key)[0]
+    QtTest.QTest.keyClick(
+        s.window.source_box, code & 0x01FFFFFF, s.application.keyboardModifiers().__class__(code & ~0x01FFFFFF)
+    )
+    s.settle(0.1)
+    assert done == [key]
+    assert s.window.source_box.text() == "5"
+
+
+def test_the_full_screen_of_a_talk_has_panels_only_and_one_comes_back(screen, mesh_file):
+    from app.qt.look.look import LOOK, TALK
+
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    usual = LOOK.scale
+    bars = [s.window.menuBar(), s.window.tool_bar, s.window.status]
+    for leave in ("Esc", "the desktop", "F11"):
+        s.window.actions_by_word["full screen"].trigger()
+        s.settle()
+        assert ([bar.isVisible() for bar in bars], LOOK.scale) == ([False] * 3, TALK * usual)
+        if leave == "Esc":
+            s.window.cancel()
+        elif leave == "F11":
+            s.window.actions_by_word["full screen"].trigger()
+        else:
+            s.window.setWindowState(s.window.windowState() & ~s.window.windowState())
+        s.settle()
+        assert ([bar.isVisible() for bar in bars], LOOK.scale) == ([True] * 3, usual)
+        assert not s.window.actions_by_word["full screen"].isChecked()

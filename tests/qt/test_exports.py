@@ -1,0 +1,360 @@
+"""Files drawn in the background: the window answers meanwhile, what is cancelled leaves nothing, mistakes are said."""
+
+import os
+import time
+from dataclasses import replace
+from functools import partial
+from itertools import pairwise
+
+import pytest
+
+from app.document.document import comparison
+from app.document.page import Recipe
+from bihdist_core import OutputError
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+pytestmark = pytest.mark.usefixtures("application")
+
+
+@pytest.fixture
+def small(application, mesh_file):
+    """A window that has what exports ask of the main one, with a mesh in it."""
+    from qtpy import QtCore, QtTest, QtWidgets
+
+    from app.document.page import Page
+    from app.qt.files.exports import ExportChip, Exports
+    from app.session.session import Session
+
+    class Small(QtWidgets.QMainWindow):
+        posted = QtCore.Signal(object)
+
+        def __init__(self):
+            super().__init__()
+            self.posted.connect(lambda function: function())
+            self.page, self.said, self.refusals = Page(), [], []
+            self.say, self.failed = self.said.append, self.refusals.append
+            self.session = Session(self, self.posted.emit, document=comparison("", (Spec.of("biharmonic"),)))
+            self.exports = Exports(self)
+            self.chip = ExportChip(self.exports)
+            self.statusBar().addPermanentWidget(self.chip)
+
+        def until(self, condition, seconds=60):
+            end = time.monotonic() + seconds
+            while not condition():
+                assert time.monotonic() < end, f"waited in vain; refused: {self.refusals}"
+                application.processEvents()
+                time.sleep(0.005)
+
+        def nothing(self, *_):
+            """The session tells; this window shows nothing of it."""
+
+        document_changed = answer_changed = certificate_changed = progress_changed = nothing
+
+    window = Small()
+    window.show()
+    window.session.open(mesh_file(bumpy(200)), 5)
+    window.until(lambda: window.session.is_complete)
+    yield window
+    window.exports.close()
+    window.session.close()
+    window.close()
+    window.deleteLater()
+    QtTest.QTest.qWait(1)
+
+
+@pytest.fixture
+def out(tmp_path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    return folder
+
+
+def movie_dialog(small, frames, size="300x120"):
+    from app.qt.files.figure_actions import export_movie
+
+    dialog = export_movie(small)
+    dialog.frames.setValue(frames)
+    dialog.size_text.setText(size)
+    return dialog
+
+
+def test_a_figure_is_drawn_while_the_window_answers(small, out):
+    from PIL import Image
+    from qtpy import QtCore
+
+    from app.qt.files.figure_actions import export_figure
+
+    dialog = export_figure(small)
+    dialog.size_text.setText("400x300")
+    beats = []
+    heart = QtCore.QTimer(interval=20)
+    heart.timeout.connect(lambda: beats.append(small.exports.running[:]))
+    heart.start()
+    dialog.export(str(out / "f.png"))
+    assert not dialog.isVisible()
+    assert not small.chip.isHidden()
+    small.until(lambda: small.said)
+    assert small.said == ["Saved f.png"]
+    assert sum(bool(running) for running in beats) > 5
+    assert small.chip.isHidden()
+    assert sorted(os.listdir(out)) == ["f.json", "f.png"]
+    with Image.open(out / "f.png") as picture:
+        assert picture.size == (400, 300)
+
+
+def test_a_movie_says_how_far_it_is(small, out):
+    from PIL import Image
+
+    told, tips = [], []
+    small.exports.changed.connect(lambda: told.extend((e.fraction, e.words) for e in small.exports.running))
+    small.exports.changed.connect(lambda: tips.append((small.chip.share.text(), small.chip.share.toolTip())))
+    movie_dialog(small, 4).export(str(out / "m.gif"))
+    small.until(lambda: small.said)
+    fractions = {words: fraction for fraction, words in told}
+    assert [f"frame {k} of 4" in fractions for k in (1, 2, 3, 4)] == [True] * 4
+    assert 0.45 < fractions["frame 3 of 4"] < 0.55
+    assert any(text.startswith("Movie ") and f"{out}" in tip and "frame 2 of 4" in tip for text, tip in tips)
+    with Image.open(out / "m.gif") as film:
+        assert film.n_frames == 4
+
+
+def test_a_movie_s_fractions_go_evenly_with_its_frames(small, out):
+    from app.figures.movie import Movie, write_movie
+
+    recipe = Recipe(small.session.document, replace(small.page, size="120x100"))
+    told = {}
+
+    def note(fraction, words):
+        told.setdefault(words, fraction)
+
+    write_movie(Movie(recipe, turn=0, path=(5, 90), frames=10), out / "m.gif", note)
+    at = [told[f"frame {k} of 10"] for k in range(1, 11)]
+    steps = [later - earlier for earlier, later in pairwise(at)]
+    assert max(steps) - min(steps) < 1e-9
+    # The rest, before the first frame, is small; the tenth frame still has its own tenth to go.
+    assert at[0] <= 0.05
+    assert at[-1] + steps[0] == pytest.approx(1)
+
+
+def test_what_is_cancelled_leaves_nothing(small, out):
+    movie_dialog(small, 2000).export(str(out / "long.gif"))
+    small.until(lambda: small.exports.running[0].words.startswith("frame"))
+    small.chip.stop.click()
+    assert small.chip.share.text() == "Movie, stopping …"
+    assert not small.chip.stop.isEnabled()
+    small.until(lambda: not small.exports.running)
+    assert os.listdir(out) == []
+    assert (small.said, small.refusals) == ([], [])
+
+
+def test_closing_cancels_and_waits(small, out):
+    (out / "old.gif").write_bytes(b"as it was")
+    for name in ("old.gif", "new.gif"):
+        movie_dialog(small, 2000).export(str(out / name))
+    jobs = [export.job for export in small.exports.running]
+    small.until(lambda: all(export.words.startswith("frame") for export in small.exports.running))
+    assert len(os.listdir(out)) == 3  # what was there, and two that are begun
+    small.exports.close()
+    assert small.exports.running == []
+    assert not any(job.is_running for job in jobs)
+    assert os.listdir(out) == ["old.gif"]
+    assert (out / "old.gif").read_bytes() == b"as it was"
+
+
+def test_a_drawing_may_outlive_its_window(small, out, monkeypatch):
+    from qtpy import QtTest
+
+    from app.qt.files.exports import Exports
+
+    monkeypatch.setattr("app.qt.files.exports.PATIENCE", 0.0)
+    movie_dialog(small, 2000).export(str(out / "long.gif"))
+    (export,) = small.exports.running
+    small.until(lambda: export.words.startswith("frame"))
+    gone, job = small.exports, export.job
+    gone.close()
+    assert gone.running == []
+    small.exports = Exports(small)
+    gone.deleteLater()
+    QtTest.QTest.qWait(1)
+    job.wait(30)  # its last words reach nobody
+    assert not job.is_running
+    assert os.listdir(out) == []
+
+
+def test_one_file_is_not_drawn_twice_at_once(small, out):
+    movie_dialog(small, 2000).export(str(out / "m.gif"))
+    dialog = movie_dialog(small, 2)
+    dialog.export(str(out / ".." / "out" / "m.gif"))
+    assert dialog.isVisible()
+    assert dialog.refusal.text() == "m.gif is being drawn already; wait for it, cancel it, or choose another name."
+    assert len(small.exports.running) == 1
+    dialog.export(str(out / "other.gif"))
+    assert not dialog.isVisible()
+    assert len(small.exports.running) == 2
+
+
+def test_several_are_one_chip_with_a_menu(small, out):
+    for name in ("one & two.gif", "three.gif"):
+        movie_dialog(small, 2000).export(str(out / name))
+    first, second = small.exports.running
+    first.fraction, second.fraction = 0.2, 0.61
+    small.exports.changed.emit()
+    assert small.chip.share.text() == "2 exports, 40 %"
+    assert small.chip.stop.isHidden()
+    assert small.chip.maximumWidth() == 220
+    assert small.chip.minimumSizeHint().width() == 0
+    small.chip.open_menu()
+    entries = [action for action in small.chip.menu.actions() if action.text()]
+    assert [action.text() for action in entries] == [
+        "Cancel movie one && two.gif, 20 %",
+        "Cancel movie three.gif, 61 %",
+        "Cancel all",
+    ]
+    entries[0].trigger()
+    small.until(lambda: small.exports.running == [second])
+    assert small.chip.share.text().startswith("Movie ")
+    small.chip.open_menu()
+    assert [action.text()[:24] for action in small.chip.menu.actions()] == ["Cancel movie three.gif, "]
+    small.chip.menu.close()
+
+
+def test_the_chip_stays_within_a_narrow_window(small, out):
+    movie_dialog(small, 2000).export(str(out / "m.gif"))
+    before = small.minimumSizeHint().width()
+    small.resize(640, 200)
+    small.until(lambda: small.chip.width() > 0)
+    assert small.width() == 640
+    assert small.chip.geometry().right() < 640
+    small.exports.close()
+    assert before <= 640
+
+
+def test_the_chip_grows_with_the_letters_and_ends_with_its_window(small, out):
+    from qtpy import QtTest
+
+    from app.qt.files.exports import ExportChip
+    from app.qt.look.look import LOOK
+
+    movie_dialog(small, 2000).export(str(out / "m.gif"))
+    other = ExportChip(small.exports)
+    before = other.share.sizeHint().width()
+    try:
+        LOOK.enlarge(1.35)
+        assert before < other.share.sizeHint().width()
+        assert small.chip.width() <= 220
+        other.deleteLater()
+        QtTest.QTest.qWait(1)
+        LOOK.enlarge(1.2)  # what is gone is not asked to change
+    finally:
+        LOOK.enlarge(1.0)
+
+
+def test_a_work_that_fails_says_why(small, out):
+    from app.figures.movie import Movie, write_movie
+
+    failures = []
+    small.exports.failed.connect(failures.append)
+    recipe = Recipe(comparison(str(out / "none.off"), (Spec.of("biharmonic"),), (0,)))
+    movie = Movie(recipe)
+    export = small.exports.start(partial(write_movie, movie, str(out / "m.gif")), str(out / "m.gif"), "Movie")
+    own = []
+    export.failed.connect(own.append)
+    small.until(lambda: failures)
+    assert "none.off" in failures[0]
+    assert own == failures
+    assert small.exports.running == []
+
+
+def test_where_no_process_starts_it_is_said(small, out, monkeypatch):
+    monkeypatch.setattr("sys.executable", str(out / "no-python"))
+    with pytest.raises(OutputError, match=r"m\.gif cannot be drawn in the background"):
+        small.exports.start(print, str(out / "m.gif"), "Movie")
+    assert small.exports.running == []
+
+
+def test_a_wrong_box_is_marked_and_says_why_under_it(small, out):
+    dialog = movie_dialog(small, 2, size="wide")
+    dialog.choose_path()
+    sentence = dialog._sentences[dialog.size_text]
+    assert "'wide' is not a size" in sentence.text()
+    assert sentence.isVisible()
+    assert dialog.size_text.property("wrong")
+    dialog.size_text.setText("8px")
+    dialog.choose_path()
+    assert "16 to 32000 pixels" in sentence.text()
+    dialog.size_text.setText("")
+    for wrong, words in [
+        ("5,here", "not vertex ids"),
+        ("5,200", "No vertex 200 here: 0 to 199"),
+        ("5", "two vertices"),
+    ]:
+        dialog.path_text.setText(wrong)
+        dialog.choose_path()
+        assert sentence.isHidden()
+        assert words in dialog._sentences[dialog.path_text].text()
+    dialog.path_text.setText("")
+    dialog.turn.setValue(0)
+    dialog.choose_path()
+    assert "Nothing would move" in dialog._sentences[dialog.turn].text()
+    assert not dialog.path_text.property("wrong")
+    dialog.turn.setValue(90)
+    dialog.export(str(out / "no" / "m.gif"))
+    assert "no folder" in dialog.refusal.text()
+    assert dialog.isVisible()
+    assert small.exports.running == []
+    dialog.close()
+
+
+def test_the_path_is_asked_for_in_the_format_that_is_chosen(small, out):
+    from qtpy import QtWidgets
+
+    from app.qt.files.figure_actions import export_figure
+
+    small.exports.folder = str(out)
+    dialog = export_figure(small)
+    dialog.kinds.choose("PDF")
+    dialog.save.click()
+    files = dialog.findChild(QtWidgets.QFileDialog)
+    assert os.path.basename(files.selectedFiles()[0]) == "mesh.pdf"
+    assert files.directory().absolutePath() == str(out)
+    files.selectFile("other")
+    files.accept()
+    small.until(lambda: small.said)
+    assert (out / "other.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_size_has_a_name_or_is_one_s_own(small):
+    from app.qt.files.figure_actions import export_figure
+
+    dialog = export_figure(small)
+    assert dialog._sizes.checkedButton().text() == "Usual"
+    next(row for row in dialog._sizes.buttons() if row.text() == "Two columns").click()
+    assert dialog.chosen().page.size == "178mm"
+    dialog.size_text.setText("160x80mm")
+    assert dialog._sizes.checkedButton().text() == "Own size"
+    assert dialog.chosen().page.size == "160x80mm"
+    dialog.size_text.setText("1920×1080")
+    assert dialog._sizes.checkedButton().text() == "Slide"
+    dialog.close()
+
+
+def test_every_box_has_a_name_and_a_tip(small):
+    from qtpy import QtWidgets
+
+    from app.qt.files.figure_actions import export_figure, export_movie
+
+    for dialog in (export_figure(small), export_movie(small)):
+        boxes = [
+            box
+            for kind in (QtWidgets.QAbstractButton, QtWidgets.QComboBox, QtWidgets.QSpinBox)
+            for box in dialog.findChildren(kind)
+            if box.isVisibleTo(dialog)
+        ]
+        boxes += [box for box in dialog.findChildren(QtWidgets.QLineEdit) if box.parent() is dialog.scroll.widget()]
+        assert len(boxes) > 10
+        assert [box for box in boxes if not box.toolTip()] == []
+        named = [box for box in boxes if box.accessibleName() or getattr(box, "text", str)()]
+        assert len(named) == len(boxes)
+        dialog.close()

@@ -1,0 +1,202 @@
+"""What the pointer and the keys mean on a panel."""
+
+import numpy as np
+import pytest
+
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+
+
+@pytest.fixture
+def opened(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(2000)), 5)
+    return s
+
+
+def front(s):
+    """A vertex in the middle of what is seen."""
+    view = s.panels[0].view
+    return view.met_at(view.rect().center()).vertex
+
+
+def key(s, name, panel=0):
+    from qtpy import QtGui, QtTest
+
+    code = QtGui.QKeySequence(name)[0]
+    modifiers = s.application.keyboardModifiers().__class__(code & ~0x01FFFFFF)
+    QtTest.QTest.keyClick(s.panels[panel].view, code & 0x01FFFFFF, modifiers)
+    s.settle(0.05)
+
+
+def drawn(s):
+    """How many pictures have been drawn, once all that is queued is done."""
+    s.settle(0.1)
+    return s.window.grid.board.pictures
+
+
+# ---------------------------------------------------------------------- one picture a change
+def test_a_click_draws_each_panel_once_and_pointing_draws_nothing(opened):
+    from qtpy import QtCore, QtTest
+
+    s, view = opened, opened.panels[1].view
+    place = s.point_of(s.panels[1], front(s))
+    QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
+    s.until(lambda: s.session.is_complete)
+    s.session.undo()
+    s.settle()
+    before = drawn(s)
+    # Known answers: the fields that the click before has found.
+    QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
+    s.until(lambda: s.session.is_complete)
+    assert drawn(s) - before == 3
+    before = drawn(s)
+    for step in range(20):
+        QtTest.QTest.mouseMove(view, place + QtCore.QPoint(3 * step, 2 * step))
+        s.application.processEvents()
+    assert s.window.gestures.hovered is not None
+    assert drawn(s) == before
+
+
+def test_nothing_is_drawn_before_there_is_a_mesh(screen):
+    s = screen()
+    s.settle(0.2)
+    assert s.window.grid.board.pictures == 0
+
+
+# ---------------------------------------------------------------------- the camera
+def test_the_wheel_keeps_what_is_under_the_pointer_there_and_the_value_fresh(opened):
+    from qtpy import QtCore
+
+    s, view = opened, opened.panels[0].view
+    place = QtCore.QPoint(round(0.6 * view.width()), round(0.45 * view.height()))
+    met, distance = view.met_at(place), view.camera.GetDistance()
+    view.zoom(2.0, place)
+    s.settle(0.05)
+    assert view.camera.GetDistance() == pytest.approx(distance / 2)
+    now = view.place_of(met.position)
+    assert abs(now.x() - place.x() - 0.5) < 1
+    assert abs(now.y() - place.y() - 0.5) < 1
+
+
+def test_what_is_centred_comes_into_the_middle_and_is_turned_about(opened):
+    from qtpy import QtTest
+
+    s, view = opened, opened.panels[0].view
+    at = view.rect().center() + view.rect().center() / 8
+    QtTest.QTest.mouseMove(view, at)
+    s.settle(0.05)
+    met = view.met_at(at)
+    s.window.actions_by_word["centre"].trigger()
+    for after in (None, "Left", "Up"):
+        if after:
+            key(s, after)
+        place = view.place_of(met.position)
+        assert abs(place.x() - view.width() / 2) < 1
+        assert abs(place.y() - view.height() / 2) < 1
+
+
+def test_keys_turn_move_and_zoom_all_panels(opened):
+    s = opened
+    camera = s.window.grid.camera
+
+    def state():
+        return np.array([*camera.GetPosition(), *camera.GetFocalPoint()])
+
+    for name, changes in {
+        "Left": "position",
+        "Up": "position",
+        "Shift+Left": "both",
+        "Shift+Down": "both",
+        "+": "position",
+        "-": "position",
+    }.items():
+        before = state()
+        key(s, name)
+        moved = np.abs(state() - before) > 1e-9
+        assert moved[:3].any()
+        assert moved[3:].any() == (changes == "both"), name
+    assert len({id(panel.view.camera) for panel in s.panels}) == 1
+
+
+def test_tab_goes_from_panel_to_panel_and_shows_where_the_keys_are(opened):
+    s = opened
+    s.window.activateWindow()
+    s.panels[0].view.setFocus()
+    for panel in (1, 2, 0):
+        key(s, "Tab", panel=(panel - 1) % 3)
+        assert s.window.grid.active == s.panels[panel].id
+        assert [each._accent.isVisible() for each in s.panels] == [k == panel for k in range(3)]
+    key(s, "Shift+Tab")
+    assert s.window.grid.active == s.panels[2].id
+
+
+# ---------------------------------------------------------------------- the source
+def test_the_source_goes_along_edges_where_the_keys_point(opened):
+    s = opened
+    begun = front(s)
+    s.window.choose_source(begun)
+    s.until(lambda: s.session.is_complete)
+    s.panels[0].view.setFocus()
+    for name, (right, up) in {"Ctrl+Left": (-1, 0), "Ctrl+Up": (0, 1), "Ctrl+Right": (1, 0)}.items():
+        before = s.source
+        key(s, name)
+        faces = s.session.surface.faces
+        assert s.source != before
+        assert ((faces == before).any(axis=1) & (faces == s.source).any(axis=1)).any(), "an edge"
+        way = s.point_of(s.panels[0], s.source) - s.point_of(s.panels[0], before)
+        assert right * way.x() - up * way.y() > 0
+    s.until(lambda: s.session.is_complete)
+    s.session.undo()
+    assert s.source == begun, "steps in a row are one of the history"
+
+
+def test_a_live_source_follows_the_pointer_until_escape(opened):
+    from qtpy import QtTest
+
+    s, view = opened, opened.panels[0].view
+    s.window.actions_by_word["live"].trigger()
+    target = front(s)
+    QtTest.QTest.mouseMove(view, s.point_of(s.panels[0], target))
+    s.until(lambda: s.source == target)
+    s.window.cancel()
+    assert not s.window.actions_by_word["live"].isChecked()
+    s.until(lambda: s.session.is_complete)
+    QtTest.QTest.mouseMove(view, view.rect().center() + view.rect().center() / 6)
+    s.settle()
+    assert s.source == target
+    s.session.undo()
+    assert s.source == 5
+
+
+# ---------------------------------------------------------------------- the menu
+def test_the_menu_of_a_place_offers_what_can_be_done_there(opened):
+    from qtpy import QtCore, QtTest, QtWidgets
+
+    s, view = opened, opened.panels[1].view
+    target = front(s)
+    QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.RightButton, pos=s.point_of(s.panels[1], target))
+    s.settle()
+    menu = s.application.activePopupWidget()
+    offered = {action.text().partition("\t")[0]: action for action in menu.actions() if action.text()}
+    assert [*offered] == [
+        "Source here",
+        "Centre the view here",
+        "Zoom to it",
+        f"Copy vertex id {target}",
+        "Copy position",
+        "Copy values",
+    ]
+    copied = QtWidgets.QApplication.clipboard()
+    offered[f"Copy vertex id {target}"].trigger()
+    assert copied.text() == str(target)
+    offered["Copy position"].trigger()
+    assert np.allclose([float(x) for x in copied.text().split()], s.session.surface.vertices[target])
+    offered["Copy values"].trigger()
+    lines = copied.text().splitlines()
+    assert lines[0].startswith(f"vertex {target} at ")
+    assert [line.partition(":")[0] for line in lines[1:]] == [answer.label for answer in s.answers]
+    offered["Source here"].trigger()
+    menu.close()
+    s.until(lambda: s.source == target)

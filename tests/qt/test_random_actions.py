@@ -1,0 +1,57 @@
+"""Random hands on the real window: no exception, nothing old in a panel at the end, no memory that is lost.
+
+BIHDIST_ACTIONS: how many actions there are; BIHDIST_SEED: which.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[2]
+ACTIONS, SEED = int(os.environ.get("BIHDIST_ACTIONS", 300)), int(os.environ.get("BIHDIST_SEED", 1))
+FIRST = 50
+"""Actions after which all that is made once and kept (menus, dialogs' modules, answers) is mostly there."""
+
+pytestmark = [
+    pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed"),
+    pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read from /proc"),
+]
+
+
+def test_random_actions_leave_true_panels_and_no_exception(application, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.qt.random_actions", str(SEED), str(ACTIONS), str(tmp_path)],
+        cwd=ROOT,
+        env={**os.environ, "XDG_DATA_HOME": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        timeout=60 + ACTIONS,
+    )
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout.splitlines()[-1])
+    assert found["errors"] == []
+    assert found["faults"] == [], f"{found['last']}\n{found['document']}"
+    assert found["freed"] == [], "a loop that no key ended"
+    assert found["widest"] <= found["screen"]
+    assert len(found["rss"]) == ACTIONS
+    thirds = [float(np.median(part)) for part in np.array_split(found["rss"][FIRST:], 3)]
+    assert thirds[-1] - thirds[0] < 40, f"MB: {thirds}"
+
+
+def test_dialogs_that_are_closed_are_gone(screen):
+    from qtpy import QtCore, QtWidgets
+
+    s = screen()
+    for open_it in (s.window.guide.show_keys, s.window.choices.ask_preferences):
+        open_it()
+        s.settle(0.05)
+        (dialog,) = s.window.findChildren(QtWidgets.QDialog)
+        dialog.reject()
+        s.application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
+        assert s.window.findChildren(QtWidgets.QDialog) == []
