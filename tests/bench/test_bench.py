@@ -29,16 +29,31 @@ def quick(tmp_path_factory):
     return said.stdout, json.loads(path.read_text())
 
 
+def is_a_count(line):
+    """Of answers, processes or pictures, which may be none."""
+    return line["row"] == 15 or line["work"].startswith("pictures drawn")
+
+
 def test_every_row_is_there_with_its_bound(quick):
     printed, written = quick
     lines = written["lines"]
     assert {line["row"] for line in lines} == set(ROWS) == set(range(1, 16))
-    assert all(line["bound"] for line in lines if "folded" not in line["work"] and "needle" not in line["work"])
-    assert all(line["value"] > 0 for line in lines if "skipped" not in line["note"] and line["row"] != 15)
+    assert all(
+        line["bound"] is not None for line in lines if "folded" not in line["work"] and "needle" not in line["work"]
+    )
+    assert all(line["value"] > 0 for line in lines if "skipped" not in line["note"] and not is_a_count(line))
     table = [row for row in printed.splitlines() if row.startswith("|")]
     assert len(table) == len(lines) + 2
     assert {row.count("|") for row in table} == {len(COLUMNS) + 1}
     assert "potpourri3d 1." in printed
+
+
+def test_a_click_draws_each_panel_once_and_pointing_draws_none(quick):
+    counts = [line for line in quick[1]["lines"] if line["row"] == 13 and is_a_count(line)]
+    if any("skipped" in line["note"] for line in quick[1]["lines"] if line["row"] == 13):
+        pytest.skip("there is no display")
+    assert [(line["value"], line["bound"]) for line in counts] == [(3, 3), (0, 0)]
+    assert int(counts[1]["note"].split()[0]) > 50
 
 
 def test_what_is_fast_is_also_right(quick):

@@ -21,7 +21,7 @@ from .child import in_child
 from .meshes import bumpy_sphere
 from .size import Size
 from .table import Line, compared
-from .timing import alternate
+from .timing import alternate, timed
 
 ROOT = Path(__file__).resolve().parents[2]
 COMPARED = Spec.of("biharmonic"), Spec.of("geodesic", method="heat"), Spec.of("diffusion")
@@ -29,6 +29,10 @@ PATIENCE = 600.0
 """Seconds after which something has gone wrong."""
 TICK_MS = 2
 """How often the window's thread is asked for a sign of life."""
+CLICK_BOUND = 1.1
+POINTED = 100
+STILL = 0.3
+"""Seconds after which nothing that a click has begun is still to be drawn."""
 
 
 # ---------------------------------------------------------------------- the session, without drawing
@@ -110,7 +114,7 @@ def start(size: Size) -> Iterator[Line]:
             # Names are imported when they are asked for; this is what a program waits for in fact.
             (IMPORT, 1.0, ["-c", IMPORT], False),
             ("window shown", 2.5, ["-c", FIRST_PAINT, "view", size.sample], True),
-            ("first picture", 10.0, ["-m", "app", "view", size.sample, "--screenshot", picture], True),
+            ("first picture", 5.0, ["-m", "app", "view", size.sample, "--screenshot", picture], True),
         ]
         for name, bound, arguments, needs_display in programs:
             if needs_display and not has_display():
@@ -134,18 +138,27 @@ def has_display() -> bool:
 
 # ---------------------------------------------------------------------- the window
 def drawing(size: Size) -> Iterator[Line]:
+    """A click on a place whose answers are kept, up to the screen; and what it and pointing have drawn."""
     if not has_display():
-        yield Line(13, "three new fields painted", bound=1.3, note="skipped: there is no display")
+        yield Line(13, "click to three panels painted", bound=CLICK_BOUND, note="skipped: there is no display")
         return
-    ours, peer, ratio, vertices = in_child(_drawing, size)
+    ours, peer, ratio, drawn, drawn_by_pointing, met, vertices = in_child(_drawing, size)
     yield Line(
         13,
-        f"three new fields painted, {vertices:,}",
+        f"click to three panels painted, {vertices:,}",
         ours,
         peer,
         ratio,
-        bound=1.3,
-        note="peer: one render of the same three panels",
+        bound=CLICK_BOUND,
+        note="answers kept; peer: the same three pictures drawn",
+    )
+    yield Line(13, "pictures drawn for a click", value=drawn, bound=3, note="three panels; the most of all clicks")
+    yield Line(
+        13,
+        f"pictures drawn while pointing at {POINTED} places",
+        value=drawn_by_pointing,
+        bound=0,
+        note=f"{met} of them on the surface",
     )
 
 
@@ -161,42 +174,96 @@ def stalls(size: Size) -> Iterator[Line]:
         ours=longest,
         value=longest,
         bound=0.1,
-        note=f"VTK's own renders ({max(render for _, render, _ in runs):.2f} s at most) not counted",
+        note=f"drawing by VTK ({max(render for _, render, _ in runs):.2f} s at most) not counted",
     )
 
 
-def _drawing(size: Size) -> tuple[float, float, float, int]:
+def _drawing(size: Size) -> tuple[float, float, float, int, int, int, int]:
+    """Seconds of a click, of three pictures, and their ratio; pictures for a click, for pointing; places; vertices."""
     vertices, faces = bumpy_sphere(size.window[0])
     with mesh_file(vertices, faces) as path, _window(path) as (application, window):
         _wait(application, lambda: window.session.is_complete)
-        _wait_a_while(application, 0.5)
-        session, panels = window.session, window.grid.panels
-        painted = [0] * len(panels)
-        for index, panel in enumerate(panels):
-            panel.interactor.render_window.AddObserver("EndEvent", lambda *_, i=index: _count_up(painted, i))
-        from dataclasses import replace
+        board, panels = window.grid.board, window.grid.panels
+        view, paints = panels[0].view, _Paints([panel.view for panel in panels])
+        places = [_place(view, 0.5 + x, 0.5) for x in (-0.1, 0.1)]
+        for place in places:
+            view.clicked.emit(view.met_at(place))
+            _wait(application, lambda: window.session.is_complete)
+        _wait_a_while(application, STILL)
+        turn = iter(range(10_000))
 
-        turn = iter(range(1000))
+        def click() -> None:
+            paints.begin()
+            view.clicked.emit(view.met_at(places[next(turn) % 2]))
+            _wait(application, paints.are_done)
 
-        def show() -> None:
-            before, k = list(painted), next(turn)
-            for id, shown in list(session.shown.items()):
-                rolled = replace(shown.answer, field=np.roll(shown.answer.field, k))
-                session.shown[id] = replace(shown, answer=rolled)
-                window.answer_changed(id)
-            _wait(application, lambda: all(now > old for now, old in zip(painted, before, strict=True)))
-
-        def render() -> None:
+        def draw() -> None:
             for panel in panels:
-                panel.interactor.render_window.Render()
+                board.picture(panel.view.scene, panel.view.pixels)
 
-        show()
-        result = alternate(show, render, 3 * size.rounds, size.repeat)
-    return result.our_time, result.peer_time, result.ratio, len(vertices)
+        def pictures_of(work: Callable[[], None]) -> int:
+            before = board.pictures
+            work()
+            _wait_a_while(application, STILL)
+            return board.pictures - before
+
+        click()
+        result = alternate(click, draw, 3 * size.rounds, size.repeat)
+        _wait_a_while(application, STILL)
+        drawn = max(pictures_of(click) for _ in range(4))
+        met: set[int | None] = set()
+        drawn_by_pointing = pictures_of(lambda: met.update(_point(application, window, view)))
+    return result.our_time, result.peer_time, result.ratio, drawn, drawn_by_pointing, len(met - {None}), len(vertices)
+
+
+class _Paints:
+    """Which of some widgets have been painted since `begin`."""
+
+    def __init__(self, widgets: list[Any]) -> None:
+        from qtpy import QtCore
+
+        class Filter(QtCore.QObject):
+            def eventFilter(_, watched: Any, event: Any) -> bool:
+                if event.type() == QtCore.QEvent.Type.Paint:
+                    self._missing.discard(watched)
+                return False
+
+        self._widgets, self._missing, self._filter = widgets, set(widgets), Filter()
+        for widget in widgets:
+            widget.installEventFilter(self._filter)
+
+    def begin(self) -> None:
+        self._missing = set(self._widgets)
+
+    def are_done(self) -> bool:
+        """Asked between events, so that a painting that has begun is over."""
+        return not self._missing
+
+
+def _place(view: Any, x: float, y: float) -> Any:
+    """A point of a view, from shares of its width and its height."""
+    from qtpy import QtCore
+
+    return QtCore.QPoint(round(x * view.width()), round(y * view.height()))
+
+
+def _point(application: Any, window: Any, view: Any) -> Iterator[int | None]:
+    """Move the pointer over a view, without a button; the vertices that are met."""
+    from qtpy import QtCore, QtGui
+
+    none = QtCore.Qt.MouseButton.NoButton
+    for step in range(POINTED):
+        place = _place(view, 0.3 + 0.4 * step / POINTED, 0.4 + 0.2 * (step % 7) / 7)
+        move = QtGui.QMouseEvent(
+            QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), none, none, QtCore.Qt.KeyboardModifier.NoModifier
+        )
+        application.sendEvent(view, move)
+        application.processEvents()
+        yield window.gestures.hovered
 
 
 def _stalls(size: Size) -> tuple[float, float, int]:
-    """The longest time the window's thread did nothing else, less renders; the longest render; vertices."""
+    """The longest time the window's thread did nothing else, less drawing; the longest picture; vertices."""
     from qtpy import QtCore
 
     vertices, faces = bumpy_sphere(size.window[1])
@@ -213,7 +280,7 @@ def _stalls(size: Size) -> tuple[float, float, int]:
         timer = QtCore.QTimer(interval=TICK_MS)
         timer.timeout.connect(tick)
         # From the first picture on, for which VTK also compiles its shaders.
-        rendering.watch([panel.interactor.render_window for panel in window.grid.panels])
+        rendering.watch(window.grid.board)
         timer.start()
         last[0] = time.perf_counter()
         _wait(application, lambda: window.session.is_complete)
@@ -222,32 +289,26 @@ def _stalls(size: Size) -> tuple[float, float, int]:
 
 
 class _Stopwatch:
-    """How long render windows have been rendering."""
+    """How long a board has been drawing."""
 
     def __init__(self) -> None:
-        self.longest = self._sum = self._start = 0.0
+        self.longest = self._sum = 0.0
 
-    def watch(self, windows: list[Any]) -> None:
-        for window in windows:
-            window.AddObserver("StartEvent", lambda *_: self._begin())
-            window.AddObserver("EndEvent", lambda *_: self._end())
+    def watch(self, board: Any) -> None:
+        picture = board.picture
+
+        def measured(*how: Any) -> np.ndarray:
+            seconds, pixels = timed(lambda: picture(*how))
+            self._sum += seconds
+            self.longest = max(self.longest, seconds)
+            return pixels
+
+        board.picture = measured
 
     def taken(self) -> float:
         """Seconds since this was asked last."""
         taken, self._sum = self._sum, 0.0
         return taken
-
-    def _begin(self) -> None:
-        self._start = time.perf_counter()
-
-    def _end(self) -> None:
-        seconds = time.perf_counter() - self._start
-        self._sum += seconds
-        self.longest = max(self.longest, seconds)
-
-
-def _count_up(counts: list[int], index: int) -> None:
-    counts[index] += 1
 
 
 @contextmanager
@@ -266,7 +327,7 @@ def _window(path: str):
     window.show()
     application.processEvents()
     build_panels(window)
-    # The first pictures, of nothing: the start has a row of its own.
+    # The start page: the start has a row of its own.
     application.processEvents()
     window.show_document(document)
     try:
