@@ -84,9 +84,11 @@ def test_holds_every_file_of_a_package(names, package):
 def test_holds_the_sample_meshes_and_not_how_they_were_made(names):
     meshes = {f"bihdist_assets/{path.name}" for path in (ROOT / "assets").glob("*.ply")}
     assert meshes
+    icons = {f"bihdist_assets/icons/{path.name}" for path in (ROOT / "assets" / "icons").glob("*.svg")}
+    assert icons
     samples = {name for name in names if name.startswith("bihdist_assets/")}
-    assert meshes <= samples
-    assert {Path(name).suffix for name in samples} <= {".ply", ".png"}
+    assert meshes | icons <= samples
+    assert {Path(name).suffix for name in samples} <= {".ply", ".png", ".svg"}
 
 
 def test_is_imported_from_where_it_was_installed(installed, environment, tmp_path):
