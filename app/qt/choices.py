@@ -21,12 +21,11 @@ class Choices:
     def show(self) -> None:
         """Let menus and buttons say what is chosen."""
         window, document, style = self._window, self._window.session.document, self._window.page.style
-        view = document.camera if isinstance(document.camera, str) else "free"
+        self.show_view()
         for name, value in {
             "isolines": str(document.isolines),
             "colours": STYLE_NAMES.get(style, style),
             "range": "Shared" if document.shared_range else "Own",
-            "views": view.capitalize(),
         }.items():
             window.tools[name].show_value(value)
         menus = window.menus
@@ -34,6 +33,11 @@ class Choices:
         menus.show_choice(menus.colours, style)
         menus.show_choice(menus.range, "shared" if document.shared_range else "own")
         menus.show_choice(menus.theme, LOOK.choice)
+
+    def show_view(self) -> None:
+        """Let the button of views say what is seen."""
+        camera = self._window.session.document.camera
+        self._window.tools["views"].show_value(camera.capitalize() if isinstance(camera, str) else "Free")
 
     # ------------------------------------------------------------------ panels
     def add_panel(self) -> None:

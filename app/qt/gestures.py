@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 CLOSER = 2.0
 """By how much "zoom to it" enlarges."""
 
+REST_MS = 200
+"""How long the pointer has to be still for a live source to have arrived."""
+
 LEAST_TOWARDS = 0.3
 """Cosine of the angle between a direction and an edge that still leads there."""
 
@@ -28,6 +31,8 @@ class Gestures:
         self._met: Met | None = None  # what is under the pointer
         self._met_in = -1  # in which panel
         self.is_live = self.is_dragging = False
+        self._rest_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
+        self._rest_soon.timeout.connect(self._release)
         grid.clicked.connect(self._click)
         grid.dragged.connect(self._drag)
         grid.released.connect(self._release)
@@ -38,6 +43,7 @@ class Gestures:
         """Another surface is there."""
         self._met = None
         self.is_dragging = False
+        self._rest_soon.stop()
 
     @property
     def hovered(self) -> int | None:
@@ -58,6 +64,8 @@ class Gestures:
         self._move(panel, vertex, key=f"drag in {panel}", live=True)
 
     def _release(self) -> None:
+        """The source has arrived: now all is answered, and what is late is said to be."""
+        self._rest_soon.stop()
         self.is_dragging = False
         self._window.session.show(self._window.session.document)
 
@@ -102,6 +110,7 @@ class Gestures:
         if self.is_live and vertex is not None and vertex != before:
             self.is_dragging = True
             self._move(panel, vertex, key="live", live=True)
+            self._rest_soon.start()
 
     def centre_here(self) -> None:
         """What is under the pointer comes into the middle, and is turned about."""

@@ -25,6 +25,7 @@ class Views:
     def moved(self, view: View) -> None:
         """The camera sees this now."""
         self._window.session.look(view)
+        self._window.choices.show_view()
         self.rest_soon()
 
     def rest_soon(self) -> None:

@@ -80,8 +80,9 @@ class Waits:
             panel.show_stopped()
         elif is_answered or (shown is not None and shown.is_preview and not self._is_other(id)):
             # A quick look, which the exact answer follows, or one whose accuracy is being found out.
-            panel.show_waiting((fraction, words_of(text)) if text else None, is_old=False)
-        elif window.gestures.is_dragging:
+            words = "Checking the accuracy" if is_answered else "A quick look; the exact one follows"
+            panel.show_waiting((fraction, words) if text else None, is_old=False)
+        elif window.gestures.is_dragging and shown is not None:
             panel.show_waiting(None)  # it is a moment behind, all the time
         elif text or self._is_late:
             panel.show_waiting((fraction, words_of(text)) if text else WAITING)

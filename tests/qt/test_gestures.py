@@ -200,3 +200,42 @@ def test_the_menu_of_a_place_offers_what_can_be_done_there(opened):
     offered["Source here"].trigger()
     menu.close()
     s.until(lambda: s.source == target)
+
+
+def test_a_live_source_that_rests_is_answered_everywhere_without_a_further_move(screen, mesh_file):
+    from qtpy import QtTest
+
+    s = screen()
+    s.open(mesh_file(bumpy(4000)), 5)
+    s.window.actions_by_word["live"].trigger()
+    view = s.panels[0].view
+    for step in range(6):
+        QtTest.QTest.mouseMove(view, view.rect().center() + view.rect().center() * (step / 40))
+        s.application.processEvents()
+    s.until(lambda: not s.window.gestures.is_dragging)
+    s.until(lambda: s.session.is_complete)
+    assert all(answer.is_final for answer in s.answers)
+    assert [answer.label for answer in s.answers] == ["biharmonic, exact", "geodesic, exact", "diffusion, t = 1"]
+    assert s.source == s.window.gestures.hovered
+
+
+def test_the_button_of_views_follows_the_camera(opened):
+    s = opened
+    button = s.window.tools["views"]
+    assert button.accessibleDescription() == "Home"
+    key(s, "Left")
+    assert button.accessibleDescription() == "Free"
+    s.window.reset_view("top")
+    assert button.accessibleDescription() == "Top"
+
+
+def test_letters_typed_into_the_source_box_are_no_shortcuts(opened):
+    from qtpy import QtTest
+
+    s = opened
+    s.window.activateWindow()
+    s.window.source_box.setFocus()
+    s.window.source_box.selectAll()
+    QtTest.QTest.keyClicks(s.window.source_box, "zl4c2")
+    assert s.window.source_box.text() == "42"
+    assert not s.window.gestures.is_live

@@ -89,8 +89,8 @@ def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows
         pretend(s, (percent / 100, "solving"))
     assert told == []
     s.until(lambda: told)
-    assert told == [(0.49, "Solving")]
-    assert waiting.text == "Solving, 49 %"
+    assert told == [(0.49, "Checking the accuracy")]
+    assert waiting.text == "Checking the accuracy, 49 %"
     s.session._answering.progress.clear()
     s.window.progress_changed()
     assert not waiting.isVisible()
@@ -113,12 +113,13 @@ def test_each_panel_tells_what_it_waits_for_and_how_far_that_is(screen, mesh_fil
     s = screen()
     s.open(mesh_file(bumpy(800)))
     s.settle()
-    del s.session.shown[2]
-    pretend(s, (0.2, "Factoring"), (nan, "eigenpairs: solving"))
+    del s.session.shown[1], s.session.shown[2]
+    pretend(s, (0.2, "biharmonic"), (nan, "eigenpairs: solving"))
     s.until(s.panels[0].waiting.isVisible)
-    assert [panel.waiting.text for panel in s.panels] == ["Factoring, 20 %", "Eigenpairs …", "Waiting …"]
-    # The first two have their answers, and only find out how accurate these are.
-    assert ["no values" in panel.bar.accessibleDescription() for panel in s.panels] == [False, False, True]
+    # The first has its answer, and only finds out how accurate that is.
+    said = ["Checking the accuracy, 20 %", "Eigenpairs …", "Waiting …"]
+    assert [panel.waiting.text for panel in s.panels] == said
+    assert ["no values" in panel.bar.accessibleDescription() for panel in s.panels] == [False, True, True]
 
 
 def test_a_panel_s_words_do_not_change_the_size_of_its_picture(screen, mesh_file):

@@ -21,6 +21,8 @@ class SourceBox(QtWidgets.QLineEdit):
         self.setAccessibleName("Source vertex")
         self.setToolTip("The vertex that distances start from: type an id and press Enter (G)")
         self.setPlaceholderText("–")
+        digits = QtCore.QRegularExpression("[0-9, ]*")
+        self.setValidator(QtGui.QRegularExpressionValidator(digits, self))
         self._vertex: int | None = None
         self._count = 0
         self.wrong = QtWidgets.QLabel(self.window(), QtCore.Qt.WindowType.ToolTip)
@@ -99,8 +101,9 @@ class SourceBox(QtWidgets.QLineEdit):
         deletes = {QtCore.Qt.Key.Key_Backspace, QtCore.Qt.Key.Key_Delete}
         if any(event.matches(key) for key in edits) or event.key() in deletes:
             return True
-        is_plain = not event.modifiers() & ~QtCore.Qt.KeyboardModifier.KeypadModifier
-        return is_plain and (event.key() in moves or event.text().isdigit())
+        others = QtCore.Qt.KeyboardModifier.KeypadModifier | QtCore.Qt.KeyboardModifier.ShiftModifier
+        is_plain = not event.modifiers() & ~others
+        return is_plain and (event.key() in moves or (event.text().isprintable() and bool(event.text())))
 
     def focusOutEvent(self, event: QtGui.QFocusEvent) -> None:
         super().focusOutEvent(event)

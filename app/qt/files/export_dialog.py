@@ -128,6 +128,13 @@ class _Looks(JobDialog):
         )
         self.hints = self.tick("&What to look for", page.hints, "A line under each heading")
 
+    def allow_sharing(self, has_one_unit: bool) -> None:
+        """One colour bar is for one unit; in the window each unit has its own."""
+        self.shared.setEnabled(has_one_unit)
+        if not has_one_unit:
+            self.shared.setChecked(False)
+            self.shared.setToolTip("The panels have different units")
+
     def chosen(self) -> Recipe:
         """The recipe as the dialog stands."""
         page = replace(

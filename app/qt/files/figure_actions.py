@@ -20,6 +20,7 @@ def export_figure(window) -> ExportDialog | None:
     answers = [session.shown[panel.id].answer for panel in recipe.document.panels]
     surfaces = _surfaces(window, recipe)
     dialog = ExportDialog(recipe, surfaces, session.given, answers, version(), window.exports, window)
+    dialog.allow_sharing(_has_one_unit(window))
     return _opened(dialog, window)
 
 
@@ -29,7 +30,14 @@ def export_movie(window) -> MovieDialog | None:
     if recipe is None:
         return None
     surfaces = _surfaces(window, recipe)
-    return _opened(MovieDialog(recipe, surfaces, window.session.given, window.exports, window), window)
+    dialog = MovieDialog(recipe, surfaces, window.session.given, window.exports, window)
+    dialog.allow_sharing(_has_one_unit(window))
+    return _opened(dialog, window)
+
+
+def _has_one_unit(window) -> bool:
+    answers = [shown.answer for shown in window.session.shown.values()]
+    return len({answer.unit for answer in answers if answer.field is not None}) <= 1
 
 
 def _surfaces(window, recipe: Recipe) -> Surfaces:
@@ -38,7 +46,10 @@ def _surfaces(window, recipe: Recipe) -> Surfaces:
 
 def _complete_recipe(window) -> Recipe | None:
     if not window.session.is_complete:
-        window.failed("The panels are not complete yet; a figure can be exported once they are.")
+        if window.session.is_stopped:
+            window.failed("A panel was stopped; click a point to compute it, or remove it, and export then.")
+        else:
+            window.failed("The panels are not complete yet; a figure can be exported once they are.")
         return None
     if not window.session.document.panels:
         window.failed("There are no panels; add one first.")

@@ -107,6 +107,7 @@ class PreferencesDialog(QtWidgets.QDialog):
         buttons = QtWidgets.QDialogButtonBox()
         accept = buttons.addButton(QtWidgets.QDialogButtonBox.StandardButton.Ok)
         refuse = buttons.addButton(QtWidgets.QDialogButtonBox.StandardButton.Cancel)
+        refuse.setAutoDefault(False)
         accept.setObjectName("fill")
         accept.setToolTip("Keep these preferences")
         refuse.setToolTip("All as it was before the dialog")

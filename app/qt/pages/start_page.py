@@ -123,7 +123,7 @@ class StartPage(QtWidgets.QWidget):
         lines.addWidget(_quiet("Then click the surface: distances from that point appear side by side."))
         lines.addSpacing(24)
         lines.addLayout(ways)
-        lines.addSpacing(32)
+        lines.addSpacing(24)
         lines.addWidget(self._samples)
         lines.addSpacing(12)
         lines.addWidget(self.tiles)
@@ -132,7 +132,7 @@ class StartPage(QtWidgets.QWidget):
 
         sheet = QtWidgets.QWidget()
         middle = QtWidgets.QGridLayout(sheet)
-        middle.setContentsMargins(24, 24, 24, 24)
+        middle.setContentsMargins(24, 12, 24, 12)
         middle.addWidget(column, 1, 1)
         for before_and_after in (0, 2):
             middle.setRowStretch(before_and_after, 1)

@@ -158,7 +158,7 @@ class View(QtWidgets.QWidget):
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
         if self.sentence:
             overlay.paint_sentence(painter, self.rect(), self.sentence)
-        if self._pointed is not None and not self._is_dimmed:
+        if self._pointed is not None:
             at = self.place_of(self._pointed.position)
             overlay.paint_ring(painter, at, self._pointed.is_own, self._pointed.is_hidden)
             if self._pointed.value:

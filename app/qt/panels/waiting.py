@@ -48,7 +48,6 @@ class Waiting(QtWidgets.QWidget):
         theme, painter = LOOK.theme, QtGui.QPainter(self)
         ground = QtGui.QColor(theme.canvas)
         ground.setAlphaF(0.85)
-        painter.fillRect(self.rect(), ground)
         painter.fillRect(0, 0, self.width(), LINE, QtGui.QColor(theme.border))
         if 0.0 <= self._fraction <= 1.0:
             painter.fillRect(QtCore.QRectF(0, 0, self._fraction * self.width(), LINE), QtGui.QColor(theme.accent))
@@ -58,5 +57,8 @@ class Waiting(QtWidgets.QWidget):
         text, room = self.text, self.stop.x() - 16
         if number_width(painter.font(), text) > room:
             text = metrics.elidedText(text, QtCore.Qt.TextElideMode.ElideMiddle, max(room, 0))
+        # Behind the words only: what is below is the picture.
+        width = number_width(painter.font(), text)
+        painter.fillRect(QtCore.QRectF(0, LINE, 14 + width + 8, self.height() - LINE), ground)
         baseline = LINE + (self.height() - LINE + metrics.ascent() - metrics.descent()) / 2
         paint_number(painter, 14, baseline, text)
