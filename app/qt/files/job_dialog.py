@@ -195,6 +195,7 @@ class JobDialog(QtWidgets.QDialog):
         self.save.setDefault(True)
         self.save.setToolTip("Choose where the file goes; it is drawn in the background")
         self.cancel = buttons.addButton("Cancel", role.RejectRole)
+        self.cancel.setAutoDefault(False)
         self.cancel.setToolTip("Close without a file (Esc)")
         buttons.accepted.connect(self.choose_path)
         buttons.rejected.connect(self.reject)
