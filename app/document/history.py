@@ -99,6 +99,14 @@ class Trail(Generic[Place]):
             self._places = [*self._places[: self._at + 1], place][-LONGEST:]
             self._at = len(self._places) - 1
 
+    def is_first(self, place: Place) -> bool:
+        """Whether nothing was visited before this place, which may be new."""
+        return self._at < 0 or (self._at == 0 and self._places[0] == place)
+
+    def is_last(self, place: Place) -> bool:
+        """Whether nothing was visited after it."""
+        return self._at == len(self._places) - 1 or self._places[self._at] != place
+
     def back(self) -> Place | None:
         """The place before; None at the first."""
         return self._go(-1)

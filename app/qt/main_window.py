@@ -247,13 +247,13 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def _show_surface(self, opened: Opened) -> None:
         self._opened = opened
+        self._allow(True)
         self.views.begin()
         self.gestures.begin()
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
         self.grid.show_surface()
         recipe = Recipe(self.session.document, self.page)
         self.status.show_surface(opened.surface, unseen(recipe, STYLES[self.page.style]))
-        self._allow(True)
         self.leave_boxes()
         if self.remembers and opened.mesh.path and os.path.exists(opened.mesh.path):
             remembered.remember(opened.mesh.path)

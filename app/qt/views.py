@@ -21,11 +21,13 @@ class Views:
     def begin(self) -> None:
         """Another mesh is there."""
         self._trail = Trail()
+        self._offer()
 
     def moved(self, view: View) -> None:
         """The camera sees this now."""
         self._window.session.look(view)
         self._window.choices.show_view()
+        self._offer()
         self.rest_soon()
 
     def rest_soon(self) -> None:
@@ -48,6 +50,13 @@ class Views:
 
     def _remember(self) -> None:
         self._trail.visit(self._window.session.document.camera)
+        self._offer()
+
+    def _offer(self) -> None:
+        """What can be gone back to, and on."""
+        camera, actions = self._window.session.document.camera, self._window.actions_by_word
+        actions["view before"].setEnabled(not self._trail.is_first(camera))
+        actions["view after"].setEnabled(not self._trail.is_last(camera))
 
     def _see_again(self, view: View | None) -> None:
         if view is not None:

@@ -239,3 +239,16 @@ def test_letters_typed_into_the_source_box_are_no_shortcuts(opened):
     QtTest.QTest.keyClicks(s.window.source_box, "zl4c2")
     assert s.window.source_box.text() == "42"
     assert not s.window.gestures.is_live
+
+
+def test_views_before_and_after_are_offered_where_there_are_some(opened):
+    s = opened
+    before, after = (s.window.actions_by_word[word] for word in ("view before", "view after"))
+    s.until(lambda: not s.window.views._still.isActive())
+    assert (before.isEnabled(), after.isEnabled()) == (False, False)
+    key(s, "Left")
+    assert (before.isEnabled(), after.isEnabled()) == (True, False)
+    before.trigger()
+    assert (before.isEnabled(), after.isEnabled()) == (False, True)
+    after.trigger()
+    assert (before.isEnabled(), after.isEnabled()) == (True, False)
