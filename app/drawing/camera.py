@@ -113,13 +113,6 @@ def place_camera(
     _set(camera, standard_camera(points, aspect, view, margins), margins)
 
 
-def aim(
-    camera: vtkCamera, points: np.ndarray, aspect: float, direction: np.ndarray, up: np.ndarray, margins: Margins
-) -> None:
-    """The same along -direction."""
-    _set(camera, _aim(points, aspect, direction, up, margins), margins)
-
-
 def camera_seen(camera: vtkCamera, aspect: float, margins: Margins | None = None) -> Camera:
     """The window's camera written down; it is sure to see what lies between the panel's margins."""
     margins = margins or Margins()

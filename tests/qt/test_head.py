@@ -228,7 +228,6 @@ def test_the_pop_up_s_slider_counts_only_when_it_is_let_go(head):
 @pytest.mark.parametrize("text", SHOWN)
 def test_nothing_overlaps_or_is_cut_at_any_width(head, text):
     h = head(text)
-    h.show_curve("#0A7358")
     for warning in ("", "only 3 % exact"):
         h.show_warning(warning)
         for width in range(120, 901, 7):
@@ -425,15 +424,3 @@ def test_lower_in_a_panel_with_little_height(head):
     assert h.height() == 32
     assert h.sizePolicy().horizontalPolicy() == QtWidgets.QSizePolicy.Policy.Ignored
     assert h.minimumSizeHint().width() <= 72
-
-
-def test_the_curve_s_colour_is_a_dot_before_the_name(head):
-    h = head()
-    before = h.name.x()
-    h.show_curve("#b45309")
-    picture = h.grab().toImage()
-    assert picture.pixelColor(18, 18).name() == "#b45309"
-    assert h.name.x() > before
-    h.show_curve(None)
-    assert h.grab().toImage().pixelColor(18, 18).name() != "#b45309"
-    assert h.name.x() == before

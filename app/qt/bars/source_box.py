@@ -3,13 +3,14 @@
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ..look.look import LOOK
+from ..look.text_box import TextBox, mark_wrong
 
 WIDTH = 76
 SHOWN_MS = 6000
 """For how long it is said what is wrong."""
 
 
-class SourceBox(QtWidgets.QLineEdit):
+class SourceBox(TextBox):
     """`chosen(int)` by Enter; what is no vertex is said under the box, with those that there are."""
 
     chosen = QtCore.Signal(int)
@@ -48,7 +49,7 @@ class SourceBox(QtWidgets.QLineEdit):
 
     def refuse(self, sentence: str) -> None:
         """Say under the box what is wrong."""
-        self._mark_wrong(True)
+        mark_wrong(self, True)
         theme = LOOK.theme
         self.wrong.setStyleSheet(
             f"background: {theme.error_ground}; color: {theme.error}; border: 1px solid {theme.error}; font: 13px;"
@@ -63,7 +64,7 @@ class SourceBox(QtWidgets.QLineEdit):
         """Nothing is wrong."""
         self._hide_soon.stop()
         self.wrong.hide()
-        self._mark_wrong(False)
+        mark_wrong(self, False)
 
     def give_up(self) -> None:
         """What was typed is not meant."""
@@ -78,32 +79,6 @@ class SourceBox(QtWidgets.QLineEdit):
         self.chosen.emit(int(text))
         if not self.wrong.isVisible() and not self.property("wrong"):
             self.left.emit()
-
-    def _mark_wrong(self, is_wrong: bool) -> None:
-        if bool(self.property("wrong")) != is_wrong:
-            self.setProperty("wrong", is_wrong)
-            self.style().unpolish(self)
-            self.style().polish(self)
-
-    def event(self, event: QtCore.QEvent) -> bool:
-        """The window's keys go to the window, but for those that edit what is being typed."""
-        if event.type() == QtCore.QEvent.Type.ShortcutOverride and not self._edits(event):
-            event.ignore()
-            return True
-        return super().event(event)
-
-    def _edits(self, event: QtGui.QKeyEvent) -> bool:
-        keys = QtGui.QKeySequence.StandardKey
-        if self.isModified() and any(event.matches(key) for key in (keys.Undo, keys.Redo)):
-            return True
-        edits = (keys.Copy, keys.Cut, keys.Paste, keys.SelectAll)
-        moves = {QtCore.Qt.Key.Key_Left, QtCore.Qt.Key.Key_Right, QtCore.Qt.Key.Key_Home, QtCore.Qt.Key.Key_End}
-        deletes = {QtCore.Qt.Key.Key_Backspace, QtCore.Qt.Key.Key_Delete}
-        if any(event.matches(key) for key in edits) or event.key() in deletes:
-            return True
-        others = QtCore.Qt.KeyboardModifier.KeypadModifier | QtCore.Qt.KeyboardModifier.ShiftModifier
-        is_plain = not event.modifiers() & ~others
-        return is_plain and (event.key() in moves or (event.text().isprintable() and bool(event.text())))
 
     def focusOutEvent(self, event: QtGui.QFocusEvent) -> None:
         super().focusOutEvent(event)

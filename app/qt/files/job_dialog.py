@@ -11,6 +11,7 @@ from bihdist_core import BihdistError
 
 from ..look.look import LOOK
 from ..look.segments import Segments
+from ..look.text_box import mark_wrong
 from .exports import Exports
 
 WIDTH = 388
@@ -121,7 +122,7 @@ class JobDialog(QtWidgets.QDialog):
 
     def _show_wrong(self, box: QtWidgets.QWidget, sentence: str) -> None:
         self._show(self._sentences[box], sentence)
-        _mark(box, True)
+        mark_wrong(box, True)
         box.setAccessibleDescription(sentence)
         box.setFocus()
         self.scroll.ensureWidgetVisible(self._sentences[box])
@@ -137,7 +138,7 @@ class JobDialog(QtWidgets.QDialog):
             if not sentence.isHidden():
                 sentence.setVisible(False)
                 box.setAccessibleDescription("")
-                _mark(box, False)
+                mark_wrong(box, False)
 
     # ------------------------------------------------------------------ how it is made
     def section(self, title: str) -> None:
@@ -263,10 +264,3 @@ def _sentence() -> QtWidgets.QLabel:
     label.setTextInteractionFlags(QtCore.Qt.TextInteractionFlag.TextSelectableByMouse)
     label.setProperty("error", True)
     return label
-
-
-def _mark(box: QtWidgets.QWidget, is_wrong: bool) -> None:
-    """The style sheet's outline of what is wrong, which it looks for only when asked again."""
-    box.setProperty("wrong", is_wrong)
-    box.style().unpolish(box)
-    box.style().polish(box)

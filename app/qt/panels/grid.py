@@ -179,11 +179,6 @@ class PanelGrid(QtWidgets.QWidget):
             panel.show_surface(self._session.opened())
         self._pointed = None
 
-    def show_nothing(self) -> None:
-        """There is no surface."""
-        for panel in self.panels:
-            panel.rest()
-
     def expect_sources(self, document: Document) -> None:
         """Tell each panel where its field starts."""
         for panel in document.panels:

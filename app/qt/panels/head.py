@@ -20,7 +20,7 @@ SLIDERS_FROM, ALL_FROM, FIRST_FROM = 440, 300, 200
 """Widths from which there are sliders and the button with remarks, all parameters, the first of them."""
 
 MARGIN, BETWEEN = 8, 4
-DOT, DOT_ROOM, WARNING_ROOM = 8, 18, 22
+WARNING_ROOM = 22
 
 EXACT = ("biharmonic", "commute-time")
 """Distances of all eigenpairs, of which nothing can be left out."""
@@ -43,7 +43,7 @@ class PanelHead(QtWidgets.QWidget):
         self.controls: list[Control] = []
         self._choices = Choices()
         self._made_of: object = None
-        self._info, self._warning, self._curve = "", "", ""
+        self._info, self._warning = "", ""
         # Panels are equally wide whatever is in here.
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.name = FlatButton(self, bold=True)
@@ -121,11 +121,6 @@ class PanelHead(QtWidgets.QWidget):
         self.warning.setToolTip(text)
         self.warning.setAccessibleName(text)
         self.show_info(self._info)
-        self._restyle()
-
-    def show_curve(self, colour: str | None) -> None:
-        """The colour, #rrggbb, that this panel has in a plot; None where there is no plot."""
-        self._curve = colour or ""
         self._restyle()
 
     def set_compact(self, compact: bool) -> None:
@@ -226,9 +221,9 @@ class PanelHead(QtWidgets.QWidget):
         self.update()
 
     def _lay_out(self) -> None:
-        """From the left dot, name, warning, parameters; from the right the two buttons."""
+        """From the left name, warning, parameters; from the right the two buttons."""
         controls = [c for c in self.controls if not (self._warning and isinstance(c, FixedWord))]
-        left = MARGIN + (DOT_ROOM if self._curve else 0)
+        left = MARGIN
         right = self.width() - MARGIN - ICON_SIDE
         self.more.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)
         name = self.name.sizeHint().width()
@@ -295,8 +290,3 @@ class PanelHead(QtWidgets.QWidget):
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         painter = QtGui.QPainter(self)
         painter.fillRect(self.rect(), QtGui.QColor(LOOK.theme.canvas))
-        if self._curve:
-            painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-            painter.setPen(QtCore.Qt.PenStyle.NoPen)
-            painter.setBrush(QtGui.QColor(self._curve))
-            painter.drawEllipse(QtCore.QRectF(MARGIN + 6, (self.height() - DOT) / 2, DOT, DOT))

@@ -9,6 +9,7 @@ from bihdist_core.distances.kinds import Parameter
 
 from ..look.look import LOOK
 from ..look.numbers import MINUS, number
+from ..look.text_box import TextBox, mark_wrong
 from .flat_button import paint_ring
 
 STEPS = 240
@@ -110,30 +111,6 @@ class ValueSlider(QtWidgets.QSlider):
             paint_ring(painter, QtCore.QRectF(self.rect()))
 
 
-class ExactBox(QtWidgets.QLineEdit):
-    """A line to type in that leaves the window's own shortcuts to the window."""
-
-    def event(self, event: QtCore.QEvent) -> bool:
-        if event.type() == QtCore.QEvent.Type.ShortcutOverride and not self._edits(event):
-            event.ignore()
-            return True
-        return super().event(event)
-
-    def _edits(self, event: QtGui.QKeyEvent) -> bool:
-        """Whether a key is for the text rather than for the window."""
-        modifier, keys = QtCore.Qt.KeyboardModifier, QtGui.QKeySequence.StandardKey
-        if not event.modifiers() & (modifier.ControlModifier | modifier.AltModifier | modifier.MetaModifier):
-            return True
-        if event.matches(keys.Undo):
-            return self.isUndoAvailable()
-        if event.matches(keys.Redo):
-            return self.isRedoAvailable()
-        always = (keys.SelectAll, keys.Copy, keys.Cut, keys.Paste)
-        moves = (keys.MoveToNextWord, keys.MoveToPreviousWord, keys.SelectNextWord, keys.SelectPreviousWord)
-        deletes = (keys.DeleteStartOfWord, keys.DeleteEndOfWord)
-        return any(event.matches(key) for key in (*always, *moves, *deletes))
-
-
 class PopUp(QtWidgets.QFrame):
     """A small sheet under a control, gone at a click beside it or Esc."""
 
@@ -182,7 +159,7 @@ class NumberPopUp(PopUp):
         self.slider.setMinimumWidth(150)
         self.slider.sliderMoved.connect(lambda step: self._write(value_of_step(parameter, step)))
         self.slider.chosen.connect(self.chosen)
-        self.box = ExactBox(self)
+        self.box = TextBox(self)
         self.box.setFixedWidth(76)
         self.box.setAccessibleName(f"{meaning(parameter)}, the exact value")
         self.box.setToolTip(f"{symbol(parameter)}: any number above {parameter.above:g}; Enter sets it")
@@ -235,7 +212,5 @@ class NumberPopUp(PopUp):
         if text != self.complaint.text():
             self.complaint.setText(text)
             self.complaint.setVisible(bool(text))
-            self.box.setProperty("wrong", bool(text))
-            self.box.style().unpolish(self.box)
-            self.box.style().polish(self.box)
+            mark_wrong(self.box, bool(text))
             self.adjustSize()

@@ -1,0 +1,35 @@
+"""Boxes to type in: the window keeps its keys, and what makes no sense has an outline."""
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+
+class TextBox(QtWidgets.QLineEdit):
+    """A line to type in that leaves the window's own shortcuts to the window."""
+
+    def event(self, event: QtCore.QEvent) -> bool:
+        if event.type() == QtCore.QEvent.Type.ShortcutOverride and not self._edits(event):
+            event.ignore()
+            return True
+        return super().event(event)
+
+    def _edits(self, event: QtGui.QKeyEvent) -> bool:
+        """Whether a key is for the text rather than for the window."""
+        modifier, keys = QtCore.Qt.KeyboardModifier, QtGui.QKeySequence.StandardKey
+        if not event.modifiers() & (modifier.ControlModifier | modifier.AltModifier | modifier.MetaModifier):
+            return True
+        if event.matches(keys.Undo):
+            return self.isUndoAvailable()
+        if event.matches(keys.Redo):
+            return self.isRedoAvailable()
+        always = (keys.SelectAll, keys.Copy, keys.Cut, keys.Paste)
+        moves = (keys.MoveToNextWord, keys.MoveToPreviousWord, keys.SelectNextWord, keys.SelectPreviousWord)
+        deletes = (keys.DeleteStartOfWord, keys.DeleteEndOfWord)
+        return any(event.matches(key) for key in (*always, *moves, *deletes))
+
+
+def mark_wrong(box: QtWidgets.QWidget, is_wrong: bool) -> None:
+    """The style sheet's outline of what is wrong, which it looks for only when asked again."""
+    if bool(box.property("wrong")) != is_wrong:
+        box.setProperty("wrong", is_wrong)
+        box.style().unpolish(box)
+        box.style().polish(box)
