@@ -285,13 +285,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.announce_soon()
 
     def _say_what_is_inexact(self) -> None:
-        answers = [
-            self.session.shown[panel.id].answer
-            for panel in self.session.document.panels
-            if panel.id in self.session.shown
-        ]
-        poor = dict.fromkeys(f"{a.label}: only {a.accuracy.text}" for a in answers if a.accuracy.is_poor)
-        self.status.show_inexact(list(poor))
+        self.status.show_inexact([shown.answer for shown in self.session.shown.values()])
 
     def _offer_steps(self) -> None:
         self.actions_by_word["undo"].setEnabled(self.session.can_undo)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import Surface
+from bihdist_core.distances.answers import Answer
 
 from ...document.page import Recipe
 from ...drawing.style import Style
@@ -66,9 +67,10 @@ class StatusBar(QtWidgets.QStatusBar):
         self.show_place(None, None)
         self._fit()
 
-    def show_inexact(self, sentences: Sequence[str]) -> None:
-        """Which panels are not exact, and by how much."""
-        self.accuracy.show_list(list(sentences), len(sentences))
+    def show_inexact(self, answers: Sequence[Answer]) -> None:
+        """Which of the panels' answers are not exact, and by how much."""
+        poor = dict.fromkeys(f"{a.label}: only {a.accuracy.text}" for a in answers if a.accuracy.is_poor)
+        self.accuracy.show_list(list(poor), len(poor))
 
     def show_place(self, vertex: int | None, position: Sequence[float] | None) -> None:
         self.vertex.show_text("" if vertex is None else f"vertex {vertex}")
