@@ -47,7 +47,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         "--height", type=float, nargs="?", const=0.35, metavar="SHARE", help="a flat mesh becomes a relief"
     )
     _add_switch(parser, "shared-range", "one colour bar for all panels")
-    _add_switch(parser, "hints", "what to look for, under the headings (default: yes)")
+    _add_switch(parser, "hints", "what to look for, under the headings (default: no)")
     parser.add_argument("--size", metavar="SIZE", help="such as 1680x640, 8000px, 160mm@300dpi, 160x80mm")
     parser.add_argument("--style", metavar="NAME", help="paper, uniform, lines or dark (default: paper)")
     _add_switch(parser, "transparent", "no background")
@@ -98,7 +98,11 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
         from ..document.document import Zoom
 
         document = replace(document, zooms=tuple(Zoom(*zoom) for zoom in options.zoom))
-    document = replace(document, **_given(options, "areas", "isolines", "height", "shared_range"))
+    document = replace(document, **_given(options, "areas", "height"))
+    if options.isolines is not None:
+        document = replace(document, isolines=replace(document.isolines, count=options.isolines))
+    if options.shared_range is not None:
+        document = replace(document, range="shared" if options.shared_range else "own")
     page = replace(page, **_given(options, "size", "style", "hints", "transparent", "crop"))
     columns = options.columns if options.columns is not None else rows or page.columns
     if views:

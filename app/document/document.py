@@ -13,6 +13,19 @@ from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
 
 from .camera import View, checked_view
+from .looks import (
+    AS_IT_IS,
+    LARGEST,
+    OF_THE_STYLE,
+    PROJECTIONS,
+    RANGES,
+    TWENTY_STEPS,
+    UPS,
+    Colours,
+    Isolines,
+    Shading,
+    one_of,
+)
 from .quantities import OwnField, Quantity, from_point, own_fields
 
 COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
@@ -25,9 +38,6 @@ TOOLS = ("source",)
 
 MOST_PANELS = 1000
 LONGEST_NAME = 60
-MOST_ISOLINES = 1000
-LARGEST = 1e100
-"""Of values at which a colour bar ends; their inverses are the smallest."""
 
 
 def whole_number(value: Any, what: str) -> int:
@@ -123,20 +133,23 @@ class Panel:
 class Zoom:
     """An inset: the place of a vertex enlarged, in a corner of each panel.
 
-    corner: "auto" (where the least is hidden), "top left", "top right", "bottom left" or "bottom right".
+    corner: "auto" (where the least is hidden), "top left", "top right", "bottom left" or "bottom right".  isolines: so
+    many steps from 0 to the maximum, those of the panel if None.
     """
 
     vertex: int
     factor: float = 3.0
     corner: str = "auto"
+    isolines: int | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "vertex", whole_number(self.vertex, "A vertex id"))
         object.__setattr__(self, "factor", float(self.factor))
         if not 1 < self.factor <= 100:
             raise ParameterError(f"A zoom enlarges by more than 1 and at most 100 times, not {self.factor:g}.")
-        if self.corner not in CORNERS:
-            raise ParameterError(f"There is no corner {self.corner!r}; choose one of {', '.join(CORNERS)}.")
+        one_of(self.corner, CORNERS, "corner")
+        if self.isolines is not None:
+            Isolines(whole_number(self.isolines, "A number of steps"))
 
 
 @dataclass(frozen=True)
@@ -157,17 +170,18 @@ class Anchor:
 class Document:
     """See the module; ParameterError for parts that do not fit together.
 
-    areas: which vertex areas the operators have.  isolines: equal steps from 0 to each panel's maximum.  shared_range:
-    one colour bar for all panels.  height: a flat surface becomes a relief whose highest point is this share of its
-    extent.  next_id: of the panel that is added next.  fields: of the user's own, for panels to show.
+    areas: which vertex areas the operators have.  range: where colour bars end, one of RANGES.  height: a flat surface
+    becomes a relief whose highest point is this share of its extent.  next_id: of the panel that is added next.
+    fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
+    projection: one of PROJECTIONS.  axes: whether their directions are shown.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
     points: tuple[Point, ...] = ()
     panels: tuple[Panel, ...] = ()
     areas: str = "voronoi"
-    isolines: int = 20
-    shared_range: bool = False
+    isolines: Isolines = TWENTY_STEPS
+    range: str = "own"
     camera: View = "home"
     zooms: tuple[Zoom, ...] = ()
     anchors: tuple[Anchor, ...] = ()
@@ -175,8 +189,15 @@ class Document:
     tool: str = "source"
     next_id: int = 0
     fields: tuple[FieldArray, ...] = ()
+    colours: Colours = OF_THE_STYLE
+    shading: Shading = AS_IT_IS
+    up: str = "auto"
+    projection: str = "perspective"
+    axes: bool = False
 
     def __post_init__(self) -> None:
+        if isinstance(self.isolines, int):
+            object.__setattr__(self, "isolines", Isolines(self.isolines))  # a number of steps does
         surfaces = _unlike([mesh.name for mesh in self.surfaces], "surface")
         points = _unlike([point.name for point in self.points], "point")
         ids = _unlike([panel.id for panel in self.panels], "panel")
@@ -187,16 +208,17 @@ class Document:
         _known([field.surface for field in self.fields], surfaces, "surface")
         _known([part.name for panel in self.panels for part in own_fields(panel.shows)], fields, "field")
         _known([anchor.point for anchor in self.anchors], points, "point")
+        _known(list(self.isolines.through), points, "point")
         if ids and max(ids) >= self.next_id:
             raise ParameterError(f"next_id is {self.next_id}, and there is a panel {max(ids)}.")
         if len(self.panels) > MOST_PANELS:
             raise ParameterError(f"There are at most {MOST_PANELS} panels, not {len(self.panels)}.")
         if self.areas not in AREAS:
             raise ParameterError(f"There are no areas {self.areas!r}; choose one of {', '.join(AREAS)}.")
-        if self.tool not in TOOLS:
-            raise ParameterError(f"There is no tool {self.tool!r}; choose one of {', '.join(TOOLS)}.")
-        if not 0 <= self.isolines <= MOST_ISOLINES:
-            raise ParameterError(f"There are 0 to {MOST_ISOLINES} steps between isolines, not {self.isolines}.")
+        one_of(self.tool, TOOLS, "tool")
+        one_of(self.range, RANGES, "range")
+        one_of(self.up, UPS, "direction")
+        one_of(self.projection, PROJECTIONS, "projection")
         if not 0 <= self.height <= 10:
             raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
         checked_view(self.camera)

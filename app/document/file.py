@@ -14,7 +14,7 @@ from typing import Any
 from bihdist_core.errors import ParameterError
 
 from .form import document_data, document_from, plain, read_view, view_data
-from .json_values import Reader, flag, listed, or_none, placed, record, text, whole
+from .json_values import Reader, flag, listed, number, or_none, placed, record, text, whole
 from .page import Page, Recipe
 from .recipe_1 import recipe_of_format_1
 
@@ -22,6 +22,9 @@ FORMAT = 2
 """Goes up when a file could not be understood by older programs."""
 
 PROGRAM = "bihdist"
+
+LATER = ("title", "font", "text")
+"""Parts of a page that are written where they are not as usual."""
 
 
 def checksum(path: str | os.PathLike[str]) -> str:
@@ -44,9 +47,15 @@ def recipe_text(recipe: Recipe, version: str) -> str:
         "program": f"{PROGRAM} {version}",
         **({"arrays": recipe.arrays} if recipe.arrays else {}),
         "document": document_data(recipe.document),
-        "page": {**plain(recipe.page), "views": [view_data(view) for view in recipe.page.views]},
+        "page": _page_data(recipe.page),
     }
     return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _page_data(page: Page) -> dict[str, Any]:
+    usual = plain(Page())
+    data = {**plain(page), "views": [view_data(view) for view in page.views]}
+    return {name: value for name, value in data.items() if name not in LATER or value != usual[name]}
 
 
 def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
@@ -128,5 +137,8 @@ def _page(data: Any, where: str) -> Page:
         "hints": flag,
         "transparent": flag,
         "crop": flag,
+        "title": text,
+        "font": text,
+        "text": or_none(number),
     }
     return placed(Page, where, **record(data, where, readers, set()))

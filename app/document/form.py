@@ -9,7 +9,19 @@ from bihdist_core.errors import ParameterError
 from .camera import Camera, View
 from .document import Anchor, Document, FieldArray, MeshFile, Panel, Place, Point, Zoom
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
+from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
 from .quantities import Difference, DistanceFrom, OwnField, Part, Quantity
+
+LATER: dict[str, Any] = {
+    "fields": [],
+    "range": "own",
+    "colours": {},
+    "shading": {},
+    "up": "y",
+    "projection": "perspective",
+    "axes": False,
+}
+"""Parts of a document that it need not have, and what then holds: as it was before there were any."""
 
 
 def document_data(document: Document) -> dict[str, Any]:
@@ -20,17 +32,30 @@ def document_data(document: Document) -> dict[str, Any]:
         "panels": [{**plain(panel), "shows": _quantity_data(panel.shows)} for panel in document.panels],
         "camera": view_data(document.camera),
         "zooms": [plain(zoom) for zoom in document.zooms],
+        "isolines": _isolines_data(document.isolines),
+        "colours": _unlike(document.colours, OF_THE_STYLE),
+        "shading": _unlike(document.shading, AS_IT_IS),
         "anchors": [plain(anchor) for anchor in document.anchors],
         "fields": [plain(field) for field in document.fields],
     }
     data = {f.name: own.get(f.name, getattr(document, f.name)) for f in fields(document)}
-    # Most have none, and then are written as they were before there were any.
-    return data if document.fields else {name: value for name, value in data.items() if name != "fields"}
+    # What came later is written where it differs from what was before.
+    return {name: value for name, value in data.items() if name not in LATER or value != LATER[name]}
 
 
 def plain(value: Any) -> dict[str, Any]:
     """The fields of a dataclass by name."""
     return {f.name: getattr(value, f.name) for f in fields(value)}
+
+
+def _unlike(value: Any, usual: Any) -> dict[str, Any]:
+    """Those fields that are not as usual."""
+    return {name: each for name, each in plain(value).items() if each != getattr(usual, name)}
+
+
+def _isolines_data(isolines: Isolines) -> int | dict[str, Any]:
+    data = _unlike(isolines, Isolines(isolines.count))
+    return {"count": isolines.count, **data} if data else isolines.count
 
 
 def view_data(view: View) -> str | dict[str, Any]:
@@ -58,7 +83,8 @@ def document_from(data: Any, where: str = "document") -> Document:
         "points": listed(_point),
         "panels": listed(_panel),
         "areas": text,
-        "isolines": whole,
+        "isolines": read_isolines,
+        "range": text,
         "shared_range": flag,
         "camera": read_view,
         "zooms": listed(read_zoom),
@@ -67,8 +93,20 @@ def document_from(data: Any, where: str = "document") -> Document:
         "tool": text,
         "next_id": whole,
         "fields": listed(_field_array),
+        "colours": _colours,
+        "shading": _shading,
+        "up": text,
+        "projection": text,
+        "axes": flag,
     }
-    return placed(Document, where, **record(data, where, readers, readers.keys() - {"fields"}))
+    values = record(data, where, readers, readers.keys() - LATER.keys() - {"shared_range"})
+    return placed(Document, where, **with_range({"up": LATER["up"], **values}))
+
+
+def with_range(values: dict[str, Any]) -> dict[str, Any]:
+    """A document's parts with the range that was once a flag."""
+    is_shared = values.pop("shared_range", False)
+    return {"range": "shared" if is_shared else "own", **values}
 
 
 def _mesh(data: Any, where: str) -> MeshFile:
@@ -118,6 +156,36 @@ def _anchor(data: Any, where: str) -> Anchor:
     return placed(Anchor, where, **record(data, where, {"point": text, "value": or_none(number)}))
 
 
+def read_isolines(data: Any, where: str) -> Isolines:
+    if not isinstance(data, dict):
+        return placed(Isolines, where, count=whole(data, where))
+    readers = {
+        "count": whole,
+        "spacing": or_none(number),
+        "values": listed(number),
+        "bold": whole,
+        "labels": flag,
+        "through": listed(text),
+    }
+    return placed(Isolines, where, **record(data, where, readers, set()))
+
+
+def _colours(data: Any, where: str) -> Colours:
+    readers = {"map": text, "stops": listed(_stop), "reversed": flag, "bands": flag}
+    return placed(Colours, where, **record(data, where, readers, set()))
+
+
+def _stop(data: Any, where: str) -> tuple[float, tuple[float, ...]]:
+    if not isinstance(data, list) or len(data) != 2:
+        raise ParameterError(f"{where} must be a place and a colour.")
+    return number(data[0], f"{where}[0]"), numbers(3)(data[1], f"{where}[1]")
+
+
+def _shading(data: Any, where: str) -> Shading:
+    readers = {"normals": text, "crease": number, "wireframe": flag}
+    return placed(Shading, where, **record(data, where, readers, set()))
+
+
 def read_view(data: Any, where: str) -> View:
     """A standard view's name or a camera."""
     if isinstance(data, str):
@@ -127,5 +195,5 @@ def read_view(data: Any, where: str) -> View:
 
 
 def read_zoom(data: Any, where: str) -> Zoom:
-    readers = {"vertex": whole, "factor": number, "corner": text}
+    readers = {"vertex": whole, "factor": number, "corner": text, "isolines": or_none(whole)}
     return placed(Zoom, where, **record(data, where, readers, {"vertex"}))

@@ -6,9 +6,13 @@ from bihdist_core.errors import ParameterError
 
 from .camera import View, checked_view
 from .document import Document
+from .looks import one_of
 
-FORMATS = ("png", "pdf", "svg")
+FORMATS = ("png", "pdf", "svg", "eps")
 """Of figures, as their files end."""
+
+TITLES = ("heading", "caption", "none")
+"""Over the panel, under its colour bar, or not at all."""
 
 
 @dataclass(frozen=True)
@@ -18,7 +22,8 @@ class Page:
     size: as it is written, "" for the usual one.  style: a word of the drawing's styles.  format: of the file, "" where
     there is none, as for a session.  views: pictures of each panel side by side, the document's camera if empty.
     columns: panels side by side, all in one row if None.  hints: what to look for, under the headings.  crop: without
-    the empty margins.
+    the empty margins.  title: where a panel's name stands, one of TITLES.  font: its family, "" for the usual one.
+    text: the size of labels in points, the usual one if None.
     """
 
     size: str = ""
@@ -26,15 +31,21 @@ class Page:
     format: str = ""
     views: tuple[View, ...] = ()
     columns: int | None = None
-    hints: bool = True
+    hints: bool = False
     transparent: bool = False
     crop: bool = False
+    title: str = "heading"
+    font: str = ""
+    text: float | None = None
 
     def __post_init__(self) -> None:
         if self.format not in ("", *FORMATS):
             raise ParameterError(f"There is no format {self.format!r}; choose one of {', '.join(FORMATS)}.")
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
+        one_of(self.title, TITLES, "title")
+        if self.text is not None and not 2 <= self.text <= 72:
+            raise ParameterError(f"Text has 2 to 72 points, not {self.text:g}.")
         for view in self.views:
             checked_view(view)
 

@@ -6,12 +6,18 @@ from bihdist_core.distances.kinds import Parameter, Spec, kind_of
 from bihdist_core.errors import ParameterError
 
 from .document import Anchor, Document, MeshFile, Panel, Point
-from .form import read_view, read_zoom
+from .form import read_isolines, read_view, read_zoom, with_range
 from .json_values import Reader, flag, listed, number, or_none, placed, record, text, whole
 from .page import Page, Recipe
 from .quantities import DistanceFrom
 
-DOCUMENT = {"areas": text, "zooms": listed(read_zoom), "isolines": whole, "shared_range": flag, "height": number}
+DOCUMENT = {
+    "areas": text,
+    "zooms": listed(read_zoom),
+    "isolines": read_isolines,
+    "shared_range": flag,
+    "height": number,
+}
 PAGE: dict[str, Reader] = {
     "hints": flag,
     "columns": or_none(whole),
@@ -57,9 +63,10 @@ def recipe_of_format_1(data: dict[str, Any]) -> Recipe:
         anchors=tuple(Anchor(f"anchor {k}", value) for k, (_, value) in enumerate(anchors, 1)),
         camera=views[0],
         next_id=len(values["panels"]),
-        **{name: values[name] for name in DOCUMENT if name in values},
+        **with_range({name: values[name] for name in DOCUMENT if name in values}),
+        up="y",
     )
-    page = {name: values[name] for name in PAGE if name in values}
+    page = {"hints": True, **{name: values[name] for name in PAGE if name in values}}
     return Recipe(document, placed(Page, "the recipe", views=views if len(views) > 1 else (), **page))
 
 

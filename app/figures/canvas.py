@@ -276,8 +276,9 @@ def _draw_bar(axes: Axes, page: Composition, bar: Box, top: float, words: str, p
         for left, colour in zip(edges[:-1], style.colours(BAR_STEPS, signed), strict=True):
             # Each runs to the end of the bar, under the next ones: side by side they would show seams.
             axes.add_artist(Rectangle((left, bar.y), bar.right - left, bar.height, facecolor=colour, linewidth=0))
-    steps = 2 * half_steps(panel.isolines) if signed else panel.isolines
-    step = bar.width / steps if panel.isolines else 0.0
+    count = panel.isolines.count
+    steps = 2 * half_steps(count) if signed else count
+    step = bar.width / steps if count else 0.0
     if step >= 4:
         for k in range(1, steps):
             width = min(style.isoline_width * page.layout.stroke, step / 4)

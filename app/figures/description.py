@@ -8,6 +8,7 @@ from bihdist_core import ParameterError, Surface
 
 from ..document.camera import View, checked_view
 from ..document.document import Zoom
+from ..document.looks import TWENTY_STEPS, Isolines
 from ..drawing.camera import is_flat
 from ..drawing.style import PAPER, Style
 from .size import Size
@@ -31,7 +32,7 @@ class FigurePanel:
     """One panel: a surface, a field (n,) on it with NaN where undefined, or None for the bare shape, and its words.
 
     label and unit stand at the colour bar, heading and hint above.  maximum: the end of the colour bar, the field's
-    own if None.  isolines: equal steps from 0 to the maximum.  views: pictures of the same side by side, each a
+    own if None.  views: pictures of the same side by side, each a
     standard one or a camera.  height: a flat surface becomes a relief, raised by the field so that its maximum is this
     share of the surface's extent.  failure: why there is no field, to be read on the bare shape.  signed: the field has
     values on both sides of 0, and its colour bar goes from -maximum to maximum.
@@ -44,7 +45,7 @@ class FigurePanel:
     label: str = ""
     unit: str = ""
     maximum: float | None = None
-    isolines: int = 20
+    isolines: Isolines = TWENTY_STEPS
     views: tuple[View, ...] = ("home",)
     marks: tuple[Mark, ...] = ()
     zooms: tuple[Zoom, ...] = ()
@@ -53,6 +54,8 @@ class FigurePanel:
     signed: bool = False
 
     def __post_init__(self) -> None:
+        if isinstance(self.isolines, int):
+            object.__setattr__(self, "isolines", Isolines(self.isolines))  # a number of steps does
         count = len(self.surface.vertices)
         if self.field is not None and np.shape(self.field) != (count,):
             raise ParameterError(f"The field has the shape {np.shape(self.field)}; the surface has {count} vertices.")
@@ -66,8 +69,6 @@ class FigurePanel:
             raise ParameterError("A relief needs a flat surface, with the same z everywhere.")
         if not 0 <= self.height <= 10:
             raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
-        if not 0 <= self.isolines <= 1000:
-            raise ParameterError(f"There are 0 to 1000 steps between isolines, not {self.isolines}.")
         self.surface.check_vertices([m.vertex for m in (*self.marks, *self.zooms)])
 
     @property

@@ -15,6 +15,7 @@ from bihdist_core.progress import Progress
 
 from ..document.camera import Camera, View
 from ..document.document import Anchor, Document, Point, Zoom, free_names
+from ..document.looks import Isolines
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity
 from ..session.given import Given, Mesh, given_comparison
@@ -72,14 +73,14 @@ def figure(
     *,
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
-    isolines: int = 20,
+    isolines: int | Isolines = 20,
     shared_range: bool = False,
     views: View | Sequence[View] = "home",
     zooms: Sequence[int | tuple[int, float]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
     height: float = 0.0,
     columns: int | None = None,
-    hints: bool = True,
+    hints: bool = False,
     size: str = "",
     style: str = "paper",
     transparent: bool = False,
@@ -113,7 +114,7 @@ def figure(
         anchors=tuple(Anchor(name, value) for name, value in zip(names, marked.values(), strict=True)),
         zooms=tuple(Zoom(*zoom) if isinstance(zoom, tuple) else Zoom(zoom) for zoom in zooms),
         isolines=isolines,
-        shared_range=shared_range,
+        range="shared" if shared_range else "own",
         height=height,
         camera=chosen[0] if chosen else "home",
     )

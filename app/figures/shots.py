@@ -67,7 +67,7 @@ def take_shots(figure: Figure, layout: Layout, vector: bool, progress: Progress)
             studio.shown.show_surface(mesh)
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
-            studio.shown.show_isolines(0 if vector or panel.field is None else panel.isolines)
+            studio.shown.show_isolines(0 if vector or panel.field is None else panel.isolines.count)
             for number, (view, box) in enumerate(zip(panel.views, cell.views, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 camera = _camera(view, panel, surface, box)
@@ -182,7 +182,7 @@ class _Taker:
         if panel.field is None:
             return []
         found = isolines(
-            self._surface, panel.field, isoline_values(panel.field, self._top, panel.isolines, panel.signed)
+            self._surface, panel.field, isoline_values(panel.field, self._top, panel.isolines.count, panel.signed)
         )
         parts = self._sight.visible(Curve(line.points, line.edges, line.closed) for line in found)
         return [(line.value, p) for line, p in zip(found, parts, strict=True) if p]

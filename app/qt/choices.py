@@ -4,8 +4,8 @@ from dataclasses import replace
 
 from qtpy import QtCore, QtWidgets
 
-from ..document.document import MOST_ISOLINES
 from ..document.edits import MOST_ADDED, PANEL_EDITS, add_another, possible_edits
+from ..document.looks import MOST_ISOLINES
 from .look.canvas import STYLE_NAMES
 from .look.look import LOOK, TALK
 from .preferences import Preferences, save
@@ -23,15 +23,15 @@ class Choices:
         window, document, style = self._window, self._window.session.document, self._window.page.style
         self.show_view()
         for name, value in {
-            "isolines": str(document.isolines),
+            "isolines": str(document.isolines.count),
             "colours": STYLE_NAMES.get(style, style),
-            "range": "Shared" if document.shared_range else "Own",
+            "range": document.range.capitalize(),
         }.items():
             window.tools[name].show_value(value)
         menus = window.menus
-        menus.show_choice(menus.isolines, str(document.isolines))
+        menus.show_choice(menus.isolines, str(document.isolines.count))
         menus.show_choice(menus.colours, style)
-        menus.show_choice(menus.range, "shared" if document.shared_range else "own")
+        menus.show_choice(menus.range, document.range)
         menus.show_choice(menus.theme, LOOK.choice)
 
     def show_view(self) -> None:
@@ -56,10 +56,11 @@ class Choices:
     # ------------------------------------------------------------------ how fields are shown
     def isolines(self, count: int) -> None:
         session = self._window.session
-        session.show(replace(session.document, isolines=count), key="isolines")
+        now = session.document.isolines
+        session.show(replace(session.document, isolines=replace(now, count=count)), key="isolines")
 
     def ask_isolines(self) -> None:
-        now = self._window.session.document.isolines
+        now = self._window.session.document.isolines.count
         count, chosen = QtWidgets.QInputDialog.getInt(
             self._window, "Isolines", "Equal steps from 0 to each panel's maximum:", now, 0, MOST_ISOLINES
         )
@@ -69,7 +70,7 @@ class Choices:
     def range(self, word: str) -> None:
         """ "own" or "shared"."""
         session = self._window.session
-        session.show(replace(session.document, shared_range=word == "shared"))
+        session.show(replace(session.document, range=word))
 
     def style(self, word: str) -> None:
         """One of the drawing's styles, for the panels and for the figures to come."""

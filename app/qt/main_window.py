@@ -224,9 +224,9 @@ class MainWindow(QtWidgets.QMainWindow):
         if other_panels or document.zooms != before.zooms:
             self.grid.show_insets(document)
         if is_other or document.isolines != before.isolines:
-            self.grid.show_isolines(document.isolines)
+            self.grid.show_isolines(document.isolines.count)
         is_raised = document.height != before.height
-        if other_panels or is_raised or document.shared_range != before.shared_range:
+        if other_panels or is_raised or document.range != before.range:
             for panel in document.panels:
                 if self.session.is_answered(panel.id):
                     self.answer_changed(panel.id)
@@ -266,7 +266,7 @@ class MainWindow(QtWidgets.QMainWindow):
         document = self.session.document
         self.grid.show_surface()
         self.grid.expect_sources(document)
-        self.grid.show_isolines(document.isolines)
+        self.grid.show_isolines(document.isolines.count)
         self.grid.mark_anchors(document)
         self.grid.show_insets(document)
         for id in self.session.shown:

@@ -12,7 +12,7 @@ from typing import Any
 
 from qtpy import QtCore, QtWidgets
 
-from ..document.document import MOST_ISOLINES
+from ..document.looks import MOST_ISOLINES
 from . import remembered
 
 VERSION = 1

@@ -13,6 +13,7 @@ from app.document.camera import Camera
 from app.document.document import Anchor, MeshFile, Panel, Place, Point, Zoom, comparison
 from app.document.edits import put_point
 from app.document.file import checksum, read_recipe, recipe_text
+from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page, Recipe
 from app.document.quantities import DistanceFrom
 from app.main import main
@@ -64,15 +65,22 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
         document,
         surfaces=(MeshFile("A", "mesh.off", "ab" * 32),),
         panels=tuple(replace(panel, maximum=0.1 * panel.id or None) for panel in document.panels),
-        isolines=7,
-        shared_range=True,
+        isolines=Isolines(7, values=(0.5, 0.25), bold=5, labels=True, through=("tip",)),
+        range="shares",
+        colours=Colours("mine", ((0.0, (0.0, 0.5, 1.0)), (1.0, (1.0, 1.0, 1.0))), True, True),
+        shading=Shading("creased", 35.0, True),
+        up="-z",
+        projection="orthographic",
+        axes=True,
         camera=Camera((1 / 3, 2.0, 3.0), (0.0, 0.0, 0.1), (0.0, 1.0, 0.0), (0.2, 0.3)),
-        zooms=(Zoom(3, 2.5, "top left"),),
+        zooms=(Zoom(3, 2.5, "top left", 40),),
         anchors=(Anchor("tip", 0.5), Anchor("source", None)),
         height=0.25,
         next_id=99,
     )
-    page = Page("160mm@300dpi", "dark", "svg", ("home", document.camera), 2, False, True, True)
+    page = Page(
+        "160mm@300dpi", "dark", "svg", ("home", document.camera), 2, False, True, True, "caption", "DejaVu Serif", 7.5
+    )
     path = tmp_path / "recipe.json"
     path.write_text(recipe_text(Recipe(document, page), "0.1"))
     again = read_recipe(path)
@@ -129,7 +137,7 @@ def test_a_recipe_of_version_0_1_means_what_it_meant(tmp_path):
     document, page = recipe.document, recipe.page
     shown = [(str(p.shows.spec), document.point(p.shows.point).at, p.maximum) for p in document.panels]
     assert shown == [("power(alpha=2.5, k=7)", 4, 3.0), ("geodesic(method=heat)", 9, None), ("biharmonic", 4, None)]
-    assert (document.areas, document.isolines, document.height) == ("barycentric", 7, 0.25)
+    assert (document.areas, document.isolines.count, document.height) == ("barycentric", 7, 0.25)
     assert document.zooms == (Zoom(3, 2.5, "top left"),)
     assert anchors(document) == [(4, 0.5), (5, None)]
     assert page.views[0] == document.camera == "left"
@@ -141,7 +149,19 @@ def test_a_recipe_of_version_0_1_draws_the_same_figure(mesh, tmp_path):
     data = of_version_0_1("mesh.off")
     data.update(size="300x200@96dpi", views=["left"], zooms=[{"vertex": 9, "factor": 4}], isolines=12)
     (tmp_path / "old.json").write_text(json.dumps(data))
-    words = ["--distance", "diffusion", "--source", "4", "--view", "left", "--zoom", "9,4", "--isolines", "12"]
+    words = [
+        "--distance",
+        "diffusion",
+        "--source",
+        "4",
+        "--view",
+        "left",
+        "--zoom",
+        "9,4",
+        "--isolines",
+        "12",
+        "--hints",
+    ]
     assert main(["figure", mesh, *words, *SMALL, "-o", str(tmp_path / "new.png")]) == 0
     assert main(["figure", "--recipe", str(tmp_path / "old.json"), "-o", str(tmp_path / "again.png")]) == 0
     assert (tmp_path / "new.png").read_bytes() == (tmp_path / "again.png").read_bytes()
@@ -290,7 +310,7 @@ def drawn(mesh, tmp_path):
 @pytest.mark.parametrize(
     ("words", "found", "wanted"),
     [
-        (["--isolines", "3"], lambda r: r.document.isolines, 3),
+        (["--isolines", "3"], lambda r: r.document.isolines.count, 3),
         (["--source", "8"], lambda r: r.document.sources, (8,)),
         (["--t", "1/4"], lambda r: [str(p.shows.spec) for p in r.document.panels], ["biharmonic", "diffusion(t=1/4)"]),
         (["--distance", "commute-time"], lambda r: [str(p.shows.spec) for p in r.document.panels], ["commute-time"]),
@@ -305,7 +325,7 @@ def drawn(mesh, tmp_path):
             lambda r: anchors(r.document),
             [(3, 0.2)],
         ),
-        (["--no-hints"], lambda r: r.page.hints, False),
+        (["--hints"], lambda r: r.page.hints, True),
         (["--no-crop"], lambda r: r.page.crop, False),
         (["--transparent"], lambda r: r.page.transparent, True),
         (["--size", "200x150"], lambda r: r.page.size, "200x150"),
@@ -317,7 +337,7 @@ def test_options_beside_a_recipe_change_it_and_leave_the_rest(drawn, words, foun
     assert found(before) != wanted
     assert found(after) == wanted
     if "--isolines" not in words:
-        assert after.document.isolines == 9
+        assert after.document.isolines.count == 9
 
 
 def test_sources_beside_a_recipe_make_rows_as_they_do_without(drawn):
@@ -461,7 +481,7 @@ def test_another_figure_of_the_same_stem_has_a_recipe_of_its_own(mesh, tmp_path,
     )
     after = jsons(tmp_path)
     assert after["f.json"] == before["f.json"]
-    assert read_recipe(tmp_path / "f.svg.json").document.isolines == 5
+    assert read_recipe(tmp_path / "f.svg.json").document.isolines.count == 5
     for name, words in (("f.svg", ["--isolines", "5"]), ("f.png", [])):
         assert drawn_as(tmp_path, capsys, mesh, name, *words) == ""
         assert jsons(tmp_path) == after
@@ -470,7 +490,7 @@ def test_another_figure_of_the_same_stem_has_a_recipe_of_its_own(mesh, tmp_path,
     # A figure's own recipe goes with it.
     assert drawn_as(tmp_path, capsys, mesh, "f.svg", "--isolines", "7") == ""
     assert drawn_as(tmp_path, capsys, mesh, "f.png", "--isolines", "9") == ""
-    isolines = {name: read_recipe(tmp_path / name).document.isolines for name in jsons(tmp_path)}
+    isolines = {name: read_recipe(tmp_path / name).document.isolines.count for name in jsons(tmp_path)}
     assert isolines == {"f.json": 9, "f.svg.json": 7, "again.json": 5}
 
 
@@ -514,7 +534,7 @@ def test_a_recipe_that_was_put_there_is_not_replaced_by_a_variant(drawn, capsys)
     for _ in range(2):
         assert main(variant) == 0
         assert (put / "f.json").read_bytes() == before
-        assert read_recipe(put / "f.png.json").document.isolines == 5
+        assert read_recipe(put / "f.png.json").document.isolines.count == 5
 
 
 def test_a_recipe_of_a_newer_program_is_not_replaced(mesh, tmp_path, capsys):

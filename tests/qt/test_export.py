@@ -139,7 +139,7 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     s.until(lambda: s.document.mesh().path == mesh and s.session.is_complete)
     assert [p.answer.label for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
     assert s.source == 7
-    assert s.document.isolines == 12
+    assert s.document.isolines.count == 12
     assert np.allclose(s.window.grid.camera.GetPosition(), (3, 1, 2))
     exported(s, tmp_path / "again.png")
     again = read_recipe(tmp_path / "again.json")
@@ -216,7 +216,7 @@ def test_a_recipe_without_panels_leaves_an_empty_window_that_works(screen, mesh_
     opened_recipe(s, tmp_path, replace(s.document, panels=(), isolines=500))
     s.settle()
     assert s.panels == []
-    assert s.document.isolines == 500
+    assert s.document.isolines.count == 500
     s.window.reset_view("top")
     assert export_figure(s.window) is None
     assert "no panels" in s.refusals[-1]

@@ -123,7 +123,7 @@ class _Looks(JobDialog):
         self.row("&Columns", self.columns, "How many panels stand side by side")
         self.shared = self.tick(
             "&One colour bar for all panels",
-            self._recipe.document.shared_range,
+            self._recipe.document.range == "shared",
             "The same colour means the same value everywhere",
         )
         self.hints = self.tick("&What to look for", page.hints, "A line under each heading")
@@ -145,7 +145,9 @@ class _Looks(JobDialog):
             hints=self.hints.isChecked(),
         )
         return replace(
-            self._recipe, page=page, document=replace(self._recipe.document, shared_range=self.shared.isChecked())
+            self._recipe,
+            page=page,
+            document=replace(self._recipe.document, range="shared" if self.shared.isChecked() else "own"),
         )
 
     def check_size(self, recipe: Recipe) -> None:

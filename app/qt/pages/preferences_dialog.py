@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from ...document.document import MOST_ISOLINES
+from ...document.looks import MOST_ISOLINES
 from ..look.look import LOOK
 from ..look.segments import Segments
 from ..preferences import Preferences, load, save

@@ -162,7 +162,7 @@ class PanelGrid(QtWidgets.QWidget):
         if opened is not None:
             panel.show_surface(opened)
         panel.view.wheel_factor = self.wheel_factor
-        panel.show_isolines(self._session.document.isolines)
+        panel.show_isolines(self._session.document.isolines.count)
         panel.show()
 
     def show_style(self, style: Style) -> bool:
@@ -216,7 +216,7 @@ class PanelGrid(QtWidgets.QWidget):
     def show_answer(self, id: int) -> None:
         """The answer that the session has now for a panel."""
         document, shown = self._session.document, self._session.shown
-        for other in shown if document.shared_range else (id,):
+        for other in shown if document.range == "shared" else (id,):
             if other in self._panels:
                 self._panels[other].show_answer(shown[other], self._maximum(other), document.height)
         self._point_again()
@@ -227,7 +227,7 @@ class PanelGrid(QtWidgets.QWidget):
     def _maximum(self, id: int) -> float | None:
         """The end of a panel's colour bar; None for the field's own maximum."""
         document, shown = self._session.document, self._session.shown
-        if not document.shared_range:
+        if document.range != "shared":
             return document.panel(id).maximum
         unit = shown[id].answer.unit
         ends = [
