@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -245,7 +245,10 @@ def _draw_words(axes: Axes, page: Composition) -> None:
         shown = [p for p in page.figure.panels if p.field is not None]
         labels = {p.label for p in shown}
         label = labels.pop() if len(labels) == 1 else "distance"
-        _draw_bar(axes, page, layout.shared_bar, max(tops), bar_words(label, shown[0].unit), shown[0])
+        if page.figure.range == "shares":
+            _draw_bar(axes, page, layout.shared_bar, 100.0, "% of each maximum", replace(shown[0], field=None))
+        else:
+            _draw_bar(axes, page, layout.shared_bar, max(tops), bar_words(label, shown[0].unit), shown[0])
 
 
 def _draw_failure(axes: Axes, page: Composition, failure: str, cell: Cell) -> None:

@@ -8,7 +8,7 @@ from bihdist_core import ParameterError, Surface
 
 from ..document.camera import View, checked_view
 from ..document.document import Zoom
-from ..document.looks import TWENTY_STEPS, Isolines
+from ..document.looks import RANGES, TWENTY_STEPS, Isolines, one_of
 from ..drawing.camera import is_flat
 from ..drawing.style import PAPER, Style
 from .size import Size
@@ -89,14 +89,15 @@ USUAL = Size()
 class Figure:
     """Panels row by row, in as many columns as given (all in one row if None).
 
-    shared_range: one colour bar for all, to the largest maximum.  crop: to what is drawn, with a narrow margin.
+    range: where colour bars end, one of RANGES: with "shared", panels of one unit end at the largest maximum of them,
+    and with "shares" each is drawn in shares of its own.  crop: to what is drawn, with a narrow margin.
     """
 
     panels: tuple[FigurePanel, ...]
     columns: int | None = None
     size: Size = USUAL
     style: Style = PAPER
-    shared_range: bool = False
+    range: str = "own"
     transparent: bool = False
     crop: bool = False
 
@@ -105,10 +106,13 @@ class Figure:
             raise ParameterError("A figure needs at least one panel.")
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
-        units = {p.unit for p in self.panels if p.field is not None}
-        if self.shared_range and len(units) > 1:
+        one_of(self.range, RANGES, "range")
+        kinds = [kind for kind in map(_kind, self.panels) if kind]
+        if self.range == "shared" and len(kinds) > 1 and len(set(kinds)) == len(kinds):
+            units = ", ".join(sorted({unit or "none" for unit, _ in kinds}))
             raise ParameterError(
-                f"Panels in different units ({', '.join(sorted(u or 'none' for u in units))}) cannot share a range."
+                f"Panels in different units ({units}) cannot share a range; "
+                "with --range shares (in Python range='shares') they have one bar, in shares of each maximum."
             )
 
     @property
@@ -118,6 +122,23 @@ class Figure:
         return -(-len(self.panels) // columns), columns
 
     def tops(self) -> list[float]:
-        """The end of each panel's colour bar."""
+        """The end of each panel's colours."""
         own = [p.top for p in self.panels]
-        return [max(own)] * len(own) if self.shared_range else own
+        if self.range != "shared":
+            return own
+        kinds = [_kind(p) for p in self.panels]
+        return [max(end for end, other in zip(own, kinds, strict=True) if other == kind) for kind in kinds]
+
+    @property
+    def has_one_bar(self) -> bool:
+        """Whether one colour bar serves all panels."""
+        return self.range != "own" and len({kind for kind in map(self._bar_kind, self.panels) if kind}) == 1
+
+    def _bar_kind(self, panel: FigurePanel) -> tuple[str, bool] | None:
+        kind = _kind(panel)
+        return kind if kind is None or self.range == "shared" else ("", kind[1])
+
+
+def _kind(panel: FigurePanel) -> tuple[str, bool] | None:
+    """What two panels have alike if one colour bar can serve both; None without a field."""
+    return None if panel.field is None else (panel.unit, panel.signed)

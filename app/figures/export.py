@@ -78,7 +78,7 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         columns=page.columns,
         size=Size.parse(page.size) if page.size else Size(),
         style=STYLES[page.style],
-        shared_range=document.range == "shared",
+        range=document.range,
         transparent=page.transparent,
         crop=page.crop,
     )

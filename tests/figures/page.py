@@ -73,7 +73,7 @@ def scenes() -> dict[str, Figure]:
         "genus 3": Figure(comparison(ring, first_source(ring), views=("home", "back"))[:1], size=SIZE, crop=True),
         "flat": Figure(comparison(flat, first_source(flat)), size=SIZE),
         "flat, as a relief": Figure(comparison(flat, first_source(flat), height=0.35), size=SIZE, crop=True),
-        "isolines only": Figure(comparison(hand, tip), size=SIZE, style=STYLES["lines"], shared_range=False),
+        "isolines only": Figure(comparison(hand, tip), size=SIZE, style=STYLES["lines"]),
     }
 
 

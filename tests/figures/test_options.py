@@ -116,12 +116,12 @@ def test_a_shared_range_ends_at_the_largest_maximum(ball):
     field = ball.vertices[:, 1] + 2
     panels = tuple(FigurePanel(ball, k * field, unit="mesh units", isolines=0) for k in (1, 2))
     own = draw_figure(Figure(panels, size=Size(800, 400, dpi=96)))
-    shared = draw_figure(Figure(panels, size=Size(800, 400, dpi=96), shared_range=True))
+    shared = draw_figure(Figure(panels, size=Size(800, 400, dpi=96), range="shared"))
     part = np.s_[100:250]
     assert np.abs(own[part, :400].astype(int) - own[part, 400:]).mean() < 2
     assert np.abs(shared[part, :400].astype(int) - shared[part, 400:]).mean() > 10
     with pytest.raises(ParameterError, match="cannot share a range"):
-        Figure((FigurePanel(ball, field, unit="a"), FigurePanel(ball, field, unit="b")), shared_range=True)
+        Figure((FigurePanel(ball, field, unit="a"), FigurePanel(ball, field, unit="b")), range="shared")
 
 
 def test_marks_are_seen_from_the_front_only(ball):
