@@ -5,7 +5,8 @@ is open, asked and answered), `drawing` (VTK), `figures` (and movies), `paper` (
 (the window), `commands` (the command line).
 
 In a checkout this folder is called `app`; installed it is the package `bihdist`.  The library's names are those of
-`bihdist_core`, imported when they are first asked for, with `figure`, which draws, and `show`, which opens the window.
+`bihdist_core`, imported when they are first asked for, with `figure` and `figure_again`, which draw, and `show`, which
+opens the window.
 """
 
 from typing import TYPE_CHECKING
@@ -16,16 +17,17 @@ if TYPE_CHECKING:
     from bihdist_core import *  # noqa: F403
 
     from .figures.picture import figure as figure
+    from .figures.picture import figure_again as figure_again
     from .qt.show import show as show
 
-__all__ = [*_library.__all__, "figure", "show"]  # type: ignore[attr-defined]
+__all__ = [*_library.__all__, "figure", "figure_again", "show"]  # type: ignore[attr-defined]
 
 
 def __getattr__(name: str) -> object:
-    if name == "figure":
-        from .figures.picture import figure
+    if name in ("figure", "figure_again"):
+        from .figures import picture
 
-        return figure
+        return getattr(picture, name)
     if name == "show":
         from .qt.screen import check_libraries
 

@@ -10,11 +10,13 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from bihdist_core import ParameterError
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
 
 from ..document.camera import Camera, View
 from ..document.document import Anchor, Document, Point, Zoom, free_names
+from ..document.file import read_recipe
 from ..document.looks import Isolines
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity
@@ -76,6 +78,7 @@ def figure(
     isolines: int | Isolines = 20,
     shared_range: bool = False,
     views: View | Sequence[View] = "home",
+    camera: Sequence[float] | None = None,
     zooms: Sequence[int | tuple[int, float]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
     height: float = 0.0,
@@ -91,9 +94,9 @@ def figure(
 
     distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, or several for a row of
     panels each; the highest if None.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is
-    named in `distances` like one: "biharmonic - mine".  views: names or cameras, side by side.  zooms: vertices, or
-    with a factor.  anchors: vertices to be marked, perhaps each with a value.  Raises BihdistError, as the command says
-    its sentences.
+    named in `distances` like one: "biharmonic - mine".  views: names or cameras, side by side.  camera: the eleven
+    numbers that `--camera` takes, after other views.  zooms: vertices, or with a factor.  anchors: vertices to be
+    marked, perhaps each with a value.  Raises BihdistError, as the command says its sentences.
 
     >>> import bihdist
     >>> picture = bihdist.figure("hand", ["biharmonic", "biharmonic - geodesic"], source=12, size="400x200")
@@ -107,7 +110,7 @@ def figure(
     document, given = given_comparison(mesh, distances, {} if fields is None else fields, sources, areas)
     marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
     names = free_names("anchor", len(marked), [point.name for point in document.points])
-    chosen = (views,) if isinstance(views, str | Camera) else tuple(views)
+    chosen = _views(views, camera)
     document = replace(
         document,
         points=(*document.points, *(Point(name, vertex) for name, vertex in zip(names, marked, strict=True))),
@@ -132,3 +135,25 @@ def figure(
     # What cannot be drawn is refused before the long work.
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
     return Picture(recipe, surfaces, given, compute(document, surfaces, progress))
+
+
+def figure_again(recipe: str | os.PathLike[str], progress: Progress | None = None) -> Picture:
+    """The figure of a recipe's file, as `bihdist figure --recipe` draws it; BihdistError where it cannot be drawn."""
+    read = read_recipe(recipe)
+    given = Given.read(read)
+    document, surfaces = open_document(read, given)
+    read = replace(read, document=document)
+    figure_of(read, surfaces, [Answer(label="")] * len(document.panels))
+    return Picture(read, surfaces, given, compute(document, surfaces, progress))
+
+
+def _views(views: View | Sequence[View], camera: Sequence[float] | None) -> tuple[View, ...]:
+    chosen = (views,) if isinstance(views, str | Camera) else tuple(views)
+    if camera is None:
+        return chosen
+    numbers = [float(number) for number in camera]
+    if len(numbers) != 11:
+        raise ParameterError(f"A camera is eleven numbers (position, focal point, up, extent), not {len(numbers)}.")
+    x = tuple(numbers)
+    given = Camera((x[0], x[1], x[2]), (x[3], x[4], x[5]), (x[6], x[7], x[8]), (x[9], x[10]))
+    return (given,) if views == "home" else (*chosen, given)  # a list with "home" asks for both

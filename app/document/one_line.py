@@ -1,0 +1,302 @@
+"""The one line, for a shell or for Python, that makes the figure of a recipe: only what is not as usual is named.
+
+It is the inverse of the options of `bihdist figure` and of the arguments of `bihdist.figure`.  ROWS says which part of
+a document or a page is said by which option and which argument; what is added to either needs a row.
+"""
+
+import os
+import shlex
+import subprocess
+import sys
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from bihdist_core.errors import ParameterError
+
+from ..samples import mesh_path
+from .camera import Camera
+from .document import COMPARISON, Document, Place, Point
+from .page import Page, Recipe
+from .quantities import Quantity, from_point, own_fields
+
+USUAL, USUAL_PAGE = Document(), Page()
+
+
+class _Unsaid(ParameterError):
+    """Why a line cannot say it."""
+
+
+@dataclass(frozen=True)
+class Said:
+    """A part in words: options with their values (None for a switch), and arguments by name."""
+
+    options: tuple[tuple[str, str | None], ...] = ()
+    arguments: dict[str, Any] = field(default_factory=dict)
+
+
+NOTHING = Said()
+
+
+# ---------------------------------------------------------------------- the lines
+def command_line(recipe: Recipe, output: str) -> str:
+    """For a shell: `bihdist figure ... -o OUTPUT`; ParameterError for what `why_not` names."""
+    words = ["bihdist", "figure", mesh_word(recipe.document.surfaces[0].path)]
+    for said in _all_said(recipe):
+        for option, value in said.options:
+            words += [option] if value is None else [f"{option}={value}"] if value[:1] == "-" else [option, value]
+    return _joined([*words, "-o", output])
+
+
+def python_line(recipe: Recipe, output: str) -> str:
+    """For Python: `import bihdist; bihdist.figure(...).save(OUTPUT)`."""
+    arguments = [repr(mesh_word(recipe.document.surfaces[0].path))]
+    for said in _all_said(recipe):
+        arguments += [f"{name}={value!r}" for name, value in said.arguments.items()]
+    return f"import bihdist; bihdist.figure({', '.join(arguments)}).save({output!r})"
+
+
+def recipe_command_line(path: str, output: str) -> str:
+    """The same from a recipe's file, for what no line can say."""
+    return _joined(["bihdist", "figure", "--recipe", path, "-o", output])
+
+
+def recipe_python_line(path: str, output: str) -> str:
+    return f"import bihdist; bihdist.figure_again({path!r}).save({output!r})"
+
+
+def why_not(recipe: Recipe) -> str:
+    """A sentence on what of a recipe no line can say; empty if all of it can be said."""
+    try:
+        for _ in _all_said(recipe):
+            pass
+    except _Unsaid as reason:
+        return str(reason)
+    return ""
+
+
+def mesh_word(path: str) -> str:
+    """How a line names a mesh wherever it is run: a sample by its name, a file by its whole path."""
+    stem = os.path.splitext(os.path.basename(path))[0]
+    sample = mesh_path(stem)
+    if not os.path.exists(path) or (sample != stem and os.path.exists(sample) and os.path.samefile(path, sample)):
+        return stem if os.path.exists(path) else path
+    return os.path.abspath(path)
+
+
+def _joined(words: list[str]) -> str:
+    return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
+
+
+def _all_said(recipe: Recipe) -> Iterable[Said]:
+    return (row.say(recipe) for row in ROWS)
+
+
+# ---------------------------------------------------------------------- what is shown of what
+def _mesh(recipe: Recipe) -> Said:
+    if len(recipe.document.surfaces) != 1:
+        raise _Unsaid(f"{len(recipe.document.surfaces)} meshes do not go into one line.")
+    if not recipe.document.surfaces[0].path:
+        raise _Unsaid("The mesh was given from Python as arrays, which no line can hold.")
+    if recipe.document.fields or any(own_fields(panel.shows) for panel in recipe.document.panels):
+        raise _Unsaid("Fields of one's own were given from Python as arrays, which no line can hold.")
+    return NOTHING
+
+
+def _panels(recipe: Recipe) -> Said:
+    """Quantities, and the sources from which each of them is shown, if that is how the panels stand."""
+    document = recipe.document
+    if not document.panels:
+        raise _Unsaid("There are no panels.")
+    if any(panel.maximum is not None for panel in document.panels):
+        raise _Unsaid("A colour bar of a panel ends where somebody typed.")
+    names = list(dict.fromkeys(name for panel in document.panels for name in panel.shows.points))
+    shows: list[Quantity] = [
+        from_point(p.shows, "source") for p in document.panels if set(p.shows.points) == {names[0]}
+    ]
+    if [panel.shows for panel in document.panels] != [from_point(each, name) for name in names for each in shows]:
+        raise _Unsaid("The panels start from different points, and not each distance from each.")
+    at = [_vertex(document.point(name)) for name in names]
+    if None in at and len(at) > 1:
+        raise _Unsaid("One of several sources is where nobody has put it.")
+    words = [str(each) for each in shows]
+    is_usual = words == [str(spec) for spec in COMPARISON]
+    options = [*([] if is_usual else [("--distance", word) for word in words])]
+    options += [("--source", str(vertex)) for vertex in at if vertex is not None]
+    arguments: dict[str, Any] = {} if is_usual else {"distances": words}
+    if at != [None]:
+        arguments["source"] = at if len(at) > 1 else at[0]
+    return Said(tuple(options), arguments)
+
+
+def _vertex(point: Point) -> int | None:
+    if isinstance(point.at, Place):
+        raise _Unsaid("A point lies within a face, where no vertex is.")
+    return point.at
+
+
+def _columns(recipe: Recipe) -> Said:
+    """Without a word, one row a source."""
+    names = {name for panel in recipe.document.panels for name in panel.shows.points}
+    usual = len(recipe.document.panels) // len(names) if len(names) > 1 else None
+    if recipe.page.columns is None and usual is not None:
+        raise _Unsaid("The panels of several sources are in one row.")
+    if recipe.page.columns == usual:
+        return NOTHING
+    return _option("--columns", "columns", recipe.page.columns)
+
+
+def _views(recipe: Recipe) -> Said:
+    views = recipe.views
+    cameras = [view for view in views if isinstance(view, Camera)]
+    if len(cameras) > 1 or (cameras and views[-1] is not cameras[0]):
+        raise _Unsaid("There are several cameras.")
+    names = [view for view in views if isinstance(view, str)]
+    if names == ["home"] and not cameras:
+        return NOTHING
+    options: list[tuple[str, str | None]] = [("--view", name) for name in names]
+    arguments: dict[str, Any] = {"views": names[0] if len(views) == 1 else names} if names else {}
+    for camera in cameras:
+        numbers = (*camera.position, *camera.focal_point, *camera.up, *camera.extent)
+        options.append(("--camera", ",".join(map(_number, numbers))))
+        arguments["camera"] = tuple(map(float, numbers))
+    return Said(tuple(options), arguments)
+
+
+def _zooms(recipe: Recipe) -> Said:
+    zooms = recipe.document.zooms
+    if not zooms:
+        return NOTHING
+    if any(zoom.corner != "auto" or zoom.isolines is not None for zoom in zooms):
+        raise _Unsaid("An inset has a corner or isolines of its own.")
+    options = tuple(("--zoom", f"{zoom.vertex},{_number(zoom.factor)}") for zoom in zooms)
+    return Said(options, {"zooms": [(zoom.vertex, zoom.factor) for zoom in zooms]})
+
+
+def _anchors(recipe: Recipe) -> Said:
+    document = recipe.document
+    marks = [(_vertex(document.point(anchor.point)), anchor.value) for anchor in document.anchors]
+    if not marks:
+        return NOTHING
+    if len(dict(marks)) < len(marks) or None in dict(marks):
+        raise _Unsaid("Two marks are at one vertex, or one is where nobody has put it.")
+    words = ",".join(f"{vertex}" if value is None else f"{vertex}={_number(value)}" for vertex, value in marks)
+    return Said((("--anchors", words),), {"anchors": dict(marks)})
+
+
+# ---------------------------------------------------------------------- how it looks
+def _isolines(recipe: Recipe) -> Said:
+    isolines = recipe.document.isolines
+    if isolines.spacing is not None or isolines.values or isolines.bold or isolines.labels or isolines.through:
+        raise _Unsaid("Isolines are not so many equal steps.")
+    return NOTHING if isolines == USUAL.isolines else _option("--isolines", "isolines", isolines.count)
+
+
+def _range(recipe: Recipe) -> Said:
+    if recipe.document.range == "shares":
+        raise _Unsaid("The colour bars read shares of the maximum.")
+    return _switched("--shared-range", "shared_range") if recipe.document.range == "shared" else NOTHING
+
+
+def _of_document(name: str, option: str, argument: str) -> Callable[[Recipe], Said]:
+    """A field that is said by one option; a switch if it is a flag."""
+    return lambda recipe: _if_unusual(getattr(recipe.document, name), getattr(USUAL, name), option, argument)
+
+
+def _of_page(name: str, option: str, argument: str) -> Callable[[Recipe], Said]:
+    return lambda recipe: _if_unusual(getattr(recipe.page, name), getattr(USUAL_PAGE, name), option, argument)
+
+
+def _if_unusual(value: Any, usual: Any, option: str, argument: str) -> Said:
+    if value == usual:
+        return NOTHING
+    return _switched(option, argument) if isinstance(value, bool) else _option(option, argument, value)
+
+
+def _only_usual(get: Callable[[Recipe], Any], sentence: str) -> Callable[[Recipe], Said]:
+    """What no option says yet."""
+    usual = get(Recipe(USUAL, USUAL_PAGE))
+
+    def say(recipe: Recipe) -> Said:
+        if get(recipe) != usual:
+            raise _Unsaid(sentence)
+        return NOTHING
+
+    return say
+
+
+def _switched(option: str, argument: str) -> Said:
+    return Said(((option, None),), {argument: True})
+
+
+def _option(option: str, argument: str, value: Any) -> Said:
+    return Said(((option, value if isinstance(value, str) else _number(value)),), {argument: value})
+
+
+def _number(value: float) -> str:
+    """The shortest digits that are the number again."""
+    return repr(value if isinstance(value, int) else float(value))
+
+
+@dataclass(frozen=True)
+class Row:
+    """Parts, such as "Document.areas", and what says them."""
+
+    parts: tuple[str, ...]
+    say: Callable[[Recipe], Said]
+
+
+ROWS = (
+    Row(("Document.surfaces", "Document.fields"), _mesh),
+    Row(("Document.points", "Document.panels", "Panel.shows", "Panel.maximum"), _panels),
+    Row(("Document.areas",), _of_document("areas", "--areas", "areas")),
+    Row(("Document.camera", "Page.views"), _views),
+    Row(("Document.zooms", "Zoom.vertex", "Zoom.factor", "Zoom.corner", "Zoom.isolines"), _zooms),
+    Row(("Document.anchors", "Anchor.point", "Anchor.value"), _anchors),
+    Row(
+        (
+            "Document.isolines",
+            "Isolines.count",
+            "Isolines.spacing",
+            "Isolines.values",
+            "Isolines.bold",
+            "Isolines.labels",
+            "Isolines.through",
+        ),
+        _isolines,
+    ),
+    Row(("Document.range",), _range),
+    Row(
+        ("Document.colours", "Colours.map", "Colours.stops", "Colours.reversed", "Colours.bands"),
+        _only_usual(lambda recipe: recipe.document.colours, "The colours are not those of the style."),
+    ),
+    Row(
+        ("Document.shading", "Shading.normals", "Shading.crease", "Shading.wireframe"),
+        _only_usual(lambda recipe: recipe.document.shading, "The surface is not shaded as usual."),
+    ),
+    Row(("Document.up",), _only_usual(lambda recipe: recipe.document.up, "Another axis is up.")),
+    Row(
+        ("Document.projection",),
+        _only_usual(lambda recipe: recipe.document.projection, "The projection is not the usual one."),
+    ),
+    Row(("Document.axes",), _only_usual(lambda recipe: recipe.document.axes, "The axes are shown.")),
+    Row(("Document.height",), _of_document("height", "--height", "height")),
+    Row(("Page.columns",), _columns),
+    Row(("Page.hints",), _of_page("hints", "--hints", "hints")),
+    Row(("Page.size",), _of_page("size", "--size", "size")),
+    Row(("Page.style",), _of_page("style", "--style", "style")),
+    Row(("Page.title",), _only_usual(lambda recipe: recipe.page.title, "The names stand elsewhere.")),
+    Row(("Page.font",), _only_usual(lambda recipe: recipe.page.font, "The font is not the usual one.")),
+    Row(("Page.text",), _only_usual(lambda recipe: recipe.page.text, "The text is not of the usual size.")),
+    Row(("Page.transparent",), _of_page("transparent", "--transparent", "transparent")),
+    Row(("Page.crop",), _of_page("crop", "--crop", "crop")),
+)
+
+UNSEEN = {
+    "Document.tool": "what a click does in the window",
+    "Document.next_id": "for panels that are still to come",
+    "Panel.id": "for the window and the history",
+    "Panel.surface": "with one mesh all panels are of it",
+    "Page.format": "the file's name says it",
+}
+"""Parts that no line names, since no figure shows them, and what they are for."""

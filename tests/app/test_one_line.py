@@ -1,0 +1,319 @@
+"""Lines that make a figure: read again they mean what they were made from, and every part of a document has a row."""
+
+import argparse
+import shlex
+from dataclasses import fields, replace
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import app
+from app.commands.figure_options import add_figure_options, chosen_recipe
+from app.document import one_line
+from app.document.camera import VIEWS, Camera
+from app.document.document import Anchor, Document, FieldArray, MeshFile, Panel, Place, Point, Zoom, comparison
+from app.document.looks import Colours, Isolines, Shading
+from app.document.page import Page, Recipe
+from app.document.quantities import Difference, DistanceFrom, OwnField
+from bihdist_core import ParameterError
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+COUNT = 60
+BIHARMONIC, DIFFUSION = Spec.of("biharmonic"), Spec.of("diffusion", t=1 / 15)
+GEODESIC = Spec.of("geodesic", method="heat")
+CAMERA = Camera((0.1, 2.0, 1 / 3), (0.0, -1e-9, 0.0), (0.0, 1.0, 0.1), (0.4, 0.30000000000000004))
+
+
+@pytest.fixture(scope="module")
+def mesh(tmp_path_factory):
+    """A file whose name a shell would take apart."""
+    surface = bumpy(COUNT)
+    path = tmp_path_factory.mktemp("it's a folder") / "a mesh.off"
+    rows = [
+        f"OFF\n{len(surface.vertices)} {len(surface.faces)} 0",
+        *(f"{x!r} {y!r} {z!r}" for x, y, z in surface.vertices.tolist()),
+    ]
+    path.write_text("\n".join([*rows, *(f"3 {a} {b} {c}" for a, b, c in surface.faces.tolist())]) + "\n")
+    return str(path)
+
+
+def read_again(line):
+    """The recipe that a shell's line means."""
+    words = shlex.split(line)
+    assert words[:2] == ["bihdist", "figure"]
+    parser = argparse.ArgumentParser()
+    add_figure_options(parser, "")
+    return chosen_recipe(parser.parse_args(words[2:]))
+
+
+def run_again(line):
+    """The recipe of the picture that a line of Python makes."""
+    start, call = line.split("; ", 1)
+    assert start == "import bihdist"
+    picture = eval(call.rpartition(".save(")[0], {"bihdist": app})
+    return picture._recipe
+
+
+def shown(recipe):
+    """What a recipe's figure depends on, with names and numbers that nobody sees as they come."""
+    document = recipe.document
+    names = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
+    renamed = {name: f"source {k}" for k, name in enumerate(names)}
+    marked = [*(anchor.point for anchor in document.anchors), *document.isolines.through]
+    at = [document.point(name).at for name in (*names, *marked)]
+    marks = [f"mark {k}" for k in range(len(marked))]
+
+    def part(each):
+        return replace(each, point=renamed[each.point]) if isinstance(each, DistanceFrom) else each
+
+    panels = [
+        replace(p, id=k, shows=p.shows.with_parts(tuple(map(part, p.shows.parts))))
+        for k, p in enumerate(document.panels)
+    ]
+    anchors = tuple(replace(anchor, point=mark) for anchor, mark in zip(document.anchors, marks, strict=False))
+    points = tuple(Point(*each) for each in zip([*renamed.values(), *marks], at, strict=True))
+    isolines = replace(document.isolines, through=tuple(marks[len(anchors) :]))
+    drawn = replace(
+        document,
+        surfaces=(MeshFile("A", document.surfaces[0].path),),
+        points=points,
+        panels=tuple(panels),
+        next_id=len(panels),
+        anchors=anchors,
+        isolines=isolines,
+        camera=recipe.views[0],
+    )
+    views = recipe.views if len(recipe.views) > 1 else ()
+    return Recipe(drawn, replace(recipe.page, views=views, format=""))
+
+
+def usual(path, **changes):
+    return replace(comparison(path, (BIHARMONIC,), (5,)), **changes)
+
+
+EXAMPLES = {
+    "Document.points": lambda d, p: (replace(d, points=(Point("source", 7),)), p),
+    "Document.panels": lambda d, p: (replace(d, panels=(*d.panels, Panel(1, DistanceFrom(DIFFUSION))), next_id=2), p),
+    "Document.areas": lambda d, p: (replace(d, areas="barycentric"), p),
+    "Document.isolines": lambda d, p: (replace(d, isolines=Isolines(7)), p),
+    "Document.range": lambda d, p: (replace(d, range="shared"), p),
+    "Document.camera": lambda d, p: (replace(d, camera=CAMERA), p),
+    "Document.zooms": lambda d, p: (replace(d, zooms=(Zoom(3), Zoom(9, 1 / 0.3))), p),
+    "Document.anchors": lambda d, p: (
+        replace(d, points=(*d.points, Point("anchor", 8)), anchors=(Anchor("anchor", -1e-7), Anchor("source"))),
+        p,
+    ),
+    "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
+    "Document.shading": lambda d, p: (replace(d, shading=Shading("flat")), p),
+    "Document.up": lambda d, p: (replace(d, up="-x"), p),
+    "Document.projection": lambda d, p: (replace(d, projection="orthographic"), p),
+    "Document.axes": lambda d, p: (replace(d, axes=True), p),
+    "Panel.shows": lambda d, p: (
+        replace(
+            d, panels=(replace(d.panels[0], shows=Difference(DistanceFrom(BIHARMONIC), DistanceFrom(GEODESIC), True)),)
+        ),
+        p,
+    ),
+    "Panel.maximum": lambda d, p: (replace(d, panels=(replace(d.panels[0], maximum=0.1 + 0.2),)), p),
+    "Zoom.vertex": lambda d, p: (replace(d, zooms=(Zoom(11),)), p),
+    "Zoom.factor": lambda d, p: (replace(d, zooms=(Zoom(11, 2.5),)), p),
+    "Zoom.corner": lambda d, p: (replace(d, zooms=(Zoom(11, corner="top left"),)), p),
+    "Zoom.isolines": lambda d, p: (replace(d, zooms=(Zoom(11, isolines=60),)), p),
+    "Anchor.point": lambda d, p: (replace(d, points=(*d.points, Point("m", 8)), anchors=(Anchor("m"),)), p),
+    "Anchor.value": lambda d, p: (replace(d, anchors=(Anchor("source", 0.25),)), p),
+    "Isolines.count": lambda d, p: (replace(d, isolines=Isolines(0)), p),
+    "Isolines.spacing": lambda d, p: (replace(d, isolines=Isolines(spacing=1 / 3)), p),
+    "Isolines.values": lambda d, p: (replace(d, isolines=Isolines(values=(0.1, 0.25))), p),
+    "Isolines.bold": lambda d, p: (replace(d, isolines=Isolines(bold=5)), p),
+    "Isolines.labels": lambda d, p: (replace(d, isolines=Isolines(labels=True)), p),
+    "Isolines.through": lambda d, p: (replace(d, isolines=Isolines(through=("source",))), p),
+    "Colours.map": lambda d, p: (replace(d, colours=Colours("paper")), p),
+    "Colours.stops": lambda d, p: (
+        replace(d, colours=Colours("mine", ((0.0, (0.0, 0.0, 0.0)), (1.0, (1.0, 0.5, 0.1))))),
+        p,
+    ),
+    "Colours.reversed": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
+    "Colours.bands": lambda d, p: (replace(d, colours=Colours(bands=True)), p),
+    "Shading.normals": lambda d, p: (replace(d, shading=Shading("smooth")), p),
+    "Shading.crease": lambda d, p: (replace(d, shading=Shading("creased", 30.5)), p),
+    "Shading.wireframe": lambda d, p: (replace(d, shading=Shading(wireframe=True)), p),
+    "Page.size": lambda d, p: (d, replace(p, size="160x80mm@300dpi")),
+    "Page.style": lambda d, p: (d, replace(p, style="dark")),
+    "Page.views": lambda d, p: (d, replace(p, views=("home", "back", CAMERA))),
+    "Page.columns": lambda d, p: (d, replace(p, columns=2)),
+    "Page.hints": lambda d, p: (d, replace(p, hints=True)),
+    "Page.transparent": lambda d, p: (d, replace(p, transparent=True)),
+    "Page.crop": lambda d, p: (d, replace(p, crop=True)),
+    "Page.title": lambda d, p: (d, replace(p, title="caption")),
+    "Page.font": lambda d, p: (d, replace(p, font="DejaVu Serif")),
+    "Page.text": lambda d, p: (d, replace(p, text=7.5)),
+}
+"""For each part a change of it."""
+
+ELSEWHERE = {
+    "Document.surfaces": "every line names the mesh",
+    "Document.fields": "arrays: see the test of what is said in words",
+    "Document.height": "needs a flat mesh: see its test",
+}
+
+WORDLESS = {"Zoom.corner", "Zoom.isolines", "Panel.maximum"} | {
+    name
+    for name in EXAMPLES
+    if name.startswith(("Colours.", "Shading."))
+    or name in ("Document.colours", "Document.shading", "Document.up", "Document.projection", "Document.axes")
+    or name in ("Isolines.spacing", "Isolines.values", "Isolines.bold", "Isolines.labels", "Isolines.through")
+    or name in ("Page.title", "Page.font", "Page.text")
+}
+"""Parts that only a recipe's file says so far."""
+
+PARTS = [
+    f"{part.__name__}.{f.name}"
+    for part in (Document, Panel, Zoom, Anchor, Isolines, Colours, Shading, Page)
+    for f in fields(part)
+]
+
+
+def test_every_part_of_a_document_and_its_page_has_a_row():
+    """A new field fails here until a row of `one_line.ROWS` says it, or UNSEEN why none need."""
+    rows = [part for row in one_line.ROWS for part in row.parts]
+    assert sorted([*rows, *one_line.UNSEEN]) == sorted(PARTS)
+    assert sorted([*EXAMPLES, *ELSEWHERE, *one_line.UNSEEN]) == sorted(PARTS)
+
+
+@pytest.mark.parametrize("part", sorted(EXAMPLES))
+def test_each_part_is_said_by_both_lines_or_in_words(part, mesh):
+    recipe = Recipe(*EXAMPLES[part](usual(mesh), Page()))
+    assert shown(recipe) != shown(Recipe(usual(mesh)))
+    reason = one_line.why_not(recipe)
+    assert bool(reason) == (part in WORDLESS)
+    if reason:
+        with pytest.raises(ParameterError, match=r"\.$"):
+            one_line.command_line(recipe, "out.png")
+        return
+    assert shown(read_again(one_line.command_line(recipe, "out.png"))) == shown(recipe)
+    assert shown(run_again(one_line.python_line(recipe, "out.png"))) == shown(recipe)
+
+
+def test_what_is_usual_is_not_named(mesh):
+    recipe = Recipe(comparison(mesh))
+    assert shlex.split(one_line.command_line(recipe, "a b.png")) == ["bihdist", "figure", mesh, "-o", "a b.png"]
+    assert one_line.python_line(recipe, "b.pdf") == f"import bihdist; bihdist.figure({mesh!r}).save('b.pdf')"
+    assert one_line.command_line(Recipe(comparison("hand")), "h.png") == "bihdist figure hand -o h.png"
+
+
+def test_a_mesh_is_named_wherever_the_line_is_run(mesh, monkeypatch, tmp_path):
+    from app.samples import mesh_path
+
+    assert one_line.mesh_word(mesh_path("hand")) == "hand"
+    assert one_line.mesh_word("hand") == "hand"
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "hand.ply").write_text("another")
+    assert one_line.mesh_word("hand.ply") == str(tmp_path / "hand.ply")
+
+
+def test_a_relief_is_said(tmp_path):
+    path = tmp_path / "flat.off"
+    path.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 3\n3 0 3 2\n")
+    recipe = Recipe(replace(comparison(str(path), (BIHARMONIC,), (0,)), height=0.1 + 0.2))
+    assert shown(read_again(one_line.command_line(recipe, "r.png"))) == shown(recipe)
+    assert shown(run_again(one_line.python_line(recipe, "r.png"))) == shown(recipe)
+
+
+def test_what_no_line_can_hold_is_said_in_words(mesh):
+    field = FieldArray("mine", "00")
+    document = usual(mesh)
+    other = replace(document, points=(Point("source", 3), Point("b", 4)), next_id=2)
+    for changed, words in [
+        (replace(document, fields=(field,)), "arrays"),
+        (replace(document, fields=(field,), panels=(Panel(0, OwnField("mine")),)), "arrays"),
+        (replace(document, surfaces=(MeshFile("A", "", "00"),)), "arrays"),
+        (replace(document, surfaces=(*document.surfaces, MeshFile("B", mesh))), "2 meshes"),
+        (replace(document, panels=()), "no panels"),
+        (replace(document, points=(Point("source", Place(3, (0.2, 0.2, 0.6))),)), "within a face"),
+        (
+            replace(other, panels=(Panel(0, DistanceFrom(BIHARMONIC)), Panel(1, DistanceFrom(DIFFUSION, "b")))),
+            "different points",
+        ),
+        (
+            replace(other, panels=(Panel(0, Difference(DistanceFrom(BIHARMONIC), DistanceFrom(BIHARMONIC, "b"))),)),
+            "different points",
+        ),
+        (replace(document, camera="top"), ""),
+    ]:
+        assert words in one_line.why_not(Recipe(changed))
+    assert "several cameras" in one_line.why_not(Recipe(document, Page(views=(CAMERA, CAMERA))))
+    assert one_line.recipe_command_line("a b.json", "x.png") == "bihdist figure --recipe 'a b.json' -o x.png"
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_a_line_of_python_draws_a_recipe_again(mesh, tmp_path):
+    from app.main import main
+
+    assert main(["figure", mesh, "--distance", "biharmonic", "--size", "200x200", "-o", str(tmp_path / "a.png")]) == 0
+    line = one_line.recipe_python_line(str(tmp_path / "a.json"), str(tmp_path / "b.png"))
+    exec(line.partition("; ")[2], {"bihdist": app})
+    assert (tmp_path / "b.png").read_bytes() == (tmp_path / "a.png").read_bytes()
+
+
+# ---------------------------------------------------------------------- any of them
+NUMBERS = st.floats(-1e6, 1e6)
+SPECS = st.sampled_from(
+    [
+        BIHARMONIC,
+        DIFFUSION,
+        Spec.of("diffusion", t=0.1 + 0.2),
+        Spec.of("truncated", k=7),
+        Spec.of("geodesic", method="heat"),
+    ]
+)
+QUANTITIES = st.one_of(
+    SPECS.map(DistanceFrom), st.builds(Difference, SPECS.map(DistanceFrom), SPECS.map(DistanceFrom), st.booleans())
+)
+VERTICES = st.integers(0, COUNT - 1)
+CAMERAS = st.builds(
+    Camera,
+    st.tuples(NUMBERS, NUMBERS, st.floats(1, 9)),
+    st.tuples(NUMBERS, NUMBERS, st.floats(-9, 0)),
+    st.sampled_from([(0.0, 1.0, 1e-9), (1e-3, 1.0, 0.1)]),
+    st.tuples(st.floats(1e-3, 1e3), st.floats(1e-3, 1e3)),
+)
+
+
+@st.composite
+def recipes(draw):
+    sources = tuple(draw(st.lists(VERTICES, min_size=1, max_size=3, unique=True)))
+    document = comparison("hand", tuple(draw(st.lists(QUANTITIES, min_size=1, max_size=3, unique=True))), sources)
+    marks = draw(st.dictionaries(VERTICES, st.none() | NUMBERS, max_size=3))
+    views = [*draw(st.lists(st.sampled_from(VIEWS), max_size=2)), *draw(st.lists(CAMERAS, max_size=1))] or ["home"]
+    document = replace(
+        document,
+        points=(*document.points, *(Point(f"anchor {vertex}", vertex) for vertex in marks)),
+        anchors=tuple(Anchor(f"anchor {vertex}", value) for vertex, value in marks.items()),
+        areas=draw(st.sampled_from(["voronoi", "barycentric"])),
+        isolines=Isolines(draw(st.integers(0, 1000))),
+        range=draw(st.sampled_from(["own", "shared"])),
+        zooms=tuple(draw(st.lists(st.builds(Zoom, VERTICES, st.floats(1.001, 100)), max_size=2))),
+        height=draw(st.sampled_from([0.0, 0.35, 1 / 3])),
+        camera=views[0],
+    )
+    page = Page(
+        views=tuple(views) if len(views) > 1 else (),
+        size=draw(st.sampled_from(["", "85mm", "1920x1080", "160mm@600dpi"])),
+        style=draw(st.sampled_from(["paper", "dark", "lines"])),
+        columns=draw(st.integers(1, 9)) if len(sources) > 1 else draw(st.none() | st.integers(1, 9)),
+        hints=draw(st.booleans()),
+        transparent=draw(st.booleans()),
+        crop=draw(st.booleans()),
+    )
+    return Recipe(document, page)
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
+@given(recipes())
+def test_any_line_read_again_is_what_it_was_made_from(recipe):
+    line = one_line.command_line(recipe, "out.pdf")
+    assert "\n" not in line
+    assert shown(read_again(line)) == shown(recipe)
+    assert one_line.command_line(read_again(line), "out.pdf") == line
