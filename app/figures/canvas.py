@@ -67,8 +67,11 @@ def matplotlib_settings() -> Iterator[None]:
         yield
 
 
-def drawn(page: Composition, vector: bool) -> Canvas:
-    """The page in matplotlib; not `vector`: without what is there as pixels already."""
+def drawn(page: Composition, vector: bool, shots: bool = True, words: bool = True) -> Canvas:
+    """The page in matplotlib; not `vector`: without what is there as pixels already.
+
+    shots, words: whether there is what lies on the pictures, and what stands beside them.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as Canvas
 
@@ -82,9 +85,10 @@ def drawn(page: Composition, vector: bool) -> Canvas:
     axes.set_xlim(0, width)
     axes.set_ylim(height, 0)
     axes.axis("off")
-    for number, shot in enumerate(page.shots):
+    for number, shot in enumerate(page.shots if shots else ()):
         _draw_shot(axes, page, number, shot, vector)
-    _draw_words(axes, page)
+    if words:
+        _draw_words(axes, page)
     return canvas
 
 

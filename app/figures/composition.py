@@ -2,19 +2,57 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 
+from bihdist_core import Surface
+
 from .canvas import Composition, drawn, matplotlib_settings
+from .description import FigurePanel
 from .layout import Box
 
 CROP_MARGIN = 6.0
 """Units left around what is drawn."""
 
 
-def page_pixels(page: Composition) -> np.ndarray:
-    """(height, width, 3) uint8, or (height, width, 4) if it is transparent."""
+class KeptWords:
+    """The words and bars of a page, kept while the next page has the same, as it has where only its shapes turn."""
+
+    def __init__(self) -> None:
+        self._of: tuple | None = None
+        self._notes = np.empty((0, 0, 4), np.uint8)
+
+    def of(self, page: Composition) -> np.ndarray:
+        """(height, width, 4) uint8, as `_notes`."""
+        names = [f.name for f in fields(FigurePanel) if f.name not in ("views", "marks")]
+        panels = [tuple(_told_apart(getattr(panel, name)) for name in names) for panel in page.figure.panels]
+        key = (page.layout, page.figure.style, page.figure.range, *panels)
+        if key != self._of:
+            self._of, self._notes = key, _notes(page, shots=False)
+        return self._notes
+
+
+class _Same:
+    """An array or a surface, equal to itself alone."""
+
+    def __init__(self, thing: object) -> None:
+        self._thing = thing
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and other._thing is self._thing
+
+    def __hash__(self) -> int:
+        return id(self._thing)
+
+
+def _told_apart(value: object) -> object:
+    return _Same(value) if isinstance(value, np.ndarray | Surface) else value
+
+
+def page_pixels(page: Composition, words: KeptWords | None = None) -> np.ndarray:
+    """(height, width, 3) uint8, or (height, width, 4) if it is transparent.  words: of the page before, if kept."""
     layout, background = page.layout, page.figure.style.background
     width, height = layout.page
     paper = np.array([*np.round(255 * np.array(background)), 255], np.uint8)
@@ -28,12 +66,12 @@ def page_pixels(page: Composition) -> np.ndarray:
             place[:] = paper
         image = shot.image[: place.shape[0], : place.shape[1]]
         place[:] = image + _scaled(place, 255 - image[..., 3:])
-    notes = _notes(page)
-    # By rows: a whole page in wider numbers would take several times its memory.
-    for y in np.flatnonzero(notes[..., 3].any(axis=1)):
-        alpha = notes[y, :, 3:]
-        ink = np.concatenate([_scaled(notes[y, :, :3], alpha), alpha], axis=1)
-        pixels[y] = ink + _scaled(pixels[y], 255 - alpha)
+    for notes in (_notes(page),) if words is None else (_notes(page, words=False), words.of(page)):
+        # By rows: a whole page in wider numbers would take several times its memory.
+        for y in np.flatnonzero(notes[..., 3].any(axis=1)):
+            alpha = notes[y, :, 3:]
+            ink = np.concatenate([_scaled(notes[y, :, :3], alpha), alpha], axis=1)
+            pixels[y] = ink + _scaled(pixels[y], 255 - alpha)
     if not page.figure.transparent:
         return pixels[..., :3].copy()
     for row in pixels:
@@ -80,11 +118,11 @@ def write_vector(page: Composition, path: Path) -> None:
         drawn(page, vector=True).savefig(path, metadata={"Creator": "bihdist", **dates}, **options)
 
 
-def _notes(page: Composition) -> np.ndarray:
+def _notes(page: Composition, shots: bool = True, words: bool = True) -> np.ndarray:
     """(height, width, 4) uint8: words, bars, marks and frames on nothing; colours not multiplied by alpha."""
     width, height = page.layout.page
     with matplotlib_settings():
-        canvas = drawn(page, vector=False).canvas
+        canvas = drawn(page, False, shots, words).canvas
         canvas.draw()
         return np.asarray(canvas.buffer_rgba())[:height, :width]
 

@@ -13,11 +13,11 @@ from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.document import Zoom
 from .canvas import Composition
-from .composition import crop, page_pixels, write_vector
+from .composition import KeptWords, crop, page_pixels, write_vector
 from .description import Figure, FigurePanel, Mark
 from .layout import lay_out
 from .raster import check_offscreen
-from .shots import take_shots
+from .shots import Stage, take_shots
 
 __all__ = ["FIGURE_FORMATS", "Figure", "FigurePanel", "Mark", "Zoom", "check_offscreen", "draw_figure", "save_figure"]
 
@@ -27,13 +27,15 @@ VECTOR_DPI = 300
 """The least resolution of the shading in PDF and SVG."""
 
 
-def draw_figure(figure: Figure, progress: Progress | None = None) -> np.ndarray:
+def draw_figure(
+    figure: Figure, progress: Progress | None = None, stage: Stage | None = None, words: KeptWords | None = None
+) -> np.ndarray:
     """(height, width, 3) uint8 picture, or (height, width, 4) with alpha if it is transparent.
 
-    Raises BihdistError where nothing can be drawn off screen.
+    stage, words: kept from one figure to the next.  Raises BihdistError where nothing can be drawn off screen.
     """
-    page = _page(figure, False, progress)
-    pixels = page_pixels(page)
+    page = _page(figure, False, progress, stage)
+    pixels = page_pixels(page, words)
     return crop(page, pixels) if figure.crop else pixels
 
 
@@ -65,6 +67,6 @@ def described(figure: Figure) -> str:
     return f"{count} {'panel' if count == 1 else 'panels'} on {width} x {height} pixels"
 
 
-def _page(figure: Figure, vector: bool, progress: Progress | None) -> Composition:
+def _page(figure: Figure, vector: bool, progress: Progress | None, stage: Stage | None = None) -> Composition:
     layout = lay_out(figure, VECTOR_DPI / 96 if vector else 0.0)
-    return Composition(figure, layout, take_shots(figure, layout, vector, part(progress, 0.0, 0.95)))
+    return Composition(figure, layout, take_shots(figure, layout, vector, part(progress, 0.0, 0.95), stage))

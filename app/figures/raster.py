@@ -13,7 +13,7 @@ from ..drawing.camera import Projection
 from ..drawing.style import Style
 
 FINER = 2
-"""Pixels drawn for each pixel of the picture, along each side; each of them is multisampled besides."""
+"""Pixels drawn for each pixel of a figure, along each side; each of them is multisampled besides."""
 
 TILE = 1024
 """Pixels of the picture, along each side, that are drawn at once: OpenGL limits a picture's size, and memory does."""
@@ -25,9 +25,12 @@ WHOLE: Rectangle = (-1.0, 1.0, -1.0, 1.0)
 
 
 class Studio:
-    """An off-screen window with one surface in it.  Use it as a context; only one thread may use it."""
+    """An off-screen window with one surface in it, to be closed at the end; only one thread may use it.
 
-    def __init__(self, style: Style) -> None:
+    finer: how many pixels are drawn for each pixel of the picture, along each side.
+    """
+
+    def __init__(self, style: Style, finer: int = FINER) -> None:
         check_offscreen()
         if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
             # VTK would otherwise try an X server first, and complain that there is none.
@@ -37,6 +40,7 @@ class Studio:
 
         from ..drawing.field_actor import FieldActor, light
 
+        self._finer = finer
         self.shown = FieldActor(style)
         self._renderer = vtkRenderer()
         self._renderer.SetBackground(0, 0, 0)
@@ -49,10 +53,7 @@ class Studio:
         self._window.SetMultiSamples(8)
         self._window.AddRenderer(self._renderer)
 
-    def __enter__(self) -> "Studio":
-        return self
-
-    def __exit__(self, *_: object) -> None:
+    def close(self) -> None:
         self._window.Finalize()
 
     def shade(
@@ -69,12 +70,12 @@ class Studio:
         """
         report = progress or silent
         width, height = size
-        self.shown.set_scale(scale * FINER)
+        self.shown.set_scale(scale * self._finer)
         # Of equal size, so that the window keeps its own.
         tile = tuple(_even_tile(side) for side in size)
         across, down = (-(-side // step) for side, step in zip(size, tile, strict=True))
         picture = np.zeros((down * tile[1], across * tile[0], 4), np.uint8)
-        self._window.SetSize(tile[0] * FINER, tile[1] * FINER)
+        self._window.SetSize(tile[0] * self._finer, tile[1] * self._finer)
         left, right, bottom, top = part
         per_x, per_y = (right - left) / width, (top - bottom) / height
         for row in range(down):
@@ -115,11 +116,11 @@ class Studio:
         read = vtkUnsignedCharArray()
         self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, read)
         fine = vtk_to_numpy(read).reshape(height, width, 4)
-        total = np.full((height // FINER, width // FINER, 4), FINER**2 // 2, np.uint16)
-        for row in range(FINER):
-            for column in range(FINER):
-                total += fine[row::FINER, column::FINER]
-        return (total // FINER**2).astype(np.uint8)[::-1]
+        total = np.full((height // self._finer, width // self._finer, 4), self._finer**2 // 2, np.uint16)
+        for row in range(self._finer):
+            for column in range(self._finer):
+                total += fine[row :: self._finer, column :: self._finer]
+        return (total // self._finer**2).astype(np.uint8)[::-1]
 
 
 def _even_tile(side: int) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,9 +19,10 @@ from ..drawing.camera import Margins, Projection, standard_camera
 from ..drawing.field_actor import drawable, isoline_values
 from ..drawing.insets import SIDE
 from ..drawing.relief import relief, rise
+from ..drawing.style import Style
 from .description import Figure, FigurePanel
 from .layout import Box, Layout
-from .raster import Rectangle, Studio
+from .raster import FINER, Rectangle, Studio
 from .sight import Curve, Sight
 
 FREE = 0.03
@@ -48,22 +51,63 @@ class Shot:
     source: Box | None = None
 
 
-def take_shots(figure: Figure, layout: Layout, vector: bool, progress: Progress) -> list[Shot]:
+class Stage:
+    """What is kept from one figure to the next: the off-screen window, and surfaces made ready.  Use it as a context.
+
+    finer: see `Studio`.
+    """
+
+    def __init__(self, finer: int = FINER) -> None:
+        self._finer = finer
+        self._studio: Studio | None = None
+        self._meshes: dict[int, tuple[Surface, vtkPolyData]] = {}
+
+    def __enter__(self) -> Stage:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        if self._studio is not None:
+            self._studio.close()
+        self._studio = None
+
+    def studio(self, style: Style) -> Studio:
+        """The window for a style."""
+        if self._studio is None or self._studio.shown.style != style:
+            self.close()
+            self._studio = Studio(style, self._finer)
+        return self._studio
+
+    def keep(self, surfaces: Iterable[Surface]) -> None:
+        """Forget all other surfaces."""
+        ids = {id(surface) for surface in surfaces}
+        self._meshes = {key: entry for key, entry in self._meshes.items() if key in ids}
+
+    def mesh(self, surface: Surface) -> vtkPolyData:
+        if id(surface) not in self._meshes:
+            self._meshes[id(surface)] = (surface, drawable(surface))
+        return self._meshes[id(surface)][1]
+
+
+def take_shots(
+    figure: Figure, layout: Layout, vector: bool, progress: Progress, stage: Stage | None = None
+) -> list[Shot]:
     """All pictures, in the order in which they lie on each other.  vector: with isolines as curves, not as pixels."""
     shots: list[Shot] = []
     tops = figure.tops()
     count = sum(len(p.views) + len(p.zooms) for p in figure.panels)
-    meshes: dict[int, vtkPolyData] = {}
-    with Studio(figure.style) as studio:
+    with Stage() if stage is None else nullcontext(stage) as stage:
+        stage.keep(panel.surface for panel in figure.panels)
+        studio = stage.studio(figure.style)
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
             surface = panel.surface
             if panel.height and panel.field is not None:
                 used = surface.vertices[surface.component_of_vertex >= 0]
                 bounds = np.stack([used.min(axis=0), used.max(axis=0)], axis=1).ravel().tolist()
                 surface = relief(surface, panel.field, tops[index], rise(bounds, panel.height))
-            key = id(panel) if panel.height else id(surface)
-            mesh = meshes.get(key) or drawable(surface)
-            meshes[key] = mesh
+            mesh = stage.mesh(surface) if surface is panel.surface else drawable(surface)
             studio.shown.show_surface(mesh)
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
