@@ -114,6 +114,11 @@ class Surface:
         """(e, 2) vertex ids, smaller first, each edge once."""
         return self._sides[0]
 
+    @property
+    def edge_of_side(self) -> np.ndarray:
+        """(3m,) the edge of each face's sides 01, 12, 20: all 01 first, then all 12, then all 20."""
+        return self._sides[1]
+
     @cached_property
     def faces_per_edge(self) -> np.ndarray:
         """(e,) how many faces meet at each edge: 1 on a boundary, more than 2 where not manifold."""

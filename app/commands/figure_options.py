@@ -52,6 +52,11 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     parser.add_argument("--style", metavar="NAME", help="paper, uniform, lines or dark (default: paper)")
     _add_switch(parser, "transparent", "no background")
     _add_switch(parser, "crop", "without the empty margins")
+    parser.add_argument(
+        "--shading", metavar="NAME", help="auto, smooth, creased or flat (default: creased where there are sharp edges)"
+    )
+    parser.add_argument("--crease", type=float, metavar="DEGREES", help="where faces meet at more is an edge (40)")
+    _add_switch(parser, "wireframe", "the edges of the mesh")
     add_distance(parser, PANELS)
     add_areas(parser)
 
@@ -84,6 +89,7 @@ def chosen_recipe(options: argparse.Namespace) -> "Recipe":
 
 def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     from ..document.camera import Camera
+    from ..document.looks import shaded
 
     document, page = recipe.document, recipe.page
     if options.other_mesh is not None:
@@ -103,6 +109,8 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
         document = replace(document, isolines=replace(document.isolines, count=options.isolines))
     if options.shared_range is not None:
         document = replace(document, range="shared" if options.shared_range else "own")
+    shading = shaded(document.shading, options.shading, options.crease, options.wireframe)
+    document = replace(document, shading=shading)
     page = replace(page, **_given(options, "size", "style", "hints", "transparent", "crop"))
     columns = options.columns if options.columns is not None else rows or page.columns
     if views:

@@ -98,5 +98,18 @@ class Shading:
             raise ParameterError(f"A crease is an angle between 0 and 180 degrees, not {self.crease:g}.")
 
 
+def shaded(
+    before: Shading, normals: str | None = None, crease: float | None = None, wireframe: bool | None = None
+) -> Shading:
+    """Shading with what is given changed; an angle alone makes it creased."""
+    if normals is None and crease is not None:
+        normals = "creased"
+    return Shading(
+        before.normals if normals is None else normals,
+        before.crease if crease is None else crease,
+        before.wireframe if wireframe is None else wireframe,
+    )
+
+
 TWENTY_STEPS, OF_THE_STYLE, AS_IT_IS = Isolines(), Colours(), Shading()
 """What holds where nothing is said."""

@@ -198,6 +198,23 @@ def _range(recipe: Recipe) -> Said:
     return _switched("--shared-range", "shared_range") if recipe.document.range == "shared" else NOTHING
 
 
+def _shading(recipe: Recipe) -> Said:
+    """An angle alone would make it creased."""
+    shading, usual = recipe.document.shading, USUAL.shading
+    options: list[tuple[str, str | None]] = []
+    arguments: dict[str, Any] = {}
+    if (shading.normals, shading.crease) != (usual.normals, usual.crease):
+        options.append(("--shading", shading.normals))
+        arguments["shading"] = shading.normals
+    if shading.crease != usual.crease:
+        options.append(("--crease", _number(shading.crease)))
+        arguments["crease"] = shading.crease
+    if shading.wireframe:
+        options.append(("--wireframe", None))
+        arguments["wireframe"] = True
+    return Said(tuple(options), arguments)
+
+
 def _of_document(name: str, option: str, argument: str) -> Callable[[Recipe], Said]:
     """A field that is said by one option; a switch if it is a flag."""
     return lambda recipe: _if_unusual(getattr(recipe.document, name), getattr(USUAL, name), option, argument)
@@ -272,7 +289,7 @@ ROWS = (
     ),
     Row(
         ("Document.shading", "Shading.normals", "Shading.crease", "Shading.wireframe"),
-        _only_usual(lambda recipe: recipe.document.shading, "The surface is not shaded as usual."),
+        _shading,
     ),
     Row(("Document.up",), _only_usual(lambda recipe: recipe.document.up, "Another axis is up.")),
     Row(

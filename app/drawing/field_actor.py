@@ -5,22 +5,20 @@ of a multiple of the step, measured in pixels.  Lines so drawn have the same wid
 """
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
-from bihdist_core import Surface
-from bihdist_core.surface import dots
-
+from ..document.looks import Shading
+from .drawable import copies_of, has_backs
+from .face_look import pass_on, put_face_look
 from .style import Style
 
 UNDEFINED = -1000.0
 """Stands for NaN in the scalars: shares are never negative, and the shader needs a number.  As far from them as VTK
 allows, so that a face with an undefined corner is undefined up to the others, without a seam of other colours."""
 
-_DECLARE = "//VTK::PositionVC::Dec"
-_PASS_ON = "//VTK::PositionVC::Impl"
 _LIT = "//VTK::Light::Impl"
 BOLD = 2.0
 """By how much the line at 0 of a signed field is wider than the others."""
@@ -35,43 +33,9 @@ _PAINT = """//VTK::Light::Impl
   paint *= step(1e-5, perPixel);                   // none where all is of one value
   paint *= step(0.5, steps);                       // none at the source itself, none where undefined
   paint *= step(steps, isolineLast + 0.5);         // none at the farthest point itself
+  paint *= isBack ? 0.0 : 1.0;
   fragOutput0.rgb = mix(fragOutput0.rgb, isolineColour, paint);
 """.replace("BOLD", str(BOLD))
-
-
-def drawable(surface: Surface) -> vtkPolyData:
-    """The surface with point normals, in the surface's vertex ids and memory.  Safe to call on a background thread."""
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(surface.vertices))
-    cells = vtkCellArray()
-    cells.SetData(3, numpy_to_vtkIdTypeArray(surface.faces.ravel()))
-    mesh = vtkPolyData()
-    mesh.SetPoints(points)
-    mesh.SetPolys(cells)
-    mesh.GetPointData().SetNormals(numpy_to_vtk(point_normals(surface)))
-    mesh.ComputeBounds()
-    return mesh
-
-
-def point_normals(surface: Surface) -> np.ndarray:
-    """(n, 3) float32: the mean of the unit normals of a vertex' faces, brought to length 1; 0 where there is none.
-
-    In NumPy, which releases the interpreter lock, so that the window stays awake: vtkPolyDataNormals holds it.
-    """
-    n, corners = len(surface.vertices), np.ascontiguousarray(surface.faces.T)
-    a, b, _ = surface.sides()
-    normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    _to_length_one(normal)
-    sums = [sum(np.bincount(ids, x, n) for ids in corners) for x in normal]
-    _to_length_one(sums)
-    return np.stack(sums, axis=1, dtype=np.float32)
-
-
-def _to_length_one(vectors: list[np.ndarray]) -> None:
-    """Divide vectors, three arrays of coordinates, by their lengths, in place; those of no length stay 0."""
-    length = np.sqrt(dots(vectors, vectors))
-    for x in vectors:
-        np.divide(x, length, out=x, where=length > 0)
 
 
 def isoline_values(field: np.ndarray, maximum: float, count: int, signed: bool = False) -> np.ndarray:
@@ -114,6 +78,8 @@ class FieldActor:
         """Show a surface made by `drawable`, without a field yet."""
         own = vtkPolyData()
         own.ShallowCopy(mesh)
+        self._copies = copies_of(mesh)
+        self._uniforms.SetUniformf("hasBacks", float(has_backs(mesh)))
         self._values = np.full(mesh.GetNumberOfPoints(), UNDEFINED, np.float32)
         self._array = numpy_to_vtk(self._values)
         self._array.SetName("distance")
@@ -132,7 +98,9 @@ class FieldActor:
         own = float(np.nanmax(np.abs(field) if signed else field, initial=0.0))
         top = own if maximum is None else maximum
         shares = field / top if top > 0 else np.zeros_like(field)
-        self._values[:] = np.where(np.isnan(field), UNDEFINED, (shares + 1) / 2 if signed else shares)
+        values = np.where(np.isnan(field), UNDEFINED, (shares + 1) / 2 if signed else shares)
+        self._values[: len(values)] = values
+        self._values[len(values) :] = values[self._copies]
         self._array.Modified()
         self.maximum, self._own_maximum = top, own
         if signed != self.is_signed:
@@ -165,8 +133,20 @@ class FieldActor:
         """(k,) the values that have a line."""
         return isoline_values(np.array([self._own_maximum]), self.maximum, self._count, self.is_signed)
 
+    def show_shading(self, shading: Shading) -> None:
+        """Whether faces are flat, and edges drawn; where normals are split, `drawable` has done."""
+        look = self.actor.GetProperty()
+        if shading.normals == "flat":
+            look.SetInterpolationToFlat()
+        else:
+            look.SetInterpolationToGouraud()
+        if bool(look.GetEdgeVisibility()) != shading.wireframe:
+            look.SetEdgeVisibility(shading.wireframe)
+            self._put_shaders(shading.wireframe)
+
     def set_scale(self, scale: float) -> None:
         """Device pixels per pixel have changed."""
+        self._uniforms.SetUniformf("edgeScale", scale)
         self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale)
 
     def _make(self) -> None:
@@ -189,15 +169,22 @@ class FieldActor:
             surface.SetAmbient(1.0)
             surface.SetDiffuse(0.0)
             surface.SetSpecular(0.0)
-        shader = actor.GetShaderProperty()
-        shader.AddVertexShaderReplacement(
-            _DECLARE, True, f"{_DECLARE}\nin float isolineAttribute;\nout float isolineValue;\n", False
-        )
-        shader.AddVertexShaderReplacement(_PASS_ON, True, f"{_PASS_ON}\nisolineValue = isolineAttribute;\n", False)
-        shader.AddFragmentShaderReplacement(_DECLARE, True, f"{_DECLARE}\nin float isolineValue;\n", False)
-        shader.AddFragmentShaderReplacement(_LIT, False, _PAINT, False)
-        self._uniforms = shader.GetFragmentCustomUniforms()
+        # Those of VTK are not faded where they are dense.
+        surface.SetEdgeOpacity(0.0)
+        self._uniforms = actor.GetShaderProperty().GetFragmentCustomUniforms()
         self._uniforms.SetUniform3f("isolineColour", self.style.isoline)
+        self._uniforms.SetUniformf("hasBacks", 0.0)
+        self._uniforms.SetUniform3f("backColour", self.style.back)
+        self._uniforms.SetUniform3f("edgeColour", self.style.edge)
+        self._uniforms.SetUniform3f("edgeOnDark", self.style.edge_on_dark)
+        self._put_shaders(False)
+
+    def _put_shaders(self, has_edges: bool) -> None:
+        shader = self.actor.GetShaderProperty()
+        shader.ClearAllShaderReplacements()
+        pass_on(shader, "isolineAttribute", "isolineValue")
+        put_face_look(shader, has_edges)
+        shader.AddFragmentShaderReplacement(_LIT, False, _PAINT, False)
 
 
 def lookup_table(style: Style, signed: bool = False) -> vtkLookupTable:

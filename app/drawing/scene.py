@@ -6,7 +6,8 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from .field_actor import FieldActor, drawable, light
+from .drawable import drawable
+from .field_actor import FieldActor, light
 from .insets import Insets
 from .marks import Marks
 from .style import PAPER, Style

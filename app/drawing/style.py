@@ -25,7 +25,8 @@ class Style:
     """Colours are RGB from 0 to 1; widths are in pixels at scale 1, which are 1/96 of an inch.
 
     outline: width of the line around the shape and along its folds; 0 for none.  Without `shading` the colours are
-    drawn as they are, and without `coloured` isolines alone tell the field.
+    drawn as they are, and without `coloured` isolines alone tell the field.  back: of the inside of a surface, where
+    it is seen; edge, edge_on_dark: of the wireframe, on light and on dark colours.
     """
 
     stops: tuple[tuple[float, Colour], ...]
@@ -39,6 +40,9 @@ class Style:
     shading: bool = True
     coloured: bool = True
     undefined: Colour = (0.72, 0.72, 0.7)
+    back: Colour = (0.80, 0.74, 0.62)
+    edge: Colour = (0.05, 0.06, 0.08)
+    edge_on_dark: Colour = (0.62, 0.65, 0.70)
     source: Colour = (1.0, 0.86, 0.1)
     pointer: Colour = (1, 1, 1)
     largest: Colour = (0.10, 0.72, 0.50)
@@ -124,6 +128,8 @@ LINES = Style(
     text=(0, 0, 0),
     quiet_text=(0.25, 0.25, 0.25),
     undefined=(0.86, 0.86, 0.86),
+    back=(0.93, 0.93, 0.93),
+    edge=(0.55, 0.55, 0.55),
     source=(0, 0, 0),
     mark_edge=(0, 0, 0),
     marker_size=9.0,
@@ -144,6 +150,7 @@ DARK = Style(
     text=(0.93, 0.94, 0.95),
     quiet_text=(0.66, 0.68, 0.71),
     undefined=(0.45, 0.45, 0.45),
+    back=(0.42, 0.38, 0.30),
     mark_edge=(0.05, 0.05, 0.06),
 )
 """For slides: the paper's colours with lighter ends, which stay visible on a dark background."""

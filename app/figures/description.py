@@ -8,7 +8,7 @@ from bihdist_core import ParameterError, Surface
 
 from ..document.camera import View, checked_view
 from ..document.document import Zoom
-from ..document.looks import RANGES, TWENTY_STEPS, Isolines, one_of
+from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
 from ..drawing.camera import is_flat
 from ..drawing.style import PAPER, Style
 from .size import Size
@@ -52,6 +52,7 @@ class FigurePanel:
     height: float = 0.0
     failure: str = ""
     signed: bool = False
+    shading: Shading = AS_IT_IS
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

@@ -151,6 +151,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         zooms=document.zooms,
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
+        shading=document.shading,
     )
 
 

@@ -17,7 +17,7 @@ from bihdist_core.progress import Progress
 from ..document.camera import Camera, View
 from ..document.document import Anchor, Document, Point, Zoom, free_names
 from ..document.file import read_recipe
-from ..document.looks import Isolines
+from ..document.looks import AS_IT_IS, Isolines, shaded
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity
 from ..session.given import Given, Mesh, given_comparison
@@ -82,6 +82,9 @@ def figure(
     zooms: Sequence[int | tuple[int, float]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
     height: float = 0.0,
+    shading: str | None = None,
+    crease: float | None = None,
+    wireframe: bool = False,
     columns: int | None = None,
     hints: bool = False,
     size: str = "",
@@ -96,7 +99,8 @@ def figure(
     panels each; the highest if None.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is
     named in `distances` like one: "biharmonic - mine".  views: names or cameras, side by side.  camera: the eleven
     numbers that `--camera` takes, after other views.  zooms: vertices, or with a factor.  anchors: vertices to be
-    marked, perhaps each with a value.  Raises BihdistError, as the command says its sentences.
+    marked, perhaps each with a value.  shading: "smooth", "creased" at more than `crease` degrees, or "flat";
+    "auto" is creased on what has sharp edges.  Raises BihdistError, as the command says its sentences.
 
     >>> import bihdist
     >>> picture = bihdist.figure("hand", ["biharmonic", "biharmonic - geodesic"], source=12, size="400x200")
@@ -119,6 +123,7 @@ def figure(
         isolines=isolines,
         range="shared" if shared_range else "own",
         height=height,
+        shading=shaded(AS_IT_IS, shading, crease, wireframe),
         camera=chosen[0] if chosen else "home",
     )
     page = Page(

@@ -15,8 +15,10 @@ from bihdist_core.progress import Progress, part
 
 from ..document.camera import Camera, View
 from ..document.document import Zoom
+from ..document.looks import Shading
 from ..drawing.camera import Margins, Projection, standard_camera
-from ..drawing.field_actor import drawable, isoline_values
+from ..drawing.drawable import drawable, normals_shading
+from ..drawing.field_actor import isoline_values
 from ..drawing.insets import SIDE
 from ..drawing.relief import relief, rise
 from ..drawing.style import Style
@@ -60,7 +62,7 @@ class Stage:
     def __init__(self, finer: int = FINER) -> None:
         self._finer = finer
         self._studio: Studio | None = None
-        self._meshes: dict[int, tuple[Surface, vtkPolyData]] = {}
+        self._meshes: dict[tuple[int, Shading], tuple[Surface, vtkPolyData]] = {}
 
     def __enter__(self) -> Stage:
         return self
@@ -83,12 +85,13 @@ class Stage:
     def keep(self, surfaces: Iterable[Surface]) -> None:
         """Forget all other surfaces."""
         ids = {id(surface) for surface in surfaces}
-        self._meshes = {key: entry for key, entry in self._meshes.items() if key in ids}
+        self._meshes = {key: entry for key, entry in self._meshes.items() if key[0] in ids}
 
-    def mesh(self, surface: Surface) -> vtkPolyData:
-        if id(surface) not in self._meshes:
-            self._meshes[id(surface)] = (surface, drawable(surface))
-        return self._meshes[id(surface)][1]
+    def mesh(self, surface: Surface, shading: Shading) -> vtkPolyData:
+        key = (id(surface), normals_shading(shading))
+        if key not in self._meshes:
+            self._meshes[key] = (surface, drawable(surface, shading))
+        return self._meshes[key][1]
 
 
 def take_shots(
@@ -107,8 +110,10 @@ def take_shots(
                 used = surface.vertices[surface.component_of_vertex >= 0]
                 bounds = np.stack([used.min(axis=0), used.max(axis=0)], axis=1).ravel().tolist()
                 surface = relief(surface, panel.field, tops[index], rise(bounds, panel.height))
-            mesh = stage.mesh(surface) if surface is panel.surface else drawable(surface)
+            shading = panel.shading
+            mesh = stage.mesh(surface, shading) if surface is panel.surface else drawable(surface, shading)
             studio.shown.show_surface(mesh)
+            studio.shown.show_shading(shading)
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
             studio.shown.show_isolines(0 if vector or panel.field is None else panel.isolines.count)

@@ -7,23 +7,32 @@ import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 
-from app.drawing.field_actor import drawable, point_normals
+from app.document.looks import Shading
+from app.drawing.creases import face_normals, point_normals
+from app.drawing.drawable import drawable
 from bihdist_core import Surface
 from tests.shapes import bumpy, fin, grid, slivers, torus, two_pieces
 
 SHAPES = [bumpy(500), torus(), grid(3, 2), fin(), two_pieces(), slivers()]
 
+SMOOTH = Shading("smooth")
+
+
+def normals_of(surface):
+    return point_normals(face_normals(surface.vertices, surface.faces), surface.faces, len(surface.vertices))
+
 
 @pytest.mark.parametrize("surface", SHAPES, ids=str)
 def test_normals_are_those_of_vtk(surface):
     filter = vtkPolyDataNormals()
-    filter.SetInputData(drawable(surface))
+    mesh = drawable(surface, SMOOTH)
+    filter.SetInputData(mesh)
     filter.SplittingOff()
     filter.ConsistencyOff()
     filter.NonManifoldTraversalOff()
     filter.Update()
     expected = vtk_to_numpy(filter.GetOutput().GetPointData().GetNormals())
-    normals = point_normals(surface)
+    normals = vtk_to_numpy(mesh.GetPointData().GetNormals())
     assert normals.dtype == np.float32
     # VTK adds up in single precision.
     assert np.abs(normals - expected).max() <= 4e-7
@@ -39,8 +48,8 @@ def test_normals_are_means_over_faces_taken_one_at_a_time(surface):
             sums[face] += normal / np.linalg.norm(normal)
     lengths = np.linalg.norm(sums, axis=1, keepdims=True)
     expected = np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0)
-    assert np.abs(point_normals(surface) - expected).max() <= 1e-7  # half a step of single precision
-    assert (point_normals(surface)[surface.component_of_vertex < 0] == 0).all()
+    assert np.abs(normals_of(surface) - expected).max() <= 1e-7  # half a step of single precision
+    assert (normals_of(surface)[surface.component_of_vertex < 0] == 0).all()
 
 
 def test_a_mesh_keeps_the_arrays_that_it_shares_with_its_surface():

@@ -161,8 +161,8 @@ ELSEWHERE = {
 WORDLESS = {"Zoom.corner", "Zoom.isolines", "Panel.maximum"} | {
     name
     for name in EXAMPLES
-    if name.startswith(("Colours.", "Shading."))
-    or name in ("Document.colours", "Document.shading", "Document.up", "Document.projection", "Document.axes")
+    if name.startswith("Colours.")
+    or name in ("Document.colours", "Document.up", "Document.projection", "Document.axes")
     or name in ("Isolines.spacing", "Isolines.values", "Isolines.bold", "Isolines.labels", "Isolines.through")
     or name in ("Page.title", "Page.font", "Page.text")
 }

@@ -8,7 +8,8 @@ from scipy.spatial import cKDTree
 from scipy.special import eval_legendre
 
 from app.drawing.camera import Camera, Projection, standard_camera
-from app.drawing.field_actor import drawable, isoline_values
+from app.drawing.drawable import drawable
+from app.drawing.field_actor import isoline_values
 from app.figures.crossings import crossings, simplified
 from app.figures.sight import Curve, Sight
 from bihdist_core import Surface

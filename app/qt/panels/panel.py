@@ -13,7 +13,7 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import COMPARISON, Zoom
 from ...document.quantities import Difference, DistanceFrom
 from ...drawing.board import Board
-from ...drawing.field_actor import drawable
+from ...drawing.drawable import drawable
 from ...drawing.picking import Met, Picker
 from ...drawing.relief import relief, rise
 from ...drawing.style import Style

@@ -1,0 +1,79 @@
+"""A surface as VTK draws it: with normals, in the surface's own vertex ids, and copies of those at creases."""
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+from bihdist_core import Surface
+
+from ..document.looks import AS_IT_IS, Shading
+from .creases import bends, face_normals, has_creases, point_normals, split
+from .winding import winding
+
+_COPIES, _BACKS = "copies", "backs"
+
+
+def drawable(surface: Surface, shading: Shading = AS_IT_IS) -> vtkPolyData:
+    """The surface with point normals; its memory is shared where no face has to be turned over and nothing is split.
+
+    The faces are the surface's, in their order.  Vertex k of the surface is point k; points from n on are `copies_of`
+    vertices.  Flat shading needs no normals of its own.  Safe to call on a background thread.
+    """
+    n, wound = len(surface.vertices), winding(surface)
+    normals = face_normals(surface.vertices, wound.faces)
+    is_cut = np.zeros(len(surface.edges), bool)
+    # Faces wound against each other have normals that point to opposite sides.
+    is_cut[wound.edges] = wound.is_turned
+    if shading.normals in ("auto", "creased"):
+        cosines = bends(normals, wound)
+        ends = surface.vertices[surface.edges[wound.edges]]
+        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        if shading.normals == "creased" or has_creases(cosines, lengths, shading.crease):
+            is_cut[wound.edges] |= cosines < np.cos(np.radians(shading.crease))
+            is_cut |= surface.faces_per_edge > 2
+    drawn = split(wound, surface.edges, is_cut, n)
+    vertices = surface.vertices
+    if len(drawn.copies):
+        vertices = np.concatenate([vertices, vertices[drawn.copies]])
+    mesh = poly_data(vertices, drawn.faces, point_normals(normals, drawn.faces, len(vertices)))
+    copies = numpy_to_vtkIdTypeArray(drawn.copies, deep=True)
+    copies.SetName(_COPIES)
+    mesh.GetFieldData().AddArray(copies)
+    backs = numpy_to_vtk(np.array([wound.has_backs], np.int8), deep=True)
+    backs.SetName(_BACKS)
+    mesh.GetFieldData().AddArray(backs)
+    return mesh
+
+
+def normals_shading(shading: Shading) -> Shading:
+    """The same for all kinds of shading that `drawable` makes the same mesh for."""
+    if shading.normals in ("smooth", "flat"):
+        return Shading("smooth")
+    return Shading(shading.normals, shading.crease)
+
+
+def poly_data(vertices: np.ndarray, faces: np.ndarray, normals: np.ndarray) -> vtkPolyData:
+    """Vertices (n, 3) with normals (n, 3), and faces (m, 3), in their own memory."""
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(vertices))
+    cells = vtkCellArray()
+    cells.SetData(3, numpy_to_vtkIdTypeArray(faces.ravel()))
+    mesh = vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(cells)
+    mesh.GetPointData().SetNormals(numpy_to_vtk(normals))
+    mesh.ComputeBounds()
+    return mesh
+
+
+def copies_of(mesh: vtkPolyData) -> np.ndarray:
+    """(k,) of which vertices of the surface the points behind its own are copies."""
+    array = mesh.GetFieldData().GetArray(_COPIES)
+    return np.empty(0, np.int64) if array is None or not array.GetNumberOfTuples() else vtk_to_numpy(array)
+
+
+def has_backs(mesh: vtkPolyData) -> bool:
+    """Whether the inside of a body can be seen."""
+    array = mesh.GetFieldData().GetArray(_BACKS)
+    return array is not None and bool(array.GetValue(0))

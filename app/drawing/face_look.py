@@ -1,0 +1,78 @@
+"""How faces look before light falls on them: whose side they show, and their edges; as pieces of VTK's shaders."""
+
+from vtkmodules.vtkRenderingCore import vtkShaderProperty
+
+EDGE_WIDTH = 0.8
+"""Pixels of an edge of the mesh, at scale 1."""
+
+EDGE_OPACITY = 0.55
+
+CLOSEST, CLEAR = 3.0, 9.0
+"""Pixels of a face's least height at which its edges are no longer drawn, and from where on they are drawn in full."""
+
+_POSITION, _COLOUR, _NORMAL = "//VTK::PositionVC::Dec", "//VTK::Color::Impl", "//VTK::Normal::Impl"
+
+_BACK = """//VTK::Color::Impl
+  bool isBack = hasBacks > 0.5 && !gl_FrontFacing;
+  if (isBack) {
+    ambientColor = max(ambientIntensity, 0.55) * backColour;
+    diffuseColor = min(diffuseIntensity, 0.45) * backColour;
+  }
+"""
+
+# Where vertices' normals lean away from the eye although their face is seen, at silhouettes and on rough scans, light
+# from the eye's side would miss it, and leave a dark speck.
+_TOWARDS_THE_EYE = """//VTK::Normal::Impl
+  vec3 toEye = cameraParallel != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);
+  float leaning = dot(normalVCVSOutput, toEye);
+  if (leaning < 0.0) normalVCVSOutput -= 2.0 * leaning * toEye;
+"""
+
+# VTK's own geometry shader has the sides of the face as lines in the picture.  From their directions and the distances
+# to them follow the heights of the face: a closed mesh far away is not to become a blot.
+_EDGES = f"""
+  vec3 fromSide, sines;
+  for (int k = 0; k < 3; k++) {{
+    fromSide[k] = max(dot(edgeEqn[k].xy, gl_FragCoord.xy) + edgeEqn[k].w, 0.0);
+    vec2 one = edgeEqn[(k + 1) % 3].xy, other = edgeEqn[(k + 2) % 3].xy;
+    sines[k] = max(abs(one.x * other.y - one.y * other.x), 1e-4);
+  }}
+  float across = dot(fromSide, sines) / (sines.x * sines.y * sines.z);
+  float least = across * min(min(sines.y * sines.z, sines.z * sines.x), sines.x * sines.y) / edgeScale;
+  float nearest = min(min(fromSide.x, fromSide.y), fromSide.z);
+  float halfEdge = {EDGE_WIDTH / 2} * edgeScale;
+  float edge = 1.0 - smoothstep(halfEdge - 0.5, halfEdge + 0.5, nearest);
+  edge *= {EDGE_OPACITY} * smoothstep({CLOSEST}, {CLEAR}, least);
+  float lightness = dot(ambientColor / max(ambientIntensity, 1e-3), vec3(0.2126, 0.7152, 0.0722));
+  vec3 wire = mix(edgeOnDark, edgeColour, smoothstep(0.10, 0.22, lightness));
+  ambientColor = mix(ambientColor, wire, edge);
+  diffuseColor = mix(diffuseColor, vec3(0.0), edge);
+"""
+
+
+def put_face_look(shader: vtkShaderProperty, has_edges: bool) -> None:
+    """Let faces look like this; the uniforms are `hasBacks`, `backColour`, `edgeColour`, `edgeOnDark`, `edgeScale`.
+
+    has_edges: needs the property's EdgeVisibilityOn, and EdgeOpacity 0, so that VTK's own edges are not seen.
+    """
+    shader.AddFragmentShaderReplacement(_COLOUR, True, _BACK, False)
+    shader.AddFragmentShaderReplacement(_NORMAL, False, _TOWARDS_THE_EYE + (_EDGES if has_edges else ""), False)
+
+
+def pass_on(shader: vtkShaderProperty, attribute: str, name: str) -> None:
+    """Hand a vertex attribute to the fragment shader as `name`, also past a geometry shader.
+
+    VTK renames what ends in VSOut where there is one.
+    """
+    vertex, fragment = "//VTK::PositionVC::Dec", "//VTK::PositionVC::Impl"
+    shader.AddVertexShaderReplacement(vertex, True, f"{vertex}\nin float {attribute};\nout float {name}VSOut;\n", False)
+    shader.AddVertexShaderReplacement(fragment, True, f"{fragment}\n{name}VSOut = {attribute};\n", False)
+    shader.AddGeometryShaderReplacement(
+        "//VTK::Output::Dec", True, f"//VTK::Output::Dec\nin float {name}VSOut[];\nout float {name}GSOut;\n", False
+    )
+    shader.AddGeometryShaderReplacement(
+        "//VTK::Clip::Impl", True, f"//VTK::Clip::Impl\n{name}GSOut = {name}VSOut[i];\n", False
+    )
+    shader.AddFragmentShaderReplacement(
+        _POSITION, True, f"{_POSITION}\nin float {name}VSOut;\n#define {name} {name}VSOut\n", False
+    )

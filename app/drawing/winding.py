@@ -1,0 +1,105 @@
+"""Which side of a face is the outside, where that can be told: files say it wrongly, or of each face differently."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bihdist_core import Surface
+from bihdist_core.surface import connected, dots
+
+BODY, SHELL = 0.3, 0.6
+"""Of the area, how much of it points one way: 0 for what is closed, half for half a sphere, 1 for what is flat.  What
+has less than BODY is one, perhaps with holes; up to SHELL it is hollow on one side, like a car without a floor; the two
+sides of what has more, a sheet, are alike."""
+
+HOLLOW = 0.005
+"""Volume over area to the power 3/2: what has less (a sphere has 0.094) has no inside to speak of."""
+
+
+@dataclass(frozen=True, eq=False)
+class Winding:
+    """faces: (m, 3) the surface's, in their order, wound so that the outside sees them counter-clockwise where there
+    is an outside, and each as its neighbours where that is possible.  left, right: (e,) the sides of the faces (face +
+    m * corner) that meet at edges of two faces, and edges: (e,) those edges.  is_turned: (e,) whether these two are
+    wound against each other, as somewhere on a Möbius strip.  has_backs: whether an inside can be seen.
+    """
+
+    faces: np.ndarray
+    left: np.ndarray
+    right: np.ndarray
+    edges: np.ndarray
+    is_turned: np.ndarray
+    has_backs: bool
+
+
+def winding(surface: Surface) -> Winding:
+    """In NumPy, most of which releases the interpreter lock; half a second for a million vertices."""
+    faces, m = surface.faces, len(surface.faces)
+    of_side, count = surface.edge_of_side, surface.faces_per_edge
+    first, last = np.empty_like(count), np.empty_like(count)
+    sides = np.arange(3 * m)
+    last[of_side] = sides
+    first[of_side[::-1]] = sides[::-1]
+    edges = np.flatnonzero(count == 2)
+    left, right = first.take(edges), last.take(edges)
+    tail = faces.T.ravel()
+    is_turned = tail.take(left) == tail.take(right)
+    if is_turned.any():
+        turn, patch, is_turned = _alike(left % m, right % m, is_turned, m)
+    else:
+        turn, patch = np.zeros(m, bool), surface.component_of_vertex.take(faces[:, 0])
+    inward, has_backs = _insides(surface, turn, patch, np.unique(patch[left[is_turned] % m]))
+    turn ^= inward
+    if turn.any():
+        faces = np.where(turn[:, None], faces[:, [0, 2, 1]], faces)
+        # The sides of a face that is turned over: 01 and 20 change places, 12 stays where it is.
+        place = np.array([2, 1, 0])
+        left, right = (np.where(turn[s % m], place[s // m] * m + s % m, s) for s in (left, right))
+    return Winding(faces, left, right, edges, is_turned, has_backs)
+
+
+def _alike(one: np.ndarray, other: np.ndarray, is_turned: np.ndarray, m: int) -> tuple[np.ndarray, ...]:
+    """(m,) which faces to turn over, (m,) the patch of each, and (e,) where neighbours are still against each other.
+
+    Each face is there twice, as it is and turned over, and joined to its neighbours as they then fit.  What hangs
+    together of that is one way to wind a patch; of the two ways, that which turns fewer faces over.
+    """
+    ahead, behind = np.stack([one, one + m]), np.where(is_turned, other + m, other)
+    behind = np.stack([behind, np.where(is_turned, other, other + m)])
+    way = connected(np.stack([ahead.ravel(), behind.ravel()]), 2 * m)
+    kept = np.bincount(way[:m], minlength=2 * m)
+    mine, turned = way[:m], way[m:]
+    turn = (kept[mine] < kept[turned]) | ((kept[mine] == kept[turned]) & (mine > turned))
+    return turn, np.minimum(mine, turned), is_turned ^ turn[one] ^ turn[other]
+
+
+def _insides(surface: Surface, turn: np.ndarray, patch: np.ndarray, one_sided: np.ndarray) -> tuple[np.ndarray, bool]:
+    """(m,) which faces are those of a patch that is wound inwards, and whether the inside of a patch can be seen.
+
+    one_sided: (k,) the patches that have only one side.
+    """
+    m, patches = len(patch), int(patch.max()) + 1
+    sign = np.where(turn, -1.0, 1.0)
+    a, b, _ = surface.sides()
+    normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    area = np.bincount(patch, np.sqrt(dots(normal, normal)) / 2, patches)
+    normal = [sign * x / 2 for x in normal]
+    pointing = [np.bincount(patch, x, patches) for x in normal]
+    # A hole is closed by triangles that meet in the middle of all edges of holes, so that they have no part in it.
+    boundary = np.flatnonzero(surface.faces_per_edge.take(surface.edge_of_side) != 2)
+    corner, where = surface.faces.T.ravel().take(boundary), patch.take(boundary % m)
+    holes = np.bincount(where, minlength=patches)
+    corners = surface.faces[:, 0]
+    volume = np.zeros(patches)
+    for x, along in zip(surface.vertices.T, normal, strict=True):
+        middle = np.bincount(where, x.take(corner), patches) / np.maximum(holes, 1)
+        volume += np.bincount(patch, (x.take(corners) - middle.take(patch)) * along, patches) / 3
+    points, has_inside = np.sqrt(dots(pointing, pointing)), np.abs(volume) > HOLLOW * area**1.5
+    has_inside[one_sided] = False
+    is_body = (points < BODY * area) & has_inside
+    # Of a bowl the file may mean the inside.
+    is_shell = (points < SHELL * area) & has_inside & (volume > 0)
+    open_area = float(area[(is_body | is_shell) & (holes > 0)].sum())
+    # A loose sheet beside a body has sides that nobody can tell apart, and beside many the body would not be seen.
+    has_backs = open_area > 0 and open_area > 0.5 * float(area[holes > 0].sum())
+    return (is_body & (volume < 0))[patch], bool(has_backs)
