@@ -9,7 +9,9 @@ from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
+from .colour_options import add_colours, add_range, with_colours, with_range
 from .options import PANELS, add_areas, add_distance, check_parameters, given_parameters, quantities
+from .terminal import tell
 
 if TYPE_CHECKING:
     from ..document.document import Document
@@ -46,7 +48,8 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     parser.add_argument(
         "--height", type=float, nargs="?", const=0.35, metavar="SHARE", help="a flat mesh becomes a relief"
     )
-    _add_switch(parser, "shared-range", "one colour bar for all panels")
+    add_colours(parser)
+    add_range(parser)
     _add_switch(parser, "hints", "what to look for, under the headings (default: no)")
     parser.add_argument("--size", metavar="SIZE", help="such as 1680x640, 8000px, 160mm@300dpi, 160x80mm")
     parser.add_argument("--style", metavar="NAME", help="paper, uniform, lines or dark (default: paper)")
@@ -107,10 +110,9 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     document = replace(document, **_given(options, "areas", "height"))
     if options.isolines is not None:
         document = replace(document, isolines=replace(document.isolines, count=options.isolines))
-    if options.shared_range is not None:
-        document = replace(document, range="shared" if options.shared_range else "own")
     shading = shaded(document.shading, options.shading, options.crease, options.wireframe)
     document = replace(document, shading=shading)
+    document = with_range(with_colours(document, options), options, tell)
     page = replace(page, **_given(options, "size", "style", "hints", "transparent", "crop"))
     columns = options.columns if options.columns is not None else rows or page.columns
     if views:

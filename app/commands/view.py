@@ -5,6 +5,7 @@ import os
 import sys
 from typing import NoReturn
 
+from .colour_options import add_colours, with_colours
 from .mesh import found_mesh
 from .options import PANELS, add_areas, add_distance, given_parameters, quantities, vertex
 
@@ -21,6 +22,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
+    add_colours(parser)
     add_distance(parser, PANELS)
     add_areas(parser)
 
@@ -43,6 +45,7 @@ def run(options: argparse.Namespace) -> NoReturn:
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
         shown = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
+        shown = with_colours(shown, options)
     if is_choice and options.source is not None:
         raise ParameterError("A source needs a mesh; name one.")
     from ..qt.screen import check_screen
@@ -63,7 +66,7 @@ def _refuse_options(options: argparse.Namespace) -> None:
     """ParameterError for what a session says itself."""
     from bihdist_core import ParameterError
 
-    given = {"source": options.source, "distance": options.distance, "areas": options.areas}
+    given = {name: getattr(options, name) for name in ("source", "distance", "areas", "colours", "reversed", "bands")}
     given |= given_parameters(options)
     for name, value in given.items():
         if value is not None:

@@ -1,6 +1,6 @@
 """From one document to the next: pure functions, for what `dataclasses.replace` alone does not do."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec, kinds
@@ -83,6 +83,28 @@ def add_panel(document: Document, shows: Quantity, surface: str = "A") -> Docume
 
 def remove_panel(document: Document, panel: int) -> Document:
     return replace(document, panels=tuple(p for p in document.panels if p.id != document.panel(panel).id))
+
+
+def end_at(document: Document, panel: int, end: float | None) -> Document:
+    """Let a panel's colour bar end at a number, or at its field's own maximum; then it is not that of all panels."""
+    return with_ends(document, {panel: end})
+
+
+def with_ends(document: Document, ends: Mapping[int, float | None]) -> Document:
+    """The same for several, by the panels' ids."""
+    panels = tuple(replace(p, maximum=ends[p.id]) if p.id in ends else p for p in document.panels)
+    return replace(document, panels=panels, range="own")
+
+
+def with_range(document: Document, word: str) -> Document:
+    """One of RANGES; with "own" colour bars end at their fields' maxima, wherever they were made to end."""
+    panels = tuple(replace(panel, maximum=None) for panel in document.panels) if word == "own" else document.panels
+    return replace(document, range=word, panels=panels)
+
+
+def has_ends(document: Document) -> bool:
+    """Whether a colour bar ends elsewhere than at its field's maximum."""
+    return any(panel.maximum is not None for panel in document.panels)
 
 
 def move_panel(document: Document, panel: int, place: int) -> Document:

@@ -108,8 +108,6 @@ def _panels(recipe: Recipe) -> Said:
     document = recipe.document
     if not document.panels:
         raise _Unsaid("There are no panels.")
-    if any(panel.maximum is not None for panel in document.panels):
-        raise _Unsaid("A colour bar of a panel ends where somebody typed.")
     names = list(dict.fromkeys(name for panel in document.panels for name in panel.shows.points))
     shows: list[Quantity] = [
         from_point(p.shows, "source") for p in document.panels if set(p.shows.points) == {names[0]}
@@ -193,9 +191,25 @@ def _isolines(recipe: Recipe) -> Said:
 
 
 def _range(recipe: Recipe) -> Said:
-    if recipe.document.range == "shares":
-        raise _Unsaid("The colour bars read shares of the maximum.")
-    return _switched("--shared-range", "shared_range") if recipe.document.range == "shared" else NOTHING
+    """A word, or where each colour bar ends."""
+    word, ends = recipe.document.range, [panel.maximum for panel in recipe.document.panels]
+    if any(end is not None for end in ends):
+        if word != "own":
+            raise _Unsaid("A colour bar ends where somebody typed, and they all have one range.")
+        if len(ends) == 1:
+            return _option("--range", "range", float(ends[0] or 0))
+        return Said((("--range", ",".join("own" if end is None else _number(end) for end in ends)),), {"range": ends})
+    return NOTHING if word == USUAL.range else _option("--range", "range", word)
+
+
+def _colours(recipe: Recipe) -> Said:
+    colours = recipe.document.colours
+    if colours.stops:
+        raise _Unsaid("The colours came from a file.")
+    said = [_option("--colours", "colours", colours.map)] if colours.map else []
+    said += [_switched(f"--{name}", name) for name in ("reversed", "bands") if getattr(colours, name)]
+    arguments = {name: value for each in said for name, value in each.arguments.items()}
+    return Said(tuple(option for each in said for option in each.options), arguments)
 
 
 def _shading(recipe: Recipe) -> Said:
@@ -265,7 +279,7 @@ class Row:
 
 ROWS = (
     Row(("Document.surfaces", "Document.fields"), _mesh),
-    Row(("Document.points", "Document.panels", "Panel.shows", "Panel.maximum"), _panels),
+    Row(("Document.points", "Document.panels", "Panel.shows"), _panels),
     Row(("Document.areas",), _of_document("areas", "--areas", "areas")),
     Row(("Document.camera", "Page.views"), _views),
     Row(("Document.zooms", "Zoom.vertex", "Zoom.factor", "Zoom.corner", "Zoom.isolines"), _zooms),
@@ -282,10 +296,10 @@ ROWS = (
         ),
         _isolines,
     ),
-    Row(("Document.range",), _range),
+    Row(("Document.range", "Panel.maximum"), _range),
     Row(
         ("Document.colours", "Colours.map", "Colours.stops", "Colours.reversed", "Colours.bands"),
-        _only_usual(lambda recipe: recipe.document.colours, "The colours are not those of the style."),
+        _colours,
     ),
     Row(
         ("Document.shading", "Shading.normals", "Shading.crease", "Shading.wireframe"),

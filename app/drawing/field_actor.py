@@ -19,6 +19,9 @@ UNDEFINED = -1000.0
 """Stands for NaN in the scalars: shares are never negative, and the shader needs a number.  As far from them as VTK
 allows, so that a face with an undefined corner is undefined up to the others, without a seam of other colours."""
 
+FINE = 8192
+"""Colours of a table with bands, so that each ends where its isoline is."""
+
 _LIT = "//VTK::Light::Impl"
 BOLD = 2.0
 """By how much the line at 0 of a signed field is wider than the others."""
@@ -34,7 +37,8 @@ _PAINT = """//VTK::Light::Impl
   paint *= step(0.5, steps);                       // none at the source itself, none where undefined
   paint *= step(steps, isolineLast + 0.5);         // none at the farthest point itself
   paint *= isBack ? 0.0 : 1.0;
-  fragOutput0.rgb = mix(fragOutput0.rgb, isolineColour, paint);
+  float isolineShare = abs(2.0 * floor(steps + 0.5) * isolineStep - 1.0);
+  fragOutput0.rgb = mix(fragOutput0.rgb, isolineShare > isolineTurn ? isolineFarColour : isolineColour, paint);
 """.replace("BOLD", str(BOLD))
 
 
@@ -68,6 +72,7 @@ class FieldActor:
         self.maximum = 1.0
         self._mapper = vtkPolyDataMapper()
         self._count = 20
+        self._edges = np.empty(0)
         self._own_maximum = 1.0
         self._make()
         self.show_isolines(self._count)
@@ -104,9 +109,8 @@ class FieldActor:
         self._array.Modified()
         self.maximum, self._own_maximum = top, own
         if signed != self.is_signed:
-            self.is_signed, self.table = signed, lookup_table(self.style, signed)
-            self._mapper.SetLookupTable(self.table)
-            self._uniforms.SetUniform3f("isolineColour", self.style.line(signed))
+            self.is_signed = signed
+            self._set_colours()
         self.show_isolines(self._count)
 
     def show_bare(self) -> None:
@@ -127,6 +131,21 @@ class FieldActor:
         self._uniforms.SetUniformf("isolineStep", 1 / steps if count else 1e9)
         self._uniforms.SetUniformf("isolineLast", float(last))
         self._uniforms.SetUniformf("isolineBold", float(half) if self.is_signed else -1.0)
+
+    def show_bands(self, edges: np.ndarray) -> None:
+        """Where bands, if the style has any, end: shares (k,) of the maximum."""
+        if not np.array_equal(edges, self._edges):
+            self._edges = edges
+            if self.style.bands:
+                self._set_colours()
+
+    def _set_colours(self) -> None:
+        """The field has another sign, or other bands."""
+        self.table = lookup_table(self.style, self.is_signed, self._edges)
+        self._mapper.SetLookupTable(self.table)
+        self._uniforms.SetUniform3f("isolineColour", self.style.line(self.is_signed))
+        self._uniforms.SetUniform3f("isolineFarColour", self.style.line(self.is_signed, 1.0))
+        self._uniforms.SetUniformf("isolineTurn", self.style.turn if self.is_signed else 1e9)
 
     @property
     def isolines(self) -> np.ndarray:
@@ -172,11 +191,11 @@ class FieldActor:
         # Those of VTK are not faded where they are dense.
         surface.SetEdgeOpacity(0.0)
         self._uniforms = actor.GetShaderProperty().GetFragmentCustomUniforms()
-        self._uniforms.SetUniform3f("isolineColour", self.style.isoline)
         self._uniforms.SetUniformf("hasBacks", 0.0)
         self._uniforms.SetUniform3f("backColour", self.style.back)
         self._uniforms.SetUniform3f("edgeColour", self.style.edge)
         self._uniforms.SetUniform3f("edgeOnDark", self.style.edge_on_dark)
+        self._set_colours()
         self._put_shaders(False)
 
     def _put_shaders(self, has_edges: bool) -> None:
@@ -187,13 +206,22 @@ class FieldActor:
         shader.AddFragmentShaderReplacement(_LIT, False, _PAINT, False)
 
 
-def lookup_table(style: Style, signed: bool = False) -> vtkLookupTable:
-    """The style's colours from 0 to 1, or those of a signed field, and what is undefined below."""
-    colours = style.colours(signed=signed)
+def lookup_table(style: Style, signed: bool = False, edges: np.ndarray | None = None) -> vtkLookupTable:
+    """The style's colours from 0 to 1, or those of a signed field, and what is undefined below.
+
+    edges: (k,) shares of the maximum at which, where the style has bands, one ends and the next begins.
+    """
+    if style.bands and edges is not None and len(edges):
+        # Each colour stands for a part of the range, not for its beginning.
+        shares = (np.arange(FINE) + 0.5) / FINE
+        of = np.searchsorted(edges, 2 * shares - 1 if signed else shares, side="right")
+        colours = style.band_colours(edges, signed)[of]
+    else:
+        colours = style.colours(signed=signed)
     table = vtkLookupTable()
+    rgba = np.column_stack([np.round(255 * colours), np.full(len(colours), 255)]).astype(np.uint8)
     table.SetNumberOfTableValues(len(colours))
-    for k, colour in enumerate(colours):
-        table.SetTableValue(k, *colour, 1)
+    table.SetTable(numpy_to_vtk(rgba, deep=True))
     table.SetRange(0, 1)
     table.SetBelowRangeColor(*style.undefined, 1)
     table.UseBelowRangeColorOn()

@@ -75,6 +75,10 @@ class PanelScene:
         """So many equal steps from 0 to the maximum; 0 for no lines."""
         self._field.show_isolines(count)
 
+    def show_bands(self, edges: np.ndarray) -> None:
+        """Where bands end, see `FieldActor.show_bands`."""
+        self._field.show_bands(edges)
+
     @property
     def isolines(self) -> np.ndarray:
         """(k,) the values that have a line."""

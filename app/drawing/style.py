@@ -1,23 +1,25 @@
 """What pictures look like: the one place where colours and line widths are defined."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bihdist_core.errors import ParameterError
+
+from ..document.looks import OF_THE_STYLE, Colours, Stops
+from . import colour_maps
+from .colour_maps import MAPS, backwards, colours_at, goes_both_ways
+from .oklab import oklab
+
 Colour = tuple[float, float, float]
 
+WHITE, INK = (1.0, 1.0, 1.0), (0.08, 0.085, 0.1)
 
-DIVERGING: tuple[tuple[float, Colour], ...] = (
-    (-1.0, (0.16, 0.39, 0.73)),
-    (-0.6, (0.36, 0.62, 0.87)),
-    (-0.25, (0.70, 0.84, 0.94)),
-    (0.0, (0.95, 0.95, 0.94)),
-    (0.25, (0.97, 0.80, 0.58)),
-    (0.6, (0.89, 0.55, 0.20)),
-    (1.0, (0.69, 0.30, 0.04)),
-)
-"""For values on both sides of 0: blue below and orange above, equally dark at equal distances, which also those who
-confuse red and green tell apart; the ends are light enough for dark lines."""
+LINES_ON_COLOURS = (WHITE, INK, (1.0, 0.45, 0.0), (0.0, 0.75, 0.3))
+"""Isolines have the first of these that stands out from every colour of a map."""
+
+STANDS_OUT = 0.12
+"""Distances in Oklab from which on a line is seen well."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +29,11 @@ class Style:
     outline: width of the line around the shape and along its folds; 0 for none.  Without `shading` the colours are
     drawn as they are, and without `coloured` isolines alone tell the field.  back: of the inside of a surface, where
     it is seen; edge, edge_on_dark: of the wireframe, on light and on dark colours.
+    bands: one colour from isoline to isoline.  turn: the share of the maximum from which on, on both sides of 0,
+    isolines have the other colour.
     """
 
-    stops: tuple[tuple[float, Colour], ...]
+    stops: Stops
     background: Colour = (1, 1, 1)
     text: Colour = (0.13, 0.14, 0.16)
     quiet_text: Colour = (0.45, 0.47, 0.5)
@@ -48,19 +52,24 @@ class Style:
     largest: Colour = (0.10, 0.72, 0.50)
     marker_size: float = 15.0
     mark_edge: Colour = (0.1, 0.1, 0.12)
-    diverging: tuple[tuple[float, Colour], ...] = DIVERGING
-    signed_isoline: Colour = (0.16, 0.17, 0.19)
+    diverging: Stops = colour_maps.DIVERGING
+    signed_isoline: Colour = INK
+    far_isoline: Colour = WHITE
+    turn: float = 0.6
+    bands: bool = False
 
     def colours(self, count: int = 512, signed: bool = False) -> np.ndarray:
         """(count, 3) the colour map from 0 to the maximum; signed: from -maximum to maximum."""
         return self.colours_at(np.linspace(-1 if signed else 0, 1, count), signed)
 
+    def band_colours(self, edges: np.ndarray, signed: bool = False) -> np.ndarray:
+        """(k + 1, 3) the colours of bands, each that of its middle; edges: (k,) shares of the maximum, going up."""
+        ends = np.concatenate([[-1.0 if signed else 0.0], edges, [1.0]])
+        return self.colours_at((ends[1:] + ends[:-1]) / 2, signed)
+
     def colours_at(self, shares: np.ndarray, signed: bool = False) -> np.ndarray:
         """(k, 3) colours of values given as shares (k,) of the maximum, 0 to 1, or -1 to 1 if signed."""
-        stops = self.diverging if signed else self.stops
-        at = np.array([s for s, _ in stops])
-        colours = np.array([c for _, c in stops])
-        return np.stack([np.interp(shares, at, colours[:, k]) for k in range(3)], 1)
+        return colours_at(self.diverging if signed else self.stops, shares)
 
     def colour_of(self, value: float, top: float, signed: bool = False) -> Colour | np.ndarray:
         """The colour of one value where `top` is the end of the colour bar; what is undefined is grey."""
@@ -69,54 +78,21 @@ class Style:
         share = np.clip(value / top, -1 if signed else 0, 1) if top > 0 else 0.0
         return self.colours_at(np.array([share]), signed)[0]
 
-    def line(self, signed: bool = False) -> Colour:
-        """The colour of isolines; the middle of a diverging map is too light for white ones."""
-        return self.signed_isoline if signed else self.isoline
+    def line(self, signed: bool = False, share: float = 0.0) -> Colour:
+        """The colour of the isoline at a share of the maximum."""
+        if not signed:
+            return self.isoline
+        return self.far_isoline if abs(share) > self.turn else self.signed_isoline
 
 
-def _even(*colours: Colour) -> tuple[tuple[float, Colour], ...]:
-    """Stops at equal distances."""
-    return tuple((k / (len(colours) - 1), colour) for k, colour in enumerate(colours))
-
-
-PAPER = Style(
-    stops=(
-        (0.0, (0.03, 0.07, 0.42)),
-        (0.17, (0.08, 0.32, 0.78)),
-        (0.34, (0.33, 0.73, 0.90)),
-        (0.50, (0.80, 0.82, 0.83)),
-        (0.66, (0.95, 0.62, 0.66)),
-        (0.84, (0.83, 0.18, 0.20)),
-        (1.0, (0.45, 0.02, 0.06)),
-    )
-)
+PAPER = Style(stops=colour_maps.PAPER)
 """The paper's look: dark blue near, through cyan, grey and pink, to dark red far; white isolines."""
 
-UNIFORM = Style(
-    # viridis (Smith and van der Walt, CC0) from 0 to 0.82: beyond, white lines would no longer stand out.
-    stops=_even(
-        (0.267, 0.005, 0.329),
-        (0.281, 0.079, 0.402),
-        (0.282, 0.151, 0.465),
-        (0.269, 0.219, 0.510),
-        (0.247, 0.283, 0.536),
-        (0.220, 0.343, 0.549),
-        (0.194, 0.399, 0.556),
-        (0.171, 0.453, 0.558),
-        (0.150, 0.504, 0.557),
-        (0.131, 0.556, 0.552),
-        (0.120, 0.607, 0.540),
-        (0.135, 0.659, 0.518),
-        (0.191, 0.708, 0.482),
-        (0.281, 0.755, 0.433),
-        (0.395, 0.797, 0.368),
-        (0.526, 0.833, 0.288),
-    )
-)
+UNIFORM = Style(stops=colour_maps.UNIFORM)
 """Equal steps of distance look equally large, also with colour-vision deficiencies and printed in grey."""
 
 LINES = Style(
-    stops=_even((1, 1, 1), (1, 1, 1)),
+    stops=((0.0, (1, 1, 1)), (1.0, (1, 1, 1))),
     isoline=(0, 0, 0),
     isoline_width=1.1,
     outline=1.6,
@@ -124,6 +100,7 @@ LINES = Style(
     coloured=False,
     diverging=((-1.0, (1, 1, 1)), (1.0, (1, 1, 1))),
     signed_isoline=(0, 0, 0),
+    far_isoline=(0, 0, 0),
     largest=(1, 1, 1),
     text=(0, 0, 0),
     quiet_text=(0.25, 0.25, 0.25),
@@ -137,15 +114,7 @@ LINES = Style(
 """Isolines and outlines only, for black-and-white print."""
 
 DARK = Style(
-    stops=(
-        (0.0, (0.16, 0.28, 0.80)),
-        (0.17, (0.16, 0.46, 0.90)),
-        (0.34, (0.36, 0.76, 0.93)),
-        (0.50, (0.80, 0.82, 0.83)),
-        (0.66, (0.96, 0.64, 0.67)),
-        (0.84, (0.92, 0.33, 0.33)),
-        (1.0, (0.70, 0.10, 0.14)),
-    ),
+    stops=colour_maps.PAPER_ON_DARK,
     background=(0.07, 0.08, 0.10),
     text=(0.93, 0.94, 0.95),
     quiet_text=(0.66, 0.68, 0.71),
@@ -157,3 +126,55 @@ DARK = Style(
 
 STYLES = {"paper": PAPER, "uniform": UNIFORM, "lines": LINES, "dark": DARK}
 """The words of the command line and of recipes."""
+
+
+def style_of(word: str, colours: Colours = OF_THE_STYLE) -> Style:
+    """A style, with a document's colours where it names any; ParameterError for a style or a map that is not there.
+
+    The style of lines only has no colours, and stays as it is.
+    """
+    if word not in STYLES:
+        raise ParameterError(f"There is no style {word!r}; choose one of {', '.join(STYLES)}.")
+    style, stops = STYLES[word], map_of(colours)
+    if not style.coloured:
+        return style
+    if colours.map == "paper" and word == "dark" and not colours.stops:
+        stops = style.stops  # the paper's with ends that are seen on a dark ground
+    if stops:
+        style = replace(style, stops=stops, isoline=line_on(stops))
+    if colours.stops and goes_both_ways(colours.stops):
+        style = _with_diverging(style, tuple((2 * place - 1, colour) for place, colour in colours.stops))
+    if colours.reversed:
+        style = replace(style, stops=backwards(style.stops), diverging=backwards(style.diverging))
+    return replace(style, bands=colours.bands)
+
+
+def map_of(colours: Colours) -> Stops:
+    """The map that colours name, empty for that of the style; ParameterError if there is none."""
+    if colours.stops or not colours.map:
+        return colours.stops
+    if colours.map not in MAPS:
+        raise ParameterError(f"There is no colour map {colours.map!r}; choose one of {', '.join(MAPS)}, or a file.")
+    return MAPS[colours.map].stops
+
+
+def line_on(stops: Stops) -> Colour:
+    """The colour of isolines that are seen on all of a map's colours; the best there is where none stands out."""
+    ground = oklab(colours_at(stops, np.linspace(0, 1, 256)))
+    apart = [np.linalg.norm(ground - oklab(np.array([line])), axis=1).min() for line in LINES_ON_COLOURS]
+    return LINES_ON_COLOURS[next((k for k, far in enumerate(apart) if far > STANDS_OUT), int(np.argmax(apart)))]
+
+
+def _with_diverging(style: Style, stops: Stops) -> Style:
+    """The style with another map for what is signed; isolines are dark where it is light and light where it is dark."""
+    shares = np.linspace(0, 1, 101)
+    sides = [oklab(colours_at(stops, sign * shares))[:, 0] for sign in (-1, 1)]
+    is_light = sides[0][0] > MIDDLE
+    near, far = (INK, WHITE) if is_light else (WHITE, INK)
+    turned = [side < MIDDLE if is_light else side > MIDDLE for side in sides]
+    last = max(float(shares[side.argmax()]) if side.any() else 1.0 for side in turned)
+    return replace(style, diverging=stops, signed_isoline=near, far_isoline=far, turn=last)
+
+
+MIDDLE = 0.6
+"""The lightness in Oklab from which on dark lines are seen better than white ones."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..drawing.bands import band_edges, bar_parts, beyond
 from ..drawing.field_actor import BOLD, half_steps
 from ..drawing.style import Colour
 from .crossings import simplified
@@ -33,8 +34,6 @@ FINENESS = 0.03
 
 EDGE_FINENESS = 0.1
 """The same for the edge of the shape, which is found from pixels."""
-
-BAR_STEPS = 256
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,10 +106,11 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         edge = _silhouette(shot, page.layout.scale)
         # One object for all curves: it is then written once.
         shape = edge and TransformedPath(edge, axes.transData)
-    signed = page.figure.panels[shot.panel].signed
+    signed, top = page.figure.panels[shot.panel].signed, page.figure.tops()[shot.panel]
     for k, (value, lines) in enumerate(shot.isolines if vector else ()):
         width = style.isoline_width * stroke * (BOLD if signed and value == 0 else 1)
-        curve = _curve(lines, style.line(signed), width, "butt", order + 2, f"isoline-{number}-{k}")
+        line = style.line(signed, value / top if top > 0 else 0.0)
+        curve = _curve(lines, line, width, "butt", order + 2, f"isoline-{number}-{k}")
         axes.add_artist(curve)
         # The stroke is cut where the shape ends, which its middle line does already.
         curve.set_clip_path(shape)
@@ -278,9 +278,15 @@ def _draw_bar(axes: Axes, page: Composition, bar: Box, top: float, words: str, p
     from matplotlib.patches import Rectangle
 
     style, size, signed = page.figure.style, page.layout.label, panel.signed
+    goes_beyond = (False, False)
     if style.coloured:
-        edges = np.linspace(bar.x, bar.right, BAR_STEPS + 1)
-        for left, colour in zip(edges[:-1], style.colours(BAR_STEPS, signed), strict=True):
+        parts = bar_parts(style, band_edges(panel.isolines, top, signed), signed)
+        goes_beyond = beyond(panel.field, top, signed)
+        for is_there, way, (_, colour) in zip(goes_beyond, (-1, 1), (parts[0], parts[-1]), strict=True):
+            if is_there:
+                _draw_point(axes, bar, way, colour)
+        for start, colour in parts:
+            left = bar.x + start * bar.width
             # Each runs to the end of the bar, under the next ones: side by side they would show seams.
             axes.add_artist(Rectangle((left, bar.y), bar.right - left, bar.height, facecolor=colour, linewidth=0))
     count = panel.isolines.count
@@ -290,7 +296,8 @@ def _draw_bar(axes: Axes, page: Composition, bar: Box, top: float, words: str, p
         for k in range(1, steps):
             width = min(style.isoline_width * page.layout.stroke, step / 4)
             width *= BOLD if signed and 2 * k == steps else 1
-            _stroke(axes, bar.x + k * step, bar.y, bar.y + bar.height, style.line(signed), width)
+            line = style.line(signed, 2 * k / steps - 1)
+            _stroke(axes, bar.x + k * step, bar.y, bar.y + bar.height, line, width)
     if not style.coloured:
         axes.add_artist(
             Rectangle((bar.x, bar.y), bar.width, bar.height, fill=False, edgecolor=style.text, linewidth=0.8 * POINT)
@@ -301,12 +308,21 @@ def _draw_bar(axes: Axes, page: Composition, bar: Box, top: float, words: str, p
         _stroke(axes, x, bar.bottom, bar.bottom + 3, style.quiet_text, 0.8)
         _write(axes, f"{value:.6g}", x, bar.bottom + 4 + size, size, style.text)
     middle = bar.x + bar.width / 2
-    end = f"maximum {top:.4g}"
+    end = f"maximum {panel.own_top or top:.4g}" if any(goes_beyond) else f"maximum {top:.4g}"
     if signed and panel.field is not None:
         vertex = int(np.nanargmax(np.abs(panel.field)))
         end = f"largest {panel.field[vertex]:+.4g} at vertex {vertex}"
     words = f"{words}, {end}" if words else end
     _write(axes, words, middle, bar.bottom + 5 + 2.25 * size, size, style.quiet_text)
+
+
+def _draw_point(axes: Axes, bar: Box, way: int, colour: Colour) -> None:
+    """A colour bar with values beyond its lower (-1) or upper end (1) has a point there."""
+    from matplotlib.patches import Polygon
+
+    x = bar.right if way > 0 else bar.x
+    corners = [(x - way, bar.y), (x, bar.y), (x + 0.7 * way * bar.height, bar.y + bar.height / 2), (x, bar.bottom)]
+    axes.add_artist(Polygon([*corners, (x - way, bar.bottom)], facecolor=colour, linewidth=0))
 
 
 def ticks(top: float, low: float = 0.0) -> list[float]:

@@ -75,8 +75,11 @@ class FigurePanel:
     @property
     def top(self) -> float:
         """The end of the colour bar; 0 if there is no field, or none that is more than 0 anywhere."""
-        if self.maximum is not None:
-            return self.maximum
+        return self.own_top if self.maximum is None else self.maximum
+
+    @property
+    def own_top(self) -> float:
+        """The field's maximum, of its absolute values if it is signed."""
         if self.field is None:
             return 0.0
         return float(np.nanmax(np.abs(self.field) if self.signed else self.field, initial=0.0))

@@ -11,7 +11,7 @@ from bihdist_core.whole_file import check_output
 
 from ..document.document import Document, Panel
 from ..document.page import Recipe
-from ..drawing.style import STYLES
+from ..drawing.style import style_of
 from ..session.anchors import anchor_value, anchors_on
 from ..session.given import Given
 from ..session.opened import Opened, open_mesh
@@ -65,8 +65,7 @@ def refuse_if_nothing(answers: Sequence[Answer]) -> None:
 def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> Figure:
     """The figure a recipe describes, from its panels' answers."""
     document, page = recipe.document, recipe.page
-    if page.style not in STYLES:
-        raise ParameterError(f"There is no style {page.style!r}; choose one of {', '.join(STYLES)}.")
+    style = style_of(page.style, document.colours)
     if not document.panels:
         raise ParameterError("The recipe has no panels.")
     panels = tuple(
@@ -77,7 +76,7 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         panels,
         columns=page.columns,
         size=Size.parse(page.size) if page.size else Size(),
-        style=STYLES[page.style],
+        style=style,
         range=document.range,
         transparent=page.transparent,
         crop=page.crop,

@@ -17,13 +17,15 @@ from bihdist_core.progress import Progress
 from ..document.camera import Camera, View
 from ..document.document import Anchor, Document, Point, Zoom, free_names
 from ..document.file import read_recipe
-from ..document.looks import AS_IT_IS, Isolines, shaded
+from ..document.looks import AS_IT_IS, Colours, Isolines, shaded
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity
+from ..drawing.colour_file import colours_named
 from ..session.given import Given, Mesh, given_comparison
 from ..version import version
 from .description import Figure
 from .draw import draw_figure
+from .ends import ranged
 from .export import Surfaces, compute, figure_of, open_document, write_figure
 
 
@@ -76,6 +78,10 @@ def figure(
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
     isolines: int | Isolines = 20,
+    colours: str | Colours = "",
+    reversed: bool = False,
+    bands: bool = False,
+    range: str | float | Sequence[float | None] = "own",
     shared_range: bool = False,
     views: View | Sequence[View] = "home",
     camera: Sequence[float] | None = None,
@@ -100,7 +106,10 @@ def figure(
     named in `distances` like one: "biharmonic - mine".  views: names or cameras, side by side.  camera: the eleven
     numbers that `--camera` takes, after other views.  zooms: vertices, or with a factor.  anchors: vertices to be
     marked, perhaps each with a value.  shading: "smooth", "creased" at more than `crease` degrees, or "flat";
-    "auto" is creased on what has sharp edges.  Raises BihdistError, as the command says its sentences.
+    "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own", "shared"
+    (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or the
+    session or recipe whose ends are taken; shared_range: the same as "shared".  Raises BihdistError, as the command
+    says its sentences.
 
     >>> import bihdist
     >>> picture = bihdist.figure("hand", ["biharmonic", "biharmonic - geodesic"], source=12, size="400x200")
@@ -115,13 +124,14 @@ def figure(
     marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
     names = free_names("anchor", len(marked), [point.name for point in document.points])
     chosen = _views(views, camera)
+    found = colours if isinstance(colours, Colours) else colours_named(colours)
     document = replace(
         document,
         points=(*document.points, *(Point(name, vertex) for name, vertex in zip(names, marked, strict=True))),
         anchors=tuple(Anchor(name, value) for name, value in zip(names, marked.values(), strict=True)),
         zooms=tuple(Zoom(*zoom) if isinstance(zoom, tuple) else Zoom(zoom) for zoom in zooms),
         isolines=isolines,
-        range="shared" if shared_range else "own",
+        colours=replace(found, reversed=reversed or found.reversed, bands=bands or found.bands),
         height=height,
         shading=shaded(AS_IT_IS, shading, crease, wireframe),
         camera=chosen[0] if chosen else "home",
@@ -135,6 +145,7 @@ def figure(
         transparent=transparent,
         crop=crop,
     )
+    document, _ = ranged(document, "shared" if shared_range and range == "own" else range)
     document, surfaces = open_document(Recipe(document, page), given)
     recipe = Recipe(document, page)
     # What cannot be drawn is refused before the long work.

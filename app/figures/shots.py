@@ -16,6 +16,7 @@ from bihdist_core.progress import Progress, part
 from ..document.camera import Camera, View
 from ..document.document import Zoom
 from ..document.looks import Shading
+from ..drawing.bands import band_edges
 from ..drawing.camera import Margins, Projection, standard_camera
 from ..drawing.drawable import drawable, normals_shading
 from ..drawing.field_actor import isoline_values
@@ -116,6 +117,7 @@ def take_shots(
             studio.shown.show_shading(shading)
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
+                studio.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
             studio.shown.show_isolines(0 if vector or panel.field is None else panel.isolines.count)
             for number, (view, box) in enumerate(zip(panel.views, cell.views, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)

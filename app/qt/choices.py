@@ -1,14 +1,22 @@
 """What the user chooses: panels, isolines, colours, ranges, preferences.  `window` is the main window throughout."""
 
 from dataclasses import replace
+from pathlib import Path
 
 from qtpy import QtCore, QtWidgets
 
-from ..document.edits import MOST_ADDED, PANEL_EDITS, add_another, possible_edits
-from ..document.looks import MOST_ISOLINES
-from .look.canvas import STYLE_NAMES
+from bihdist_core import ParameterError
+
+from ..document.edits import MOST_ADDED, PANEL_EDITS, add_another, end_at, has_ends, possible_edits, with_range
+from ..document.looks import MOST_ISOLINES, Colours
+from ..drawing.colour_file import read_stops
+from ..drawing.colour_maps import MAPS
+from .bars.colour_menu import colours_in_words
+from .files.taken_ends import TakenEnds
 from .look.look import LOOK, TALK
 from .preferences import Preferences, save
+
+COLOUR_FILES = "Colour maps (*.txt *.csv *.json);;All files (*)"
 
 
 class Choices:
@@ -17,6 +25,7 @@ class Choices:
     def __init__(self, window) -> None:
         self._window = window
         self.is_full_screen = False
+        self.ends = TakenEnds(window)
 
     def show(self) -> None:
         """Let menus and buttons say what is chosen."""
@@ -24,14 +33,14 @@ class Choices:
         self.show_view()
         for name, value in {
             "isolines": str(document.isolines.count),
-            "colours": STYLE_NAMES.get(style, style),
-            "range": document.range.capitalize(),
+            "colours": colours_in_words(style, document.colours),
+            "range": "Typed" if document.range == "own" and has_ends(document) else document.range.capitalize(),
         }.items():
             window.tools[name].show_value(value)
         menus = window.menus
         menus.show_choice(menus.isolines, str(document.isolines.count))
-        menus.show_choice(menus.colours, style)
-        menus.show_choice(menus.range, document.range)
+        menus.colours.show_choice(style, document.colours)
+        menus.show_choice(menus.range, "" if document.range == "own" and has_ends(document) else document.range)
         menus.show_choice(menus.theme, LOOK.choice)
 
     def show_view(self) -> None:
@@ -67,17 +76,79 @@ class Choices:
         if chosen:
             self.isolines(count)
 
-    def range(self, word: str) -> None:
-        """ "own" or "shared"."""
-        session = self._window.session
-        session.show(replace(session.document, range=word))
-
     def style(self, word: str) -> None:
-        """One of the drawing's styles, for the panels and for the figures to come."""
+        """One of the drawing's styles, for the panels and for the figures to come.
+
+        Of two styles that differ in nothing but their map, one takes its own.
+        """
         window = self._window
         window.page = replace(window.page, style=word)
         window.wear()
+        if word in MAPS:
+            self.colour_map("")
         self.show()
+
+    # ------------------------------------------------------------------ colours
+    def _colour(self, colours: Colours) -> None:
+        session = self._window.session
+        if colours != session.document.colours:
+            session.show(replace(session.document, colours=colours))
+        self.show()
+
+    def colour_map(self, word: str) -> None:
+        """One of the drawing's maps, or that of the style."""
+        now = self._window.session.document.colours
+        self._colour(Colours(word, (), now.reversed, now.bands))
+
+    def reverse_colours(self, is_on: bool) -> None:
+        self._colour(replace(self._window.session.document.colours, reversed=is_on))
+
+    def band_colours(self, is_on: bool) -> None:
+        self._colour(replace(self._window.session.document.colours, bands=is_on))
+
+    def ask_colours(self) -> None:
+        """A map from a file."""
+        window = self._window
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(
+            window, "Colours from a file", window.preferences.last_folder, COLOUR_FILES
+        )
+        if path:
+            self.take_colours(path)
+
+    def take_colours(self, path: str) -> None:
+        """The map in a file, or a sentence why there is none."""
+        now = self._window.session.document.colours
+        try:
+            self._colour(Colours(Path(path).stem, read_stops(path), now.reversed, now.bands))
+        except ParameterError as error:
+            self._window.failed(str(error))
+
+    # ------------------------------------------------------------------ ranges
+    def range(self, word: str) -> None:
+        """One of RANGES."""
+        session = self._window.session
+        session.show(with_range(session.document, word))
+        self.show()
+
+    def end_at(self, panel: int, end: float | None) -> None:
+        """Where a panel's colour bar ends, its own maximum if None."""
+        session = self._window.session
+        session.show(end_at(session.document, panel, end))
+
+    def ask_end(self) -> None:
+        """Let the active panel's be typed."""
+        grid = self._window.grid
+        if grid is not None and grid.active >= 0:
+            grid.panel(grid.active).ask_end()
+
+    def ask_ends(self) -> None:
+        """Those of a session or recipe."""
+        window = self._window
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(
+            window, "Ranges from a session or recipe", window.preferences.last_folder, "Sessions and recipes (*.json)"
+        )
+        if path:
+            self.ends.take(path)
 
     # ------------------------------------------------------------------ the window
     def theme(self, word: str) -> None:

@@ -15,7 +15,7 @@ from ..document.document import Document
 from ..document.edits import move_source
 from ..document.page import Page, Recipe
 from ..drawing.prepared import prepare
-from ..drawing.style import STYLES
+from ..drawing.style import STYLES, Style
 from ..session.opened import Opened
 from ..session.questions import vertex_at
 from ..session.session import Session
@@ -122,6 +122,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.gestures = Gestures(self)
         self.grid.chosen.connect(self.gestures.choose)
         self.grid.asked.connect(self.choices.edit_panel)
+        self.grid.ended.connect(self.choices.end_at)
         self.grid.looked.connect(self.views.moved)
         self.grid.cancelled.connect(self.session.cancel)
         self.wear()
@@ -210,12 +211,15 @@ class MainWindow(QtWidgets.QMainWindow):
         self.build_panels()
         document, opened = self.session.document, self.session.opened()
         self._stack.setCurrentWidget(self._scroll)
+        is_dressed = self.grid.show_style(self._style)  # in other colours
         is_other = opened is not self._opened
-        other_panels = is_other or (document.panels, document.fields) != (before.panels, before.fields)
+        other_panels = is_other or is_dressed or (document.panels, document.fields) != (before.panels, before.fields)
         if other_panels:
             self.grid.show_panels(document)
         if is_other:
             self._show_surface(opened)
+        elif is_dressed:
+            self.grid.show_surface()
         if other_panels or document.points != before.points:
             self.grid.expect_sources(document)
             self._show_source()
@@ -223,12 +227,12 @@ class MainWindow(QtWidgets.QMainWindow):
             self.grid.mark_anchors(document)
         if other_panels or document.zooms != before.zooms:
             self.grid.show_insets(document)
-        if is_other or document.isolines != before.isolines:
+        if is_other or is_dressed or document.isolines != before.isolines:
             self.grid.show_isolines(document.isolines.count)
         is_raised = document.height != before.height
         if other_panels or is_raised or document.range != before.range:
             for panel in document.panels:
-                if self.session.is_answered(panel.id):
+                if self.session.is_answered(panel.id) or (is_dressed and panel.id in self.session.shown):
                     self.answer_changed(panel.id)
         if is_other or is_raised or document.camera != before.camera:
             self.grid.look(document.camera)
@@ -242,7 +246,7 @@ class MainWindow(QtWidgets.QMainWindow):
         """Look as figures on this page do, from the next change of the document on."""
         if page != self.page:
             self.page = page
-            if self.grid is not None and self.grid.show_style(canvas_style(page.style, LOOK.theme)):
+            if self.grid is not None and self.grid.show_style(self._style):
                 self._opened = None  # all is shown anew
 
     def _show_surface(self, opened: Opened) -> None:
@@ -377,8 +381,13 @@ class MainWindow(QtWidgets.QMainWindow):
     # ------------------------------------------------------------------ how it looks
     def wear(self) -> None:
         """Other colours, or another style of the fields."""
-        if self.grid is not None and self.grid.show_style(canvas_style(self.page.style, LOOK.theme)):
+        if self.grid is not None and self.grid.show_style(self._style):
             self._show_all_again()
+
+    @property
+    def _style(self) -> Style:
+        """What fields look like: that of the page, in the document's colours, on the window's ground."""
+        return canvas_style(self.page.style, LOOK.theme, self.session.document.colours)
 
     def _allow(self, has_mesh: bool) -> None:
         self.actions_by_word.allow(has_mesh)

@@ -70,8 +70,9 @@ def test_the_two_sides_of_a_diverging_map_are_told_apart_by_everybody_and_are_eq
     for name in ("as it is", *DEFICIENCIES):
         sides = (below, above) if name == "as it is" else (seen_with(name, below), seen_with(name, above))
         apart = np.linalg.norm(lab(sides[0]) - lab(sides[1]), axis=1)
-        assert apart.min() > 8, name
-        assert apart[-1] > 60, name
+        # Brown and violet are for those who confuse red and green; blue and yellow are mixed up by one in 10,000.
+        assert apart.min() > (8 if name == "tritanopia" else 18), name
+        assert apart[-1] > (25 if name == "tritanopia" else 60), name
         for side in sides:
             assert (np.diff(lab(side)[:, 0]) < 0).all(), name  # darker away from 0
     assert np.abs(lab(below)[:, 0] - lab(above)[:, 0]).max() < 5
@@ -79,6 +80,7 @@ def test_the_two_sides_of_a_diverging_map_are_told_apart_by_everybody_and_are_eq
 
 @pytest.mark.parametrize("style", [PAPER, UNIFORM, DARK])
 def test_lines_and_words_stand_out_from_a_diverging_map(style):
-    colours = lab(style.colours(signed=True))
-    assert np.linalg.norm(colours - lab(np.array([style.signed_isoline])), axis=1).min() > 20
+    colours = lab(style.colours(401, signed=True))
+    lines = lab(np.array([style.line(True, share) for share in np.linspace(-1, 1, 401)]))
+    assert np.abs(lines[:, 0] - colours[:, 0]).min() > 40
     assert np.linalg.norm(colours - lab(np.array([style.largest])), axis=1).min() > 20

@@ -4,11 +4,10 @@ from collections.abc import Callable, Sequence
 
 from qtpy import QtGui, QtWidgets
 
-from ...drawing.style import STYLES
 from ...samples import mesh_path, sample_names, thumbnail
 from .. import remembered
 from ..actions import ISOLINES, TURNS, VIEWS
-from ..look.canvas import STYLE_NAMES
+from .colour_menu import ColourMenu
 
 THUMBNAIL = 56
 
@@ -46,12 +45,19 @@ class Menus:
         self.recent = QtWidgets.QMenu("Re&cent", window)
         self.recent.aboutToShow.connect(self._fill_recent)
         self.isolines = self._isolines()
-        self.colours = self._choices("&Colours", window.choices.style, [(w, STYLE_NAMES.get(w, w)) for w in STYLES])
+        self.colours = ColourMenu(window)
         self.range = self._choices(
             "Ran&ge",
             window.choices.range,
-            [("own", "Own: each panel ends at its maximum"), ("shared", "Shared: equal colours, equal values")],
+            [
+                ("own", "Own: each panel ends at its maximum"),
+                ("shared", "Shared: equal colours, equal values"),
+                ("shares", "Shares: each from 0 to 100 % of its maximum"),
+            ],
         )
+        self.range.addSeparator()
+        self.range.addAction("This panel ends at …", window.choices.ask_end)
+        self.range.addAction("As in a session or recipe …", window.choices.ask_ends)
         self.theme = self._choices(
             "&Theme", window.choices.theme, [("desktop", "As the desktop"), ("light", "Light"), ("dark", "Dark")]
         )

@@ -14,7 +14,7 @@ from bihdist_core import BihdistError, ParameterError
 
 from ...document.file import checksum, read_recipe
 from ...document.page import Recipe
-from ...drawing.style import STYLES
+from ...drawing.style import style_of
 from ...samples import mesh_path
 from ...session.given import Given
 from ...session.recipe_file import recipe_written
@@ -106,9 +106,7 @@ class SessionFile:
             recipe = read_recipe(path)
             if len(recipe.document.surfaces) > 1:
                 raise ParameterError(f"The window shows one mesh, and {path} has {len(recipe.document.surfaces)}.")
-            style = recipe.page.style
-            if style not in STYLES:
-                raise ParameterError(f"{path}: there is no style {style!r}; choose one of {', '.join(STYLES)}.")
+            style_of(recipe.page.style, recipe.document.colours)
             self._window.session.given.update(Given.read(recipe))
             recipe = self._with_mesh(recipe)
         except BihdistError as error:

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 from qtpy import QtGui
 
-from ...drawing.style import STYLES, Colour, Style
+from ...document.looks import OF_THE_STYLE, Colours
+from ...drawing.style import Colour, Style, style_of
 from .theme import Theme
 
 STYLE_NAMES = {
@@ -19,9 +20,9 @@ TWINS = {(True, "paper"): "dark", (False, "dark"): "paper"}
 """The paper's colours on a dark ground have lighter ends, which is the style for slides; and the other way round."""
 
 
-def canvas_style(word: str, theme: Theme) -> Style:
-    """A figure's style with the window's own ground and text."""
-    style = STYLES[TWINS.get((theme.is_dark, word), word)]
+def canvas_style(word: str, theme: Theme, colours: Colours = OF_THE_STYLE) -> Style:
+    """A figure's style, in a document's colours, with the window's own ground and text."""
+    style = style_of(TWINS.get((theme.is_dark, word), word), colours)
     return replace(style, background=_rgb(theme.canvas), text=_rgb(theme.text), quiet_text=_rgb(theme.quiet))
 
 

@@ -33,7 +33,8 @@ UNDEFINED = "not connected to the source"
 class Reading:
     """What a bar has to say: values in `unit`; lines: those of the isolines; maximum: the field's own.
 
-    value: at the pointer, or None; words: in its place; note: in place of the maximum.
+    value: at the pointer, or None; words: in its place; note: in place of the maximum.  in_shares: the ticks are shares
+    of high.
     """
 
     low: float
@@ -46,6 +47,7 @@ class Reading:
     value: float | None = None
     words: str = ""
     note: str = ""
+    in_shares: bool = False
 
     def place(self, value: float) -> float:
         """Of a value on the bar, 0 to 1."""
@@ -205,6 +207,9 @@ def _placed(left: list[Word], right: list[Word], row: QtCore.QRectF) -> tuple[Wo
 # ---------------------------------------------------------------------- under and on the bar
 def _tick_line(reading: Reading, row: QtCore.QRectF) -> tuple[Word, ...]:
     """Round values, as many as stand clear of each other; 0 if there is room for one only."""
+    if reading.in_shares and reading.high > 0:
+        # The same places, in percent.
+        reading = replace(reading, low=100 * reading.low / reading.high, high=100.0)
     room, gap = TICK_ROOM * LOOK.scale, TICK_GAP * LOOK.scale
     most = max(int(row.width() / room), 1) if reading.high - reading.low > TINY else 0
     for count in range(most, 0, -1):
@@ -221,7 +226,8 @@ def _ticks_at(reading: Reading, values: list[float], row: QtCore.QRectF) -> tupl
     """Each centred under its value, but within the bar, or left out."""
     top, found = max(abs(reading.low), abs(reading.high)), []
     for value in values:
-        word = Word(tick_text(value, top, reading.signed), size=12)
+        percent = " %" if reading.in_shares and reading.high > 0 else ""
+        word = Word(tick_text(value, top, reading.signed) + percent, size=12)
         x = row.left() + row.width() * reading.place(value) - word.width / 2
         if word.width <= row.width():
             found.append(word.at(max(min(x, row.right() - word.width), row.left()), row))
@@ -243,7 +249,8 @@ def tick_text(value: float, top: float, signed: bool = False) -> str:
 
 def _isolines(reading: Reading, bar: QtCore.QRectF) -> tuple[float, ...]:
     """(m,) x of the isolines, or none where they would be too close."""
-    places = [bar.left() + bar.width() * reading.place(value) for value in reading.lines]
+    within = [value for value in reading.lines if reading.low <= value <= reading.high]
+    places = [bar.left() + bar.width() * reading.place(value) for value in within]
     if any(b - a < LINE_ROOM - SLACK for a, b in pairwise(places)):
         return ()
     return tuple(x for x in places if bar.left() + LINE_MARGIN <= x <= bar.right() - LINE_MARGIN)

@@ -13,6 +13,9 @@ from ..look.numbers import number, paint_number
 from ..look.theme import contrast
 from .bar_layout import UNDEFINED, Reading, lay_out
 
+POINT = 6
+"""Pixels by which a bar goes on, as a point, where there are values beyond its end."""
+
 FAINT = 1.3
 """Colours of less contrast with the ground need an outline."""
 
@@ -20,12 +23,16 @@ FAINT = 1.3
 class ColourBar(QtWidgets.QWidget):
     """Colours with round values under them, above them the value at the pointer; grey while there is no field."""
 
+    end_wanted = QtCore.Signal()  # by a double click, or in the menu: to say where it ends
+
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self._reading: Reading | None = None
         self._has_shares, self._is_compact = True, False
         self._colours, self._line_colour = QtGui.QBrush(), QtGui.QColor()
         self._ends: tuple[str, ...] = ()
+        self._bands: list[tuple[float, QtGui.QColor]] = []
+        self._beyond, self._far = (False, False), (2.0, QtGui.QColor())
         self._layout = lay_out(None, self.width())
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -43,23 +50,33 @@ class ColourBar(QtWidgets.QWidget):
         signed: bool = False,
         line_colour: tuple[float, float, float] = (1, 1, 1),
         maximum: float | None = None,
+        far: tuple[float, tuple[float, float, float]] | None = None,
+        bands: npt.ArrayLike = (),
+        beyond: tuple[bool, bool] = (False, False),
+        in_shares: bool = False,
     ) -> None:
         """A new field, of which nothing is said yet: colours (k, 3), 0 to 1, evenly from low to high, in `unit`.
 
         lines: (m,) the isolines' values.  signed: low is -high, and 0 in the middle has a bold line.  maximum: the
-        field's own (of its absolute values, if signed), which may be less than high.
+        field's own (of its absolute values, if signed), which may be another than high.  far: the share of the way from
+        the middle to an end from which on lines have another colour, and that colour.  bands: (k - 1,) places, 0 to 1,
+        where one colour ends and the next begins.  beyond: whether values lie beyond the low and the high end.
+        in_shares: the ticks are shares of high.
         """
         colours = np.clip(np.asarray(colours, float), 0, 1).reshape(-1, 3)
         own = high if maximum is None else maximum
         if not (all(map(math.isfinite, (low, high, own))) and low <= high and len(colours)):
             raise ValueError(f"{len(colours)} colours from {low} to {high}, maximum {own}, make no colour bar.")
         values = tuple(sorted(float(value) for value in np.ravel(lines)))
-        self._reading = Reading(low, high, values, unit, signed, own, self._has_shares)
+        self._reading = Reading(low, high, values, unit, signed, own, self._has_shares, in_shares=in_shares)
         if high == low:
-            colours = colours[[len(colours) // 2 if signed else 0]]
+            colours, bands = colours[[len(colours) // 2 if signed else 0]], ()
         self._colours = _gradient(colours)
+        self._bands = _bands(colours, np.asarray(bands, float))
+        self._beyond = beyond
         self._ends = tuple(QtGui.QColor.fromRgbF(*colours[k]).name() for k in (0, -1))
         self._line_colour = QtGui.QColor.fromRgbF(*line_colour)
+        self._far = (2.0, self._line_colour) if far is None else (far[0], QtGui.QColor.fromRgbF(*far[1]))
         self._lay_out()
 
     def show_shares(self, shown: bool) -> None:
@@ -111,6 +128,17 @@ class ColourBar(QtWidgets.QWidget):
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         self._lay_out()
 
+    def mouseDoubleClickEvent(self, event: QtGui.QMouseEvent) -> None:
+        self.end_wanted.emit()
+
+    def contextMenuEvent(self, event: QtGui.QContextMenuEvent) -> None:
+        if self._reading is not None:
+            menu = QtWidgets.QMenu(self)
+            # Once the menu is gone: two sheets do not pop up at a time.
+            menu.addAction("Ends at …").triggered.connect(lambda *_: QtCore.QTimer.singleShot(0, self.end_wanted.emit))
+            menu.aboutToHide.connect(menu.deleteLater)
+            menu.popup(event.globalPos())
+
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         painter, theme, layout = QtGui.QPainter(self), LOOK.theme, self._layout
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
@@ -126,19 +154,56 @@ class ColourBar(QtWidgets.QWidget):
     def _paint_bar(self, painter: QtGui.QPainter) -> None:
         theme, bar = LOOK.theme, self._layout.bar
         painter.setPen(QtCore.Qt.PenStyle.NoPen)
+        shape = self._shape(bar)
         painter.setBrush(QtGui.QColor(theme.hover) if self._reading is None else self._colours)
-        painter.drawRoundedRect(bar, 2, 2)
+        painter.drawPath(shape)
+        if self._reading is not None:
+            self._paint_bands(painter, bar, shape)
         for x in self._layout.isolines:
-            self._paint_line(painter, x, 1, self._line_colour)
+            from_middle = abs(2 * (x - bar.left()) / bar.width() - 1)
+            self._paint_line(painter, x, 1, self._far[1] if from_middle > self._far[0] else self._line_colour)
         if self._layout.zero is not None:
             self._paint_line(painter, self._layout.zero, 2, self._line_colour)
         if self._reading is not None and any(contrast(end, theme.canvas) < FAINT for end in self._ends):
             painter.setPen(QtGui.QPen(QtGui.QColor(theme.strong), 1))
             painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-            painter.drawRoundedRect(bar.adjusted(0.5, 0.5, -0.5, -0.5), 2, 2)
+            painter.drawPath(self._shape(bar.adjusted(0.5, 0.5, -0.5, -0.5)))
         if self._layout.pointer is not None:
             self._paint_line(painter, self._layout.pointer, 6, QtGui.QColor(theme.canvas), beyond=3)
             self._paint_line(painter, self._layout.pointer, 2, QtGui.QColor(theme.text), beyond=3)
+
+    def _shape(self, bar: QtCore.QRectF) -> QtGui.QPainterPath:
+        """Of the bar: with a point at an end beyond which there are values."""
+        path, (below, above) = QtGui.QPainterPath(), self._beyond if self._reading is not None else (False, False)
+        path.addRoundedRect(bar, 2, 2)
+        for is_there, x, way in ((below, bar.left(), -1), (above, bar.right(), 1)):
+            if is_there:
+                point = QtGui.QPolygonF(
+                    [
+                        QtCore.QPointF(x - 2 * way, bar.top()),
+                        QtCore.QPointF(x, bar.top()),
+                        QtCore.QPointF(x + way * POINT, bar.center().y()),
+                        QtCore.QPointF(x, bar.bottom()),
+                        QtCore.QPointF(x - 2 * way, bar.bottom()),
+                    ]
+                )
+                end = QtGui.QPainterPath()
+                end.addPolygon(point)
+                end.closeSubpath()
+                path = path.united(end)
+        return path
+
+    def _paint_bands(self, painter: QtGui.QPainter, bar: QtCore.QRectF, shape: QtGui.QPainterPath) -> None:
+        """One colour after the other, and the ends' colours in the points."""
+        painter.save()
+        painter.setClipPath(shape)
+        for start, colour in self._bands:
+            left = bar.left() + start * bar.width() if start else bar.left() - POINT
+            painter.fillRect(QtCore.QRectF(left, bar.top(), bar.right() + POINT - left, bar.height()), colour)
+        for is_there, x, colour in zip(self._beyond, (bar.left() - POINT, bar.right()), self._ends, strict=False):
+            if is_there:
+                painter.fillRect(QtCore.QRectF(x, bar.top(), POINT, bar.height()), QtGui.QColor(colour))
+        painter.restore()
 
     def _paint_line(self, painter: QtGui.QPainter, x: float, width: int, colour: QtGui.QColor, beyond: int = 0) -> None:
         """Across the bar, on whole pixels of the screen, so that all lines are equally sharp."""
@@ -147,6 +212,13 @@ class ColourBar(QtWidgets.QWidget):
         left = math.floor(x * ratio - thick / 2 + 0.5)
         box = QtCore.QRectF(left / ratio, bar.top() - beyond, thick / ratio, bar.height() + 2 * beyond)
         painter.fillRect(box, colour)
+
+
+def _bands(colours: np.ndarray, edges: np.ndarray) -> list[tuple[float, QtGui.QColor]]:
+    """Where each of the bands begins, 0 to 1, and its colour; none where colours (k, 3) run into each other."""
+    if len(edges) != len(colours) - 1 or not len(edges):
+        return []
+    return [(float(at), QtGui.QColor.fromRgbF(*rgb)) for at, rgb in zip([0.0, *edges], colours, strict=True)]
 
 
 def _gradient(colours: np.ndarray) -> QtGui.QBrush:

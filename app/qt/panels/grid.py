@@ -41,6 +41,7 @@ class PanelGrid(QtWidgets.QWidget):
     hovered = QtCore.Signal(int, object)  # panel, a `Met` or None beside the surface
     looked = QtCore.Signal(Camera)  # where the user has turned or moved the camera to
     menu_wanted = QtCore.Signal(int, object, object)  # panel, a `Met` or None, where on the screen
+    ended = QtCore.Signal(int, object)  # panel, where its colour bar is to end
     cancelled = QtCore.Signal(int)  # what is computed for a panel
     activated = QtCore.Signal(int)
 
@@ -149,6 +150,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.head.clicked.connect(lambda: self.activate(panel.id))
         panel.head.changed.connect(lambda chosen: self.chosen.emit(panel.id, chosen))
         panel.head.asked.connect(lambda word: self.asked.emit(panel.id, word))
+        panel.ended.connect(lambda end: self.ended.emit(panel.id, end))
         panel.cancelled.connect(lambda: self.cancelled.emit(panel.id))
         view.scene.renderer.SetActiveCamera(self.camera)
         panel.show_style(self._style)
@@ -218,7 +220,8 @@ class PanelGrid(QtWidgets.QWidget):
         document, shown = self._session.document, self._session.shown
         for other in shown if document.range == "shared" else (id,):
             if other in self._panels:
-                self._panels[other].show_answer(shown[other], self._maximum(other), document.height)
+                in_shares = document.range == "shares"
+                self._panels[other].show_answer(shown[other], self._maximum(other), document.height, in_shares)
         self._point_again()
 
     def show_certificate(self, id: int) -> None:
@@ -227,7 +230,9 @@ class PanelGrid(QtWidgets.QWidget):
     def _maximum(self, id: int) -> float | None:
         """The end of a panel's colour bar; None for the field's own maximum."""
         document, shown = self._session.document, self._session.shown
-        if document.range != "shared":
+        if document.range == "shares":
+            return None
+        if document.range == "own":
             return document.panel(id).maximum
         unit = shown[id].answer.unit
         ends = [

@@ -11,7 +11,9 @@ from bihdist_core import Surface
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import COMPARISON, Zoom
+from ...document.looks import TWENTY_STEPS, Isolines
 from ...document.quantities import Difference, DistanceFrom
+from ...drawing.bands import band_edges, beyond
 from ...drawing.board import Board
 from ...drawing.drawable import drawable
 from ...drawing.picking import Met, Picker
@@ -23,6 +25,7 @@ from ...session.opened import Opened
 from ..look.look import LOOK
 from ..look.numbers import number, share
 from .colour_bar import ColourBar
+from .end_box import EndPopUp
 from .head import PanelHead
 from .view import Pointed, View
 from .waiting import Waiting
@@ -40,6 +43,7 @@ class DistancePanel(QtWidgets.QWidget):
     """See the module.  id: that of the document's panel."""
 
     cancelled = QtCore.Signal()
+    ended = QtCore.Signal(object)  # where its colour bar is to end, None for the field's own maximum
 
     def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -47,6 +51,9 @@ class DistancePanel(QtWidgets.QWidget):
         self.head = PanelHead(DistanceFrom(COMPARISON[0]), self)
         self.view = View(board, self)
         self.bar = ColourBar(self)
+        self.bar.end_wanted.connect(self.ask_end)
+        self._end = EndPopUp(self)
+        self._end.chosen.connect(self.ended)
         self.waiting = Waiting(self.view)
         self.waiting.cancelled.connect(self.cancelled)
         self._accent = QtWidgets.QWidget(self)
@@ -66,8 +73,9 @@ class DistancePanel(QtWidgets.QWidget):
         self._source: int | None = None
         self._zooms: tuple[Zoom, ...] = ()
         self._anchors: Sequence[tuple[int, float | None]] = ()
+        self._isolines = TWENTY_STEPS
         self.answer: Answer | None = None
-        self._is_preview = self._is_waiting = False
+        self._is_preview = self._is_waiting = self._in_shares = False
         self._paint_accent(False)
 
     # ------------------------------------------------------------------ how it looks
@@ -136,9 +144,20 @@ class DistancePanel(QtWidgets.QWidget):
             self.view.scene.insets.settle(samples)
 
     def show_isolines(self, count: int) -> None:
+        self._isolines = Isolines(count)
         self.view.scene.show_isolines(count)
+        self._show_bands()
         self._show_bar()
         self.view.redraw()
+
+    def _show_bands(self) -> None:
+        self.view.scene.show_bands(self._edges)
+
+    @property
+    def _edges(self) -> np.ndarray:
+        """(k,) shares of the maximum at which bands end."""
+        is_signed = self.answer is not None and self.answer.is_signed
+        return band_edges(self._isolines, self.view.scene.maximum, is_signed)
 
     def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
         """Vertices with a value each; without one it is the field's own."""
@@ -161,17 +180,21 @@ class DistancePanel(QtWidgets.QWidget):
         return None if vertex is None else self._positions[vertex]
 
     # ------------------------------------------------------------------ answers
-    def show_answer(self, shown: Shown, maximum: float | None = None, height: float = 0.0) -> None:
+    def show_answer(
+        self, shown: Shown, maximum: float | None = None, height: float = 0.0, in_shares: bool = False
+    ) -> None:
         """A field with its colour bar up to `maximum`, its own if None; or why there is none.
 
-        height: of the relief that a flat surface becomes.
+        height: of the relief that a flat surface becomes.  in_shares: the bar reads shares of the maximum.
         """
+        self._in_shares = in_shares
         self.answer = answer = shown.answer
         self._raise(answer, maximum or answer.maximum, height)
         if answer.field is None:
             self.view.scene.show_bare()
         else:
             self.view.scene.show_field(answer.field, maximum, answer.is_signed)
+            self._show_bands()
         self.mark_source()
         self.mark_anchors(self._anchors)
         self.view.scene.mark_largest(self._position(answer.largest))
@@ -184,16 +207,21 @@ class DistancePanel(QtWidgets.QWidget):
         if answer is None or answer.field is None or self._is_waiting:
             self.bar.clear()
             return
-        top, style = scene.maximum, scene.style
+        top, style, signed = scene.maximum, scene.style, answer.is_signed
+        edges = self._edges if style.bands else np.empty(0)
         self.bar.show_range(
-            style.colours(signed=answer.is_signed),
-            -top if answer.is_signed else 0.0,
+            style.band_colours(edges, signed) if style.bands and len(edges) else style.colours(signed=signed),
+            -top if signed else 0.0,
             top,
             scene.isolines,
             answer.unit,
-            answer.is_signed,
-            style.line(answer.is_signed),
+            signed,
+            style.line(signed),
             maximum=answer.maximum,
+            far=(style.turn, style.line(signed, 1.0)) if signed else None,
+            bands=(edges + 1) / 2 if signed else edges,
+            beyond=beyond(answer.field, top, signed),
+            in_shares=self._in_shares,
         )
         self.bar.show_shares(not answer.is_signed)
         if answer.largest is not None:
@@ -201,6 +229,12 @@ class DistancePanel(QtWidgets.QWidget):
             self.bar.show_note(f"largest {number(value, signed=True)} at vertex {answer.largest}")
         else:
             self.bar.show_note("")
+
+    def ask_end(self) -> None:
+        """Let it be typed where the colour bar ends."""
+        answer = self.answer
+        if answer is not None and answer.field is not None and not self._is_waiting:
+            self._end.ask(self.bar, self.view.scene.maximum, answer.maximum, answer.unit)
 
     def _raise(self, answer: Answer, top: float, height: float) -> None:
         """Let the surface be a relief of the answer, or flat again."""

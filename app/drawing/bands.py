@@ -1,0 +1,54 @@
+"""Bands of one colour each: they begin and end at the isolines, from one end of the colour bar to the other."""
+
+import numpy as np
+
+from ..document.looks import MOST_ISOLINES, Isolines
+from .field_actor import half_steps
+from .style import Colour, Style
+
+BAR_STEPS = 256
+"""Parts of a colour bar that has no bands."""
+
+
+def band_edges(isolines: Isolines, maximum: float, signed: bool = False) -> np.ndarray:
+    """(k,) shares of the maximum, from 0 or, if signed, -1 to 1, that have an isoline.
+
+    Empty where there are none, or more than can be told apart.
+    """
+    low = -1.0 if signed else 0.0
+    if not maximum > 0:
+        return np.empty(0)
+    if isolines.values:
+        shares = np.array(isolines.values) / maximum
+    elif isolines.spacing is None and not isolines.count:
+        return np.empty(0)
+    else:
+        steps = half_steps(isolines.count) if signed else isolines.count
+        step = 1 / steps if isolines.spacing is None else isolines.spacing / maximum
+        if 1 / step > MOST_ISOLINES:
+            return np.empty(0)
+        # A hair within the end of the bar, by rounding, begins no band.
+        last = int(np.ceil(1 / step - 1e-6)) - 1
+        shares = step * np.arange(-last if signed else 1, last + 1)
+    return shares[(shares > low) & (shares < 1)]
+
+
+def bar_parts(style: Style, edges: np.ndarray, signed: bool = False) -> list[tuple[float, Colour]]:
+    """Where on a colour bar, 0 to 1, a colour begins, from the first to the last; edges: as `band_edges` has them."""
+    if not (style.bands and len(edges)):
+        starts = np.arange(BAR_STEPS) / BAR_STEPS
+        colours = style.colours(BAR_STEPS, signed)
+    else:
+        places = (edges + 1) / 2 if signed else edges
+        starts = np.append(0.0, places)
+        colours = style.band_colours(edges, signed)
+    return [(float(start), (float(r), float(g), float(b))) for start, (r, g, b) in zip(starts, colours, strict=True)]
+
+
+def beyond(field: np.ndarray | None, top: float, signed: bool = False) -> tuple[bool, bool]:
+    """Whether a field (n,) goes beyond the ends of a colour bar: below 0 or, if signed, -top; and above top."""
+    if field is None or not top > 0:
+        return False, False
+    end = top * (1 + 1e-6)  # by a hair it does not
+    low = -end if signed else 0.0
+    return bool(np.nanmin(field, initial=0.0) < low), bool(np.nanmax(field, initial=0.0) > end)

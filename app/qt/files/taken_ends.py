@@ -1,0 +1,98 @@
+"""Colour bars that end as in a session or recipe, whose fields are computed in the background.  `window` is the main
+window."""
+
+import os
+
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core import BihdistError
+from bihdist_core.distances.answers import failure_in_words
+
+from ...figures.ends import End, ended_as, ends_in
+from ...session.lane import Lane
+
+PATIENCE_MS = 400
+"""How long nothing is said of it."""
+
+
+class TakenEnds(QtCore.QObject):
+    """One file at a time: a later one takes the place of one that is still computed.  `taken` has a sentence."""
+
+    taken = QtCore.Signal(str)
+    _found = QtCore.Signal(object, object)
+    _failed = QtCore.Signal(object, object)
+    _progress = QtCore.Signal(object, str)
+
+    def __init__(self, window) -> None:
+        super().__init__(window)
+        self._window = window
+        self._lane: Lane[list[str]] | None = None
+        self._wanted: list[str] | None = None  # one path, as an object of its own
+        self._waiting: QtWidgets.QProgressDialog | None = None
+        self._found.connect(self._take)
+        self._failed.connect(self._refuse)
+        self._progress.connect(self._show_progress)
+        window.closed.connect(self._close)
+
+    def take(self, path: str) -> None:
+        """Let the colour bars end as there, as a step that can be undone, or say why not."""
+        if self._lane is None:
+            self._lane = Lane("ends", self._compute, self._progress.emit, self._failed.emit)
+        self._end_waiting()
+        self._wanted = [path]
+        waiting = QtWidgets.QProgressDialog(f"The fields of {os.path.basename(path)} …", "Cancel", 0, 100, self._window)
+        waiting.setWindowTitle("Ranges")
+        waiting.setMinimumDuration(PATIENCE_MS)
+        waiting.setAutoClose(False)
+        waiting.setAutoReset(False)
+        waiting.canceled.connect(self.cancel)
+        self._waiting = waiting
+        self._lane.submit(self._wanted)
+
+    def cancel(self) -> None:
+        """The ends stay as they are."""
+        self._wanted = None
+        if self._lane is not None:
+            self._lane.submit(None)
+        self._end_waiting()
+
+    def _compute(self, request: list[str], lane: Lane[list[str]]) -> None:
+        self._found.emit(request, ends_in(request[0], lane.progress(lambda latest: latest is request)))
+
+    def _show_progress(self, fraction: float | None, words: str) -> None:
+        if self._waiting is not None and fraction is not None:
+            self._waiting.setValue(min(int(100 * fraction), 99))
+
+    def _take(self, request: list[str], ends: tuple[End, ...]) -> None:
+        if request is not self._wanted:
+            return
+        self._wanted = None
+        self._end_waiting()
+        window = self._window
+        try:
+            document, said = ended_as(window.session.document, ends, os.path.basename(request[0]))
+        except BihdistError as error:
+            window.failed(str(error))
+            return
+        window.session.show(document)
+        window.say(said)
+        self.taken.emit(said)
+
+    def _refuse(self, request: list[str], error: Exception) -> None:
+        if request is self._wanted:
+            self._wanted = None
+            self._end_waiting()
+            self._window.failed(failure_in_words(error))
+
+    def _end_waiting(self) -> None:
+        waiting, self._waiting = self._waiting, None
+        if waiting is not None:
+            waiting.canceled.disconnect(self.cancel)
+            waiting.close()
+            waiting.deleteLater()
+
+    def _close(self) -> None:
+        self._wanted = None
+        self._end_waiting()
+        if self._lane is not None:
+            self._lane.close()
