@@ -158,11 +158,10 @@ ELSEWHERE = {
     "Document.height": "needs a flat mesh: see its test",
 }
 
-WORDLESS = {"Zoom.corner", "Zoom.isolines", "Panel.maximum"} | {
+WORDLESS = {"Zoom.corner", "Zoom.isolines"} | {
     name
     for name in EXAMPLES
-    if name.startswith("Colours.")
-    or name in ("Document.colours", "Document.up", "Document.projection", "Document.axes")
+    if name in ("Colours.stops", "Document.up", "Document.projection", "Document.axes")
     or name in ("Isolines.spacing", "Isolines.values", "Isolines.bold", "Isolines.labels", "Isolines.through")
     or name in ("Page.title", "Page.font", "Page.text")
 }
