@@ -19,6 +19,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--frames", type=int, default=120, metavar="N", help="how many pictures (default: 120)")
     parser.add_argument("--fps", type=float, default=25.0, metavar="N", help="how many of them a second (default: 25)")
+    parser.add_argument("--jobs", type=int, metavar="N", help="how many processes draw (default: one a processor)")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -37,10 +38,12 @@ def run(options: argparse.Namespace) -> int:
     ):
         if given:
             raise ParameterError(f"A movie takes no {name.removeprefix('no ')}.")
+    if options.jobs is not None and options.jobs < 1:
+        raise ParameterError(f"At least one process draws, not {options.jobs}.")
     turn = options.turn if options.turn is not None else 0.0 if options.path else 360.0
     movie = Movie(chosen_recipe(options), turn, options.path, options.frames, options.fps)
     with progress_line() as progress:
-        answers = write_movie(movie, options.output, progress)
+        answers = write_movie(movie, options.output, progress, jobs=options.jobs)
     print(f"{options.output}: {movie.frames} frames, {movie.frames / movie.fps:.3g} s")
     return judged(answers, os.path.basename(movie.recipe.document.surfaces[0].path))
 

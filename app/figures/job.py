@@ -9,8 +9,10 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import BinaryIO
 
-from bihdist_core import BihdistError, Cancelled
+from bihdist_core import Cancelled
 from bihdist_core.progress import Progress
+
+from .worker import GONE, failure_sentence
 
 Ended = Callable[[str | None], None]
 """Called with nothing when the file is there, otherwise with the sentence why not; "" if it was cancelled."""
@@ -53,12 +55,22 @@ class FigureJob:
         self._thread.join(timeout)
 
     def _follow(self) -> None:
-        message: str | None = "The picture was not drawn: its process ended without a word."
+        message: str | None = GONE
         try:
+            message = self._said()
+        finally:  # whatever happens, somebody waits for the end
+            self._process.stdout.close()
+            with suppress(OSError):
+                self._process.stdin.close()
+            self._process.wait()
+            self._ended("" if self._cancelled and message is not None else message)
+
+    def _said(self) -> str | None:
+        """What the process says of its end; of its progress meanwhile."""
+        message: str | None = GONE
+        with suppress(OSError, ValueError):  # it ended, or was cancelled; what it says tells which
             self._process.stdin.write(len(self._work).to_bytes(8, "little") + self._work)
             self._process.stdin.flush()
-        except (OSError, ValueError):
-            pass  # it ended, or was cancelled; what it says tells which
         for line in self._process.stdout:
             kind, _, text = line.decode("utf-8", "replace").rstrip("\r\n").partition(" ")
             if kind == "progress":
@@ -67,12 +79,8 @@ class FigureJob:
             elif kind == "done":
                 message = None
             elif kind == "failed":
-                message = text
-        self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout):
-            with suppress(OSError):
-                pipe.close()
-        self._ended("" if self._cancelled and message is not None else message)
+                message = text or GONE
+        return message
 
 
 def main() -> None:
@@ -91,18 +99,15 @@ def main() -> None:
     def progress(fraction: float, text: str) -> None:
         if closed.is_set():
             raise Cancelled("The drawing was cancelled.")
-        out.write(f"progress {fraction:.4f} {text}\n".encode())
+        out.write(f"progress {fraction:.4f} {' '.join(text.split())}\n".encode(errors="replace"))
 
     try:
         work: Callable[..., None] = pickle.loads(content)
         work(progress=progress)
         out.write(b"done\n")
-    except BihdistError as error:
-        out.write(f"failed {' '.join(str(error).split())}\n".encode())
-    except MemoryError:
-        out.write(b"failed There is not enough memory for a picture of this size.\n")
-    except Exception as error:
-        out.write(f"failed The picture could not be drawn ({type(error).__name__}).\n".encode())
+    except BaseException as error:  # also what would end the process, which says nothing by itself
+        with suppress(OSError):  # nobody listens any more
+            out.write(f"failed {failure_sentence(error)}\n".encode(errors="replace"))
 
 
 def _wait_for_end(incoming: BinaryIO, closed: threading.Event) -> None:

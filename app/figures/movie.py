@@ -1,29 +1,37 @@
 """Moving figures: the shape turning, the source wandering along a path, or both; as MP4 or GIF."""
 
+from __future__ import annotations
+
 import os
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import closing
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bihdist_core import BihdistError, ParameterError, Surface
+from bihdist_core import BihdistError, OutputError, ParameterError, Surface
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..document.camera import Camera, View
+from ..document.camera import View
 from ..document.document import Document, Panel
 from ..document.edits import put_point
 from ..document.page import Recipe
-from ..drawing.camera import DIRECTIONS, Projection, standard_camera, turned
+from ..drawing.camera import turned
 from ..session.given import Given
-from ..session.questions import Question, questions
-from .draw import Figure, draw_figure
+from ..session.questions import Question, questions, vertex_at
+from .description import Figure
 from .export import Surfaces, figure_of, open_document, refuse_if_nothing
-from .layout import lay_out
+from .frames import drawn_frames
+from .turning import fitted_size, start_and_axis
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 MOVIE_FORMATS = (".mp4", ".gif")
 
@@ -70,11 +78,16 @@ def check_movie(path: str | os.PathLike[str]) -> None:
 
 
 def write_movie(
-    movie: Movie, path: str | os.PathLike[str], progress: Progress | None = None, given: Given | None = None
+    movie: Movie,
+    path: str | os.PathLike[str],
+    progress: Progress | None = None,
+    given: Given | None = None,
+    jobs: int | None = None,
 ) -> list[Answer]:
     """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel.
 
-    given: what the document has from Python, in the recipe's archive if None.
+    given: what the document has from Python, in the recipe's archive if None.  jobs: how many processes draw, one for
+    each processor if None.
     """
     check_movie(path)
     if not movie.recipe.document.panels:
@@ -82,9 +95,13 @@ def write_movie(
     document, surfaces = open_document(movie.recipe, given or Given.read(movie.recipe))
     movie = replace(movie, recipe=replace(movie.recipe, document=document))
     fields = _Fields(movie, surfaces, part(progress, 0.0, SETTING_UP))
-    pictures = _pictures(movie, fields, part(progress, SETTING_UP, 1.0))
     with whole_file(path) as temporary:
-        (_write_mp4 if temporary.suffix.lower() == ".mp4" else _write_gif)(temporary, pictures, movie)
+        is_mp4 = temporary.suffix.lower() == ".mp4"
+        frames = drawn_frames(
+            _figures(movie, fields), movie.frames, "RGB" if is_mp4 else "P", jobs, part(progress, SETTING_UP, 1.0)
+        )
+        with closing(frames):
+            (_write_mp4 if is_mp4 else _write_gif)(temporary, frames, movie)
     return fields.examples
 
 
@@ -159,58 +176,40 @@ class _Fields:
         return figure_of(recipe, self._surfaces, [self._answers[q] for q in questions(document).values()])
 
 
-def _pictures(movie: Movie, fields: _Fields, progress: Progress) -> Iterator[np.ndarray]:
-    first = fields.figure(0, movie.recipe.views)
-    # Seen from everywhere it keeps its size, so it must fit from everywhere.
-    box = lay_out(first).cells[0].views[0]
-    axis, start = _start(movie.recipe.views[0], fields.surface, box.width / box.height)
-    if movie.turn:
-        start = _roomy(start, axis, fields.surface)
+def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
+    """What is drawn of each frame."""
+    document = fields.documents[0]
+    sources = [vertex_at(at, fields.surface) for at in document.sources]
+    camera, axis = start_and_axis(movie.recipe.views[0], fields.surface, movie.turn, document.height, sources)
+    size = fitted_size(fields.figure(0, (camera,)), camera.extent)
     for k in range(movie.frames):
-        progress(k / movie.frames, f"frame {k + 1} of {movie.frames}")
         # A whole turn ends one step before where it began: shown again and again, it does not halt.
-        picture = draw_figure(fields.figure(k, (turned(start, movie.turn * k / movie.frames, axis),)))
-        # The usual kind of MP4 has an even number of rows and columns.
-        yield np.pad(picture, [(0, picture.shape[0] % 2), (0, picture.shape[1] % 2), (0, 0)], mode="edge")
-    progress(1.0, "")
-
-
-def _start(view: View, surface: Surface, aspect: float) -> tuple[np.ndarray, Camera]:
-    if isinstance(view, str):
-        shown = surface.vertices[surface.component_of_vertex >= 0]
-        return np.array(DIRECTIONS[view][1], float), standard_camera(shown, aspect, view)
-    return np.array(view.up), view
-
-
-def _roomy(camera: Camera, axis: np.ndarray, surface: Surface) -> Camera:
-    """The camera with an extent that holds the shape from all sides it will be seen from."""
-    wide, high = camera.extent
-    for degrees in range(0, 360, 10):
-        whole = replace(turned(camera, degrees, axis), extent=(1.0, 1.0))
-        seen = np.abs(Projection(whole, 1.0, surface.vertices)(surface.vertices[surface.component_of_vertex >= 0]))
-        wide, high = max(wide, float(np.nanmax(seen[:, 0]))), max(high, float(np.nanmax(seen[:, 1])))
-    return replace(camera, extent=(wide, high))
+        yield replace(fields.figure(k, (turned(camera, movie.turn * k / movie.frames, axis),)), size=size)
 
 
 # ---------------------------------------------------------------------- files
-def _write_mp4(path: Path, pictures: Iterator[np.ndarray], movie: Movie) -> None:
+def _write_mp4(path: Path, frames: Iterator[np.ndarray], movie: Movie) -> None:
     import imageio_ffmpeg
 
-    first = next(pictures)
+    first = next(frames)
     height, width, _ = first.shape
     writer = imageio_ffmpeg.write_frames(str(path), (width, height), fps=movie.fps, quality=8, macro_block_size=2)
     try:
-        writer.send(None)
-        writer.send(np.ascontiguousarray(first))
-        for picture in pictures:
-            writer.send(np.ascontiguousarray(picture))
+        _send(writer, None)
+        for frame in chain([first], frames):
+            _send(writer, np.ascontiguousarray(frame))
     finally:
         writer.close()
 
 
-def _write_gif(path: Path, pictures: Iterator[np.ndarray], movie: Movie) -> None:
-    from PIL import Image
+def _send(writer: Generator[None, np.ndarray | None, None], frame: np.ndarray | None) -> None:
+    try:
+        writer.send(frame)
+    except (OSError, StopIteration) as error:
+        words = next((line for line in reversed(str(error).splitlines()) if line.strip()), type(error).__name__)
+        raise OutputError(f"The movie could not be encoded: {words.strip()[:200]}") from error
 
-    frames = (Image.fromarray(picture).quantize(256) for picture in pictures)
+
+def _write_gif(path: Path, frames: Iterator[Image], movie: Movie) -> None:
     first = next(frames)
     first.save(path, save_all=True, append_images=frames, duration=round(1000 / movie.fps), loop=0)

@@ -13,7 +13,10 @@ from ..drawing.camera import Projection
 from ..drawing.style import Style
 
 FINER = 2
-"""Pixels drawn for each pixel of a figure, along each side; each of them is multisampled besides."""
+"""Pixels drawn for each pixel of a figure, along each side."""
+
+SAMPLES = 8
+"""Of each of these pixels."""
 
 TILE = 1024
 """Pixels of the picture, along each side, that are drawn at once: OpenGL limits a picture's size, and memory does."""
@@ -27,10 +30,10 @@ WHOLE: Rectangle = (-1.0, 1.0, -1.0, 1.0)
 class Studio:
     """An off-screen window with one surface in it, to be closed at the end; only one thread may use it.
 
-    finer: how many pixels are drawn for each pixel of the picture, along each side.
+    finer: how many pixels are drawn for each pixel of the picture, along each side; samples: of each of them.
     """
 
-    def __init__(self, style: Style, finer: int = FINER) -> None:
+    def __init__(self, style: Style, finer: int = FINER, samples: int = SAMPLES) -> None:
         check_offscreen()
         if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
             # VTK would otherwise try an X server first, and complain that there is none.
@@ -50,7 +53,7 @@ class Studio:
         self._window = vtkRenderWindow()
         self._window.SetOffScreenRendering(True)
         self._window.SetAlphaBitPlanes(True)
-        self._window.SetMultiSamples(8)
+        self._window.SetMultiSamples(samples)
         self._window.AddRenderer(self._renderer)
 
     def close(self) -> None:

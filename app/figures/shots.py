@@ -25,7 +25,7 @@ from ..drawing.relief import relief, rise
 from ..drawing.style import Style
 from .description import Figure, FigurePanel
 from .layout import Box, Layout
-from .raster import FINER, Rectangle, Studio
+from .raster import FINER, SAMPLES, Rectangle, Studio
 from .sight import Curve, Sight
 
 FREE = 0.03
@@ -57,11 +57,11 @@ class Shot:
 class Stage:
     """What is kept from one figure to the next: the off-screen window, and surfaces made ready.  Use it as a context.
 
-    finer: see `Studio`.
+    finer, samples: see `Studio`.
     """
 
-    def __init__(self, finer: int = FINER) -> None:
-        self._finer = finer
+    def __init__(self, finer: int = FINER, samples: int = SAMPLES) -> None:
+        self._finer, self._samples = finer, samples
         self._studio: Studio | None = None
         self._meshes: dict[tuple[int, Shading], tuple[Surface, vtkPolyData]] = {}
 
@@ -80,7 +80,7 @@ class Stage:
         """The window for a style."""
         if self._studio is None or self._studio.shown.style != style:
             self.close()
-            self._studio = Studio(style, self._finer)
+            self._studio = Studio(style, self._finer, self._samples)
         return self._studio
 
     def keep(self, surfaces: Iterable[Surface]) -> None:

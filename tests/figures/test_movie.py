@@ -2,6 +2,7 @@
 
 import os
 import sys
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -10,10 +11,20 @@ from PIL import Image
 
 from app.document.document import comparison
 from app.document.page import Page, Recipe
+from app.drawing.camera import Projection, turned
+from app.drawing.field_actor import drawable
+from app.figures.description import Figure, FigurePanel
+from app.figures.frames import drawn_frames
+from app.figures.layout import lay_out
 from app.figures.movie import Movie, route, write_movie
+from app.figures.sight import Sight
+from app.figures.size import Size
+from app.figures.turning import fitted_size, start_and_axis
+from app.figures.worker import Worker
 from app.main import main
-from bihdist_core import Cancelled, ParameterError
+from bihdist_core import BihdistError, Cancelled, OutputError, ParameterError, Surface
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.progress import silent
 from tests.shapes import bumpy, grid, two_pieces
 
 
@@ -105,3 +116,103 @@ def test_movies_that_make_no_sense_are_refused(recipe, mesh_file, tmp_path, caps
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     assert main(["movie", mesh, "-o", str(tmp_path / "m.mp4")]) == 2
     assert "pip install imageio-ffmpeg" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------------- several processes
+def numbers(count):
+    """Figures that are told apart by their width."""
+    surface = bumpy(60)
+    field = np.linspace(0, 1, 60)
+    for k in range(count):
+        yield Figure((FigurePanel(surface, field),), size=Size(40.0 + 2 * k, 40.0, dpi=96))
+
+
+def test_frames_of_several_processes_come_in_order_and_as_of_one():
+    alone = list(drawn_frames(numbers(13), 13, "RGB", 1, silent))
+    both = list(drawn_frames(numbers(13), 13, "RGB", 2, silent))
+    assert [frame.shape[1] for frame in both] == [40 + 2 * k for k in range(13)]
+    assert [np.array_equal(a, b) for a, b in zip(alone, both, strict=True)] == [True] * 13
+
+
+def test_a_process_that_is_killed_is_said_and_the_others_end(monkeypatch):
+    workers = []
+
+    class Watched(Worker):
+        def __init__(self, threads=None):
+            super().__init__(threads)
+            workers.append(self._process)
+
+    monkeypatch.setattr("app.figures.frames.Worker", Watched)
+    frames = drawn_frames(numbers(40), 40, "RGB", 2, silent)
+    next(frames)
+    workers[0].kill()
+    with pytest.raises(BihdistError, match="ended without a word"):
+        list(frames)
+    assert [process.poll() is not None for process in workers] == [True, True]
+
+
+def test_what_fails_in_another_process_is_said(recipe):
+    def refused():
+        yield from numbers(12)
+        raise ParameterError("No more.")
+
+    with pytest.raises(ParameterError, match="No more"):
+        list(drawn_frames(refused(), 13, "RGB", 2, silent))
+    worker = Worker()
+    try:
+        with pytest.raises(BihdistError, match=r"could not be drawn \(ZeroDivisionError: .*\)"):
+            worker.ask(divmod, 1, 0)
+        with pytest.raises(BihdistError, match="not a size"):
+            worker.ask(Size.parse, "wide")
+        large = np.arange(1 << 14)
+        for _ in range(2):  # sent once, and named then
+            assert worker.ask(np.sum, large) == large.sum()
+        assert worker.ask(divmod, 7, 3) == (2, 1)
+        assert worker.ask(np.sum, large) == large.sum()
+    finally:
+        worker.close()
+    with pytest.raises(BihdistError, match="ended without a word"):
+        worker.ask(divmod, 1, 1)
+
+
+def test_an_encoder_that_gives_up_is_said(recipe, tmp_path, monkeypatch):
+    ffmpeg = pytest.importorskip("imageio_ffmpeg")
+
+    def broken(*_args, **_options):
+        yield
+        raise OSError("ffmpeg says:\n\nno space left on device\n")
+
+    monkeypatch.setattr(ffmpeg, "write_frames", broken)
+    with pytest.raises(OutputError, match="could not be encoded: no space left"):
+        write_movie(Movie(recipe, frames=3), tmp_path / "m.mp4")
+    assert os.listdir(tmp_path) == ["mesh.off"]
+
+
+# ---------------------------------------------------------------------- what is seen
+def test_the_source_is_seen_in_the_first_frame():
+    surface = bumpy(400)
+    for vertex in range(0, 400, 37):
+        camera, axis = start_and_axis("home", surface, 360.0, 0.0, [vertex])
+        sight = Sight(surface, drawable(surface), Projection(camera, 1.0, surface.vertices), (300, 300))
+        away = abs(surface.vertices[vertex] @ axis) / np.linalg.norm(surface.vertices[vertex])
+        assert sight.sees(surface.vertices[vertex]) or away > 0.9  # from above the poles alone
+    front = start_and_axis("front", surface, 360.0, 0.0, [5])[0]
+    assert np.allclose(np.subtract(front.position, front.focal_point)[:2], 0)  # as it was asked for
+
+
+def test_a_frame_is_as_large_as_what_turns_and_no_larger():
+    long = Surface(bumpy(400).vertices * [0.3, 3, 0.2], bumpy(400).faces, "")
+    for surface in (bumpy(400), long):
+        for turn in (360.0, 90.0):
+            camera, axis = start_and_axis("home", surface, turn, 0.0, [5])
+            figure = Figure((FigurePanel(surface, np.linspace(0, 1, 400)),), size=Size(600))
+            figure = replace(figure, size=fitted_size(figure, camera.extent))
+            box = lay_out(figure).cells[0].views[0]
+            reached = np.zeros(2)
+            for k in range(37):
+                seen = Projection(turned(camera, turn * k / 36, axis), box.width / box.height, surface.vertices, 0.03)
+                reached = np.maximum(reached, np.abs(seen(surface.vertices)[:, :2]).max(axis=0))
+            # Nothing is cut off; the wider side is filled, and the other unless the frame would be a strip.
+            assert reached.max() <= 1
+            assert reached.max() > 0.9
+            assert reached.min() > (0.9 if surface is not long else 0.3)

@@ -1,0 +1,121 @@
+"""Where a moving shape is seen from, and how large its frame is: as large as what turns, and no larger."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from vtkmodules.vtkCommonCore import mutable
+from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
+
+from bihdist_core import Surface
+
+from ..document.camera import Camera, View
+from ..drawing.camera import DIRECTIONS, VIEW_ANGLE, Projection, is_flat, standard_camera, turned
+from ..drawing.field_actor import drawable
+from ..drawing.relief import rise
+from .description import Figure
+from .layout import lay_out
+from .size import Size
+
+STEP = 10
+"""Degrees between the angles that are looked at."""
+
+FLATTEST, STEEPEST = 2.5, 0.4
+"""Width by height of a view, at most and at least."""
+
+WELL = 15
+"""Degrees by which a place that is well seen may be turned either way, and is still seen."""
+
+
+def start_and_axis(
+    view: View, surface: Surface, turn: float, height: float, sources: Sequence[int]
+) -> tuple[Camera, np.ndarray]:
+    """The camera of the first frame, whose extent holds the shape while it turns, and the axis (3,) of the turn.
+
+    height: of a relief.  sources: vertices; from home, where nobody has chosen, the first is seen in the first frame.
+    """
+    points = surface.vertices[surface.component_of_vertex >= 0]
+    if height:
+        bounds = np.stack([points.min(axis=0), points.max(axis=0)], axis=1).ravel().tolist()
+        points = np.concatenate([points, points + np.array([0.0, 0.0, rise(bounds, height)])])
+    if isinstance(view, Camera):
+        axis, camera = np.array(view.up), view
+        extent = _swept(camera, axis, points, turn)
+        if not turn:  # no more than was chosen
+            extent = tuple(np.minimum(extent, view.extent))
+        return replace(camera, extent=extent), axis
+    name = "relief" if height and view == "home" else view
+    axis = np.array(DIRECTIONS[name][1], float)
+    camera = standard_camera(points, 1.0, name)
+    if turn:
+        camera = _about(camera, axis, points)
+        if view == "home" and sources and not is_flat(points):
+            camera = turned(camera, _facing(camera, axis, surface, sources[0]), axis)
+    return replace(camera, extent=_swept(camera, axis, points, turn)), axis
+
+
+def fitted_size(figure: Figure, extent: tuple[float, float]) -> Size:
+    """The size of a figure whose views have the shape of an extent, as far as its own leaves the height open."""
+    size, layout = figure.size, lay_out(figure)
+    dpi = 96 * layout.scale
+    if size.height is not None or not 10 <= dpi <= 2400:
+        return size
+    box = layout.cells[0].views[0]
+    wanted = box.width / min(max(extent[0] / extent[1], STEEPEST), FLATTEST)
+    height = layout.height + figure.grid[0] * (wanted - box.height)
+    return Size(float(layout.page[0]), float(round(height * layout.scale)), "px", dpi)
+
+
+def _about(camera: Camera, axis: np.ndarray, points: np.ndarray) -> Camera:
+    """The camera at the middle of the shape, far enough to see it from everywhere round an axis."""
+    axis = axis / np.linalg.norm(axis)
+    along = points @ axis
+    across = points - along[:, None] * axis
+    middle = _centre(across) + axis * (along.min() + along.max()) / 2
+    radius = float(np.linalg.norm(points - middle, axis=1).max())
+    back = np.subtract(camera.position, camera.focal_point)
+    back = back / np.linalg.norm(back) * radius / np.sin(np.radians(VIEW_ANGLE / 2))
+    x, y, z = (float(number) for number in middle)
+    a, b, c = (float(number) for number in middle + back)
+    return replace(camera, position=(a, b, c), focal_point=(x, y, z))
+
+
+def _centre(points: np.ndarray) -> np.ndarray:
+    """(3,) about the middle of the smallest ball round points (n, 3): steps towards the farthest, ever smaller."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    for k in range(2, 60):
+        farthest = points[((points - middle) ** 2).sum(axis=1).argmax()]
+        middle = middle + (farthest - middle) / k**1.5
+    return middle
+
+
+def _swept(camera: Camera, axis: np.ndarray, points: np.ndarray, turn: float) -> tuple[float, float]:
+    """The extent that holds points (n, 3) at all angles of a turn."""
+    angles = np.append(np.arange(0, min(abs(turn), 360), STEP), min(abs(turn), 360)) * np.sign(turn)
+    wide = high = 0.0
+    for degrees in angles if turn else (0.0,):
+        whole = replace(turned(camera, float(degrees), axis), extent=(1.0, 1.0))
+        seen = np.abs(Projection(whole, 1.0, points)(points))
+        wide, high = max(wide, float(np.nanmax(seen[:, 0]))), max(high, float(np.nanmax(seen[:, 1])))
+    return wide, high
+
+
+def _facing(camera: Camera, axis: np.ndarray, surface: Surface, vertex: int) -> float:
+    """The least turn, in degrees, after which a vertex is well seen; if it never is, after which it is seen at all."""
+    locator = vtkStaticCellLocator()
+    locator.SetDataSet(drawable(surface))
+    locator.BuildLocator()
+    point = surface.vertices[vertex]
+    tolerance = 1e-6 * float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
+
+    def is_seen(degrees: float) -> bool:
+        eye = np.array(turned(camera, degrees, axis).position)
+        t, where, cell = mutable(0.0), [0.0] * 3, mutable(0)
+        way = point - eye
+        if not locator.IntersectWithLine(eye, eye + 1.001 * way, 0.0, t, where, [0.0] * 3, mutable(0), cell):
+            return True
+        return float(np.linalg.norm(np.array(where) - eye)) >= float(np.linalg.norm(way)) - tolerance
+
+    angles = sorted(range(-180 + STEP, 181, STEP), key=abs)
+    well = (a for a in angles if is_seen(a) and is_seen(a - WELL) and is_seen(a + WELL))
+    return float(next(well, next((a for a in angles if is_seen(a)), 0)))
