@@ -35,6 +35,9 @@ if TYPE_CHECKING:
 
 MOVIE_FORMATS = (".mp4", ".gif")
 
+PLACES = 12
+"""Of a source's way, that are looked for in the picture."""
+
 SETTING_UP = 0.03
 """The share of a movie's progress before its first frame; the rest goes evenly with the frames."""
 
@@ -179,7 +182,9 @@ class _Fields:
 def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
     """What is drawn of each frame."""
     document = fields.documents[0]
-    sources = [vertex_at(at, fields.surface) for at in document.sources]
+    # What turns shows its source at first; what stands, as much as may be of the source's way.
+    seen = fields.documents[:1] if movie.turn else fields.documents[:: max(len(fields.documents) // PLACES, 1)]
+    sources = [vertex_at(at, fields.surface) for each in seen for at in each.sources]
     camera, axis = start_and_axis(movie.recipe.views[0], fields.surface, movie.turn, document.height, sources)
     size = fitted_size(fields.figure(0, (camera,)), camera.extent)
     for k in range(movie.frames):

@@ -10,8 +10,9 @@ from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 from bihdist_core import Surface
 
 from ..document.camera import Camera, View
+from ..document.looks import Shading
 from ..drawing.camera import DIRECTIONS, VIEW_ANGLE, Projection, is_flat, standard_camera, turned
-from ..drawing.field_actor import drawable
+from ..drawing.drawable import drawable
 from ..drawing.relief import rise
 from .description import Figure
 from .layout import lay_out
@@ -20,8 +21,11 @@ from .size import Size
 STEP = 10
 """Degrees between the angles that are looked at."""
 
-FLATTEST, STEEPEST = 2.5, 0.4
+FLATTEST, STEEPEST = 2.5, 0.5
 """Width by height of a view, at most and at least."""
+
+NARROWEST = 0.6
+"""Of the usual width of a view, where a high shape takes less."""
 
 WELL = 15
 """Degrees by which a place that is well seen may be turned either way, and is still seen."""
@@ -32,7 +36,7 @@ def start_and_axis(
 ) -> tuple[Camera, np.ndarray]:
     """The camera of the first frame, whose extent holds the shape while it turns, and the axis (3,) of the turn.
 
-    height: of a relief.  sources: vertices; from home, where nobody has chosen, the first is seen in the first frame.
+    height: of a relief.  sources: vertices of which, from home, where nobody has chosen, as many are seen as can be.
     """
     points = surface.vertices[surface.component_of_vertex >= 0]
     if height:
@@ -49,21 +53,32 @@ def start_and_axis(
     camera = standard_camera(points, 1.0, name)
     if turn:
         camera = _about(camera, axis, points)
-        if view == "home" and sources and not is_flat(points):
-            camera = turned(camera, _facing(camera, axis, surface, sources[0]), axis)
+    if view == "home" and sources and not is_flat(points):
+        camera = turned(camera, _facing(camera, axis, surface, sources), axis)
     return replace(camera, extent=_swept(camera, axis, points, turn)), axis
 
 
 def fitted_size(figure: Figure, extent: tuple[float, float]) -> Size:
-    """The size of a figure whose views have the shape of an extent, as far as its own leaves the height open."""
+    """The size of a figure whose views have the shape of an extent, as far as its own leaves that open."""
     size, layout = figure.size, lay_out(figure)
-    dpi = 96 * layout.scale
+    scale, dpi = layout.scale, 96 * layout.scale
     if size.height is not None or not 10 <= dpi <= 2400:
         return size
+    rows, columns = figure.grid
+    aspect = min(max(extent[0] / extent[1], STEEPEST), FLATTEST)
     box = layout.cells[0].views[0]
-    wanted = box.width / min(max(extent[0] / extent[1], STEEPEST), FLATTEST)
-    height = layout.height + figure.grid[0] * (wanted - box.height)
-    return Size(float(layout.page[0]), float(round(height * layout.scale)), "px", dpi)
+    width = layout.width
+    if size.width is None:  # what is high becomes narrow, and the page no higher, as long as there is room for words
+        views = len(figure.panels[0].views)
+        narrower = box.width - max(min(box.height * aspect, box.width), box.width * NARROWEST)
+        width -= columns * views * narrower
+        figure = replace(figure, size=Size(width * scale, layout.height * scale, "px", dpi))
+        layout = lay_out(figure)
+        box = layout.cells[0].views[0]
+    height = layout.height + rows * (box.width / aspect - box.height)
+    if size.width is None:
+        height = min(height, lay_out(figure).height)
+    return Size(float(round(width * scale)), float(round(height * scale)), "px", dpi)
 
 
 def _about(camera: Camera, axis: np.ndarray, points: np.ndarray) -> Camera:
@@ -100,22 +115,22 @@ def _swept(camera: Camera, axis: np.ndarray, points: np.ndarray, turn: float) ->
     return wide, high
 
 
-def _facing(camera: Camera, axis: np.ndarray, surface: Surface, vertex: int) -> float:
-    """The least turn, in degrees, after which a vertex is well seen; if it never is, after which it is seen at all."""
+def _facing(camera: Camera, axis: np.ndarray, surface: Surface, vertices: Sequence[int]) -> float:
+    """The least turn, in degrees, after which most of the vertices are well seen."""
     locator = vtkStaticCellLocator()
-    locator.SetDataSet(drawable(surface))
+    locator.SetDataSet(drawable(surface, Shading("smooth")))
     locator.BuildLocator()
-    point = surface.vertices[vertex]
     tolerance = 1e-6 * float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
 
-    def is_seen(degrees: float) -> bool:
-        eye = np.array(turned(camera, degrees, axis).position)
+    def is_seen(eye: np.ndarray, point: np.ndarray) -> bool:
         t, where, cell = mutable(0.0), [0.0] * 3, mutable(0)
         way = point - eye
         if not locator.IntersectWithLine(eye, eye + 1.001 * way, 0.0, t, where, [0.0] * 3, mutable(0), cell):
             return True
         return float(np.linalg.norm(np.array(where) - eye)) >= float(np.linalg.norm(way)) - tolerance
 
-    angles = sorted(range(-180 + STEP, 181, STEP), key=abs)
-    well = (a for a in angles if is_seen(a) and is_seen(a - WELL) and is_seen(a + WELL))
-    return float(next(well, next((a for a in angles if is_seen(a)), 0)))
+    def seen(degrees: float) -> int:
+        eyes = [np.array(turned(camera, degrees + more, axis).position) for more in (-WELL, 0, WELL)]
+        return sum(is_seen(eye, point) for eye in eyes for point in surface.vertices[list(vertices)])
+
+    return float(max(sorted(range(-180 + STEP, 181, STEP), key=abs), key=seen))
