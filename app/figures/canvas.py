@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,10 +16,10 @@ import numpy as np
 from ..drawing.bands import band_edges, bar_parts, beyond
 from ..drawing.field_actor import BOLD, half_steps
 from ..drawing.style import Colour
-from .crossings import simplified
 from .description import Figure, FigurePanel
 from .layout import FONT, Box, Cell, Layout, bar_words, text_width, wrapped
 from .shots import Line, Shot
+from .simplified import simplified
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -67,18 +68,19 @@ def matplotlib_settings() -> Iterator[None]:
 
 
 def drawn(page: Composition, vector: bool, shots: bool = True, words: bool = True) -> Canvas:
-    """The page in matplotlib; not `vector`: without what is there as pixels already.
+    """The page in matplotlib; not `vector`: for pixels, which its pictures' own become as they are.
 
-    shots, words: whether there is what lies on the pictures, and what stands beside them.
+    shots, words: whether there are the pictures and what lies on them, and what stands beside them.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as Canvas
 
     layout = page.layout
-    # matplotlib cuts fractions of pixels off: a page half a pixel larger keeps its last row and column.
-    more = 0.0 if vector else 0.5 / layout.scale
+    # matplotlib cuts fractions of pixels off: a page a hair larger keeps its last row and column.
+    more = 0.0 if vector else 0.01 / layout.scale
     width, height = (layout.width, layout.height) if vector else (side / layout.scale + more for side in layout.page)
-    canvas = Canvas(figsize=(width / 96, height / 96), dpi=96 * layout.scale, facecolor="none")
+    ground = "none" if vector or not shots or page.figure.transparent else page.figure.style.background
+    canvas = Canvas(figsize=(width / 96, height / 96), dpi=96 * layout.scale, facecolor=ground)
     FigureCanvasAgg(canvas)
     axes = canvas.add_axes((0, 0, 1, 1))
     axes.set_xlim(0, width)
@@ -98,16 +100,14 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
 
     style, order, stroke = page.figure.style, 10 * number, page.layout.stroke
     frame = Rectangle((shot.box.x, shot.box.y), shot.box.width, shot.box.height, linewidth=0, zorder=order)
-    frame.set_facecolor(style.background if vector and shot.source is not None else "none")
+    frame.set_facecolor(style.background if shot.source is not None else "none")
     axes.add_artist(frame)
-    shape = None
-    if vector:
-        _draw_image(axes, shot, order + 1, None if page.figure.transparent else style.background)
-        edge = _silhouette(shot, page.layout.scale)
-        # One object for all curves: it is then written once.
-        shape = edge and TransformedPath(edge, axes.transData)
+    _draw_image(axes, page, shot, order + 1, vector)
+    edge = _silhouette(shot, page.layout.scale)
+    # One object for all curves: it is then written once.
+    shape = edge and TransformedPath(edge, axes.transData)
     signed, top = page.figure.panels[shot.panel].signed, page.figure.tops()[shot.panel]
-    for k, (value, lines) in enumerate(shot.isolines if vector else ()):
+    for k, (value, lines) in enumerate(shot.isolines):
         width = style.isoline_width * stroke * (BOLD if signed and value == 0 else 1)
         line = style.line(signed, value / top if top > 0 else 0.0)
         curve = _curve(lines, line, width, "butt", order + 2, f"isoline-{number}-{k}")
@@ -125,29 +125,64 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         _draw_frames(axes, shot, style.quiet_text, order + 5)
 
 
-def _draw_image(axes: Axes, shot: Shot, order: int, background: Colour | None) -> None:
+def _draw_image(axes: Axes, page: Composition, shot: Shot, order: int, vector: bool) -> None:
     """The shaded pixels on their background, without the empty rows and columns around them."""
     from matplotlib.image import AxesImage
 
-    alpha = shot.image[..., 3:].astype(np.uint16)
-    rows, columns = np.flatnonzero(alpha.any(axis=(1, 2))), np.flatnonzero(alpha.any(axis=(0, 2)))
+    alpha = shot.image[..., 3]
+    rows, columns = np.flatnonzero(alpha.any(axis=1)), np.flatnonzero(alpha.any(axis=0))
     if not len(rows):
         return
     part = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    colours, alpha_here = shot.image[part][..., :3].astype(np.uint16), alpha[part]
-    if background is None:
-        straight = np.minimum(colours * 255 // np.maximum(alpha_here, 1), 255)
-        pixels = np.concatenate([straight, alpha_here], axis=2)
-    else:
-        # Without transparency: some readers blend the edge of the shape with what lies unseen beside it.
-        paper = np.round(255 * np.array(background)).astype(np.uint16)
-        pixels = colours + (paper * (255 - alpha_here) + 127) // 255
+    pixels = _on(None if page.figure.transparent else page.figure.style.background, shot.image[part])
+    if not vector:
+        x, y, _, _ = shot.box.pixels(page.layout.scale)
+        axes.add_artist(_pixels_artist()(pixels, x + int(columns[0]), y + int(rows[0]), order))
+        return
     per_x, per_y = shot.box.width / alpha.shape[1], shot.box.height / alpha.shape[0]
     left, right = shot.box.x + columns[0] * per_x, shot.box.x + (columns[-1] + 1) * per_x
     top, bottom = shot.box.y + rows[0] * per_y, shot.box.y + (rows[-1] + 1) * per_y
     image = AxesImage(axes, origin="upper", interpolation="none", extent=(left, right, bottom, top), zorder=order)
-    image.set_data(np.minimum(pixels, 255).astype(np.uint8))
+    image.set_data(pixels if page.figure.transparent else pixels[..., :3])
     axes.add_artist(image)
+
+
+@cache
+def _pixels_artist() -> type:
+    """The class of pixels that are put on a page of pixels as they are: matplotlib is imported late."""
+    from matplotlib.artist import Artist
+
+    class Pixels(Artist):
+        def __init__(self, pixels: np.ndarray, left: int, top: int, order: int) -> None:
+            super().__init__()
+            self.set_zorder(order)
+            self._pixels, self._left, self._top = pixels, left, top
+
+        def draw(self, renderer) -> None:
+            # matplotlib counts rows from below.
+            low = int(renderer.height) - self._top - len(self._pixels)
+            renderer.draw_image(renderer.new_gc(), self._left, low, self._pixels[::-1])
+
+    return Pixels
+
+
+def _on(background: Colour | None, image: np.ndarray) -> np.ndarray:
+    """Pixels (h, w, 4) whose colours are multiplied by alpha: the same on a background, or straight.
+
+    On a background without transparency: some readers blend the edge of the shape with what lies unseen beside it.
+    """
+    result = np.empty_like(image)
+    paper = np.round(255 * np.array(background or (0, 0, 0))).astype(np.uint16)
+    # By rows: a whole picture in wider numbers would take several times its memory.
+    for row, into in zip(image, result, strict=True):
+        colours, alpha = row[:, :3].astype(np.uint16), row[:, 3:].astype(np.uint16)
+        if background is None:
+            into[:, :3] = np.minimum((colours * 255 + alpha // 2) // np.maximum(alpha, 1), 255)
+            into[:, 3] = row[:, 3]
+        else:
+            into[:, :3] = np.minimum(colours + (paper * (255 - alpha) + 127) // 255, 255)
+            into[:, 3] = 255
+    return result
 
 
 def _curve(lines: list[Line], colour: Colour, width: float, cap: str, order: int, name: str):

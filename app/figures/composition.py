@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -25,12 +25,12 @@ class KeptWords:
         self._notes = np.empty((0, 0, 4), np.uint8)
 
     def of(self, page: Composition) -> np.ndarray:
-        """(height, width, 4) uint8, as `_notes`."""
+        """(height, width, 4) uint8, as `_drawn`."""
         names = [f.name for f in fields(FigurePanel) if f.name not in ("views", "marks")]
         panels = [tuple(_told_apart(getattr(panel, name)) for name in names) for panel in page.figure.panels]
         key = (page.layout, page.figure.style, page.figure.range, *panels)
         if key != self._of:
-            self._of, self._notes = key, _notes(page, shots=False)
+            self._of, self._notes = key, _drawn(page, shots=False)
         return self._notes
 
 
@@ -53,29 +53,18 @@ def _told_apart(value: object) -> object:
 
 def page_pixels(page: Composition, words: KeptWords | None = None) -> np.ndarray:
     """(height, width, 3) uint8, or (height, width, 4) if it is transparent.  words: of the page before, if kept."""
-    layout, background = page.layout, page.figure.style.background
-    width, height = layout.page
-    paper = np.array([*np.round(255 * np.array(background)), 255], np.uint8)
-    pixels = np.zeros((height, width, 4), np.uint8)  # colours multiplied by alpha
-    if not page.figure.transparent:
-        pixels[:] = paper
-    for shot in page.shots:
-        x, y, w, h = shot.box.pixels(layout.scale)
-        place = pixels[y : y + h, x : x + w]
-        if shot.source is not None:
-            place[:] = paper
-        image = shot.image[: place.shape[0], : place.shape[1]]
-        place[:] = image + _scaled(place, 255 - image[..., 3:])
-    for notes in (_notes(page),) if words is None else (_notes(page, words=False), words.of(page)):
+    if words is not None and not page.figure.transparent:
+        pixels, notes = _drawn(page, words=False)[..., :3].copy(), words.of(page)
         # By rows: a whole page in wider numbers would take several times its memory.
         for y in np.flatnonzero(notes[..., 3].any(axis=1)):
             alpha = notes[y, :, 3:]
-            ink = np.concatenate([_scaled(notes[y, :, :3], alpha), alpha], axis=1)
-            pixels[y] = ink + _scaled(pixels[y], 255 - alpha)
+            pixels[y] = _scaled(notes[y, :, :3], alpha) + _scaled(pixels[y], 255 - alpha)
+        return pixels
+    pixels = _drawn(page)
     if not page.figure.transparent:
         return pixels[..., :3].copy()
-    for row in pixels:
-        row[:, :3] = _straight(row)
+    pixels = pixels.copy()
+    pixels[pixels[..., 3] == 0] = 0
     return pixels
 
 
@@ -88,12 +77,13 @@ def crop(page: Composition, pixels: np.ndarray) -> np.ndarray:
 def content(page: Composition) -> Box:
     """The part of the page on which something is drawn, with a narrow margin."""
     scale = page.layout.scale
-    boxes = [Box(s.box.x, s.box.y, s.box.width, s.box.height) for s in page.shots if s.source is not None]
+    boxes = []
     for shot in page.shots:
         found = _filled(shot.image[..., 3], scale)
         if found:
             boxes.append(Box(shot.box.x + found.x, shot.box.y + found.y, found.width, found.height))
-    words = _filled(_notes(page)[..., 3], scale)
+    bare = replace(page, shots=[replace(shot, image=shot.image[:0], isolines=[]) for shot in page.shots])
+    words = _filled(_drawn(replace(bare, figure=replace(page.figure, transparent=True)))[..., 3], scale)
     boxes += [words] if words else []
     width, height = (side / scale for side in page.layout.page)
     if not boxes:
@@ -118,8 +108,8 @@ def write_vector(page: Composition, path: Path) -> None:
         drawn(page, vector=True).savefig(path, metadata={"Creator": "bihdist", **dates}, **options)
 
 
-def _notes(page: Composition, shots: bool = True, words: bool = True) -> np.ndarray:
-    """(height, width, 4) uint8: words, bars, marks and frames on nothing; colours not multiplied by alpha."""
+def _drawn(page: Composition, shots: bool = True, words: bool = True) -> np.ndarray:
+    """(height, width, 4) uint8, colours not multiplied by alpha; without shots, on nothing."""
     width, height = page.layout.page
     with matplotlib_settings():
         canvas = drawn(page, False, shots, words).canvas
@@ -142,8 +132,3 @@ def _filled(alpha: np.ndarray, scale: float) -> Box | None:
 
 def _scaled(colours: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     return ((colours.astype(np.uint16) * alpha + 127) // 255).astype(np.uint8)
-
-
-def _straight(image: np.ndarray) -> np.ndarray:
-    alpha = np.maximum(image[..., 3:], 1).astype(np.uint16)
-    return np.minimum((image[..., :3].astype(np.uint16) * 255 + alpha // 2) // alpha, 255).astype(np.uint8)

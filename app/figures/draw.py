@@ -69,4 +69,4 @@ def described(figure: Figure) -> str:
 
 def _page(figure: Figure, vector: bool, progress: Progress | None, stage: Stage | None = None) -> Composition:
     layout = lay_out(figure, VECTOR_DPI / 96 if vector else 0.0)
-    return Composition(figure, layout, take_shots(figure, layout, vector, part(progress, 0.0, 0.95), stage))
+    return Composition(figure, layout, take_shots(figure, layout, part(progress, 0.0, 0.95), stage))

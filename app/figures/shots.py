@@ -26,6 +26,7 @@ from ..drawing.style import Style
 from .description import Figure, FigurePanel
 from .layout import Box, Layout
 from .raster import FINER, SAMPLES, Rectangle, Studio
+from .outlines import outlines
 from .sight import Curve, Sight
 
 FREE = 0.03
@@ -95,10 +96,8 @@ class Stage:
         return self._meshes[key][1]
 
 
-def take_shots(
-    figure: Figure, layout: Layout, vector: bool, progress: Progress, stage: Stage | None = None
-) -> list[Shot]:
-    """All pictures, in the order in which they lie on each other.  vector: with isolines as curves, not as pixels."""
+def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage | None = None) -> list[Shot]:
+    """All pictures, in the order in which they lie on each other."""
     shots: list[Shot] = []
     tops = figure.tops()
     count = sum(len(p.views) + len(p.zooms) for p in figure.panels)
@@ -118,17 +117,17 @@ def take_shots(
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
                 studio.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
-            studio.shown.show_isolines(0 if vector or panel.field is None else panel.isolines.count)
+            studio.shown.show_isolines(0)  # they are drawn as curves
             for number, (view, box) in enumerate(zip(panel.views, cell.views, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 camera = _camera(view, panel, surface, box)
-                taker = _Taker(figure, index, surface, mesh, tops[index], camera, box, layout, studio)
-                main = taker.take(box, vector, step)
+                taker = _Taker(figure, index, surface, tops[index], camera, box, layout, studio)
+                main = taker.take(box, step)
                 shots.append(main)
                 for zoom in panel.zooms if number == 0 else ():
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                     inset, source = taker.places(zoom, main, [s for s in shots if s.panel == index and s.source])
-                    shots.append(taker.take(inset, vector, step, source))
+                    shots.append(taker.take(inset, step, source))
     return shots
 
 
@@ -148,7 +147,6 @@ class _Taker:
         figure: Figure,
         index: int,
         surface: Surface,
-        mesh: vtkPolyData,
         top: float,
         camera: Camera,
         box: Box,
@@ -159,22 +157,22 @@ class _Taker:
         self._surface, self._top, self._box, self._studio = surface, top, box, studio
         self._scale, self._stroke = layout.scale, layout.stroke
         self._projection = Projection(camera, box.width / box.height, surface.vertices, FREE)
-        self._sight = Sight(surface, mesh, self._projection, (box.width, box.height))
+        self._sight = Sight(surface, self._projection, (box.width, box.height))
         self._isolines: list[tuple[float, list[Line]]] | None = None
         self._outlines: list[Line] | None = None
         self._marks = self._visible_marks()
 
-    def take(self, box: Box, vector: bool, progress: Progress, source: Box | None = None) -> Shot:
+    def take(self, box: Box, progress: Progress, source: Box | None = None) -> Shot:
         """The picture of a part of the view (all of it if None), in a box of the page."""
         _, _, width, height = box.pixels(self._scale)
         image = self._studio.shade(
             self._projection, (width, height), self._scale * self._stroke, self._part(source), part(progress, 0, 0.7)
         )
         progress(0.7, "finding what is hidden")
-        if vector and self._isolines is None:
+        if self._isolines is None:
             self._isolines = self._visible_isolines()
         if self._style.outline and self._outlines is None:
-            self._outlines = self._sight.outlines()
+            self._outlines = outlines(self._sight)
         move = _Move(source or self._box, box)
         marks = [(k, *move(np.array([[x, y]]) + self._corner)[0]) for k, x, y in self._marks]
         return Shot(
