@@ -77,3 +77,15 @@ def has_backs(mesh: vtkPolyData) -> bool:
     """Whether the inside of a body can be seen."""
     array = mesh.GetFieldData().GetArray(_BACKS)
     return array is not None and bool(array.GetValue(0))
+
+
+def outward_faces(mesh: vtkPolyData) -> np.ndarray | None:
+    """(m, 3) vertices of the surface's faces, wound so that they go round to the left seen from outside.
+
+    None if no inside can be seen.
+    """
+    if not has_backs(mesh):
+        return None
+    faces, copies = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3), copies_of(mesh)
+    count = mesh.GetNumberOfPoints() - len(copies)
+    return np.append(np.arange(count), copies)[faces]

@@ -18,7 +18,7 @@ from ..document.document import Zoom
 from ..document.looks import Shading
 from ..drawing.bands import band_edges
 from ..drawing.camera import Margins, Projection, standard_camera
-from ..drawing.drawable import drawable, normals_shading
+from ..drawing.drawable import drawable, normals_shading, outward_faces
 from ..drawing.field_actor import isoline_values
 from ..drawing.insets import SIDE
 from ..drawing.relief import relief, rise
@@ -121,7 +121,7 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
             for number, (view, box) in enumerate(zip(panel.views, cell.views, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 camera = _camera(view, panel, surface, box)
-                taker = _Taker(figure, index, surface, tops[index], camera, box, layout, studio)
+                taker = _Taker(figure, index, surface, outward_faces(mesh), tops[index], camera, box, layout, studio)
                 main = taker.take(box, step)
                 shots.append(main)
                 for zoom in panel.zooms if number == 0 else ():
@@ -147,6 +147,7 @@ class _Taker:
         figure: Figure,
         index: int,
         surface: Surface,
+        outward: np.ndarray | None,
         top: float,
         camera: Camera,
         box: Box,
@@ -157,7 +158,7 @@ class _Taker:
         self._surface, self._top, self._box, self._studio = surface, top, box, studio
         self._scale, self._stroke = layout.scale, layout.stroke
         self._projection = Projection(camera, box.width / box.height, surface.vertices, FREE)
-        self._sight = Sight(surface, self._projection, (box.width, box.height))
+        self._sight = Sight(surface, self._projection, (box.width, box.height), outward)
         self._isolines: list[tuple[float, list[Line]]] | None = None
         self._outlines: list[Line] | None = None
         self._marks = self._visible_marks()

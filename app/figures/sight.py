@@ -34,9 +34,18 @@ Part = tuple[np.ndarray, bool]
 
 
 class Sight:
-    """A surface as a camera sees it in a picture of `size` pixels; pixels are real numbers, y down."""
+    """A surface as a camera sees it in a picture of `size` pixels; pixels are real numbers, y down.
 
-    def __init__(self, surface: Surface, projection: Projection, size: tuple[float, float]) -> None:
+    outward: (m, 3) the faces, wound as seen from outside: their insides show no curves.
+    """
+
+    def __init__(
+        self,
+        surface: Surface,
+        projection: Projection,
+        size: tuple[float, float],
+        outward: np.ndarray | None = None,
+    ) -> None:
         self.surface = surface
         self._projection = projection
         self._size = size
@@ -44,6 +53,7 @@ class Sight:
         self.extent = float(np.linalg.norm(extent))
         self.at = self.pixels(surface.vertices)
         self.hiding = Hiding(*self._before_the_eye())
+        self._backs = None if outward is None else self._face_keys(outward[self._from_inside(outward)])
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
         """(n, 3): x and y in pixels, and the distance along the line of sight."""
@@ -69,10 +79,7 @@ class Sight:
         edges = np.concatenate([c.edges[r] for c, r in zip(curves, rings, strict=True)])
         stops = np.cumsum([len(r) for r in rings])
         segments = np.setdiff1d(np.arange(len(at) - 1), stops - 1)
-        on = np.concatenate([edges[segments], edges[segments + 1]], axis=1)
-        lifted = self.lifted(at)
-        hidden, start, stop = self.hiding.intervals(np.stack([lifted[segments], lifted[segments + 1]], 1), on)
-        hidden = segments[hidden]
+        hidden, start, stop = self._hidden(at, segments, np.concatenate([edges[segments], edges[segments + 1]], axis=1))
         length = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(at[:, :2], axis=0), axis=1)))
         step = length[hidden + 1] - length[hidden]
         bounds = np.stack([length[hidden] + start * step, length[hidden] + stop * step], 1)
@@ -81,6 +88,39 @@ class Sight:
             inside = np.s_[np.searchsorted(hidden, first) : np.searchsorted(hidden, end - 1)]
             result[k] += _parts(at[first:end, :2], length[first:end], bounds[inside], curve.closed)
         return result
+
+    def _hidden(self, at: np.ndarray, segments: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, ...]:
+        """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden.
+
+        Segment s goes from place s to place s + 1 of places (n, 3) in pixels; on: as `Hiding.intervals` has it.
+        """
+        lifted = self.lifted(at)
+        hidden, start, stop = self.hiding.intervals(np.stack([lifted[segments], lifted[segments + 1]], 1), on)
+        if self._backs is not None:
+            ids = np.sort(on, axis=1)
+            is_new = np.append(np.ones((len(ids), 1), bool), ids[:, 1:] != ids[:, :-1], axis=1)
+            in_face = np.flatnonzero(is_new.sum(axis=1) == 3)
+            keys = self._face_keys(ids[in_face][is_new[in_face]].reshape(-1, 3))
+            inside = in_face[np.isin(keys, self._backs)]
+            others = ~np.isin(hidden, inside)
+            hidden = np.append(hidden[others], inside)
+            start = np.append(start[others], np.zeros(len(inside)))
+            stop = np.append(stop[others], np.ones(len(inside)))
+            order = np.argsort(hidden, kind="stable")
+            hidden, start, stop = hidden[order], start[order], stop[order]
+        return segments[hidden], start, stop
+
+    def _from_inside(self, outward: np.ndarray) -> np.ndarray:
+        """(m,) whether faces show their inside; pixels have y down, which turns them round."""
+        a, b, c = (self.at[outward[:, k], :2] for k in range(3))
+        u, v = b - a, c - a
+        return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0
+
+    def _face_keys(self, faces: np.ndarray) -> np.ndarray:
+        """(m,) a number for each face, whatever the order of its vertices."""
+        low, middle, high = np.sort(faces, axis=1).astype(np.uint64).T
+        count = np.uint64(len(self.surface.vertices))
+        return (low * count + middle) * count + high  # of more than 2.6 million vertices some might share one
 
     def lifted(self, at: np.ndarray) -> np.ndarray:
         """(k, 3) x, y and nearness of places (k, 3) in pixels, which come towards the eye by the tolerance."""

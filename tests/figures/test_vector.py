@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 from scipy.special import eval_legendre
 
 from app.drawing.camera import Camera, Projection, standard_camera
+from app.drawing.drawable import drawable, outward_faces
 from app.drawing.field_actor import isoline_values
 from app.figures.outlines import outlines
 from app.figures.sight import Curve, Sight
@@ -114,6 +115,23 @@ def test_the_far_side_is_hidden_and_the_inside_of_an_open_surface_is_not():
     whole = sampled(seen(ball, height, [0.8], front)[0][1])[1].sum()
     assert closed > 100
     assert inside > 0.5 * whole
+
+
+def test_insides_that_have_a_colour_of_their_own_show_no_isolines():
+    ball = sphere(2000)
+    bowl = Surface(ball.vertices, ball.faces[(ball.vertices[ball.faces][..., 2] < 0.3).all(axis=1)], "bowl")
+    outward = outward_faces(drawable(bowl))
+    assert outward is not None
+    lines = isolines(bowl, bowl.vertices[:, 1] + 1, [0.8])
+    for z in (6, -6):
+        camera = Camera((0, 0, z), (0, 0, 0), (0, 1, 0), (0.25, 0.25))
+        projection = Projection(camera, 1.0, bowl.vertices)
+        curves = [Curve(line.points, line.edges, line.closed) for line in lines]
+        both = [Sight(bowl, projection, (PIXELS, PIXELS), faces).visible(curves) for faces in (None, outward)]
+        whole, rest = (sum(sampled(parts)[1].sum() for parts in found) for found in both)
+        assert whole > 100
+        assert rest == pytest.approx(whole if z < 0 else 0.0, abs=0.01 * whole)
+    assert outward_faces(drawable(ball)) is None
 
 
 def test_a_surface_that_passes_through_itself_hides_what_is_inside():
