@@ -25,8 +25,8 @@ from ..drawing.relief import relief, rise
 from ..drawing.style import Style
 from .description import Figure, FigurePanel
 from .layout import Box, Layout
-from .raster import FINER, SAMPLES, Rectangle, Studio
 from .outlines import outlines
+from .raster import FINER, SAMPLES, Rectangle, Studio
 from .sight import Curve, Sight
 
 FREE = 0.03
