@@ -9,8 +9,9 @@ from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
+from ..document.looks import PROJECTIONS
 from .colour_options import add_colours, add_range, with_colours, with_range
-from .options import PANELS, add_areas, add_distance, check_parameters, given_parameters, quantities
+from .options import PANELS, add_areas, add_distance, add_up, check_parameters, given_parameters, quantities
 from .terminal import tell
 
 if TYPE_CHECKING:
@@ -32,12 +33,18 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     )
     parser.add_argument("--isolines", type=int, metavar="N", help="number of steps (default: 20)")
     parser.add_argument(
-        "--view", metavar="NAME", action="append", help="home, front, back, left, right, top, bottom; repeat for more"
+        "--view",
+        metavar="NAME",
+        action="append",
+        help="home, front, back, left, right, top, bottom, source; repeat",
     )
     parser.add_argument("--two-views", action="store_true", help="front and back, side by side")
     parser.add_argument(
         "--camera", type=_camera, metavar="NUMBERS", help="position, focal point, up, extent: 11 numbers"
     )
+    add_up(parser)
+    parser.add_argument("--projection", choices=PROJECTIONS, help="default: perspective")
+    _add_switch(parser, "axes", "where x, y and z point to, in a corner (default: no)")
     parser.add_argument(
         "--columns", type=int, metavar="N", help="panels side by side (default: all, or one row a source)"
     )
@@ -107,7 +114,12 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
         from ..document.document import Zoom
 
         document = replace(document, zooms=tuple(Zoom(*zoom) for zoom in options.zoom))
-    document = replace(document, **_given(options, "areas", "height"))
+    if options.up is not None and not views:
+        from ..document.edits import stand
+
+        # A camera that comes with a recipe would be askew.
+        document = stand(document, options.up)
+    document = replace(document, **_given(options, "areas", "height", "up", "projection", "axes"))
     if options.isolines is not None:
         document = replace(document, isolines=replace(document.isolines, count=options.isolines))
     shading = shaded(document.shading, options.shading, options.crease, options.wireframe)

@@ -7,6 +7,7 @@ from bihdist_core.distances.kinds import OURS, Spec, Value, kinds
 from bihdist_core.errors import ParameterError
 
 from ..document.document import AREAS, COMPARISON
+from ..document.looks import UPS
 from ..document.quantities import Quantity, quantity
 
 PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
@@ -33,6 +34,11 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "") -> None:
 
 def add_areas(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--areas", choices=AREAS, help="vertex areas (default: voronoi)")
+
+
+def add_up(parser: argparse.ArgumentParser, default: str = "guessed") -> None:
+    words = f"which axis points up: {', '.join(UPS)} (default: {default}); write --up=-z for those with a sign"
+    parser.add_argument("--up", choices=UPS, metavar="AXIS", help=words)
 
 
 def spec(options: argparse.Namespace, text: str) -> Spec:

@@ -3,6 +3,7 @@
 import argparse
 
 from .mesh import found_mesh
+from .options import add_up
 from .terminal import progress_line
 
 WORDS = "every figure and table of the paper, computed anew, as one page"
@@ -14,6 +15,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mesh", metavar="PATH", help="your own mesh, or a folder of meshes (claims and a picture each)"
     )
+    add_up(parser, "y on the bundled meshes, guessed for yours")
     parser.add_argument("--quick", action="store_true", help="smaller meshes and fewer samples, for a first look")
 
 
@@ -23,5 +25,7 @@ def run(options: argparse.Namespace) -> None:
     only = [word for word in options.only.split(",") if word]
     mesh = found_mesh(options.mesh) if options.mesh else None
     with progress_line() as progress:
-        page = reproduce(options.out, only, mesh, options.quick, progress, say=lambda line: print(line, flush=True))
+        page = reproduce(
+            options.out, only, mesh, options.quick, progress, lambda line: print(line, flush=True), options.up or "auto"
+        )
     print(f"{page}: open it in a browser")

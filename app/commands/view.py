@@ -3,11 +3,12 @@
 import argparse
 import os
 import sys
+from dataclasses import replace
 from typing import NoReturn
 
 from .colour_options import add_colours, with_colours
 from .mesh import found_mesh
-from .options import PANELS, add_areas, add_distance, given_parameters, quantities, vertex
+from .options import PANELS, add_areas, add_distance, add_up, given_parameters, quantities, vertex
 
 WORDS = "open the viewer"
 
@@ -25,6 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_colours(parser)
     add_distance(parser, PANELS)
     add_areas(parser)
+    add_up(parser, "as it was chosen for this mesh before, or guessed")
 
 
 def run(options: argparse.Namespace) -> NoReturn:
@@ -45,7 +47,7 @@ def run(options: argparse.Namespace) -> NoReturn:
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
         shown = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
-        shown = with_colours(shown, options)
+        shown = with_colours(replace(shown, up=options.up or "auto"), options)
     if is_choice and options.source is not None:
         raise ParameterError("A source needs a mesh; name one.")
     from ..qt.screen import check_screen
@@ -66,7 +68,8 @@ def _refuse_options(options: argparse.Namespace) -> None:
     """ParameterError for what a session says itself."""
     from bihdist_core import ParameterError
 
-    given = {name: getattr(options, name) for name in ("source", "distance", "areas", "colours", "reversed", "bands")}
+    own = ("source", "distance", "areas", "colours", "reversed", "bands", "up")
+    given = {name: getattr(options, name) for name in own}
     given |= given_parameters(options)
     for name, value in given.items():
         if value is not None:

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from bihdist_core.errors import ParameterError
 
-VIEWS = ("home", "front", "back", "left", "right", "top", "bottom", "relief")
-"""Standard views; `relief` is for height fields over x and y."""
+VIEWS = ("home", "front", "back", "left", "right", "top", "bottom", "source", "relief")
+"""Standard views; `source` looks at the first source from outside, `relief` is for height fields over x and y."""
 
 LARGEST = 1e100
 """No number of a camera is larger, and no direction shorter than one over this: then nothing overflows."""

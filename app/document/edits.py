@@ -13,7 +13,7 @@ MOST_ADDED = 6
 
 
 def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> Document:
-    """Another mesh under the same name; seen from home, and its points are where the first source is.
+    """Another mesh under the same name; seen from home, its own way up, and its points are where the first source is.
 
     What was tied to vertices of the old one (insets, anchors, colour bars with an end of their own, fields of the
     user's own with the panels that show them) is left out; one panel there always is.
@@ -37,7 +37,14 @@ def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> 
         zooms=(),
         height=0.0,
         camera="home",
+        up="auto",
     )
+
+
+def stand(document: Document, up: str) -> Document:
+    """Another way up; a camera of one's own would now be askew, and sees the shape from home instead."""
+    camera = document.camera if isinstance(document.camera, str) else "home"
+    return document if up == document.up else replace(document, up=up, camera=camera)
 
 
 def put_point(document: Document, name: str, at: int | Place | None, surface: str = "A") -> Document:

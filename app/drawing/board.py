@@ -13,6 +13,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
+from .camera import stand_back
 from .scene import PanelScene
 from .style import PAPER, Style
 
@@ -60,6 +61,7 @@ class Board:
             for renderer in other.renderers:
                 renderer.DrawOff()
         scene.renderer.DrawOn()
+        stand_back(scene.renderer.GetActiveCamera(), scene.bounds)
         scene.renderer.ResetCameraClippingRange(*scene.bounds)
         self._window.Render()
         self.pictures += 1

@@ -1,9 +1,14 @@
-"""Where the camera stands: standard views, fitted closely around the shape, and what it sees of a point.  y is up."""
+"""Where the camera stands: standard views, fitted closely around the shape, and what it sees of a point."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkCamera
+
+from bihdist_core import Surface
+from bihdist_core.analysis.upright import axis_of
+from bihdist_core.surface import connected
 
 from ..document.camera import Camera, Vector, checked_view
 
@@ -19,7 +24,13 @@ DIRECTIONS = {
     "bottom": ((0, -1, 0), (0, 0, 1)),
     "relief": ((-0.35, -1.0, 0.75), (0, 0, 1)),
 }
-"""Of the standard views: from the shape to the camera, and which way is up."""
+"""Of the standard views where y is up: from the shape to the camera, and which way is up."""
+
+FRONTS = {"y": "z", "-y": "z", "x": "z", "-x": "z", "z": "-y", "-z": "y"}
+"""Where the front is, by which way is up: what a quarter turn of the usual shape makes of its front."""
+
+NEIGHBOURHOOD = 0.08
+"""The share of the shape's diagonal over which the direction outwards is averaged."""
 
 
 @dataclass(frozen=True)
@@ -55,21 +66,34 @@ def turned(camera: Camera, degrees: float, axis: np.ndarray) -> Camera:
 class Projection:
     """What a camera makes of points in a picture of width / height `aspect`.
 
-    A share `free` along each side is left around what the camera is sure to see.  matrix: (4, 4) from the camera's
+    A share `free` along each side is left around what the camera is sure to see.  is_parallel: its lines of sight are
+    parallel, and it sees of everything what it sees of its focal point's plane.  matrix: (4, 4) from the camera's
     coordinates to -1 … 1 in x, y and depth; view: (4, 4) from the world's to the camera's.
     """
 
-    def __init__(self, camera: Camera, aspect: float, points: np.ndarray, free: float = 0.0) -> None:
+    def __init__(
+        self, camera: Camera, aspect: float, points: np.ndarray, free: float = 0.0, is_parallel: bool = False
+    ) -> None:
         axes, self.position = frame(camera), np.array(camera.position, float)
+        self.is_parallel, self.back = is_parallel, axes[:, 2]
+        high = max(camera.extent[1], camera.extent[0] / aspect) / (1 - 2 * free)
+        depth = -(points @ self.back - self.position @ self.back)
+        if is_parallel:
+            high *= float(np.linalg.norm(np.subtract(camera.position, camera.focal_point)))
+            # It may as well stand farther back, with all of the shape before it.
+            aside = max(0.0, 0.05 * float(np.ptp(depth)) + 0.1 * high - float(depth.min()))
+            self.position, depth = self.position + aside * self.back, depth + aside
         self.view = np.eye(4)
         self.view[:3, :3], self.view[:3, 3] = axes.T, -axes.T @ self.position
-        depth = -(points @ axes[:, 2] - self.position @ axes[:, 2])
         far = max(float(depth.max()), 1e-12) * 1.01
         near = max(float(depth.min()) * 0.99, far * 1e-4)
-        high = max(camera.extent[1], camera.extent[0] / aspect) / (1 - 2 * free)
         self.matrix = np.zeros((4, 4))
-        self.matrix[0, 0], self.matrix[1, 1], self.matrix[3, 2] = 1 / (high * aspect), 1 / high, -1
-        self.matrix[2, 2:] = -(far + near) / (far - near), -2 * far * near / (far - near)
+        self.matrix[0, 0], self.matrix[1, 1] = 1 / (high * aspect), 1 / high
+        if is_parallel:
+            self.matrix[2, 2:], self.matrix[3, 3] = (-2 / (far - near), -(far + near) / (far - near)), 1
+        else:
+            self.matrix[2, 2:] = -(far + near) / (far - near), -2 * far * near / (far - near)
+            self.matrix[3, 2] = -1
 
         flat = self(points)[:, :2]
         # Vertices behind the camera are not in the picture, but faces that reach there may be.
@@ -87,17 +111,67 @@ class Projection:
         """(n, 3) points to (n, 3): x, y, -1 … 1 inside the picture, and the distance along the line of sight."""
         local = points @ self.view[:3, :3].T + self.view[:3, 3]
         depth = -local[:, 2]
-        safe = np.where(depth > 0, depth, np.nan)
+        safe = np.where(depth > 0, 1.0 if self.is_parallel else depth, np.nan)
         return np.column_stack([self.matrix[0, 0] * local[:, 0] / safe, self.matrix[1, 1] * local[:, 1] / safe, depth])
 
+    def pixel_at(self, depth: float, width: float) -> float:
+        """How long a pixel of a picture of this width is at a depth."""
+        return (1.0 if self.is_parallel else depth) / (self.matrix[0, 0] * width / 2)
 
-def standard_camera(points: np.ndarray, aspect: float, view: str = "home", margins: Margins | None = None) -> Camera:
-    """The camera that sees points (n, 3) from a standard view so that they just fill a panel of this aspect."""
-    checked_view(view)
-    direction, up = (np.array(v, float) for v in DIRECTIONS[view])
-    if view == "home" and is_flat(points):
+
+def standard_camera(
+    points: np.ndarray,
+    aspect: float,
+    view: str = "home",
+    margins: Margins | None = None,
+    up: str = "y",
+    outwards: np.ndarray | None = None,
+    is_parallel: bool = False,
+) -> Camera:
+    """The camera that sees points (n, 3) from a standard view so that they just fill a panel of this aspect.
+
+    up: which axis is up.  outwards: (3,) at the source, see `outwards_at`, for the view from there; without one it is
+    that from home.
+    """
+    direction, upright = directions(view, up, outwards)
+    if view == "home" and is_flat(points) and up[-1] != "z":
         direction = np.array([0.0, 0, 1])  # a flat domain is looked at straight
-    return _aim(points, aspect, direction, up, margins or Margins())
+    return _aim(points, aspect, direction, upright, margins or Margins(), is_parallel)
+
+
+def directions(view: str, up: str = "y", outwards: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """(3,) from the shape to the camera, and (3,) what is up in the picture, for a standard view."""
+    checked_view(view)
+    if view == "relief":
+        return np.array(DIRECTIONS[view][0], float), np.array(DIRECTIONS[view][1], float)
+    upright, front = axis_of(up), axis_of(FRONTS[up])
+    turn = np.stack([np.cross(upright, front), upright, front], axis=1)
+    if view == "source" and outwards is not None:
+        # From above or below, what is at the back is up, as in the views from there.
+        is_steep = abs(float(outwards @ upright)) > np.cos(np.radians(5.0))
+        return outwards, np.sign(outwards @ upright) * -front if is_steep else upright
+    direction, above = DIRECTIONS["home" if view == "source" else view]
+    return turn @ np.array(direction, float), turn @ np.array(above, float)
+
+
+def outwards_at(surface: Surface, vertex: int) -> np.ndarray | None:
+    """(3,) the unit normal that points out of a surface, averaged about a vertex; None where there is none."""
+    corners = surface.vertices[surface.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    own = normals[(surface.faces == vertex).any(axis=1)].sum(axis=0)
+    used = surface.vertices[surface.component_of_vertex >= 0]
+    reach = NEIGHBOURHOOD * float(np.linalg.norm(np.ptp(used, axis=0)))
+    near = np.linalg.norm(surface.vertices - surface.vertices[vertex], axis=1) <= reach
+    near[vertex] = True
+    about = np.flatnonzero(near[surface.faces].any(axis=1))
+    # Of what is near, also the other side of something thin, only what hangs together and faces alike.
+    piece = connected(surface.faces[about][:, [[0, 1], [1, 2]]].reshape(-1, 2).T, len(surface.vertices))
+    about = about[(piece[surface.faces[about, 0]] == piece[vertex]) & (normals[about] @ own > 0)]
+    total = normals[about].sum(axis=0)
+    middle = used.mean(axis=0)
+    volume = float(np.einsum("ij,ij->", corners.mean(axis=1) - middle, normals))
+    length = float(np.linalg.norm(total))
+    return None if length <= 0 else total / length * (-1.0 if volume < 0 else 1.0)
 
 
 def is_flat(points: np.ndarray) -> bool:
@@ -105,42 +179,61 @@ def is_flat(points: np.ndarray) -> bool:
     return bool(np.ptp(points[:, 2]) <= 1e-6 * np.ptp(points, axis=0).max())
 
 
-def place_camera(
-    camera: vtkCamera, points: np.ndarray, aspect: float, view: str = "home", margins: Margins | None = None
-) -> None:
-    """Let the window's camera look at points (n, 3) from a standard view; they fill a panel of this aspect."""
-    margins = margins or Margins()
-    _set(camera, standard_camera(points, aspect, view, margins), margins)
-
-
 def camera_seen(camera: vtkCamera, aspect: float, margins: Margins | None = None) -> Camera:
     """The window's camera written down; it is sure to see what lies between the panel's margins."""
     margins = margins or Margins()
     slope = np.tan(np.radians(camera.GetViewAngle() / 2))
     extent = slope * aspect * (1 - 2 * margins.side), slope * (1 - margins.top - margins.bottom)
-    return Camera(
-        _vector(camera.GetPosition()), _vector(camera.GetFocalPoint()), _vector(camera.GetViewUp()), _pair(extent)
-    )
+    focal_point = np.array(camera.GetFocalPoint())
+    arm = np.array(camera.GetPosition()) - focal_point
+    if camera.GetParallelProjection():
+        # Where it stands says nothing about what it sees: `stand_back` may have moved it.
+        arm *= camera.GetParallelScale() / slope / np.linalg.norm(arm)
+    return Camera(_vector(focal_point + arm), _vector(focal_point), _vector(camera.GetViewUp()), _pair(extent))
 
 
-def _set(camera: vtkCamera, found: Camera, margins: Margins) -> None:
-    camera.SetViewAngle(VIEW_ANGLE)
-    camera.SetFocalPoint(*found.focal_point)
-    camera.SetPosition(*found.position)
-    camera.SetViewUp(*found.up)
-    camera.SetWindowCenter(0, margins.top - margins.bottom)
-
-
-def show_camera(camera: vtkCamera, shown: Camera, aspect: float, margins: Margins | None = None) -> None:
+def show_camera(
+    camera: vtkCamera, shown: Camera, aspect: float, margins: Margins | None = None, is_parallel: bool = False
+) -> None:
     """Let the window's camera, in a panel of this aspect, see at least what another was sure to see."""
     margins = margins or Margins()
-    _set(camera, shown, margins)
     high = shown.extent[1] / (1 - margins.top - margins.bottom)
     slope = max(high, shown.extent[0] / (aspect * (1 - 2 * margins.side)))
+    camera.SetFocalPoint(*shown.focal_point)
+    camera.SetPosition(*shown.position)
+    camera.SetViewUp(*shown.up)
+    camera.SetWindowCenter(0, margins.top - margins.bottom)
     camera.SetViewAngle(float(np.degrees(2 * np.arctan(slope))))
+    camera.SetParallelProjection(is_parallel)
+    camera.SetParallelScale(slope * float(np.linalg.norm(np.subtract(shown.position, shown.focal_point))))
 
 
-def _aim(points: np.ndarray, aspect: float, direction: np.ndarray, up: np.ndarray, margins: Margins) -> Camera:
+def stand_back(camera: vtkCamera, bounds: Sequence[float]) -> None:
+    """Let a camera whose lines of sight are parallel have all of what is in the bounds before it.
+
+    VTK draws nothing behind a camera; what this one sees does not depend on how far it stands back.
+    """
+    if not camera.GetParallelProjection():
+        return
+    along, position = np.array(camera.GetDirectionOfProjection()), np.array(camera.GetPosition())
+    corners = np.stack(np.meshgrid(bounds[:2], bounds[2:4], bounds[4:6]), -1).reshape(-1, 3)
+    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    nearest = float(((corners - position) @ along).min())
+    if not 0.01 * size <= nearest <= 10 * size:
+        ahead = nearest - 0.1 * size
+        before = float((np.array(camera.GetFocalPoint()) - position) @ along)
+        # The focal point stays before it too.
+        camera.SetPosition(*(position + min(ahead, before - 0.1 * size) * along))
+
+
+def _aim(
+    points: np.ndarray,
+    aspect: float,
+    direction: np.ndarray,
+    up: np.ndarray,
+    margins: Margins,
+    is_parallel: bool = False,
+) -> Camera:
     """Look at points (n, 3) along -direction, as near as they fit."""
     back = direction / np.linalg.norm(direction)
     right = np.cross(up, back)
@@ -152,9 +245,11 @@ def _aim(points: np.ndarray, aspect: float, direction: np.ndarray, up: np.ndarra
     wide = slope * aspect * (1 - 2 * margins.side)
     high = slope * (1 - margins.top - margins.bottom)
     centre = (local.min(axis=0) + local.max(axis=0)) / 2
+    half = np.ptp(local, axis=0) / 2
+    distance = max(half[0] / wide, half[1] / high, 1e-12)
     # With the camera at distance D before the centre, a point at (x, y, z) is seen at x / (D - z).  The nearest D
     # that keeps all points between the margins depends on the centre and the centre on D: a few rounds settle both.
-    for _ in range(4):
+    for _ in range(0 if is_parallel else 4):
         x, y, z = (local - centre).T
         distance = max((np.abs(x) / wide + z).max(), (np.abs(y) / high + z).max(), 1e-12)
         seen = (local - centre)[:, :2] / np.maximum(distance - z, 1e-12)[:, None]

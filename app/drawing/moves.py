@@ -6,18 +6,52 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 TURN = 200.0
 """Degrees for a move across the whole view."""
 
+STEEPEST = 89.0
+"""Degrees of elevation up to which a turntable tilts: at the poles nothing would be upright."""
 
-def turn(camera: vtkCamera, dx: float, dy: float, size: tuple[float, float]) -> None:
-    """Round the focal point, for a move by (dx, dy), y up, across a view of this size."""
-    camera.Azimuth(-TURN * dx / max(size[0], 1))
-    camera.Elevation(-TURN * dy / max(size[1], 1))
+
+def turn(camera: vtkCamera, dx: float, dy: float, size: tuple[float, float], upright: np.ndarray | None = None) -> None:
+    """Round the focal point, for a move by (dx, dy), y up, across a view of this size.
+
+    upright: (3,) the unit vector that stays upright in the picture, as on a turntable; without one it turns freely.
+    """
+    across, along = -TURN * dx / max(size[0], 1), -TURN * dy / max(size[1], 1)
+    if upright is not None:
+        _turn_upright(camera, across, along, upright)
+        return
+    camera.Azimuth(across)
+    camera.Elevation(along)
     camera.OrthogonalizeViewUp()
+
+
+def _turn_upright(camera: vtkCamera, across: float, along: float, upright: np.ndarray) -> None:
+    """By degrees about the upright axis, and up along the meridian as far as that goes."""
+    focal_point = np.array(camera.GetFocalPoint())
+    arm = np.array(camera.GetPosition()) - focal_point
+    length = float(np.linalg.norm(arm))
+    back = arm / length
+    steep = float(np.degrees(np.arcsin(np.clip(back @ upright, -1, 1))))
+    level = back - (back @ upright) * upright
+    if np.linalg.norm(level) < 1e-6:
+        # From a pole, the way that is up or down in the picture is where the front is.
+        level = -np.sign(steep) * np.array(camera.GetViewUp())
+        level = level - (level @ upright) * upright
+    level /= np.linalg.norm(level)
+    a = np.radians(across)
+    level = np.cos(a) * level + np.sin(a) * np.cross(upright, level)
+    # What is steeper already, such as the view from the top, may stay so, and get no steeper.
+    limit = STEEPEST if along else max(STEEPEST, abs(steep))
+    e = np.radians(np.clip(steep + along, -limit, limit))
+    camera.SetPosition(*(focal_point + length * (np.cos(e) * level + np.sin(e) * upright)))
+    camera.SetViewUp(*(np.cos(e) * upright - np.sin(e) * level))
 
 
 def shift(camera: vtkCamera, dx: float, dy: float, height: float) -> None:
     """What lies at the depth of the focal point follows a move by (dx, dy), y up, in a view of this height."""
-    slope = np.tan(np.radians(camera.GetViewAngle() / 2))
-    per_pixel = 2 * slope * camera.GetDistance() / max(height, 1)
+    half = np.tan(np.radians(camera.GetViewAngle() / 2)) * camera.GetDistance()
+    if camera.GetParallelProjection():
+        half = camera.GetParallelScale()
+    per_pixel = 2 * half / max(height, 1)
     up = np.array(camera.GetViewUp())
     along = np.array(camera.GetDirectionOfProjection())
     right = np.cross(along, up)
@@ -32,6 +66,7 @@ def zoom(camera: vtkCamera, factor: float, about: np.ndarray) -> None:
         (camera.GetFocalPoint, camera.SetFocalPoint),
     ):
         put(*(about + (np.array(get()) - about) / factor))
+    camera.SetParallelScale(camera.GetParallelScale() / factor)
 
 
 def centre(camera: vtkCamera, point: np.ndarray) -> None:

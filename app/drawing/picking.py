@@ -45,8 +45,11 @@ class Picker:
         met = self._first_met(renderer, *pixel_of(renderer, point))
         if met is None:
             return True  # at a silhouette the way may pass it by
-        eye = np.array(renderer.GetActiveCamera().GetPosition())
+        camera = renderer.GetActiveCamera()
+        eye = np.array(camera.GetPosition())
         nearer = np.linalg.norm(point - eye) - np.linalg.norm(met[2] - eye)
+        if camera.GetParallelProjection():
+            nearer = (point - met[2]) @ np.array(camera.GetDirectionOfProjection())
         return bool(nearer <= 2 * self._surface.mean_edge_length)
 
     def _first_met(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, np.ndarray, np.ndarray] | None:

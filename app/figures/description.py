@@ -35,7 +35,8 @@ class FigurePanel:
     own if None.  views: pictures of the same side by side, each a
     standard one or a camera.  height: a flat surface becomes a relief, raised by the field so that its maximum is this
     share of the surface's extent.  failure: why there is no field, to be read on the bare shape.  signed: the field has
-    values on both sides of 0, and its colour bar goes from -maximum to maximum.
+    values on both sides of 0, and its colour bar goes from -maximum to maximum.  up: which axis is up in standard
+    views.  source: the vertex that the view from the source looks at.  is_parallel: nothing gets smaller with distance.
     """
 
     surface: Surface
@@ -53,6 +54,9 @@ class FigurePanel:
     failure: str = ""
     signed: bool = False
     shading: Shading = AS_IT_IS
+    up: str = "y"
+    source: int | None = None
+    is_parallel: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

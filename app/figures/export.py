@@ -151,6 +151,9 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
         shading=document.shading,
+        up=document.up if document.up != "auto" else opened.up,
+        source=starts[0] if starts else None,
+        is_parallel=document.projection == "orthographic",
     )
 
 

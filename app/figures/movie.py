@@ -185,7 +185,9 @@ def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
     # What turns shows its source at first; what stands, as much as may be of the source's way.
     seen = fields.documents[:1] if movie.turn else fields.documents[:: max(len(fields.documents) // PLACES, 1)]
     sources = [vertex_at(at, fields.surface) for each in seen for at in each.sources]
-    camera, axis = start_and_axis(movie.recipe.views[0], fields.surface, movie.turn, document.height, sources)
+    camera, axis = start_and_axis(
+        movie.recipe.views[0], fields.surface, movie.turn, document.height, sources, document.up, document.projection
+    )
     size = fitted_size(fields.figure(0, (camera,)), camera.extent)
     for k in range(movie.frames):
         # A whole turn ends one step before where it began: shown again and again, it does not halt.

@@ -112,6 +112,7 @@ class Studio:
         camera.SetPosition(*projection.position)
         camera.SetFocalPoint(*(projection.position - projection.view[2, :3]))
         camera.SetViewUp(*projection.view[1, :3])
+        camera.SetParallelProjection(projection.is_parallel)
         camera.UseExplicitProjectionTransformMatrixOn()
         camera.SetExplicitProjectionTransformMatrix(matrix)
         self._window.Render()

@@ -17,7 +17,7 @@ from ..document.camera import Camera, View
 from ..document.document import Zoom
 from ..document.looks import Shading
 from ..drawing.bands import band_edges
-from ..drawing.camera import Margins, Projection, standard_camera
+from ..drawing.camera import Margins, Projection, outwards_at, standard_camera
 from ..drawing.drawable import drawable, normals_shading, outward_faces
 from ..drawing.field_actor import isoline_values
 from ..drawing.insets import SIDE
@@ -136,7 +136,9 @@ def _camera(view: View, panel: FigurePanel, surface: Surface, box: Box) -> Camer
         return view
     name = "relief" if panel.height and view == "home" else view
     shown = surface.vertices[surface.component_of_vertex >= 0]
-    return standard_camera(shown, box.width / box.height, name, NO_MARGINS)
+    outwards = outwards_at(surface, panel.source) if name == "source" and panel.source is not None else None
+    aspect = box.width / box.height
+    return standard_camera(shown, aspect, name, NO_MARGINS, panel.up, outwards, panel.is_parallel)
 
 
 class _Taker:
@@ -157,7 +159,7 @@ class _Taker:
         self._style, self._panel, self._index = figure.style, figure.panels[index], index
         self._surface, self._top, self._box, self._studio = surface, top, box, studio
         self._scale, self._stroke = layout.scale, layout.stroke
-        self._projection = Projection(camera, box.width / box.height, surface.vertices, FREE)
+        self._projection = Projection(camera, box.width / box.height, surface.vertices, FREE, self._panel.is_parallel)
         self._sight = Sight(surface, self._projection, (box.width, box.height), outward)
         self._isolines: list[tuple[float, list[Line]]] | None = None
         self._outlines: list[Line] | None = None
@@ -243,7 +245,7 @@ class _Taker:
             point = self._surface.vertices[mark.vertex]
             x, y, depth = self._sight.pixels(point[None])[0]
             # A mark stands out of the surface: at a silhouette it is seen a little longer than its vertex.
-            per_unit = depth / (self._projection.matrix[0, 0] * self._box.width / 2)
+            per_unit = self._projection.pixel_at(depth, self._box.width)
             nearer = point + self._normal(mark.vertex) * per_unit * self._style.marker_size * self._stroke / 3
             if np.isfinite(depth) and (self._sight.sees(point) or self._sight.sees(nearer)):
                 found.append((k, float(x), float(y)))

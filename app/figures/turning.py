@@ -11,7 +11,7 @@ from bihdist_core import Surface
 
 from ..document.camera import Camera, View
 from ..document.looks import Shading
-from ..drawing.camera import DIRECTIONS, VIEW_ANGLE, Projection, is_flat, standard_camera, turned
+from ..drawing.camera import VIEW_ANGLE, Projection, directions, is_flat, outwards_at, standard_camera, turned
 from ..drawing.drawable import drawable
 from ..drawing.relief import rise
 from .description import Figure
@@ -32,30 +32,39 @@ WELL = 15
 
 
 def start_and_axis(
-    view: View, surface: Surface, turn: float, height: float, sources: Sequence[int]
+    view: View,
+    surface: Surface,
+    turn: float,
+    height: float,
+    sources: Sequence[int],
+    up: str = "y",
+    projection: str = "perspective",
 ) -> tuple[Camera, np.ndarray]:
     """The camera of the first frame, whose extent holds the shape while it turns, and the axis (3,) of the turn.
 
     height: of a relief.  sources: vertices of which, from home, where nobody has chosen, as many are seen as can be.
+    up: which axis is; projection: one of PROJECTIONS.
     """
+    is_parallel = projection == "orthographic"
     points = surface.vertices[surface.component_of_vertex >= 0]
     if height:
         bounds = np.stack([points.min(axis=0), points.max(axis=0)], axis=1).ravel().tolist()
         points = np.concatenate([points, points + np.array([0.0, 0.0, rise(bounds, height)])])
     if isinstance(view, Camera):
         axis, camera = np.array(view.up), view
-        extent = _swept(camera, axis, points, turn)
+        extent = _swept(camera, axis, points, turn, is_parallel)
         if not turn:  # no more than was chosen
             extent = tuple(np.minimum(extent, view.extent))
         return replace(camera, extent=extent), axis
     name = "relief" if height and view == "home" else view
-    axis = np.array(DIRECTIONS[name][1], float)
-    camera = standard_camera(points, 1.0, name)
+    outwards = outwards_at(surface, sources[0]) if name == "source" and sources else None
+    axis = directions(name, up, outwards)[1]
+    camera = standard_camera(points, 1.0, name, None, up, outwards, is_parallel)
     if turn:
         camera = _about(camera, axis, points)
     if view == "home" and sources and not is_flat(points):
         camera = turned(camera, _facing(camera, axis, surface, sources), axis)
-    return replace(camera, extent=_swept(camera, axis, points, turn)), axis
+    return replace(camera, extent=_swept(camera, axis, points, turn, is_parallel)), axis
 
 
 def fitted_size(figure: Figure, extent: tuple[float, float]) -> Size:
@@ -104,13 +113,13 @@ def _centre(points: np.ndarray) -> np.ndarray:
     return middle
 
 
-def _swept(camera: Camera, axis: np.ndarray, points: np.ndarray, turn: float) -> tuple[float, float]:
+def _swept(camera: Camera, axis: np.ndarray, points: np.ndarray, turn: float, is_parallel: bool) -> tuple[float, float]:
     """The extent that holds points (n, 3) at all angles of a turn."""
     angles = np.append(np.arange(0, min(abs(turn), 360), STEP), min(abs(turn), 360)) * np.sign(turn)
     wide = high = 0.0
     for degrees in angles if turn else (0.0,):
         whole = replace(turned(camera, float(degrees), axis), extent=(1.0, 1.0))
-        seen = np.abs(Projection(whole, 1.0, points)(points))
+        seen = np.abs(Projection(whole, 1.0, points, 0.0, is_parallel)(points))
         wide, high = max(wide, float(np.nanmax(seen[:, 0]))), max(high, float(np.nanmax(seen[:, 1])))
     return wide, high
 

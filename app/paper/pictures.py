@@ -22,13 +22,16 @@ WIDTH = 460
 WORDS = {"minimum": "min", "maximum": "max", "target": "target"}
 
 
-def figures(result: Result) -> Iterator[tuple[str, str, Figure]]:
-    """(file name without extension, caption, figure) for each row of panels, in order of their first panels."""
+def figures(result: Result, up: str = "y") -> Iterator[tuple[str, str, Figure]]:
+    """(file name without extension, caption, figure) for each row of panels, in order of their first panels.
+
+    up: the axis that is up in all of them.
+    """
     rows: dict[str, list[Panel]] = {}
     for panel in result.panels:
         rows.setdefault(panel.row, []).append(panel)
     for row, panels in rows.items():
-        shown = [_panel(result, panel) for panel in panels]
+        shown = [_panel(result, panel, up) for panel in panels]
         views = max(len(panel.views) for panel in shown)
         lines = -(-len(shown) // ACROSS.get(views, 2))
         columns = -(-len(shown) // lines)
@@ -37,7 +40,7 @@ def figures(result: Result) -> Iterator[tuple[str, str, Figure]]:
         yield name, row, Figure(tuple(shown), columns=columns, size=Size(width=width))
 
 
-def _panel(result: Result, panel: Panel) -> FigurePanel:
+def _panel(result: Result, panel: Panel, up: str) -> FigurePanel:
     surface = result.surfaces[panel.surface]
     relief = panel.style == "height"
     views = tuple(view for view in panel.views if view != "zoom") or ("front",)
@@ -60,6 +63,7 @@ def _panel(result: Result, panel: Panel) -> FigurePanel:
         zooms=zooms,
         height=RELIEF if relief and field is not None else 0.0,
         failure=panel.failure,
+        up=up,
     )
 
 

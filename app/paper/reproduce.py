@@ -14,6 +14,7 @@ from bihdist_core import (
     Surface,
     read_surface,
 )
+from bihdist_core.analysis.upright import guess_up
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.experiments import EXPERIMENTS, Experiment, Result, Shapes
@@ -48,11 +49,13 @@ def reproduce(
     quick: bool = False,
     progress: Progress | None = None,
     say: Callable[[str], None] = print,
+    up: str = "auto",
 ) -> Path:
     """Write results, pictures and index.html into the folder `out`; returns the page's path.
 
     only: ids of experiments, all if empty.  mesh: the reader's own mesh, or a folder of meshes, instead of the
-    bundled ones.  An experiment that cannot be done is on the page with the reason.  `say` gets a line for each.
+    bundled ones.  up: the axis that is up; left alone it is y for the bundled meshes, and guessed for those of the
+    reader's own.  An experiment that cannot be done is on the page with the reason.  `say` gets a line for each.
     Raises ParameterError for an unknown id, OutputError if something cannot be written.
     """
     check_offscreen()
@@ -60,11 +63,16 @@ def reproduce(
     folder = Path(out)
     _make(folder)
     if mesh is not None and Path(mesh).is_dir():
-        return _each_mesh(folder, Path(mesh), only, quick, progress, say)
+        return _each_mesh(folder, Path(mesh), only, quick, progress, say, up)
     shapes = Shapes(own=read_surface(mesh)) if mesh is not None else Shapes.from_folder(SAMPLES)
-    sections = _sections(folder, chosen, shapes, quick, progress, say, lambda id: f"{folder / PAGE}#{id}")
+    up = "y" if mesh is None and up == "auto" else _up(up, shapes.own, mesh or "")
+    sections = _sections(folder, chosen, shapes, quick, progress, say, lambda id: f"{folder / PAGE}#{id}", up)
     about = "the bundled meshes" if mesh is None else Path(mesh).name
     return _write_page(folder, sections, about, quick)
+
+
+def _up(up: str, surface: Surface | None, path: str | Path) -> str:
+    return guess_up(surface, Path(path).suffix) if up == "auto" and surface is not None else up
 
 
 def _chosen(only: Sequence[str], mesh: str | None) -> list[Experiment]:
@@ -88,12 +96,13 @@ def _sections(
     progress: Progress | None,
     say: Callable[[str], None],
     read_more: Callable[[str], str],
+    up: str,
 ) -> list[Section]:
     """read_more: by an experiment's id, where the page has it."""
     sections = []
     for k, experiment in enumerate(chosen):
         mine = part(progress, k / len(chosen), (k + 1) / len(chosen))
-        section = _section(folder, experiment, shapes, quick, mine)
+        section = _section(folder, experiment, shapes, quick, mine, up)
         sections.append(section)
         if section.result is None:
             say(f"{experiment.id}: not done: {section.failure}")
@@ -124,11 +133,11 @@ def _not_held(result: Result, where: str) -> list[str]:
     return [*lines, f"  more in {where}"] if lines else []
 
 
-def _section(folder: Path, experiment: Experiment, shapes: Shapes, quick: bool, progress: Progress) -> Section:
+def _section(folder: Path, experiment: Experiment, shapes: Shapes, quick: bool, progress: Progress, up: str) -> Section:
     try:
         result = experiment.compute(shapes, quick, part(progress, 0, 0.9))
         result.save(folder)
-        pictures = tuple((caption, _picture(folder, name, figure)) for name, caption, figure in figures(result))
+        pictures = tuple((caption, _picture(folder, name, figure)) for name, caption, figure in figures(result, up))
         charts = tuple(chart_svg(chart) for chart in result.charts)
         return Section(experiment, result, pictures, charts)
     except (Cancelled, OutputError):
@@ -149,7 +158,13 @@ def _picture(folder: Path, name: str, figure) -> bytes:
 
 
 def _each_mesh(
-    folder: Path, meshes: Path, only: Sequence[str], quick: bool, progress: Progress | None, say: Callable[[str], None]
+    folder: Path,
+    meshes: Path,
+    only: Sequence[str],
+    quick: bool,
+    progress: Progress | None,
+    say: Callable[[str], None],
+    up: str,
 ) -> Path:
     """The claims and a picture of each mesh of a folder; one that fails is named and the others go on."""
     paths = sorted(path for path in meshes.iterdir() if path.suffix.lower() in MESH_FORMATS)
@@ -157,7 +172,7 @@ def _each_mesh(
         raise ParameterError(f"{meshes} holds no meshes ({', '.join(MESH_FORMATS)}).")
     chosen = [EXPERIMENTS[name] for name in only or FOLDER_EXPERIMENTS]
     sections: list[Section] = []
-    surfaces: list[Surface] = []
+    surfaces: list[tuple[Surface, str]] = []
     for k, path in enumerate(paths):
         say(path.name)
         mine = part(progress, k / len(paths), (k + 1) / len(paths))
@@ -173,10 +188,11 @@ def _each_mesh(
         def read_more(id: str, stem: str = path.stem) -> str:
             return f"{folder / PAGE}#{stem}-{id}"
 
-        for section in _sections(place, chosen, shapes, quick, mine, say, read_more):
+        its_up = _up(up, shapes.own, path)
+        for section in _sections(place, chosen, shapes, quick, mine, say, read_more, its_up):
             named = _named(section.experiment, path)
             sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
-        surfaces.append(shapes.own)
+        surfaces.append((shapes.own, its_up))
     if surfaces:
         sections.insert(0, _contact_sheets(folder, surfaces))
     return _write_page(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
@@ -186,16 +202,18 @@ def _named(experiment: Experiment, path: Path) -> Named:
     return Named(f"{path.stem}-{experiment.id}", f"{path.name}: {experiment.title}")
 
 
-def _contact_sheets(folder: Path, surfaces: Sequence[Surface]) -> Section:
-    """Biharmonic distance on every mesh, from its highest vertex, many to a picture."""
+def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]]) -> Section:
+    """Biharmonic distance on every mesh, which has its axis up, from its highest vertex, many to a picture."""
     pictures = []
     for start in range(0, len(surfaces), SHEET):
         panels = []
-        for surface in surfaces[start : start + SHEET]:
-            source = first_source(surface)
+        for surface, up in surfaces[start : start + SHEET]:
+            source = first_source(surface, up)
             answer = Distances(Laplacian(surface)).answer(Spec.of("biharmonic"), source)
             mark = Mark(source)
-            panels.append(FigurePanel(surface, answer.field, surface.name, marks=(mark,), failure=answer.failure))
+            panels.append(
+                FigurePanel(surface, answer.field, surface.name, marks=(mark,), failure=answer.failure, up=up)
+            )
         columns = min(SHEET_COLUMNS, len(panels))
         sheet = Figure(tuple(panels), columns=columns, size=Size(width=260 * columns))
         pictures.append(("", _picture(folder, f"contact-sheet-{start // SHEET + 1}", sheet)))

@@ -12,7 +12,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from ..document.edits import PANEL_EDITS
 from .look.icons import put_icon
 
-VIEWS = ("front", "back", "left", "right", "top", "bottom")
+VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
 ISOLINES = (0, 10, 20, 30, 50)
 
 
@@ -75,12 +75,34 @@ FILE = (
 EDIT = (
     Act("undo", "&Undo", lambda w: w.session.undo(), ("Ctrl+Z",), "Undo the last change", "undo"),
     Act("redo", "&Redo", lambda w: w.session.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "Do it again", "redo"),
+    Act(
+        "copy camera",
+        "&Copy camera",
+        lambda w: w.views.copy(),
+        ("Ctrl+Alt+C",),
+        "As text, for another window or bihdist figure --camera",
+        needs_mesh=True,
+    ),
+    Act(
+        "paste camera",
+        "P&aste camera",
+        lambda w: w.views.paste(),
+        ("Ctrl+Alt+V",),
+        "Look from where a copied camera looked",
+        needs_mesh=True,
+    ),
     Act("preferences", "&Preferences …", lambda w: w.choices.ask_preferences(), ("Ctrl+,",), "", "settings"),
 )
 VIEW = (
     Act("reset", "&Reset", lambda w: w.reset_view(), ("R", "Home"), "See all of it", "reset-view", needs_mesh=True),
     *(
-        Act(name, f"&{name.capitalize()}", lambda w, name=name: w.reset_view(name), (str(number),), needs_mesh=True)
+        Act(
+            f"view {name}",
+            "From the &source" if name == "source" else f"&{name.capitalize()}",
+            lambda w, name=name: w.reset_view(name),
+            (str(number),),
+            needs_mesh=True,
+        )
         for number, name in enumerate(VIEWS, 1)
     ),
     Act(
@@ -98,6 +120,33 @@ VIEW = (
         ("Z",),
         "What is pointed at, larger",
         needs_mesh=True,
+    ),
+    Act("next up", "The &next axis up", lambda w: w.views.next_up(), ("U",), needs_mesh=True),
+    Act("other end up", "Upside &down", lambda w: w.views.other_end_up(), ("Shift+U",), needs_mesh=True),
+    Act(
+        "orthographic",
+        "&Orthographic",
+        lambda w: w.views.project(),
+        ("O",),
+        "What is farther away is drawn as large",
+        needs_mesh=True,
+        is_check=True,
+    ),
+    Act(
+        "axes",
+        "A&xes",
+        lambda w: w.views.show_axes(),
+        ("X",),
+        "Where x, y and z point to, in a corner",
+        needs_mesh=True,
+        is_check=True,
+    ),
+    Act(
+        "turntable",
+        "Turn as on a turn&table",
+        lambda w: w.views.turn_upright(),
+        tip="What is up stays upright while the surface turns",
+        is_check=True,
     ),
     Act("view before", "The view be&fore", lambda w: w.views.back(), ("Ctrl+[",), needs_mesh=True),
     Act("view after", "The view af&ter", lambda w: w.views.on(), ("Ctrl+]",), needs_mesh=True),

@@ -30,7 +30,7 @@ class Choices:
     def show(self) -> None:
         """Let menus and buttons say what is chosen."""
         window, document, style = self._window, self._window.session.document, self._window.page.style
-        self.show_view()
+        window.views.show()
         for name, value in {
             "isolines": str(document.isolines.count),
             "colours": colours_in_words(style, document.colours),
@@ -42,11 +42,6 @@ class Choices:
         menus.colours.show_choice(style, document.colours)
         menus.show_choice(menus.range, "" if document.range == "own" and has_ends(document) else document.range)
         menus.show_choice(menus.theme, LOOK.choice)
-
-    def show_view(self) -> None:
-        """Let the button of views say what is seen."""
-        camera = self._window.session.document.camera
-        self._window.tools["views"].show_value(camera.capitalize() if isinstance(camera, str) else "Free")
 
     # ------------------------------------------------------------------ panels
     def add_panel(self) -> None:
@@ -194,6 +189,7 @@ class Choices:
         self.theme(preferences.theme)
         if window.grid is not None:
             window.grid.turn_wheel(-1.0 if preferences.wheel_reversed else 1.0)
+            window.grid.turn_upright(preferences.turntable)
 
     def _prefer(self, preferences: Preferences) -> None:
         self._window.preferences = preferences

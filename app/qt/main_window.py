@@ -11,6 +11,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import BihdistError
 
+from ..document.camera import View as CameraView
 from ..document.document import Document
 from ..document.edits import move_source
 from ..document.page import Page, Recipe
@@ -64,7 +65,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.setWindowTitle("Biharmonic distance")
         self.preferences = preferences or Preferences()
         self._posted.connect(lambda function: function())
-        self.session = Session(self, self._posted.emit, prepare, document)
+        self.session = Session(self, self._posted.emit, prepare, document, remembered.up_of)
         self.page = Page()
         self.session_file = SessionFile(self)
         self.files, self.choices, self.guide = Files(self), Choices(self), Guide(self)
@@ -119,6 +120,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid = PanelGrid(self.session)
         self.grid.keys = self.actions_by_word.key_of_view
         self.grid.wheel_factor = -1.0 if self.preferences.wheel_reversed else 1.0
+        self.grid.is_turntable = self.preferences.turntable
         self.gestures = Gestures(self)
         self.grid.chosen.connect(self.gestures.choose)
         self.grid.asked.connect(self.choices.edit_panel)
@@ -234,7 +236,12 @@ class MainWindow(QtWidgets.QMainWindow):
             for panel in document.panels:
                 if self.session.is_answered(panel.id) or (is_dressed and panel.id in self.session.shown):
                     self.answer_changed(panel.id)
-        if is_other or is_raised or document.camera != before.camera:
+        is_stood_otherwise = (document.up, document.projection) != (before.up, before.projection)
+        follows = document.camera == "source" and document.points != before.points
+        if self.remembers and not is_other and document.up != before.up:
+            remembered.remember_up(document.surfaces[0].sha256, document.up)
+        if is_other or is_raised or is_stood_otherwise or follows or document.camera != before.camera:
+            self.grid.turn_upright()
             self.grid.look(document.camera)
             self.views.rest_soon()
         self._offer_steps()
@@ -373,8 +380,8 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.session.surface is not None and self.grid.active >= 0:
             do(self.grid.panel(self.grid.active).view)
 
-    def reset_view(self, view: str = "home") -> None:
-        """See the surface from a standard view."""
+    def reset_view(self, view: CameraView = "home") -> None:
+        """See the surface from a standard view, or from where a camera is."""
         if self.session.surface is not None:
             self.views.see(view)
 

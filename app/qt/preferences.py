@@ -35,13 +35,15 @@ REACHABLE = QtCore.QSize(120, 12)
 class Preferences:
     """theme: one of CHOICES.  isolines: steps between the isolines of a mesh that is opened anew.  wheel_reversed:
     turning the wheel does the opposite.  geometry: where the window
-    was, in Qt's own words; empty if nowhere.  last_folder: where a file was opened last; empty if nowhere."""
+    was, in Qt's own words; empty if nowhere.  last_folder: where a file was opened last; empty if nowhere.  turntable:
+    what is up stays upright while the surface turns."""
 
     theme: str = "desktop"
     isolines: int = 20
     wheel_reversed: bool = False
     geometry: bytes = b""
     last_folder: str = ""
+    turntable: bool = False
 
 
 def path() -> Path:
@@ -152,6 +154,7 @@ _READ: dict[str, Callable[[Any], Any]] = {
     "wheel_reversed": _flag,
     "geometry": _hexadecimal,
     "last_folder": lambda value: value if isinstance(value, str) else None,
+    "turntable": _flag,
 }
 """From what stands in the file to the value; None if it is none."""
 

@@ -1,4 +1,5 @@
-"""What is remembered from one start to the next: recent files, and the state of a window that did not end as it should.
+"""What is remembered from one start to the next: recent files, which way meshes point up, and the state of a window
+that did not end as it should.
 
 It stands in the user's folder for application data; where that cannot be written nothing is remembered.
 """
@@ -16,7 +17,10 @@ from qtpy import QtCore
 from bihdist_core import BihdistError
 from bihdist_core.whole_file import whole_file
 
+from ..document.looks import UPS
+
 MOST_RECENT = 10
+MOST_UPS = 1000
 
 
 def folder() -> Path:
@@ -66,6 +70,27 @@ def _file_of(entry: object) -> Recent | None:
         return Recent(path, datetime.fromisoformat(opened).astimezone())
     except (TypeError, ValueError, OverflowError, OSError):
         return Recent(path, None)
+
+
+# ---------------------------------------------------------------------- which way is up
+def up_of(sha256: str) -> str:
+    """The axis that points up as it was chosen for a mesh, by its checksum; "" if none was."""
+    up = _chosen_ups().get(sha256, "")
+    return up if up in UPS and up != "auto" else ""
+
+
+def remember_up(sha256: str, up: str) -> None:
+    """It was chosen for a mesh; the choices made longest ago are forgotten."""
+    ups = {known: other for known, other in _chosen_ups().items() if known != sha256} | {sha256: up}
+    _write(folder() / "up.json", json.dumps(dict(list(ups.items())[-MOST_UPS:]), indent=1))
+
+
+def _chosen_ups() -> dict[str, object]:
+    try:
+        found = json.loads((folder() / "up.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return found if isinstance(found, dict) else {}
 
 
 # ---------------------------------------------------------------------- the state of windows that are open

@@ -4,11 +4,13 @@ import os
 import threading
 from collections.abc import Callable, Collection
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from bihdist_core import Laplacian, ParameterError, Surface, read_surface
+from bihdist_core.analysis.upright import guess_up
 from bihdist_core.distances.accuracy import Certificate
 from bihdist_core.distances.answers import Answer, Distances, difference_of
 from bihdist_core.distances.kinds import Spec
@@ -31,6 +33,11 @@ class Opened:
         self._given = given or Given()
         self._distances: dict[str, Distances] = {}
         self._lock = threading.Lock()
+
+    @cached_property
+    def up(self) -> str:
+        """The axis that points up: guessed, unless whoever opened it knows better and has put it here."""
+        return guess_up(self.surface, os.path.splitext(self.mesh.path and mesh_path(self.mesh.path))[1])
 
     def distances(self, areas: str) -> Distances:
         """All distances on it with these vertex areas, each built once for whoever asks."""
@@ -60,12 +67,16 @@ class Opened:
     def settled(self, document: Document) -> Document:
         """The document with this surface's checksum, and its points where there is a vertex.
 
+        Which way is up is that of the first surface, where it was left to be guessed.
+
         VertexError or ParameterError for a point or an inset that is nowhere, and for a field that has not a value for
         each vertex.
         """
         mine = {mesh.name for mesh in document.surfaces if is_same(mesh, self.mesh)}
         if mine:
             self.surface.check_vertices([zoom.vertex for zoom in document.zooms])
+        if document.up == "auto" and document.surfaces and document.surfaces[0].name in mine:
+            document = replace(document, up=self.up)
         for field in document.fields:
             count = len(self._given.field(field.sha256, field.name)) if field.surface in mine else 0
             if field.surface in mine and count != len(self.surface.vertices):
@@ -76,9 +87,12 @@ class Opened:
         meshes = (replace(m, sha256=self.mesh.sha256) if m.name in mine else m for m in document.surfaces)
         points = []
         for point in document.points:
-            vertex = vertex_at(point.at, self.surface) if point.surface in mine else None
+            vertex = vertex_at(point.at, self.surface, self._up_in(document)) if point.surface in mine else None
             points.append(replace(point, at=vertex) if point.at is None else point)
         return replace(document, surfaces=tuple(meshes), points=tuple(points))
+
+    def _up_in(self, document: Document) -> str:
+        return self.up if document.up == "auto" else document.up
 
     def keep(self, areas: str, wanted: Collection[Spec]) -> None:
         """Forget distances with other areas, and of these what `Distances.keep` forgets."""

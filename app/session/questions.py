@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.analysis.upright import axis_of
 from bihdist_core.distances.kinds import Spec
 
 from ..document.document import Document, FieldArray, MeshFile, Place
@@ -123,13 +124,13 @@ def _question(document: Document, surface: str, shows: Quantity) -> Question:
     return asked(shows)
 
 
-def vertex_at(at: int | Place | None, surface: Surface) -> int:
+def vertex_at(at: int | Place | None, surface: Surface, up: str = "y") -> int:
     """The vertex a point stands for: itself, the nearest corner by weight, or the first source.
 
     VertexError if there is none, or it belongs to no face; ParameterError for a face that does not exist.
     """
     if at is None:
-        return first_source(surface)
+        return first_source(surface, up)
     if isinstance(at, Place):
         if at.face >= len(surface.faces):
             raise ParameterError(f"{surface.name} has no face {at.face}; it has {len(surface.faces)}.")
@@ -137,7 +138,7 @@ def vertex_at(at: int | Place | None, surface: Surface) -> int:
     return surface.check_vertex(at)
 
 
-def first_source(surface: Surface) -> int:
-    """Where to start: the highest vertex (along y) of the largest component."""
+def first_source(surface: Surface, up: str = "y") -> int:
+    """Where to start: the highest vertex of the largest component."""
     ids = np.flatnonzero(surface.component_of_vertex == 0)
-    return int(ids[surface.vertices[ids, 1].argmax()])
+    return int(ids[(surface.vertices[ids] @ axis_of(up)).argmax()])

@@ -52,8 +52,9 @@ class Session:
     """See the module.
 
     `post(function)` must run the function on the thread of the view, in order.  `prepare(surface)` runs in the
-    background when a mesh is opened, for what the view needs of it; its result is then in `opened().prepared`.  given:
-    surfaces and fields from Python, to be there before a document names them.
+    background when a mesh is opened, for what the view needs of it; its result is then in `opened().prepared`.
+    `known_up(sha256)`, in the background too, is which way a mesh points up as far as that has been chosen before, or
+    "".  given: surfaces and fields from Python, to be there before a document names them.
     """
 
     def __init__(
@@ -62,12 +63,13 @@ class Session:
         post: Callable[[Callable[[], None]], None],
         prepare: Callable[[Surface], Any] = lambda surface: None,
         document: Document | None = None,
+        known_up: Callable[[str], str] = lambda sha256: "",
     ) -> None:
         self.view = view
         self.given = Given()
         self.history = History(document or Document())
         self._post = post
-        self._prepare = prepare
+        self._prepare, self._known_up = prepare, known_up
         self._answering = Answering(view, post)
         self._opened: list[Opened] = []  # those shown last come last
         self._loading: tuple[float, str] | None = None
@@ -249,6 +251,7 @@ class Session:
             opened = open_mesh(mesh, self.given)
             report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
             opened.prepared = self._prepare(opened.surface)
+            opened.up = self._known_up(opened.mesh.sha256) or opened.up
             # Told by the view, for whose thread going over all faces would take too long.
             _ = opened.surface.remarks, opened.surface.nonmanifold_edge_count
             found.append(opened)

@@ -13,7 +13,7 @@ from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document import one_line
 from app.document.camera import VIEWS, Camera
 from app.document.document import Anchor, Document, FieldArray, MeshFile, Panel, Place, Point, Zoom, comparison
-from app.document.looks import Colours, Isolines, Shading
+from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
 from app.document.page import Page, Recipe
 from app.document.quantities import Difference, DistanceFrom, OwnField
 from bihdist_core import ParameterError
@@ -90,7 +90,8 @@ def shown(recipe):
 
 
 def usual(path, **changes):
-    return replace(comparison(path, (BIHARMONIC,), (5,)), **changes)
+    # A picture's document says which way is up.
+    return replace(comparison(path, (BIHARMONIC,), (5,)), **{"up": "y", **changes})
 
 
 EXAMPLES = {
@@ -161,7 +162,7 @@ ELSEWHERE = {
 WORDLESS = {"Zoom.corner", "Zoom.isolines"} | {
     name
     for name in EXAMPLES
-    if name in ("Colours.stops", "Document.up", "Document.projection", "Document.axes")
+    if name == "Colours.stops"
     or name in ("Isolines.spacing", "Isolines.values", "Isolines.bold", "Isolines.labels", "Isolines.through")
     or name in ("Page.title", "Page.font", "Page.text")
 }
@@ -215,7 +216,7 @@ def test_a_mesh_is_named_wherever_the_line_is_run(mesh, monkeypatch, tmp_path):
 def test_a_relief_is_said(tmp_path):
     path = tmp_path / "flat.off"
     path.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 3\n3 0 3 2\n")
-    recipe = Recipe(replace(comparison(str(path), (BIHARMONIC,), (0,)), height=0.1 + 0.2))
+    recipe = Recipe(replace(comparison(str(path), (BIHARMONIC,), (0,)), height=0.1 + 0.2, up="y"))
     assert shown(read_again(one_line.command_line(recipe, "r.png"))) == shown(recipe)
     assert shown(run_again(one_line.python_line(recipe, "r.png"))) == shown(recipe)
 
@@ -296,6 +297,9 @@ def recipes(draw):
         zooms=tuple(draw(st.lists(st.builds(Zoom, VERTICES, st.floats(1.001, 100)), max_size=2))),
         height=draw(st.sampled_from([0.0, 0.35, 1 / 3])),
         camera=views[0],
+        up=draw(st.sampled_from(UPS)),
+        projection=draw(st.sampled_from(PROJECTIONS)),
+        axes=draw(st.booleans()),
     )
     page = Page(
         views=tuple(views) if len(views) > 1 else (),

@@ -4,9 +4,11 @@ from collections.abc import Callable, Sequence
 
 from qtpy import QtGui, QtWidgets
 
+from ...document.looks import UPS
 from ...samples import mesh_path, sample_names, thumbnail
 from .. import remembered
 from ..actions import ISOLINES, TURNS, VIEWS
+from ..look.numbers import MINUS
 from .colour_menu import ColourMenu
 
 THUMBNAIL = 56
@@ -31,7 +33,7 @@ class NoUnderlines(QtWidgets.QProxyStyle):
 
 
 class Menus:
-    """Those that the tool bar shows, too, by name: open, isolines, colours, range, views, tools."""
+    """Those that the tool bar shows, too, by name: open, isolines, colours, range, views, up, tools."""
 
     def __init__(self, window) -> None:
         self._window = window
@@ -65,7 +67,14 @@ class Menus:
         keys = QtWidgets.QMenu("Turn and move by &keys", window)
         self._fill(keys, [act.word for act in TURNS])
         self._fill(self.open, ["open", None, self.recent, self.samples])
-        self._fill(self.views, ["reset", *VIEWS, None, "centre", "zoom to", None, "view before", "view after"])
+        self._fill(
+            self.views, ["reset", *(f"view {name}" for name in VIEWS), None, "orthographic", "axes", "turntable"]
+        )
+        self._fill(self.views, [None, "centre", "zoom to", None, "view before", "view after"])
+        self.up = self._choices(
+            "&Up", lambda word: window.views.stand(word), [(up, up.replace("-", MINUS)) for up in UPS if up != "auto"]
+        )
+        self._fill(self.up, [None, "next up", "other end up"])
         steps = ("step left", "step right", "step up", "step down")
         self._fill(self.tools, ["source id", "live", None, "source before", "source after", None, *steps, None, "stop"])
         file, edit, view, panels, tools, about = (
@@ -73,8 +82,10 @@ class Menus:
         )
         self._fill(file, ["open", self.recent, self.samples, None, "save", "save as", None])
         self._fill(file, ["figure", "movie", "screenshot", None, "quit"])
-        self._fill(edit, ["undo", "redo", None, "preferences"])
-        self._fill(view, [*self.views.actions(), None, keys, None, self.isolines, self.colours, self.range, None])
+        self._fill(edit, ["undo", "redo", None, "copy camera", "paste camera", None, "preferences"])
+        self._fill(
+            view, [*self.views.actions(), None, self.up, keys, None, self.isolines, self.colours, self.range, None]
+        )
         self._fill(view, [self.theme, "full screen"])
         edits = ("Duplicate this panel", "Move it back", "Move it on", "Remove it")
         self._fill(panels, ["add panel", None, *(f"panel {word}" for word in edits), None])

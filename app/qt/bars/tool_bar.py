@@ -10,7 +10,7 @@ from .tool_button import FULL, ICONS, VALUES, ToolButton
 
 HEIGHT = 44
 
-LAST_TO_GO = ("views", "colours", "range", "isolines", "live", "tools", "redo", "undo")
+LAST_TO_GO = ("up", "views", "colours", "range", "isolines", "live", "tools", "redo", "undo")
 """Where even the icons have no room: which buttons are left out, the first of these first; all are in the menus."""
 
 
@@ -44,7 +44,8 @@ class ToolBar(QtWidgets.QToolBar):
         self._menu("isolines", "isolines", "Isolines", menus.isolines, "How many steps isolines make")
         self._menu("colours", "colours", "Colours", menus.colours, "The colours of the fields")
         self._menu("range", "range", "Range", menus.range, "Where the colours end: in each panel, or in all alike")
-        self._menu("views", "views", "View", menus.views, "Standard views (1 to 6, R), views before and after")
+        self._menu("views", "views", "View", menus.views, "Standard views (1 to 7, R), views before and after")
+        self._menu("up", "up-axis", "Up", menus.up, "Which axis points up (U, Shift+U)")
         self._line()
         self._button("add panel", "add-panel", "Panel", actions["add panel"])
         gap = QtWidgets.QWidget()
@@ -56,7 +57,7 @@ class ToolBar(QtWidgets.QToolBar):
         self.fit()
 
     def allow(self, has_mesh: bool) -> None:
-        for name in ("tools", "isolines", "colours", "range", "views"):
+        for name in ("tools", "isolines", "colours", "range", "views", "up"):
             # The action a button is put in by enables it whenever it is shown or hidden.
             self._shown_as[name].setEnabled(has_mesh)
 

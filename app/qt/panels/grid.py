@@ -6,12 +6,14 @@ import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera
 
+from bihdist_core.analysis.upright import axis_of
+
 from ...document.camera import Camera, View
 from ...document.document import Document
 from ...document.edits import MOST_ADDED, possible_edits
 from ...document.quantities import Difference
 from ...drawing.board import Board
-from ...drawing.camera import camera_seen, place_camera, show_camera
+from ...drawing.camera import camera_seen, outwards_at, show_camera, standard_camera
 from ...drawing.relief import rise
 from ...drawing.style import PAPER, Style
 from ...session.anchors import anchors_on
@@ -52,6 +54,7 @@ class PanelGrid(QtWidgets.QWidget):
         self.camera = vtkCamera()
         self.active = -1  # the id of the panel that the keys go to
         self.wheel_factor = 1.0
+        self.is_turntable = False  # whether what is up stays upright while the surface turns
         self.keys: Callable[[QtGui.QKeyEvent], bool] = lambda event: False  # what a key does on a view
         self._panels: dict[int, DistancePanel] = {}
         self._spare: list[DistancePanel] = []
@@ -164,6 +167,7 @@ class PanelGrid(QtWidgets.QWidget):
         if opened is not None:
             panel.show_surface(opened)
         panel.view.wheel_factor = self.wheel_factor
+        panel.view.upright = self._upright
         panel.show_isolines(self._session.document.isolines.count)
         panel.show()
 
@@ -246,23 +250,48 @@ class PanelGrid(QtWidgets.QWidget):
     def look(self, view: View) -> None:
         """See the surface from a standard view, fitted closely, or as a camera saw it."""
         self._fitted = self.panels[0].view.size() if self._panels else QtCore.QSize()
-        if isinstance(view, Camera):
-            show_camera(self.camera, view, self.aspect)
-        else:
+        document = self._session.document
+        is_parallel = document.projection == "orthographic"
+        if not isinstance(view, Camera):
             points, up = self._session.opened().prepared.points, self._rise
             if up:
-                signed = any(isinstance(panel.shows, Difference) for panel in self._session.document.panels)
+                signed = any(isinstance(panel.shows, Difference) for panel in document.panels)
                 down = np.array([0, 0, up if signed else 0])
                 points = np.concatenate([points - down, points + np.array([0, 0, up])])
-            place_camera(self.camera, points, self.aspect, "relief" if up and view == "home" else view)
+            name = "relief" if up and view == "home" else view
+            outwards = self._source_seen() if name == "source" else None
+            view = standard_camera(points, self.aspect, name, None, document.up, outwards, is_parallel)
+        show_camera(self.camera, view, self.aspect, None, is_parallel)
         self._settle_insets()
         self.redraw()
+
+    def _source_seen(self) -> np.ndarray | None:
+        """(3,) the way out of the surface where the first panel's field starts."""
+        document, surface = self._session.document, self._session.opened().surface
+        sources = document.sources
+        return outwards_at(surface, vertex_at(sources[0], surface)) if sources else None
+
+    @property
+    def seen(self) -> Camera:
+        """What the camera sees now."""
+        return camera_seen(self.camera, self.aspect)
+
+    @property
+    def _upright(self) -> np.ndarray | None:
+        up = self._session.document.up
+        return axis_of(up) if self.is_turntable and up != "auto" else None
+
+    def turn_upright(self, is_turntable: bool | None = None) -> None:
+        """Let the surface turn as on a turntable, or freely; as it did, about what is up now, if None."""
+        self.is_turntable = self.is_turntable if is_turntable is None else is_turntable
+        for panel in (*self.panels, *self._spare):
+            panel.view.upright = self._upright
 
     def _looked(self) -> None:
         """The user has moved the camera."""
         if self._session.surface is not None:
             self.redraw()
-            self.looked.emit(camera_seen(self.camera, self.aspect))
+            self.looked.emit(self.seen)
 
     def _keep_in_view(self) -> None:
         """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""

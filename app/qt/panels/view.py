@@ -63,6 +63,7 @@ class View(QtWidgets.QWidget):
         self.picker: Picker | None = None
         self.source: np.ndarray | None = None  # where its mark is
         self.wheel_factor = 1.0  # -1 for a wheel that goes the other way
+        self.upright: np.ndarray | None = None  # what stays upright while the surface turns
         self._picture: QtGui.QImage | None = None
         self._drawing = np.empty((0, 0, 4), np.uint8)
         self._is_stale = True
@@ -268,7 +269,7 @@ class View(QtWidgets.QWidget):
     def _drag(self, step: QtCore.QPoint, modifiers: QtCore.Qt.KeyboardModifiers) -> None:
         button, shift = QtCore.Qt.MouseButton, QtCore.Qt.KeyboardModifier.ShiftModifier
         if self._button == button.LeftButton and not modifiers & shift:
-            moves.turn(self.camera, step.x(), -step.y(), (self.width(), self.height()))
+            moves.turn(self.camera, step.x(), -step.y(), (self.width(), self.height()), self.upright)
         elif self._button == button.RightButton:
             moves.zoom(self.camera, float(np.exp(-4 * step.y() / max(self.height(), 1))), self._focal_point())
         else:
@@ -336,7 +337,7 @@ class View(QtWidgets.QWidget):
     def turn_by(self, right: int, up: int) -> None:
         """A step by the keyboard: the surface turns as if it was dragged."""
         step = KEY_TURN / moves.TURN
-        moves.turn(self.camera, right * step, up * step, (1, 1))
+        moves.turn(self.camera, right * step, up * step, (1, 1), self.upright)
         self.moved.emit()
 
     def shift_by(self, right: int, up: int) -> None:

@@ -1,0 +1,55 @@
+"""A camera as a line of text, to be sent to somebody, and read again from what they paste."""
+
+import json
+import re
+
+from bihdist_core.errors import ParameterError
+
+from .camera import VIEWS, Camera, View
+from .form import read_view
+
+SHOWN = 60
+"""Letters of a wrong text that its error repeats."""
+
+
+def camera_text(camera: Camera) -> str:
+    """Eleven numbers with commas between them, as `--camera` takes them."""
+    numbers = (*camera.position, *camera.focal_point, *camera.up, *camera.extent)
+    return ",".join(f"{x + 0.0:.9g}" for x in numbers)
+
+
+def read_camera(text: str) -> View:
+    """Eleven numbers, perhaps after `--camera`; a camera or a whole document as JSON; or the name of a standard view.
+
+    ParameterError for anything else.
+    """
+    said = re.sub(r"^--(camera|view)[=\s]+", "", text.strip()).strip().strip("\"'")
+    if said.lower() in VIEWS:
+        return said.lower()
+    if said.startswith("{"):
+        return _from_json(said)
+    try:
+        numbers = [float(word) for word in re.split(r"[,;\s]+", said.strip("()[]"))]
+    except ValueError:
+        numbers = []
+    if len(numbers) != 11:
+        shown = said if len(said) <= SHOWN else f"{said[:SHOWN]} …"
+        raise ParameterError(
+            f"{shown!r} is no camera; copy one with Copy camera, or paste eleven numbers: position, focal point, up "
+            "and extent."
+        )
+    px, py, pz, fx, fy, fz, ux, uy, uz, wide, high = numbers
+    return Camera((px, py, pz), (fx, fy, fz), (ux, uy, uz), (wide, high))
+
+
+def _from_json(text: str) -> View:
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError):
+        raise ParameterError("What was pasted begins like JSON and is none; copy all of it.") from None
+    for part in ("document", "camera"):
+        if isinstance(data.get(part), dict):
+            data = data[part]
+        elif part == "camera" and data.get(part) in VIEWS:
+            return str(data[part])
+    return read_view(data, "The camera")
