@@ -11,6 +11,10 @@ STOPS = 33
 """Of the maps that are made here: between so many no other way from colour to colour is seen."""
 
 
+SEEN_ON_DARK = 0.36
+"""The lightness in Oklab from which on a colour is seen on a dark ground."""
+
+
 @dataclass(frozen=True)
 class ColourMap:
     """name and hint: for the user."""
@@ -123,6 +127,13 @@ MAPS = {
     ),
 }
 """By their words on the command line and in recipes."""
+
+
+def lightened(stops: Stops) -> Stops:
+    """The map without what is too dark at its beginning to be seen on a dark ground."""
+    places = np.linspace(0, 1, 257)
+    light = np.flatnonzero(oklab(colours_at(stops, places))[:, 0] >= SEEN_ON_DARK)
+    return _stops(colours_at(stops, np.linspace(places[light[0]], 1, STOPS)))
 
 
 def goes_both_ways(stops: Stops) -> bool:

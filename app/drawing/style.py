@@ -8,7 +8,7 @@ from bihdist_core.errors import ParameterError
 
 from ..document.looks import OF_THE_STYLE, Colours, Stops
 from . import colour_maps
-from .colour_maps import MAPS, backwards, colours_at, goes_both_ways
+from .colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened
 from .oklab import oklab
 
 Colour = tuple[float, float, float]
@@ -138,8 +138,9 @@ def style_of(word: str, colours: Colours = OF_THE_STYLE) -> Style:
     style, stops = STYLES[word], map_of(colours)
     if not style.coloured:
         return style
-    if colours.map == "paper" and word == "dark" and not colours.stops:
-        stops = style.stops  # the paper's with ends that are seen on a dark ground
+    if word == "dark" and stops and not colours.stops:
+        # Ends that are seen on a dark ground; the paper's map has those of the style.
+        stops = style.stops if colours.map == "paper" else lightened(stops)
     if stops:
         style = replace(style, stops=stops, isoline=line_on(stops))
     if colours.stops and goes_both_ways(colours.stops):

@@ -11,17 +11,18 @@ from ..document.document import Document
 from ..document.edits import with_ends, with_range
 from ..document.file import read_recipe
 from ..document.looks import RANGES
+from ..document.quantities import Difference
 from ..session.given import Given
 from .export import compute, figure_of, open_document
 
 
 @dataclass(frozen=True)
 class End:
-    """Where the colour bar of a panel ends.  shows: its quantity in words; unit: of the end."""
+    """Where the colour bar of a panel ends.  shows: its quantity in words."""
 
     shows: str
     end: float
-    unit: str = ""
+    is_difference: bool = False
 
 
 def ends_in(path: str | os.PathLike[str], progress: Progress | None = None) -> tuple[End, ...]:
@@ -34,7 +35,7 @@ def ends_in(path: str | os.PathLike[str], progress: Progress | None = None) -> t
     answers = compute(document, surfaces, progress)
     tops = figure_of(replace(recipe, document=document), surfaces, answers).tops()
     return tuple(
-        End(str(panel.shows), top if answer.field is not None else 0.0, answer.unit)
+        End(str(panel.shows), top if answer.field is not None else 0.0, isinstance(panel.shows, Difference))
         for panel, answer, top in zip(document.panels, answers, tops, strict=True)
     )
 
@@ -70,7 +71,7 @@ def ended_as(document: Document, ends: Sequence[End], name: str) -> tuple[Docume
     """The document with colour bars that end as others do, and a sentence that says what was taken.
 
     A panel takes the end of the same quantity (the second such panel of the second), or, where there is none, of the
-    panel in the same place.  ParameterError if there is nothing to take.
+    panel in the same place, if both are differences or neither is.  ParameterError if there is nothing to take.
     """
     left = [(k, end) for k, end in enumerate(ends) if end.end > 0]
     taken: dict[int, tuple[int, End]] = {}
@@ -80,7 +81,8 @@ def ended_as(document: Document, ends: Sequence[End], name: str) -> tuple[Docume
             taken[panel.id] = found
             left.remove(found)
     for place, panel in enumerate(document.panels):
-        if panel.id not in taken and place < len(ends) and ends[place].end > 0:
+        is_alike = place < len(ends) and ends[place].is_difference == isinstance(panel.shows, Difference)
+        if panel.id not in taken and is_alike and ends[place].end > 0:
             taken[panel.id] = (place, ends[place])
     if not taken:
         raise ParameterError(f"{name} has no panel whose colour bar could be taken.")

@@ -1,6 +1,6 @@
 """The menu of colours: styles, which are all of the look, and maps, each with a strip of its colours."""
 
-from functools import lru_cache
+from collections.abc import Callable
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
@@ -9,43 +9,42 @@ from ...document.looks import Colours, Stops
 from ...drawing.colour_maps import MAPS, backwards, colours_at
 from ...drawing.style import STYLES, map_of, style_of
 from ..look.canvas import STYLE_NAMES
+from ..look.look import LOOK
 
-WIDTH, HEIGHT = 56, 14
-"""Of a strip, in logical pixels."""
+WIDTH, HEIGHT, MARGIN = 64, 12, 12
+"""Of a strip, and right of it, in logical pixels."""
 
+LONGEST = 14
+"""Letters of a file's name on the button."""
 
-class StripIcons(QtWidgets.QProxyStyle):
-    """For menus whose icons are strips of colours."""
-
-    def pixelMetric(self, metric, option=None, widget=None) -> int:
-        if metric == QtWidgets.QStyle.PixelMetric.PM_SmallIconSize:
-            return WIDTH
-        return super().pixelMetric(metric, option, widget)
+FAINT = 0.35
+"""Of a strip that cannot be chosen: its opacity."""
 
 
 class ColourMenu(QtWidgets.QMenu):
-    """Entries have words as data: a style's, or ("map", a map's).  `window` is the main window."""
+    """Entries have words as data: a style's, or ("map", a map's), with None for a file's.  `window` is the main one."""
 
     def __init__(self, window) -> None:
         super().__init__("&Colours", window)
-        self._window = window
-        strips = StripIcons()
-        strips.setParent(self)
-        self.setStyle(strips)
         self.setToolTipsVisible(True)
-        self.addSection("Style")
+        # Room for the strips, which are painted where no icon could stand beside a tick.
+        self.setStyleSheet(f"QMenu::item {{ padding-right: {WIDTH + 2 * MARGIN + 8}px; }}")
+        self._strips: dict[QtWidgets.QAction, Stops] = {}
+        self._head("Style")
         self._styles = QtWidgets.QActionGroup(self)
         for word in STYLES:
             action = self._entry(self._styles, STYLE_NAMES.get(word, word), word)
             action.triggered.connect(lambda *_, word=word: window.choices.style(word))
-        self.addSection("Colours of the distance")
+        self.addSeparator()
+        self._head("Map")
         self._maps = QtWidgets.QActionGroup(self)
-        for word, text in [("", "Those of the style"), *((word, each.name) for word, each in MAPS.items())]:
+        for word, text in [("", "That of the style"), *((word, each.name) for word, each in MAPS.items())]:
             action = self._entry(self._maps, text, ("map", word))
-            action.setToolTip(MAPS[word].hint if word else "As the style has them")
+            action.setToolTip(MAPS[word].hint if word else "As the style has it")
             action.triggered.connect(lambda *_, word=word: window.choices.colour_map(word))
         self._own = self._entry(self._maps, "", ("map", None))
-        self.addAction("From a file …", window.choices.ask_colours)
+        self._file = self.addAction("From a file …", window.choices.ask_colours)
+        self._file.setToolTip("Rows of red, green and blue, or ParaView's .json")
         self.addSeparator()
         self.reversed = self._tick("Reversed", "From the other end", window.choices.reverse_colours)
         self.bands = self._tick("Bands", "One colour from each isoline to the next", window.choices.band_colours)
@@ -53,74 +52,75 @@ class ColourMenu(QtWidgets.QMenu):
     def show_choice(self, style: str, colours: Colours) -> None:
         """Tick what is chosen, in its colours."""
         word = None if colours.stops else colours.map
-        for action in self.actions():
-            if action.data() is not None:
-                action.setChecked(action.data() in (style, ("map", word)))
+        for action in (*self._styles.actions(), *self._maps.actions()):
+            action.setChecked(action.data() in (style, ("map", word)))
         self._own.setVisible(bool(colours.stops))
-        self._own.setText(colours.map.replace("&", "&&") or "Own colours")
+        self._own.setText(colours.map.replace("&", "&&") or "Your own")
         for action in self._styles.actions():
-            action.setIcon(_strip(style_of(action.data()).stops if STYLES[action.data()].coloured else ()))
+            each = STYLES[action.data()]
+            self._strips[action] = each.stops if each.coloured else ()
         for action in self._maps.actions():
             of = action.data()[1]
-            stops = colours.stops if of is None else map_of(Colours(of)) or style_of(style).stops
-            action.setIcon(_strip(backwards(stops) if colours.reversed else stops))
-        has_colours = STYLES[style].coloured if style in STYLES else True
-        for action in (*self._maps.actions(), self.reversed, self.bands):
+            stops = map_of(colours) if of is None else map_of(Colours(of))
+            stops = stops or style_of(style).stops
+            self._strips[action] = backwards(stops) if colours.reversed else stops
+        has_colours = style_of(style).coloured
+        for action in (*self._maps.actions(), self._file, self.reversed, self.bands):
             action.setEnabled(has_colours)
         self.reversed.setChecked(colours.reversed)
         self.bands.setChecked(colours.bands)
+
+    def _head(self, text: str) -> None:
+        self.addAction(text).setEnabled(False)
 
     def _entry(self, group: QtWidgets.QActionGroup, text: str, data: object) -> QtWidgets.QAction:
         action = self.addAction(text)
         action.setData(data)
         action.setCheckable(True)
-        action.setIconVisibleInMenu(True)
         group.addAction(action)
         return action
 
-    def _tick(self, text: str, tip: str, choose) -> QtWidgets.QAction:
+    def _tick(self, text: str, tip: str, choose: Callable[[bool], None]) -> QtWidgets.QAction:
         action = self.addAction(text)
         action.setCheckable(True)
         action.setToolTip(tip)
         action.triggered.connect(lambda is_on: choose(is_on))
         return action
 
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        super().paintEvent(event)
+        painter = QtGui.QPainter(self)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        for action, stops in self._strips.items():
+            if action.isVisible():
+                place = self.actionGeometry(action)
+                left, top = place.right() - MARGIN - WIDTH, place.center().y() - HEIGHT // 2
+                painter.setOpacity(1.0 if action.isEnabled() else FAINT)
+                _paint_strip(painter, QtCore.QRectF(left + 0.5, top + 0.5, WIDTH - 1, HEIGHT - 1), stops)
+
+
+def _paint_strip(painter: QtGui.QPainter, box: QtCore.QRectF, stops: Stops) -> None:
+    """A map from left to right; lines on white where there are no colours."""
+    gradient = QtGui.QLinearGradient(box.topLeft(), box.topRight())
+    places = np.linspace(0, 1, 33)
+    for place, rgb in zip(places, colours_at(stops, places) if stops else np.ones((33, 3)), strict=True):
+        gradient.setColorAt(float(place), QtGui.QColor.fromRgbF(*np.clip(rgb, 0, 1)))
+    painter.setBrush(gradient)
+    painter.setPen(QtGui.QPen(QtGui.QColor(LOOK.theme.strong), 1) if not stops else QtCore.Qt.PenStyle.NoPen)
+    painter.drawRoundedRect(box, 2, 2)
+    if not stops:
+        painter.setPen(QtGui.QPen(QtCore.Qt.GlobalColor.black, 1))
+        for k in range(1, 6):
+            x = round(box.left() + k * box.width() / 6) + 0.5
+            painter.drawLine(QtCore.QPointF(x, box.top() + 1), QtCore.QPointF(x, box.bottom() - 1))
+
 
 def colours_in_words(style: str, colours: Colours) -> str:
     """For the button: "Paper", "Ember, bands"."""
     name = STYLE_NAMES.get(style, style)
+    if not style_of(style).coloured:
+        return name
     if colours.map or colours.stops:
         name = colours.map if colours.stops else MAPS[colours.map].name
-        name = name if len(name) <= 14 else f"{name[:13]}…"
-    if style in STYLES and not STYLES[style].coloured:
-        return STYLE_NAMES.get(style, style)
+        name = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
     return ", ".join([name, *["reversed"] * colours.reversed, *["bands"] * colours.bands])
-
-
-@lru_cache(maxsize=64)
-def _strip(stops: Stops) -> QtGui.QIcon:
-    """A map from left to right; white with lines where there are no colours."""
-    QtCore.QCoreApplication.setAttribute(QtCore.Qt.ApplicationAttribute.AA_UseHighDpiPixmaps)
-    found = QtGui.QIcon()
-    for scale in (1, 2):
-        picture = QtGui.QPixmap(WIDTH * scale, WIDTH * scale)
-        picture.fill(QtCore.Qt.GlobalColor.transparent)
-        picture.setDevicePixelRatio(scale)
-        painter = QtGui.QPainter(picture)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        box = QtCore.QRectF(0.5, (WIDTH - HEIGHT) / 2 + 0.5, WIDTH - 1, HEIGHT - 1)
-        gradient = QtGui.QLinearGradient(box.topLeft(), box.topRight())
-        places = np.linspace(0, 1, 33)
-        for place, rgb in zip(places, colours_at(stops, places) if stops else np.ones((33, 3)), strict=True):
-            gradient.setColorAt(float(place), QtGui.QColor.fromRgbF(*np.clip(rgb, 0, 1)))
-        painter.setBrush(gradient)
-        painter.setPen(QtGui.QPen(QtGui.QColor(128, 128, 128, 160), 1))
-        painter.drawRoundedRect(box, 2, 2)
-        if not stops:
-            painter.setPen(QtGui.QPen(QtCore.Qt.GlobalColor.black, 1))
-            for k in range(1, 6):
-                x = box.left() + k * box.width() / 6
-                painter.drawLine(QtCore.QPointF(x, box.top()), QtCore.QPointF(x, box.bottom()))
-        painter.end()
-        found.addPixmap(picture)
-    return found

@@ -9,7 +9,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import ParameterError, VertexError
 from bihdist_core.distances.answers import Answer
 
-from ...document.document import MOST_PANELS
+from ...document.document import MOST_PANELS, Document
 from ...document.page import FORMATS, Recipe
 from ...drawing.style import STYLES
 from ...figures.description import Figure
@@ -147,8 +147,14 @@ class _Looks(JobDialog):
         return replace(
             self._recipe,
             page=page,
-            document=replace(self._recipe.document, range="shared" if self.shared.isChecked() else "own"),
+            document=self._ranged(self._recipe.document),
         )
+
+    def _ranged(self, document: Document) -> Document:
+        """Without one colour bar for all, ranges are as they are, unless they were shared."""
+        if self.shared.isChecked():
+            return replace(document, range="shared")
+        return replace(document, range="own") if document.range == "shared" else document
 
     def check_size(self, recipe: Recipe) -> None:
         """WrongBox for a size that is none, or with which there would be no picture."""

@@ -44,7 +44,8 @@ class EndPopUp(PopUp):
         self.own.setToolTip(number(maximum))
         self.own.setEnabled(end != maximum)
         self._complain("")
-        self.open_under(control)
+        self.adjustSize()
+        self.open_under(control, (control.width() - self.width()) // 2)
         self.box.setFocus(QtCore.Qt.FocusReason.PopupFocusReason)
         self.box.selectAll()
 

@@ -123,11 +123,11 @@ class PopUp(QtWidgets.QFrame):
         # The click that closes it does not also press what is under it, which might open it again.
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_NoMouseReplay)
 
-    def open_under(self, control: QtWidgets.QWidget) -> None:
-        """Below a control, on the screen."""
+    def open_under(self, control: QtWidgets.QWidget, right: int = 0) -> None:
+        """Below a control, on the screen; right: of its left side."""
         self.setFont(LOOK.font())
         self.adjustSize()
-        place = control.mapToGlobal(QtCore.QPoint(0, control.height() + 2))
+        place = control.mapToGlobal(QtCore.QPoint(right, control.height() + 2))
         screen = control.screen().availableGeometry() if control.screen() else QtCore.QRect(place, self.size())
         place.setX(max(screen.left(), min(place.x(), screen.right() - self.width())))
         if place.y() + self.height() > screen.bottom():

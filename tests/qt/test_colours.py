@@ -1,0 +1,201 @@
+"""Colours and ranges in the window: chosen in menus, undone, shown on the surface and the bar, and typed or taken."""
+
+import json
+
+import numpy as np
+import pytest
+
+pytest.importorskip("qtpy")
+from qtpy import QtCore, QtGui, QtWidgets
+
+from app.document.document import comparison
+from app.document.looks import Colours
+from app.document.page import Recipe
+from app.document.quantities import quantity
+from app.drawing.colour_maps import MAPS
+from app.drawing.style import STYLES
+from app.session.given import Given
+from app.session.recipe_file import recipe_written
+from tests.shapes import bumpy
+
+WORDS = ("biharmonic", "geodesic")
+
+
+@pytest.fixture
+def shown(screen, mesh_file):
+    """A window in which two fields of a small surface have been computed."""
+    s = screen()
+    s.window.show_document(comparison(mesh_file(bumpy(300)), tuple(quantity(word) for word in WORDS)))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    return s
+
+
+def choose(s, data):
+    next(action for action in s.window.menus.colours.actions() if action.data() == data).trigger()
+    s.settle()
+
+
+def pixels(s):
+    return [panel.view.shot() for panel in s.panels]
+
+
+def are_equal(some, others):
+    return all(np.array_equal(a, b) for a, b in zip(some, others, strict=True))
+
+
+def test_a_map_is_chosen_shown_and_undone(shown):
+    before = pixels(shown)
+    choose(shown, ("map", "ember"))
+    assert shown.document.colours == Colours("ember")
+    assert shown.panels[0].view.scene.style.stops == MAPS["ember"].stops
+    assert not are_equal(before, pixels(shown))
+    assert "Ember" in shown.window.tools["colours"].accessibleDescription()
+    shown.window.menus.colours.bands.trigger()
+    shown.window.menus.colours.reversed.trigger()
+    shown.settle()
+    assert shown.document.colours == Colours("ember", (), True, True)
+    assert shown.window.tools["colours"].accessibleDescription() == "Ember, reversed, bands"
+    for _ in range(3):
+        shown.window.session.undo()
+    shown.settle()
+    assert shown.document.colours == Colours()
+    assert are_equal(before, pixels(shown))
+    assert not shown.window.menus.colours.bands.isChecked()
+
+
+def test_a_style_that_is_a_map_takes_its_own_and_lines_have_none(shown):
+    choose(shown, ("map", "safe"))
+    choose(shown, "dark")
+    assert shown.document.colours == Colours("safe")
+    choose(shown, "uniform")
+    assert shown.document.colours == Colours()
+    assert shown.panels[0].view.scene.style.stops == STYLES["uniform"].stops
+    choose(shown, "lines")
+    menu = shown.window.menus.colours
+    assert not any(action.isEnabled() for action in (menu.bands, menu.reversed))
+    assert menu.isEnabled()
+
+
+def test_bands_are_on_the_bar_where_the_isolines_are(shown):
+    shown.window.choices.isolines(4)
+    shown.window.choices.band_colours(True)
+    shown.settle()
+    bar = shown.panels[0].bar
+    picture, box = bar.grab().toImage(), bar._layout.bar
+    y = round(box.center().y())
+    scene = shown.panels[0].view.scene
+    expected = scene.style.band_colours(np.array([0.25, 0.5, 0.75]))
+    for k, colour in enumerate(expected):
+        for share in (0.1, 0.5, 0.9):
+            seen = picture.pixelColor(round(box.left() + (k + share) / 4 * box.width()), y)
+            assert np.abs(255 * colour - seen.getRgb()[:3]).max() <= 2
+
+
+def test_a_map_from_a_file(shown, tmp_path):
+    (tmp_path / "mine.csv").write_text("r,g,b\n10,20,30\n200,180,90\n")
+    shown.window.choices.take_colours(str(tmp_path / "mine.csv"))
+    shown.settle()
+    assert shown.document.colours.map == "mine"
+    assert shown.window.tools["colours"].accessibleDescription() == "mine"
+    (tmp_path / "none.csv").write_text("10,20\n")
+    shown.window.choices.take_colours(str(tmp_path / "none.csv"))
+    assert "none.csv, line 1: there are 2 numbers" in shown.refusals[-1]
+    assert shown.document.colours.map == "mine"
+
+
+# ---------------------------------------------------------------------- ranges
+def bar_of(s, number=0):
+    return s.panels[number].bar
+
+
+def ticks(s, number=0):
+    return [word.text for word in bar_of(s, number)._layout.ticks]
+
+
+def test_an_end_is_typed_at_the_bar(shown):
+    panel, own = shown.panels[0], shown.answers[0].maximum
+    event = QtGui.QMouseEvent(
+        QtCore.QEvent.Type.MouseButtonDblClick,
+        QtCore.QPointF(30, 30),
+        QtCore.Qt.MouseButton.LeftButton,
+        QtCore.Qt.MouseButton.LeftButton,
+        QtCore.Qt.KeyboardModifier.NoModifier,
+    )
+    QtWidgets.QApplication.sendEvent(panel.bar, event)
+    box = panel._end
+    assert box.isVisible()
+    assert float(box.box.text()) == pytest.approx(own, rel=1e-5)
+    for wrong in ("", "far", "-1", "0"):
+        box.box.setText(wrong)
+        box.box.returnPressed.emit()
+        assert "is not a positive number" in box.complaint.text()
+    box.box.setText(f"{own / 2:.6g}")
+    box.box.returnPressed.emit()
+    shown.settle()
+    assert not box.isVisible()
+    end = shown.document.panels[0].maximum
+    assert end == pytest.approx(own / 2, rel=1e-5)
+    assert panel.view.scene.maximum == end
+    assert bar_of(shown)._beyond == (False, True)
+    assert shown.document.panels[1].maximum is None
+    assert shown.window.tools["range"].accessibleDescription() == "Typed"
+    panel.ask_end()
+    box.own.click()
+    shown.settle()
+    assert shown.document.panels[0].maximum is None
+    assert bar_of(shown)._beyond == (False, False)
+
+
+def test_shares_are_read_on_the_bar_and_colour_as_before(shown):
+    before = pixels(shown)
+    shown.window.choices.end_at(1, 0.2)
+    shown.window.choices.range("shares")
+    shown.settle()
+    assert ticks(shown)[0] == "0 %"
+    assert ticks(shown)[-1].endswith("100 %")
+    assert are_equal(before, pixels(shown))
+    shown.window.choices.range("own")
+    shown.settle()
+    assert shown.document.panels[1].maximum is None
+    assert not any("%" in tick for tick in ticks(shown))
+
+
+def saved(shown, tmp_path, **more):
+    path = tmp_path / "other.json"
+    with recipe_written(Recipe(shown.document), Given(), path, "test"):
+        pass
+    return path
+
+
+def test_ends_are_taken_from_a_session(shown, tmp_path):
+    path = saved(shown, tmp_path)
+    own = [answer.maximum for answer in shown.answers]
+    shown.window.choose_source(7)
+    shown.until(lambda: shown.session.is_complete)
+    said = []
+    shown.window.choices.ends.taken.connect(said.append)
+    shown.window.choices.ends.take(str(path))
+    shown.until(lambda: said or shown.refusals)
+    shown.settle()
+    assert [panel.maximum for panel in shown.document.panels] == own
+    assert said[0].startswith("Colour bars end as in other.json: biharmonic ")
+    shown.window.session.undo()
+    assert [panel.maximum for panel in shown.document.panels] == [None, None]
+
+
+def test_ends_that_cannot_be_taken_are_refused_and_those_in_the_making_cancelled(shown, tmp_path):
+    ends = shown.window.choices.ends
+    (tmp_path / "none.json").write_text(json.dumps({"a": 1}))
+    ends.take(str(tmp_path / "none.json"))
+    shown.until(lambda: shown.refusals)
+    assert "none.json" in shown.refusals[-1]
+    path = saved(shown, tmp_path)
+    ends.take(str(path))
+    ends.cancel()
+    shown.settle(0.5)
+    assert [panel.maximum for panel in shown.document.panels] == [None, None]
+    ends.take(str(path))
+    ends.take(str(path))
+    shown.until(lambda: shown.document.panels[0].maximum is not None)
+    assert len(shown.refusals) == 1
