@@ -58,7 +58,14 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     add_colours(parser)
     add_range(parser)
     _add_switch(parser, "hints", "what to look for, under the headings (default: no)")
-    parser.add_argument("--size", metavar="SIZE", help="such as 1680x640, 8000px, 160mm@300dpi, 160x80mm")
+    parser.add_argument("--title", metavar="WHERE", help="names as heading, as caption at the bars, or none")
+    parser.add_argument("--font", metavar="FAMILY", help="of all words (default: DejaVu Sans)")
+    parser.add_argument("--text", type=float, metavar="POINTS", help="size of labels; other words in proportion")
+    parser.add_argument(
+        "--size",
+        metavar="SIZE",
+        help="such as 85mm, 1680x640, 160mm@300dpi, 160x80mm; or column (85 mm), double (178 mm), slide, A0",
+    )
     parser.add_argument("--style", metavar="NAME", help="paper, uniform, lines or dark (default: paper)")
     _add_switch(parser, "transparent", "no background")
     _add_switch(parser, "crop", "without the empty margins")
@@ -125,7 +132,7 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     shading = shaded(document.shading, options.shading, options.crease, options.wireframe)
     document = replace(document, shading=shading)
     document = with_range(with_colours(document, options), options, tell)
-    page = replace(page, **_given(options, "size", "style", "hints", "transparent", "crop"))
+    page = replace(page, **_given(options, "size", "style", "hints", "transparent", "crop", "title", "font", "text"))
     columns = options.columns if options.columns is not None else rows or page.columns
     if views:
         document = replace(document, camera=views[0])

@@ -313,9 +313,9 @@ ROWS = (
     Row(("Page.hints",), _of_page("hints", "--hints", "hints")),
     Row(("Page.size",), _of_page("size", "--size", "size")),
     Row(("Page.style",), _of_page("style", "--style", "style")),
-    Row(("Page.title",), _only_usual(lambda recipe: recipe.page.title, "The names stand elsewhere.")),
-    Row(("Page.font",), _only_usual(lambda recipe: recipe.page.font, "The font is not the usual one.")),
-    Row(("Page.text",), _only_usual(lambda recipe: recipe.page.text, "The text is not of the usual size.")),
+    Row(("Page.title",), _of_page("title", "--title", "title")),
+    Row(("Page.font",), _of_page("font", "--font", "font")),
+    Row(("Page.text",), _of_page("text", "--text", "text")),
     Row(("Page.transparent",), _of_page("transparent", "--transparent", "transparent")),
     Row(("Page.crop",), _of_page("crop", "--crop", "crop")),
 )

@@ -9,20 +9,12 @@ from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkActor, vtkActor2D, vtkCamera, vtkCoordinate, vtkPolyDataMapper2D, vtkRenderer
 
 from ..document.document import Zoom
+from .corners import SIDE, Rectangle, chosen_corners, corner_boxes, joins, source_box, taken_by
 from .field_actor import light
 from .style import Style
 
-SIDE = 0.40
-"""Of an inset, as a share of the shorter side of its view."""
-
 GAP = 4.0
 """Pixels (of which `scale` says how many the device has) between an inset and the sides of its view."""
-
-CELLS = 8
-"""By how many along each side the cover of a corner is found out."""
-
-Rectangle = tuple[float, float, float, float]
-"""left, right, bottom, top, in device pixels of the view, y up."""
 
 
 class Insets:
@@ -36,7 +28,8 @@ class Insets:
         self._zooms: tuple[Zoom, ...] = ()
         self._positions = np.empty((0, 3))
         self._corners: list[str] = []
-        self._unsettled: np.ndarray | None = None
+        self._samples, self._marks = np.empty((0, 3)), np.empty((0, 3))
+        self._is_settled = True
         self.renderers: list[vtkRenderer] = []
         self._in_sight: list[bool] = []
         self._frames = self._lines()
@@ -62,22 +55,13 @@ class Insets:
         self.show((), self._positions)
         self._main.RemoveObserver(self._observer)
 
-    def settle(self, samples: np.ndarray) -> None:
-        """Put those that may stand in any corner where they hide the least of the surface; samples: (k, 3) on it.
+    def settle(self, samples: np.ndarray, marks: np.ndarray) -> None:
+        """Put those that may stand in any corner where they hide the least.
 
-        Called where the view is set, and not while it turns: insets would jump.  Done before the next picture, when the
-        view has its size.
+        samples: (k, 3) all over the surface; marks: (k, 3) the marked places.  Called where the view is set, and not
+        while it turns: insets would jump.  Done before the next picture, when the view has its size.
         """
-        self._unsettled = samples
-
-    def _settle(self, samples: np.ndarray) -> None:
-        pixels, taken = self._pixels(samples), [*self._sources()]
-        for number, zoom in enumerate(self._zooms):
-            corners = self._boxes()
-            if zoom.corner == "auto":
-                hidden = {name: _cover(box, pixels) + _meetings(box, taken) for name, box in corners.items()}
-                self._corners[number] = min(corners, key=lambda name: hidden[name])
-            taken.append(corners[self._corners[number]])
+        self._samples, self._marks, self._is_settled = samples, marks, False
 
     def renderer_at(self, x: float, y: float) -> vtkRenderer:
         """Whose picture is at a device pixel, y up: that of an inset, or of the panel."""
@@ -91,25 +75,14 @@ class Insets:
     # ------------------------------------------------------------------ where they are
     def _boxes(self) -> dict[str, Rectangle]:
         """By name: where an inset in a corner stands."""
-        width, height = self._main.GetSize()
-        side, gap = round(SIDE * min(width, height)), GAP * self._scale
-        right, top = (width - gap - side, width - gap), (height - gap - side, height - gap)
-        left, bottom = (gap, gap + side), (gap, gap + side)
-        return {
-            "top right": (*right, *top),
-            "top left": (*left, *top),
-            "bottom right": (*right, *bottom),
-            "bottom left": (*left, *bottom),
-        }
+        size = self._main.GetSize()
+        return corner_boxes(size, round(SIDE * min(size)), GAP * self._scale)
 
     def _sources(self) -> list[Rectangle]:
         """What is enlarged."""
         side = round(SIDE * min(self._main.GetSize()))
-        found = []
-        for zoom, (x, y) in zip(self._zooms, self._pixels(self._positions), strict=True):
-            half = side / zoom.factor / 2
-            found.append((x - half, x + half, y - half, y + half))
-        return found
+        places = self._pixels(self._positions)
+        return [source_box(place, side, zoom) for place, zoom in zip(places, self._zooms, strict=True)]
 
     def _pixels(self, points: np.ndarray) -> np.ndarray:
         """(k, 2) where points (k, 3) are seen; NaN behind the camera."""
@@ -132,13 +105,15 @@ class Insets:
         """Before each picture: see what the panel's camera sees now, of each place."""
         if not self._zooms or not all(self._main.GetSize()):
             return
-        if self._unsettled is not None:
-            self._settle(self._unsettled)
-            self._unsettled = None
         width, height = self._main.GetSize()
-        boxes, projection, loops = self._boxes(), self._projection(), []
+        boxes, sources, surface = self._boxes(), self._sources(), self._pixels(self._samples)
+        if not self._is_settled:
+            marks = self._pixels(self._marks)
+            self._corners, self._is_settled = chosen_corners(self._zooms, boxes, sources, surface, marks), True
+        projection, loops = self._projection(), []
+        is_taken = taken_by(surface, (width, height), [boxes[corner] for corner in self._corners])
         self._in_sight = []
-        for renderer, corner, source in zip(self.renderers, self._corners, self._sources(), strict=True):
+        for renderer, corner, source in zip(self.renderers, self._corners, sources, strict=True):
             left, right, bottom, top = source
             is_seen = bool(left < width and right > 0 and bottom < height and top > 0)
             self._in_sight.append(is_seen)
@@ -148,7 +123,7 @@ class Insets:
             x, x_end, y, y_end = box = boxes[corner]
             renderer.SetViewport(x / width, y / height, x_end / width, y_end / height)
             _enlarge(renderer.GetActiveCamera(), self._main.GetActiveCamera(), projection, source, (width, height))
-            loops += [*_rectangles(source, box), *_joins(source, box)]
+            loops += [*_rectangles(source, box), *joins(source, box, is_taken)]
         _draw(self._frames, loops)
 
     def _new_renderer(self) -> vtkRenderer:
@@ -202,39 +177,9 @@ def _enlarge(
     camera.SetExplicitProjectionTransformMatrix(matrix)
 
 
-def _cover(box: Rectangle, pixels: np.ndarray) -> float:
-    """The share of a box where the surface is seen."""
-    left, right, bottom, top = box
-    cells = np.floor((pixels - (left, bottom)) / (right - left, top - bottom) * CELLS)
-    inside = cells[((cells >= 0) & (cells < CELLS)).all(axis=1)]
-    return len(np.unique(inside, axis=0)) / CELLS**2
-
-
-def _meetings(box: Rectangle, others: Sequence[Rectangle]) -> int:
-    """How many of the others a box meets."""
-    return sum(box[0] < b[1] and b[0] < box[1] and box[2] < b[3] and b[2] < box[3] for b in others)
-
-
 def _rectangles(*boxes: Rectangle) -> list[np.ndarray]:
     """Their sides, as lines (5, 2)."""
     return [np.array([[a, c], [b, c], [b, d], [a, d], [a, c]]) for a, b, c, d in boxes]
-
-
-def _joins(source: Rectangle, box: Rectangle) -> list[np.ndarray]:
-    """Lines (2, 2) between equal corners of the two that run through neither."""
-    found = []
-    for x in (0, 1):
-        for y in (2, 3):
-            a, b = (np.array([each[x], each[y]]) for each in (source, box))
-            way = a + np.linspace(0.01, 0.99, 60)[:, None] * (b - a)
-            if not any(_inside(way, each).any() for each in (source, box)):
-                found.append(np.stack([a, b]))
-    return found
-
-
-def _inside(points: np.ndarray, box: Rectangle) -> np.ndarray:
-    x, y = points.T
-    return (box[0] < x) & (x < box[1]) & (box[2] < y) & (y < box[3])
 
 
 def _draw(actor: vtkActor2D, lines: Sequence[np.ndarray]) -> None:

@@ -7,28 +7,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..drawing.bands import band_edges, bar_parts, beyond
+from ..drawing.bands import band_edges, bar_parts
 from ..drawing.field_actor import BOLD, half_steps
 from ..drawing.style import Colour
-from .description import Figure, FigurePanel
-from .layout import FONT, Box, Cell, Layout, bar_words, text_width, wrapped
+from .bars import TICK, Bar
+from .boxes import Box, Words
+from .description import Figure
+from .fonts import families
+from .layout import Cell, Layout
+from .marks import POINT, draw_frames, draw_marks
 from .shots import Line, Shot
 from .simplified import simplified
+from .words import LINE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Canvas
     from matplotlib.path import Path
 
-
-POINT = 0.75
-"""Points in a unit."""
 
 FINENESS = 0.03
 """Units by which a curve may differ from its exact course to need fewer points."""
@@ -47,7 +49,7 @@ class Composition:
 
 
 @contextmanager
-def matplotlib_settings() -> Iterator[None]:
+def matplotlib_settings(font: str = "") -> Iterator[None]:
     """matplotlib as it is delivered, whatever the user's settings, and files that are equal when drawn again."""
     import matplotlib
 
@@ -55,7 +57,7 @@ def matplotlib_settings() -> Iterator[None]:
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(
             {
-                "font.family": FONT,
+                "font.family": families(font),
                 "text.parse_math": False,
                 "svg.fonttype": "none",
                 "svg.hashsalt": "bihdist",
@@ -120,9 +122,10 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         )
         axes.add_artist(curve)
         curve.set_clip_path(frame)
-    _draw_marks(axes, page, shot, order + 4, frame)
+    write = partial(_write, axes, page)
+    draw_marks(axes, page, shot, order + 4, frame, write)
     if shot.source is not None:
-        _draw_frames(axes, shot, style.quiet_text, order + 5)
+        draw_frames(axes, page, shot, order + 5, write)
 
 
 def _draw_image(axes: Axes, page: Composition, shot: Shot, order: int, vector: bool) -> None:
@@ -222,170 +225,116 @@ def _silhouette(shot: Shot, scale: float) -> Path | None:
     return _path([(simplified(loop, EDGE_FINENESS), True) for loop in loops if len(loop) > 3])
 
 
-def _draw_marks(axes: Axes, page: Composition, shot: Shot, order: int, frame) -> None:
-    from matplotlib.patches import Circle
-
-    style, panel = page.figure.style, page.figure.panels[shot.panel]
-    top = page.figure.tops()[shot.panel]
-    radius = style.marker_size / 2 * page.layout.stroke
-    for k, x, y in shot.marks:
-        mark = panel.marks[k]
-        colour = style.largest if mark.is_largest else style.source
-        if mark.value is not None:
-            colour = style.colour_of(mark.value, top, panel.signed)
-        circle = Circle(
-            (x, y),
-            radius,
-            facecolor=colour,
-            edgecolor=style.mark_edge,
-            linewidth=1.1 * page.layout.stroke * POINT,
-            zorder=order,
-        )
-        axes.add_artist(circle)
-        if shot.source is not None:
-            circle.set_clip_path(frame)
-        if mark.text:
-            size = page.layout.label
-            _write(axes, mark.text, x + radius + 3, y + 0.35 * size, size, style.text, "left", order + 1)
-
-
-def _draw_frames(axes: Axes, shot: Shot, colour, order: int) -> None:
-    """Around what an inset enlarges, around the inset, and two lines that join them."""
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Rectangle
-
-    boxes = (shot.source, shot.box)
-    for box in boxes:
-        axes.add_artist(
-            Rectangle(
-                (box.x, box.y), box.width, box.height, fill=False, edgecolor=colour, linewidth=POINT, zorder=order
-            )
-        )
-    for a, b in zip(*([(x, y) for x in (b.x, b.right) for y in (b.y, b.bottom)] for b in boxes), strict=True):
-        way = [(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) for t in np.linspace(0.01, 0.99, 60)]
-        if not any(box.x < x < box.right and box.y < y < box.bottom for x, y in way for box in boxes):
-            axes.add_artist(Line2D(*zip(a, b, strict=True), color=colour, linewidth=0.6 * POINT, zorder=order))
-
-
 # ---------------------------------------------------------------------- words and bars
 def _draw_words(axes: Axes, page: Composition) -> None:
-    layout, style = page.layout, page.figure.style
-    tops = page.figure.tops()
-    for panel, cell, top in zip(page.figure.panels, layout.cells, tops, strict=True):
-        middle = cell.box.x + cell.box.width / 2
-        _write(axes, panel.heading, middle, cell.heading_at, layout.heading, style.text, bold=True)
-        for k, line in enumerate(cell.hint):
-            _write(axes, line, middle, cell.hint_at + k * 1.32 * layout.hint, layout.hint, style.quiet_text)
+    layout = page.layout
+    for panel, cell in zip(page.figure.panels, layout.cells, strict=True):
+        for words in cell.words:
+            _write(axes, page, words)
         if panel.failure:
             _draw_failure(axes, page, panel.failure, cell)
         if cell.bar:
-            _draw_bar(axes, page, cell.bar, top, bar_words(panel.label, panel.unit), panel)
+            _draw_bar(axes, page, cell.bar)
     if layout.shared_bar:
-        shown = [p for p in page.figure.panels if p.field is not None]
-        labels = {p.label for p in shown}
-        label = labels.pop() if len(labels) == 1 else "distance"
-        if page.figure.range == "shares":
-            _draw_bar(axes, page, layout.shared_bar, 100.0, "% of each maximum", replace(shown[0], field=None))
-        else:
-            _draw_bar(axes, page, layout.shared_bar, max(tops), bar_words(label, shown[0].unit), shown[0])
+        _draw_bar(axes, page, layout.shared_bar)
 
 
 def _draw_failure(axes: Axes, page: Composition, failure: str, cell: Cell) -> None:
     """Why there is no field, in lines on the shape."""
     from matplotlib.patches import Rectangle
 
-    style, size = page.figure.style, page.layout.label * 1.1
+    style = page.figure.style
     area = Box(cell.views[0].x, cell.views[0].y, cell.views[-1].right - cell.views[0].x, cell.views[0].height)
-    lines = wrapped(failure, size, 0.8 * area.width)
-    step, middle = 1.35 * size, area.y + area.height / 2
-    wide = max(text_width(line, size) for line in lines) + 2 * size
-    high = len(lines) * step + size
-    ground = Rectangle((area.x + (area.width - wide) / 2, middle - high / 2), wide, high, linewidth=0, zorder=999)
+    most = max(int(0.9 * area.height / (LINE * page.layout.label) - 1), 1)
+    size, (lines,) = page.layout.lettering.fitted([failure], page.layout.label, 0.9 * area.width, most)
+    if not lines:
+        return
+    wide = max(page.layout.lettering.width(line, size) for line in lines) + size
+    high = (len(lines) - 1) * LINE * size + 1.9 * size
+    x, y = area.middle
+    ground = Rectangle((x - wide / 2, y - high / 2), wide, high, linewidth=0, zorder=999)
     ground.set_facecolor((*style.background, 0.88))
     axes.add_artist(ground)
-    for k, line in enumerate(lines):
-        y = middle - high / 2 + 0.5 * size + (k + 0.78) * step
-        _write(axes, line, area.x + area.width / 2, y, size, style.text)
+    _write(axes, page, Words(lines, x, y - high / 2 + 1.3 * size, size))
 
 
-def _draw_bar(axes: Axes, page: Composition, bar: Box, top: float, words: str, panel: FigurePanel) -> None:
-    """A colour bar from 0, or from -top, to top."""
+def _draw_bar(axes: Axes, page: Composition, bar: Bar) -> None:
+    """A colour bar with its isolines, ticks and words."""
     from matplotlib.patches import Rectangle
 
-    style, size, signed = page.figure.style, page.layout.label, panel.signed
-    goes_beyond = (False, False)
+    style, panel, box = page.figure.style, page.figure.panels[bar.panel], bar.box
+    signed = panel.signed
     if style.coloured:
+        # Where bars are in shares of the maximum, what is drawn still ends there.
+        top = page.figure.tops()[bar.panel]
         parts = bar_parts(style, band_edges(panel.isolines, top, signed), signed)
-        goes_beyond = beyond(panel.field, top, signed)
-        for is_there, way, (_, colour) in zip(goes_beyond, (-1, 1), (parts[0], parts[-1]), strict=True):
+        for is_there, way, (_, colour) in zip(bar.goes_beyond, (-1, 1), (parts[0], parts[-1]), strict=True):
             if is_there:
-                _draw_point(axes, bar, way, colour)
+                _draw_point(axes, box, bar.is_upright, way, colour)
         for start, colour in parts:
-            left = bar.x + start * bar.width
             # Each runs to the end of the bar, under the next ones: side by side they would show seams.
-            axes.add_artist(Rectangle((left, bar.y), bar.right - left, bar.height, facecolor=colour, linewidth=0))
+            rest = (1 - start) * (box.height if bar.is_upright else box.width)
+            corner = (box.x, box.y) if bar.is_upright else (box.right - rest, box.y)
+            size = (box.width, rest) if bar.is_upright else (rest, box.height)
+            axes.add_artist(Rectangle(corner, *size, facecolor=colour, linewidth=0))
     count = panel.isolines.count
     steps = 2 * half_steps(count) if signed else count
-    step = bar.width / steps if count else 0.0
+    step = (box.height if bar.is_upright else box.width) / steps if count else 0.0
     if step >= 4:
         for k in range(1, steps):
             width = min(style.isoline_width * page.layout.stroke, step / 4)
             width *= BOLD if signed and 2 * k == steps else 1
             line = style.line(signed, 2 * k / steps - 1)
-            _stroke(axes, bar.x + k * step, bar.y, bar.y + bar.height, line, width)
+            _across(axes, bar, bar.low + k * (bar.high - bar.low) / steps, (0, 1), line, width)
     if not style.coloured:
         axes.add_artist(
-            Rectangle((bar.x, bar.y), bar.width, bar.height, fill=False, edgecolor=style.text, linewidth=0.8 * POINT)
+            Rectangle((box.x, box.y), box.width, box.height, fill=False, edgecolor=style.text, linewidth=0.8 * POINT)
         )
-    low = -top if signed else 0.0
-    for value in ticks(top, low):
-        x = bar.x + bar.width * (value - low) / (top - low)
-        _stroke(axes, x, bar.bottom, bar.bottom + 3, style.quiet_text, 0.8)
-        _write(axes, f"{value:.6g}", x, bar.bottom + 4 + size, size, style.text)
-    middle = bar.x + bar.width / 2
-    end = f"maximum {panel.own_top or top:.4g}" if any(goes_beyond) else f"maximum {top:.4g}"
-    if signed and panel.field is not None:
-        vertex = int(np.nanargmax(np.abs(panel.field)))
-        end = f"largest {panel.field[vertex]:+.4g} at vertex {vertex}"
-    words = f"{words}, {end}" if words else end
-    _write(axes, words, middle, bar.bottom + 5 + 2.25 * size, size, style.quiet_text)
+    thick = box.width if bar.is_upright else box.height
+    for value in bar.ticks:
+        _across(axes, bar, value, (1, 1 + TICK / thick), style.quiet_text, 0.8 * max(page.layout.stroke, 0.7))
+    for words in bar.texts:
+        _write(axes, page, words)
 
 
-def _draw_point(axes: Axes, bar: Box, way: int, colour: Colour) -> None:
+def _across(axes: Axes, bar: Bar, value: float, part: tuple[float, float], colour: Colour, width: float) -> None:
+    """A line across a bar at a value; part: from where to where, as shares of the bar's thickness."""
+    from matplotlib.lines import Line2D
+
+    at, box = bar.place(value), bar.box
+    look = {"color": colour, "linewidth": width * POINT, "solid_capstyle": "butt"}
+    if bar.is_upright:
+        axes.add_artist(Line2D([box.x + share * box.width for share in part], [at, at], **look))
+    else:
+        axes.add_artist(Line2D([at, at], [box.y + share * box.height for share in part], **look))
+
+
+def _draw_point(axes: Axes, box: Box, is_upright: bool, way: int, colour: Colour) -> None:
     """A colour bar with values beyond its lower (-1) or upper end (1) has a point there."""
     from matplotlib.patches import Polygon
 
-    x = bar.right if way > 0 else bar.x
-    corners = [(x - way, bar.y), (x, bar.y), (x + 0.7 * way * bar.height, bar.y + bar.height / 2), (x, bar.bottom)]
-    axes.add_artist(Polygon([*corners, (x - way, bar.bottom)], facecolor=colour, linewidth=0))
+    x, y, thick = (box.x if way < 0 else box.right), *((box.y, box.height) if not is_upright else (0.0, 0.0))
+    corners = [(x - way, y), (x, y), (x + 0.7 * way * thick, y + thick / 2), (x, y + thick), (x - way, y + thick)]
+    if is_upright:
+        y, thick = (box.bottom if way < 0 else box.y), box.width
+        x = box.x
+        corners = [(x, y + way), (x, y), (x + thick / 2, y - 0.7 * way * thick), (x + thick, y), (x + thick, y + way)]
+    axes.add_artist(Polygon(corners, facecolor=colour, linewidth=0))
 
 
-def ticks(top: float, low: float = 0.0) -> list[float]:
-    """Round numbers from `low` to `top`, for a colour bar."""
-    from matplotlib.ticker import MaxNLocator
-
-    values = MaxNLocator(nbins=5, steps=[1, 2, 2.5, 5, 10]).tick_values(low, top)
-    return [float(v) for v in values if low * (1 + 1e-9) <= v <= top * (1 + 1e-9)]
-
-
-def _stroke(axes: Axes, x: float, top: float, bottom: float, colour, width: float) -> None:
-    from matplotlib.lines import Line2D
-
-    axes.add_artist(Line2D([x, x], [top, bottom], color=colour, linewidth=width * POINT, solid_capstyle="butt"))
-
-
-def _write(
-    axes: Axes,
-    text: str,
-    x: float,
-    y: float,
-    size: float,
-    colour,
-    side: str = "center",
-    order: int = 1000,
-    bold: bool = False,
-) -> None:
-    """A line of text standing on y."""
-    if text:
-        weight = "bold" if bold else "normal"
-        axes.text(x, y, text, ha=side, va="baseline", size=size * POINT, color=colour, weight=weight, zorder=order)
+def _write(axes: Axes, page: Composition, words: Words, order: int = 1000) -> None:
+    style = page.figure.style
+    look = {
+        "ha": "center",
+        "va": "baseline",
+        "size": words.size * POINT,
+        "color": style.quiet_text if words.is_quiet else style.text,
+        "weight": "bold" if words.is_bold else "normal",
+        "zorder": order,
+    }
+    for k, line in enumerate(words.lines):
+        step = k * LINE * words.size
+        if words.turned:
+            axes.text(words.x + step, words.y, line, rotation=90, rotation_mode="anchor", **look)
+        else:
+            axes.text(words.x, words.y + step, line, **look)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +11,6 @@ from bihdist_core import Surface
 
 from .canvas import Composition, drawn, matplotlib_settings
 from .description import FigurePanel
-from .layout import Box
-
-CROP_MARGIN = 6.0
-"""Units left around what is drawn."""
 
 
 class KeptWords:
@@ -68,66 +64,24 @@ def page_pixels(page: Composition, words: KeptWords | None = None) -> np.ndarray
     return pixels
 
 
-def crop(page: Composition, pixels: np.ndarray) -> np.ndarray:
-    """The pixels without the empty margins."""
-    x, y, width, height = content(page).pixels(page.layout.scale)
-    return pixels[y : y + height, x : x + width].copy()
-
-
-def content(page: Composition) -> Box:
-    """The part of the page on which something is drawn, with a narrow margin."""
-    scale = page.layout.scale
-    boxes = []
-    for shot in page.shots:
-        found = _filled(shot.image[..., 3], scale)
-        if found:
-            boxes.append(Box(shot.box.x + found.x, shot.box.y + found.y, found.width, found.height))
-    bare = replace(page, shots=[replace(shot, image=shot.image[:0], isolines=[]) for shot in page.shots])
-    words = _filled(_drawn(replace(bare, figure=replace(page.figure, transparent=True)))[..., 3], scale)
-    boxes += [words] if words else []
-    width, height = (side / scale for side in page.layout.page)
-    if not boxes:
-        return Box(0, 0, width, height)
-    x, y = (max(min(getattr(b, k) for b in boxes) - CROP_MARGIN, 0) for k in "xy")
-    right = min(max(b.right for b in boxes) + CROP_MARGIN, width)
-    bottom = min(max(b.bottom for b in boxes) + CROP_MARGIN, height)
-    return Box(x, y, right - x, bottom - y).snapped(scale)
-
-
 def write_vector(page: Composition, path: Path) -> None:
     """A .pdf or .svg file: one image per picture; isolines, outlines, text and bars as what they are."""
-    from matplotlib.transforms import Bbox
-
-    options: dict = {"transparent": page.figure.transparent, "facecolor": page.figure.style.background}
-    if page.figure.crop:
-        box = content(page)
-        top = page.layout.height - box.y
-        options["bbox_inches"] = Bbox(np.array([[box.x, top - box.height], [box.right, top]]) / 96)
+    figure = page.figure
+    # What is white is left out: paper is white by itself.
+    is_bare = figure.transparent or figure.style.background == (1, 1, 1)
+    options: dict = {"transparent": is_bare, "facecolor": figure.style.background}
     dates = {"CreationDate": None} if path.suffix.lower() == ".pdf" else {"Date": None}
-    with matplotlib_settings():
+    with matplotlib_settings(figure.font):
         drawn(page, vector=True).savefig(path, metadata={"Creator": "bihdist", **dates}, **options)
 
 
 def _drawn(page: Composition, shots: bool = True, words: bool = True) -> np.ndarray:
     """(height, width, 4) uint8, colours not multiplied by alpha; without shots, on nothing."""
     width, height = page.layout.page
-    with matplotlib_settings():
+    with matplotlib_settings(page.figure.font):
         canvas = drawn(page, False, shots, words).canvas
         canvas.draw()
         return np.asarray(canvas.buffer_rgba())[:height, :width]
-
-
-def _filled(alpha: np.ndarray, scale: float) -> Box | None:
-    """The rectangle outside of which alpha is 0, in units."""
-    rows, columns = np.flatnonzero(alpha.any(axis=1)), np.flatnonzero(alpha.any(axis=0))
-    if not len(rows):
-        return None
-    return Box(
-        columns[0] / scale,
-        rows[0] / scale,
-        (columns[-1] + 1 - columns[0]) / scale,
-        (rows[-1] + 1 - rows[0]) / scale,
-    )
 
 
 def _scaled(colours: np.ndarray, alpha: np.ndarray) -> np.ndarray:

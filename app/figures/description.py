@@ -9,8 +9,10 @@ from bihdist_core import ParameterError, Surface
 from ..document.camera import View, checked_view
 from ..document.document import Zoom
 from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
+from ..document.page import TITLES
 from ..drawing.camera import is_flat
 from ..drawing.style import PAPER, Style
+from .fonts import check_font
 from .size import Size
 
 
@@ -95,10 +97,12 @@ USUAL = Size()
 
 @dataclass(frozen=True, eq=False)
 class Figure:
-    """Panels row by row, in as many columns as given (all in one row if None).
+    """Panels row by row, in as many columns as given (as many as the page has room for if None).
 
     range: where colour bars end, one of RANGES: with "shared", panels of one unit end at the largest maximum of them,
-    and with "shares" each is drawn in shares of its own.  crop: to what is drawn, with a narrow margin.
+    and with "shares" each is drawn in shares of its own.  crop: without empty space around shapes and at the edges.
+    title: where panels have their names, one of TITLES; font: a family, "" for the usual one; text: the size of labels
+    in points, all other words in proportion, the usual one if None.
     """
 
     panels: tuple[FigurePanel, ...]
@@ -108,6 +112,9 @@ class Figure:
     range: str = "own"
     transparent: bool = False
     crop: bool = False
+    title: str = "heading"
+    font: str = ""
+    text: float | None = None
 
     def __post_init__(self) -> None:
         if not self.panels:
@@ -115,6 +122,8 @@ class Figure:
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
         one_of(self.range, RANGES, "range")
+        one_of(self.title, TITLES, "title")
+        check_font(self.font)
         kinds = [kind for kind in map(_kind, self.panels) if kind]
         if self.range == "shared" and len(kinds) > 1 and len(set(kinds)) == len(kinds):
             units = ", ".join(sorted({unit or "none" for unit, _ in kinds}))

@@ -13,9 +13,10 @@ from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.document import Zoom
 from .canvas import Composition
-from .composition import KeptWords, crop, page_pixels, write_vector
+from .composition import KeptWords, page_pixels, write_vector
 from .description import Figure, FigurePanel, Mark
 from .layout import lay_out
+from .marks import hidden_words
 from .raster import check_offscreen
 from .shots import Stage, take_shots
 
@@ -34,13 +35,11 @@ def draw_figure(
 
     stage, words: kept from one figure to the next.  Raises BihdistError where nothing can be drawn off screen.
     """
-    page = _page(figure, False, progress, stage)
-    pixels = page_pixels(page, words)
-    return crop(page, pixels) if figure.crop else pixels
+    return page_pixels(_page(figure, False, progress, stage), words)
 
 
-def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
-    """Draw a figure into a .png, .pdf or .svg file, whole or not at all.
+def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress | None = None) -> list[str]:
+    """Draw a figure into a .png, .pdf, .svg or .eps file, whole or not at all; sentences on what it does not show.
 
     Raises OutputError if it cannot be written; what was at `path` before then stays.
     """
@@ -49,15 +48,16 @@ def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress
         if extension == ".png":
             from PIL import Image
 
-            picture = draw_figure(figure, progress)
-            dpi = 96 * lay_out(figure).scale
-            Image.fromarray(picture).save(temporary, dpi=(dpi, dpi))
+            page = _page(figure, False, progress)
+            dpi = 96 * page.layout.scale
+            Image.fromarray(page_pixels(page)).save(temporary, dpi=(dpi, dpi))
         else:
             page = _page(figure, True, progress)
             try:
                 write_vector(page, temporary)
             except ValueError as error:  # matplotlib's word for a page it cannot make
                 raise OutputError(f"{path} could not be written: {error}.") from error
+    return hidden_words(page)
 
 
 def described(figure: Figure) -> str:

@@ -80,6 +80,9 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         range=document.range,
         transparent=page.transparent,
         crop=page.crop,
+        title=page.title,
+        font=page.font,
+        text=page.text,
     )
 
 
@@ -101,7 +104,9 @@ def write_figure(
     place, format = place_beside(path, recipe)
     usual, is_new = recipe_paths(path)[0], not place.exists()
     with recipe_written(recipe, given, place, version, format=format):
-        save_figure(figure, path, progress)
+        remarks = save_figure(figure, path, progress)
+    for remark in remarks:
+        say(remark)
     if place != usual and is_new:
         say(f"The recipe is in {place}: {usual.name} is that of something else, and stays.")
 

@@ -3,74 +3,68 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 
+from ..drawing.corners import SIDE
+from ..drawing.style import PAPER
+from . import bars
+from .bars import Bar
+from .boxes import Box, Words
 from .description import Figure
+from .framing import Seen, seen, shown_surface
+from .grid import VIEW_HEIGHT, Grid, grid_of, most_views, view_width
+from .inset_places import insets_of
+from .size import check_pixels
+from .words import LINE, Lettering
 
-PANEL = (560.0, 640.0)
-"""The usual size of a panel with one view."""
-
-VIEW_WIDTH = 400.0
-"""The usual width of each view where a panel has several."""
-
-WORDS = 128.0
-"""What heading, hint and colour bar take of a panel's height."""
-
-FONT = "DejaVu Sans"
 HEADING, HINT, LABEL = 17.0, 13.0, 12.0
-SMALLEST = 0.55
-"""Text that does not fit becomes smaller, down to this share."""
+"""The usual sizes of words, in units."""
 
-LINE = 1.32
-"""From line to line, in sizes of the text."""
+NARROW, WIDE = 420.0, 700.0
+"""Panels narrower than the one have smaller words; on paper those wider than the other have larger ones."""
 
+SMALLEST_WORDS = 0.67
+"""How much smaller at most, before they have to fit."""
 
-@dataclass(frozen=True)
-class Box:
-    """A rectangle."""
+STROKE = 400.0
+"""Views narrower than this many units have thinner lines."""
 
-    x: float
-    y: float
-    width: float
-    height: float
+MARK, LEAST_MARK = 0.026, 4.0
+"""How far a mark is across: a share of the shorter side of a view, and units."""
 
-    @property
-    def right(self) -> float:
-        return self.x + self.width
+LEAST_VIEWS = 0.45
+"""The share of a panel's height that its views have, if need be at the words' cost."""
 
-    @property
-    def bottom(self) -> float:
-        return self.y + self.height
+MARGIN = 4.0
+"""Units left at the edges of a page that is cropped."""
 
-    def snapped(self, scale: float) -> Box:
-        """The box with its sides on whole pixels."""
-        x, y = round(self.x * scale), round(self.y * scale)
-        right, bottom = max(round(self.right * scale), x + 1), max(round(self.bottom * scale), y + 1)
-        return Box(x / scale, y / scale, (right - x) / scale, (bottom - y) / scale)
+TALLEST = 1.4
+"""Widths of a page that a cropped one is high at most."""
 
-    def pixels(self, scale: float) -> tuple[int, int, int, int]:
-        """Left, top, width and height of a snapped box in pixels."""
-        return tuple(round(side * scale) for side in (self.x, self.y, self.width, self.height))
+WIDEST = 1.6
+"""Heights of a view that a cropped one is wide at most; flatter shapes have lower ones."""
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One panel: where its words stand, its views, and its colour bar."""
+    """One panel: its words, its views, what part of a square picture each shows, its insets, and its colour bar.
+
+    parts: None for a view whose camera is to fit its box.
+    """
 
     box: Box
+    words: tuple[Words, ...]
     views: tuple[Box, ...]
-    hint: tuple[str, ...]
-    heading_at: float
-    hint_at: float
-    bar: Box | None
+    parts: tuple[Seen | None, ...]
+    insets: tuple[Box, ...]
+    bar: Bar | None
 
 
 @dataclass(frozen=True)
 class Layout:
     """The page.
 
-    scale: pixels per unit; page: the size the page has in pixels at that scale; stroke: by how much lines and marks
-    are thinner than the style says, in narrow panels.
+    scale: pixels per unit; page: the size the page has in pixels at that scale; stroke: by how much lines are thinner
+    than the style says; mark: how far marks are across; label: the size of labels; shared_bar: that of all panels.
     """
 
     width: float
@@ -78,110 +72,265 @@ class Layout:
     scale: float
     page: tuple[int, int]
     cells: tuple[Cell, ...]
-    heading: float
-    hint: float
     label: float
-    shared_bar: Box | None
+    lettering: Lettering
+    shared_bar: Bar | None
     stroke: float
+    mark: float
+
+    @property
+    def smallest(self) -> float:
+        """The size of the smallest words, in points."""
+        texts = [words for cell in self.cells for words in cell.words]
+        texts += [words for bar in (*(c.bar for c in self.cells), self.shared_bar) if bar for words in bar.texts]
+        return 0.75 * min((each.size for each in texts if each.lines), default=self.label)
 
 
 def lay_out(figure: Figure, least_scale: float = 0.0) -> Layout:
     """The figure's layout, at its own resolution or at least at `least_scale`."""
-    rows, columns = figure.grid
-    views = max(len(p.views) for p in figure.panels)
-    usual = _usual_size(figure.size.printed_width, rows, columns, views)
-    across, down, own_scale = figure.size.pixels(usual)
-    width, height = across / own_scale, down / own_scale
-    scale = max(own_scale, least_scale)
-    cell_width, cell_height = width / columns, height / rows
-    # Narrow panels, as in a column of print, get smaller words; all panels the same.
-    factor = min(max(cell_width / 420, 0.72), 1.0)
-    room = cell_width - 12
-    stroke = min(max(cell_width / views / 400, 0.5), 1.0)
-    heading = _fitting([p.heading for p in figure.panels], HEADING * factor, room, bold=True)
-    label = _fitting([f"{bar_words(p.label, p.unit)}, maximum 0.00000" for p in figure.panels], LABEL * factor, room)
-    hints, hint = _hints([p.hint for p in figure.panels], HINT * factor, room)
-    lines = max(len(h) for h in hints)
-    head = (heading * LINE + 8 if any(p.heading for p in figure.panels) else 4) + lines * hint * LINE + 6
-    bar_height = round(11 * factor)
-    foot = bar_height + 2 * label * LINE + 18
-    shared = figure.has_one_bar
-    low = foot if shared else 0.0
-    cell_height = (height - low) / rows
-    below = 6.0 if shared or all(p.field is None for p in figure.panels) else foot
-    cells = []
-    for k, panel in enumerate(figure.panels):
-        row, column = divmod(k, columns)
-        box = Box(column * cell_width, row * cell_height, cell_width, cell_height)
-        area = Box(box.x, box.y + head, box.width, max(box.height - head - below, 8.0))
-        each = area.width / len(panel.views)
-        boxes = tuple(Box(area.x + i * each, area.y, each, area.height).snapped(scale) for i in range(len(panel.views)))
-        has_bar = panel.field is not None and not shared and panel.top > 0
-        bar = _bar(box, area.bottom + 8, bar_height) if has_bar else None
-        heading_at = box.y + 8 + heading
-        cells.append(Cell(box, boxes, hints[k], heading_at, heading_at + hint * LINE + 2, bar))
-    page = (across, down) if scale == own_scale else (round(width * scale), round(height * scale))
-    shared_bar = _bar(Box(0, 0, width, height), height - foot + 8, bar_height) if shared else None
-    return Layout(width, height, scale, page, tuple(cells), heading, hint, label, shared_bar, stroke)
+    grid = grid_of(figure)
+    room = grid.width / grid.columns
+    factor = _factor(figure, grid, room)
+    lettering = Lettering(figure.font, figure.text is not None)
+    views = [_shapes(figure, k) for k in range(len(figure.panels))]
+    rooms = [room] * grid.columns
+    for _ in range(3 if figure.crop else 1):
+        for level in range(6):
+            texts = _Texts(figure, lettering, factor, rooms, level)
+            strip = _Strip(figure, grid, texts)
+            sizes = _Sizes(figure, grid, texts, strip, views)
+            if grid.height is None or sizes.high >= LEAST_VIEWS * (sizes.high + texts.head + texts.foot):
+                break
+        rooms = sizes.columns
+    return _placed(figure, grid, texts, strip, sizes, least_scale)
 
 
-def _usual_size(printed_width: float | None, rows: int, columns: int, views: int) -> tuple[float, float]:
-    """The size of a page; where its width is given as printed, words keep their size and only the views shrink."""
-    view_width = PANEL[0] if views == 1 else VIEW_WIDTH
-    if printed_width is None:
-        return columns * views * view_width, rows * PANEL[1]
-    # Hints take a second line in narrow panels.
-    words = WORDS * (0.85 if printed_width / columns < 350 else 1.0)
-    view_height = printed_width / (columns * views) * (PANEL[1] - WORDS) / view_width
-    return printed_width, rows * (words + view_height)
+def _factor(figure: Figure, grid: Grid, room: float) -> float:
+    """How large words are beside the usual: in panels of this width, the same in all."""
+    if figure.text is not None:
+        return figure.text / 0.75 / LABEL
+    if grid.height is not None:
+        room = min(room, 1.1 * grid.height / grid.rows)
+    if grid.is_printed and room > WIDE:
+        return room / WIDE
+    return max(min(room / NARROW, 1.0), SMALLEST_WORDS)
 
 
-def bar_words(label: str, unit: str) -> str:
-    """What stands at a colour bar."""
-    return f"{label} ({unit})" if label and unit else label or unit
+# ---------------------------------------------------------------------- what has to find room
+def _shapes(figure: Figure, panel: int) -> list[tuple[float, float, Seen | None]]:
+    """Of each view of a panel its width and height, 1 for the usual height, and what it shows if that is cropped."""
+    each = figure.panels[panel]
+    if not figure.crop:
+        return [(view_width(figure) / VIEW_HEIGHT, 1.0, None)] * len(each.views)
+    surface = shown_surface(each, figure.tops()[panel])
+    parts = [seen(view, each, surface) for view in each.views]
+    found = [(min(p.aspect, WIDEST), min(WIDEST / p.aspect, 1.0), p) for p in parts]
+    if any(zoom.corner == "auto" for zoom in each.zooms):
+        wide, high, part = found[0]
+        found[0] = (wide + SIDE * min(wide, high), high, part)  # an inset may need room beside the shape
+    return found
 
 
-def _bar(box: Box, y: float, height: float) -> Box:
-    width = min(0.62 * box.width, 420.0)
-    return Box(box.x + (box.width - width) / 2, y, width, height)
+class _Texts:
+    """The words of all panels, in columns of these widths, and what they take at the top and bottom of each.
+
+    level: the higher, the less there is of them.
+    """
+
+    def __init__(self, figure: Figure, lettering: Lettering, factor: float, rooms: list[float], level: int) -> None:
+        count = len(figure.panels)
+        self.factor, self.lettering = factor, lettering
+        room = min(rooms) - 8
+        most = 2 if level < 2 else 1
+        heads = [p.heading if figure.title == "heading" and level < 5 else "" for p in figure.panels]
+        self.heading, self.headings = lettering.fitted(heads, HEADING * factor, room, most, True)
+        self.hint, self.hints = self._hints([p.hint for p in figure.panels], room) if level < 1 else (0.0, [()] * count)
+        feet = [bars.bar_words(figure, k) if level < 3 else "" for k in range(count)]
+        self.label, self.feet = lettering.fitted(feet, LABEL * factor, room, most + (figure.title == "caption"))
+        lines = max(map(len, self.headings))
+        self.head_lines = lines
+        gap = 7 * factor if level < 2 else 2.0
+        self.head = gap + lines * LINE * self.heading + max(map(len, self.hints)) * LINE * self.hint
+        self.head += 5 * factor if self.head > gap else 0.0
+        has_bars = not figure.has_one_bar and level < 4
+        self.bars = [has_bars and p.field is not None and p.top > 0 for p in figure.panels]
+        lines = max(map(len, self.feet))
+        is_needed = any(self.bars) or lines
+        self.foot = bars.flat_foot(factor, self.label, lines, any(self.bars)) if is_needed else 6 * factor
+
+    def _hints(self, texts: list[str], room: float) -> tuple[float, list[tuple[str, ...]]]:
+        """In one line or two; none at all if they do not fit."""
+        size, found = self.lettering.fitted(texts, HINT * self.factor, room, 2)
+        is_whole = all(
+            "".join(lines).replace(" ", "") == text.replace(" ", "") for lines, text in zip(found, texts, strict=True)
+        )
+        return (size, found) if is_whole else (0.0, [()] * len(texts))
 
 
-def _fitting(texts: list[str], size: float, room: float, bold: bool = False) -> float:
-    """The size at which the widest of the texts fits."""
-    widest = max(text_width(text, size, bold) for text in texts)
-    return size * max(min(1.0, room / widest), SMALLEST) if widest else size
+class _Strip:
+    """The room for a colour bar of all panels: at the right or under them, where it takes the lesser share."""
 
-
-def _hints(texts: list[str], size: float, room: float) -> tuple[list[tuple[str, ...]], float]:
-    """The hints in one or two lines, and their size; none at all if they do not fit."""
-    for factor in (1.0, 0.9, 0.8, 0.72):
-        found = [wrapped(text, size * factor, room) for text in texts]
-        if all(len(lines) <= 2 and all(text_width(x, size * factor) <= room for x in lines) for lines in found):
-            return found, size * factor
-    return [() for _ in texts], size
-
-
-def wrapped(text: str, size: float, room: float) -> tuple[str, ...]:
-    """The lines of a text of this size that are no wider than the room, as far as its words allow."""
-    lines: list[str] = []
-    for word in text.split():
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and text_width(longer, size) <= room:
-            lines[-1] = longer
+    def __init__(self, figure: Figure, grid: Grid, texts: _Texts) -> None:
+        self.panel = next((k for k, p in enumerate(figure.panels) if p.field is not None), 0)
+        self.width = self.height = 0.0
+        self.label, self.lines = texts.label, ()
+        tops = figure.tops()
+        self.is_there = figure.has_one_bar and tops[self.panel] > 0
+        if not self.is_there:
+            return
+        words = [bars.shared_words(figure, self.panel)]
+        self.label, (self.lines,) = texts.lettering.fitted(words, LABEL * texts.factor, grid.width - 8, 2)
+        under = bars.flat_foot(texts.factor, self.label, len(self.lines))
+        right = bars.upright_width(figure, self.panel, texts.factor, self.label, texts.lettering)
+        cell = grid.width / grid.columns
+        each = texts.head + texts.foot + cell / most_views(figure) * VIEW_HEIGHT / view_width(figure)
+        high = grid.height or grid.rows * each
+        if right / grid.width < under / high:
+            self.width = right
         else:
-            lines.append(word)
-    return tuple(lines)
+            self.height = under
 
 
-def text_width(text: str, size: float, bold: bool = False) -> float:
-    """Units a line of text takes at a size in units."""
-    return _width(text, bold) * size / 100 if text else 0.0
+class _Sizes:
+    """How wide columns are, how high the views of each row, and the page.
+
+    high: the usual height of views, of which each has its share.
+    """
+
+    def __init__(
+        self,
+        figure: Figure,
+        grid: Grid,
+        texts: _Texts,
+        strip: _Strip,
+        shapes: list[list[tuple[float, float, Seen | None]]],
+    ) -> None:
+        self.shapes, self.grid = shapes, grid
+        self.words = texts.head + texts.foot
+        self.pad = 0.0
+        if not figure.crop:
+            self.columns = [(grid.width - strip.width) / grid.columns] * grid.columns
+            wide = self.columns[0] / most_views(figure) / view_width(figure)
+            free = VIEW_HEIGHT * wide
+            self.high = free if grid.height is None else (grid.height - strip.height) / grid.rows - self.words
+            self.high = max(self.high, 4.0)
+            self.rows = [self.high] * grid.rows
+            self.width = grid.width
+        else:
+            self._crop(figure, texts, strip)
+        self.height = (
+            grid.height
+            if grid.height is not None and not figure.crop
+            else sum(self.rows) + grid.rows * self.words + strip.height + 2 * self.pad
+        )
+
+    def _crop(self, figure: Figure, texts: _Texts, strip: _Strip) -> None:
+        grid, self.pad = self.grid, MARGIN
+        wide = [0.0] * grid.columns
+        tall = [0.0] * grid.rows
+        views = [1] * grid.columns
+        for k, shapes in enumerate(self.shapes):
+            row, column = divmod(k, grid.columns)
+            wide[column] = max(wide[column], sum(w for w, _, _ in shapes))
+            tall[row] = max(tall[row], *(h for _, h, _ in shapes))
+            views[column] = max(views[column], len(shapes))
+        gap, least = 8 * texts.factor, 90.0 * min(texts.factor, 1.0)
+        bound = grid.width - strip.width - 2 * MARGIN - gap * (grid.columns - 1)
+        is_free = figure.size.width is None and figure.size.height is None
+        most = grid.height if grid.height is not None else TALLEST * grid.width
+        highest = (most - strip.height - 2 * MARGIN - grid.rows * self.words) / sum(tall)
+        high = max(min(highest, VIEW_HEIGHT) if is_free else highest, 8.0)
+
+        def columns(high: float) -> list[float]:
+            return [max(high * each, least) for each in wide]
+
+        if not is_free and sum(columns(high)) > bound:
+            low = 0.0
+            for _ in range(40):
+                middle = (low + high) / 2
+                low, high = (middle, high) if sum(columns(middle)) <= bound else (low, middle)
+            high = max(low, 8.0)
+        self.high = high
+        self.columns = columns(high)
+        if sum(self.columns) > bound and not is_free:
+            self.columns = [each * bound / sum(self.columns) for each in self.columns]
+        self.rows = [high * each for each in tall]
+        self.gap = gap
+        self.width = sum(self.columns) + gap * (grid.columns - 1) + strip.width + 2 * MARGIN
 
 
-@cache
-def _width(text: str, bold: bool) -> float:
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.textpath import text_to_path
+# ---------------------------------------------------------------------- where it stands
+def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Sizes, least_scale: float) -> Layout:
+    scale = max(grid.scale, least_scale)
+    width, height = sizes.width, sizes.height
+    page = (round(width * scale), round(height * scale))
+    if scale == grid.scale and not figure.crop:
+        page = (grid.pixels[0], page[1] if grid.pixels[1] is None else grid.pixels[1])
+    check_pixels(*page)
+    gap = sizes.gap if figure.crop else 0.0
+    cells = []
+    top = sizes.pad
+    for row, high in enumerate(sizes.rows):
+        left = sizes.pad
+        for column, wide in enumerate(sizes.columns):
+            k = row * grid.columns + column
+            if k < len(figure.panels):
+                box = Box(left, top, wide, high + sizes.words)
+                cells.append(_cell(figure, k, box, texts, sizes, scale))
+            left += wide + gap
+        top += high + sizes.words
+    shared = None
+    if strip.width:
+        views = cells[0].views[0].y, cells[-1].views[0].bottom
+        room = Box(width - sizes.pad - strip.width, views[0], strip.width, views[1] - views[0])
+        shared = bars.upright_bar(figure, strip.panel, room, texts.factor, strip.label, texts.lettering)
+    elif strip.height:
+        box = _bar_box(Box(0, 0, width, height), height - sizes.pad - strip.height + 7 * texts.factor, texts.factor)
+        shared = bars.flat_bar(figure, strip.panel, box, (3, width - 3), strip.lines, strip.label, texts.lettering)
+    narrowest = min(view.width for cell in cells for view in cell.views)
+    stroke = min(max(narrowest / STROKE, 0.5), 1.0)
+    if grid.is_printed:
+        stroke = max(stroke, narrowest / WIDE)
+    sides = min(min(view.width, view.height) for cell in cells for view in cell.views)
+    mark = max(MARK * sides, LEAST_MARK) * figure.style.marker_size / PAPER.marker_size
+    return Layout(width, height, scale, page, tuple(cells), texts.label, texts.lettering, shared, stroke, mark)
 
-    font = FontProperties(family=FONT, weight="bold" if bold else "normal", size=100)
-    return float(text_to_path.get_text_width_height_descent(text, font, False)[0])
+
+def _bar_box(room: Box, y: float, factor: float) -> Box:
+    wide = min(bars.SHARE * room.width, bars.LONGEST * max(factor, 1.0))
+    return Box(room.x + (room.width - wide) / 2, y, wide, bars.THICK * factor)
+
+
+def _cell(figure: Figure, k: int, box: Box, texts: _Texts, sizes: _Sizes, scale: float) -> Cell:
+    panel, shapes = figure.panels[k], sizes.shapes[k]
+    middle, factor = box.middle[0], texts.factor
+    first = box.y + 7 * factor + texts.heading
+    words = [Words(texts.headings[k], middle, first, texts.heading, is_bold=True)]
+    hint_at = box.y + 7 * factor + texts.head_lines * LINE * texts.heading + texts.hint
+    words.append(Words(texts.hints[k], middle, hint_at, texts.hint, is_quiet=True))
+    area = Box(box.x, box.y + texts.head, box.width, max(box.height - texts.head - texts.foot, 4.0))
+    total = sum(w for w, _, _ in shapes)
+    views, left = [], area.x
+    for wide, _, _ in shapes:
+        views.append(Box(left, area.y, area.width * wide / total, area.height).snapped(scale))
+        left += area.width * wide / total
+    parts = tuple(part for _, _, part in shapes)
+    insets: tuple[Box, ...] = ()
+    if panel.zooms:
+        surface = shown_surface(panel, figure.tops()[k])
+        views[0], insets = insets_of(figure, k, surface, views[0], parts[0], scale)
+    bar = None
+    if texts.bars[k]:
+        room = (box.x + 3, box.right - 3)
+        bar = bars.flat_bar(
+            figure,
+            k,
+            _bar_box(box, area.bottom + 7 * factor, factor),
+            room,
+            texts.feet[k],
+            texts.label,
+            texts.lettering,
+        )
+    else:
+        words.append(Words(texts.feet[k], middle, area.bottom + 7 * factor + texts.label, texts.label, is_quiet=True))
+    return Cell(box, tuple(w for w in words if w.lines), tuple(views), parts, insets, bar)

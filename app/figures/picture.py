@@ -100,6 +100,9 @@ def figure(
     style: str = "paper",
     transparent: bool = False,
     crop: bool = False,
+    title: str = "heading",
+    font: str = "",
+    text: float | None = None,
     progress: Progress | None = None,
 ) -> Picture:
     """What `bihdist figure` draws, with its options.
@@ -111,8 +114,9 @@ def figure(
     marked, perhaps each with a value.  shading: "smooth", "creased" at more than `crease` degrees, or "flat";
     "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own", "shared"
     (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or the
-    session or recipe whose ends are taken; shared_range: the same as "shared".  Raises BihdistError, as the command
-    says its sentences.
+    session or recipe whose ends are taken; shared_range: the same as "shared".  size: "85mm", "1680x640", "column",
+    "slide", as the command takes it.  title: names as "heading", as "caption" at the colour bars, or "none".  font: a
+    family; text: the size of labels in points.  Raises BihdistError, as the command says its sentences.
 
     >>> import bihdist
     >>> picture = bihdist.figure("hand", ["biharmonic", "biharmonic - geodesic"], source=12, size="400x200")
@@ -150,6 +154,9 @@ def figure(
         hints=hints,
         transparent=transparent,
         crop=crop,
+        title=title,
+        font=font,
+        text=text,
     )
     document, _ = ranged(document, "shared" if shared_range and range == "own" else range)
     document, surfaces = open_document(Recipe(document, page), given)

@@ -1,4 +1,4 @@
-"""The size of a figure, as one writes it: 1680x640, 8000px, 160mm@300dpi, 160x80mm."""
+"""The size of a figure, as one writes it: 1680x640, 8000px, 160mm@300dpi, 160x80mm, column, slide."""
 
 import re
 from dataclasses import dataclass
@@ -15,6 +15,9 @@ PRINT_DPI = 300.0
 LARGEST = 32_000
 """Pixels along a side."""
 
+NAMED = {"column": "85mm", "double": "178mm", "slide": "1920x1080@192dpi", "A0": "1189x841mm@150dpi"}
+"""Sizes by what they are for: one or two columns of a journal, a screen that is looked at from afar, a poster."""
+
 _WRITTEN = re.compile(
     r"(?P<width>\d+(?:\.\d+)?)(?:x(?P<height>\d+(?:\.\d+)?))?(?P<unit>px|mm)?(?:@(?P<dpi>\d+(?:\.\d+)?)(?:dpi)?)?"
 )
@@ -25,7 +28,7 @@ class Size:
     """Width and height in `unit`, "px" or "mm"; what is None follows from the panels.
 
     With dpi, text and lines have their printed size.  Without, pixels enlarge the whole: a figure of twice the width
-    is the same figure, drawn finer.
+    is the same figure, drawn finer, as long as its words stay readable.
     """
 
     width: float | None = None
@@ -45,36 +48,45 @@ class Size:
     @classmethod
     def parse(cls, text: str) -> "Size":
         """The size written as `text`; ParameterError if it is not one."""
-        found = _WRITTEN.fullmatch(text.strip().replace("×", "x"))
+        named = {name.lower(): written for name, written in NAMED.items()}
+        found = _WRITTEN.fullmatch(named.get(text.strip().lower(), text).strip().replace("×", "x"))
         if not found:
-            raise ParameterError(f"{text!r} is not a size such as 1680x640, 8000px, 160mm@300dpi or 160x80mm.")
+            raise ParameterError(
+                f"{text!r} is not a size such as 1680x640, 8000px, 160mm@300dpi or 160x80mm, "
+                f"nor one of {', '.join(NAMED)}."
+            )
         width, height, dpi = (None if found[k] is None else float(found[k]) for k in ("width", "height", "dpi"))
         return cls(width, height, found["unit"] or "px", dpi)
 
     @property
-    def printed_width(self) -> float | None:
-        """The width in units where it is printed at a known size, and the height is left open."""
-        if self.width is None or self.height is not None:
-            return None
-        if self.unit == "mm":
-            return self.width / MM_PER_INCH * UNITS_PER_INCH
-        return None if self.dpi is None else self.width * UNITS_PER_INCH / self.dpi
+    def resolution(self) -> float | None:
+        """Pixels an inch of paper; None where pixels say how large the page is."""
+        return self.dpi or (PRINT_DPI if self.unit == "mm" else None)
+
+    def pixels_of(self, length: float) -> float:
+        """Pixels that a width or height of this size has."""
+        return length * (self.resolution or 0) / MM_PER_INCH if self.unit == "mm" else length
 
     def pixels(self, usual: tuple[float, float]) -> tuple[int, int, float]:
         """Width, height and pixels per unit, for panels that would usually take this many units."""
-        dpi = self.dpi or (PRINT_DPI if self.unit == "mm" else None)
-        per = (dpi or 0) / MM_PER_INCH if self.unit == "mm" else 1.0
+        dpi = self.resolution
         if self.width is not None:
-            width = self.width * per
-            height = width * usual[1] / usual[0] if self.height is None else self.height * per
+            width = self.pixels_of(self.width)
+            height = width * usual[1] / usual[0] if self.height is None else self.pixels_of(self.height)
         elif self.height is not None:
-            height = self.height * per
+            height = self.pixels_of(self.height)
             width = height * usual[0] / usual[1]
         else:
             width, height = (side * (dpi or UNITS_PER_INCH) / UNITS_PER_INCH for side in usual)
-        if not (16 <= width <= LARGEST and 16 <= height <= LARGEST):
-            raise ParameterError(
-                f"A picture has 16 to {LARGEST} pixels along a side; this would have {width:.0f} x {height:.0f}."
-            )
-        scale = dpi / UNITS_PER_INCH if dpi else min(width / usual[0], height / usual[1])
+        check_pixels(width, height)
+        # On a small screen panels are small, but words stay readable.
+        scale = dpi / UNITS_PER_INCH if dpi else max(min(width / usual[0], height / usual[1]), 1.0)
         return round(width), round(height), scale
+
+
+def check_pixels(width: float, height: float) -> None:
+    """ParameterError for a picture that is too small or too large."""
+    if not (16 <= width <= LARGEST and 16 <= height <= LARGEST):
+        raise ParameterError(
+            f"A picture has 16 to {LARGEST} pixels along a side; this would have {width:.0f} x {height:.0f}."
+        )

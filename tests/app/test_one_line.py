@@ -164,7 +164,6 @@ WORDLESS = {"Zoom.corner", "Zoom.isolines"} | {
     for name in EXAMPLES
     if name == "Colours.stops"
     or name in ("Isolines.spacing", "Isolines.values", "Isolines.bold", "Isolines.labels", "Isolines.through")
-    or name in ("Page.title", "Page.font", "Page.text")
 }
 """Parts that only a recipe's file says so far."""
 

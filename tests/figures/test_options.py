@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from app.drawing.camera import Camera
-from app.drawing.style import DARK, STYLES
+from app.drawing.style import DARK, PAPER, STYLES
 from app.figures import raster
 from app.figures.draw import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
 from app.figures.layout import lay_out
 from app.figures.size import Size
-from bihdist_core import ParameterError
+from bihdist_core import ParameterError, Surface
 from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces
 
 SIZE = Size(400, 400, dpi=96)
@@ -50,8 +50,8 @@ def test_lines_keep_their_printed_width(ball):
 
 def test_eight_thousand_pixels_are_the_same_figure_finer(ball):
     panels = (FigurePanel(ball, ball.vertices[:, 1] + 2, "a heading", "a hint", "d", "mesh units"),)
-    small = draw_figure(Figure(panels, size=Size(800, 100)))
-    large = draw_figure(Figure(panels, size=Size(8000, 1000)))
+    small = draw_figure(Figure(panels, size=Size(800, 100, dpi=96)))
+    large = draw_figure(Figure(panels, size=Size(8000, 1000, dpi=960)))
     assert large.shape == (1000, 8000, 3)
     shrunk = large.reshape(100, 10, 800, 10, 3).mean(axis=(1, 3))
     assert np.abs(shrunk - small).mean() < 1.5
@@ -67,14 +67,26 @@ def test_transparent_pictures_are_the_opaque_ones_on_their_background(ball):
     assert np.abs(clear[..., :3] * alpha + 255 * (1 - alpha) - opaque).max() <= 3
 
 
-def test_cropping_takes_only_what_is_empty(ball):
-    field = ball.vertices[:, 1] + 2
-    whole = one(ball, field, Size(700, 400, dpi=96))
-    cropped = one(ball, field, Size(700, 400, dpi=96), figure={"crop": True})
-    assert cropped.shape[1] < 500
-    assert (cropped == 255).all(axis=(0, 2))[:4].all()
-    ink = (whole != 255).any(axis=2).sum()
-    assert (cropped != 255).any(axis=2).sum() == ink
+def spans(alive):
+    """The first and last index that is true."""
+    found = np.flatnonzero(alive)
+    return found[0], found[-1]
+
+
+def test_a_cropped_page_is_filled_and_its_shapes_are_larger(ball):
+    lying = Surface(ball.vertices * (2.5, 1, 1), ball.faces)
+    for surface, size in ((ball, Size(85, unit="mm", dpi=96)), (lying, Size(700, 400, dpi=96)), (lying, Size())):
+        panels = tuple(FigurePanel(surface, surface.vertices[:, 1] + 2, views=("front",)) for _ in range(3))
+        whole, cropped = (draw_figure(Figure(panels, size=size, crop=crop)) for crop in (False, True))
+        sheets = [(picture != 255).any(axis=2) for picture in (whole, cropped)]
+        # Nothing is empty but a narrow margin.
+        for axis in (0, 1):
+            low, high = spans(sheets[1].any(axis=1 - axis))
+            assert low <= 18
+            assert high >= sheets[1].shape[axis] - 19
+        coloured = [(np.ptp(picture.astype(int), axis=2) > 40).mean() for picture in (whole, cropped)]
+        assert coloured[1] > 1.05 * coloured[0]
+    assert cropped.shape[0] < whole.shape[0]
 
 
 def test_a_zoom_shows_its_vertex_enlarged(ball):
@@ -124,19 +136,30 @@ def test_a_shared_range_ends_at_the_largest_maximum(ball):
         Figure((FigurePanel(ball, field, unit="a"), FigurePanel(ball, field, unit="b")), range="shared")
 
 
-def test_marks_are_seen_from_the_front_only(ball):
+def test_a_hidden_mark_is_a_ghost_and_is_spoken_of(ball, tmp_path):
     vertex = int(ball.vertices[:, 2].argmax())
     field = ball.vertices[:, 1] + 2
-    for view, there in (("front", True), ("back", False)):
-        without = one(ball, field, views=(view,))
-        marked = one(ball, field, views=(view,), marks=(Mark(vertex), Mark(vertex, 0.5, "an anchor")))
-        assert (without != marked).any() == there
+    yellow = np.round(255 * np.array(PAPER.source))
+    for views, seen in ((("front",), True), (("back",), False), (("back", "front"), True)):
+        without = one(ball, field, views=views)
+        marked = one(ball, field, views=views, marks=(Mark(vertex),))
+        changed = (without != marked).any(axis=2)
+        assert changed.any()
+        has_yellow = (np.abs(marked - yellow) <= 2).all(axis=2).any()
+        assert has_yellow == seen
+        panel = FigurePanel(ball, field, views=views, marks=(Mark(vertex),), heading="a name")
+        said = save_figure(Figure((panel,), size=SIZE), tmp_path / "f.png")
+        assert bool(said) == (not seen)
+        if said:
+            assert said == [
+                f"Vertex {vertex} is hidden in the view back: a dashed ring; try --view source or --two-views."
+            ]
 
 
 def test_rows_and_columns(ball):
     panels = tuple(FigurePanel(ball, None, f"panel {k}") for k in range(5))
     assert Figure(panels, columns=2).grid == (3, 2)
-    assert draw_figure(Figure(panels, columns=2, size=Size(400))).shape == (round(400 * 3 * 640 / 2 / 560), 400, 3)
+    assert draw_figure(Figure(panels, columns=2, size=Size(1680))).shape == (round(1680 * 3 * 640 / 2 / 560), 1680, 3)
     for wrong in ({"panels": ()}, {"panels": panels, "columns": 0}):
         with pytest.raises(ParameterError):
             Figure(**wrong)
@@ -214,4 +237,4 @@ def test_in_a_narrow_column_of_print_the_pictures_still_have_most_of_the_room():
         )
         layout = lay_out(Figure(panels, size=Size.parse(width)))
         assert layout.cells[0].views[0].height > 0.5 * layout.height
-        assert layout.heading > 9  # units of 1/96 inch: words stay readable
+        assert layout.smallest >= 6  # points: words stay readable

@@ -141,7 +141,8 @@ class DistancePanel(QtWidgets.QWidget):
         """Put the insets where they hide the least."""
         if self._opened is not None and self._zooms:
             samples = self._opened.prepared.samples if self._raised is None else self._positions
-            self.view.scene.insets.settle(samples)
+            marked = [vertex for vertex, _ in self._anchors] + ([] if self._source is None else [self._source])
+            self.view.scene.insets.settle(samples, self._positions[marked])
 
     def show_isolines(self, count: int) -> None:
         self._isolines = Isolines(count)

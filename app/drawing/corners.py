@@ -1,0 +1,118 @@
+"""Where insets stand in a view, and the lines that join them to what they enlarge: one rule for window and figures.
+
+Boxes are left, right, bottom, top, in pixels of the view, y up.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ..document.document import Zoom
+
+SIDE = 0.40
+"""Of an inset, as a share of the shorter side of its view."""
+
+CELLS = 8
+"""By how many along each side the cover of a corner is found out."""
+
+FINE_CELLS = 32
+"""The same for the lines that join insets to their places."""
+
+CROSSED = 0.02
+"""The share of a joining line that may lie on the surface."""
+
+Rectangle = tuple[float, float, float, float]
+
+
+def corner_boxes(size: tuple[float, float], side: float, gap: float) -> dict[str, Rectangle]:
+    """By name: where an inset in a corner of a view stands."""
+    width, height = size
+    right, top = (width - gap - side, width - gap), (height - gap - side, height - gap)
+    left, bottom = (gap, gap + side), (gap, gap + side)
+    return {
+        "top right": (*right, *top),
+        "top left": (*left, *top),
+        "bottom right": (*right, *bottom),
+        "bottom left": (*left, *bottom),
+    }
+
+
+def source_box(place: np.ndarray, side: float, zoom: Zoom) -> Rectangle:
+    """What an inset enlarges, around a place (2,)."""
+    half = side / zoom.factor / 2
+    x, y = map(float, place)
+    return x - half, x + half, y - half, y + half
+
+
+def chosen_corners(
+    zooms: Sequence[Zoom],
+    boxes: dict[str, Rectangle],
+    sources: Sequence[Rectangle],
+    surface: np.ndarray,
+    marks: np.ndarray,
+) -> list[str]:
+    """A corner for each zoom: its own, or the one that hides the least.
+
+    surface: (k, 2) places all over the surface; marks: (k, 2) places that must be seen, as what is enlarged must.
+    """
+    taken, found = list(sources), []
+    for zoom in zooms:
+        if zoom.corner == "auto":
+            hidden = {
+                name: cover(box, surface) + _meetings(box, taken) + 2 * inside(marks, box).sum()
+                for name, box in boxes.items()
+            }
+            found.append(min(boxes, key=lambda name: hidden[name]))
+        else:
+            found.append(zoom.corner)
+        taken.append(boxes[found[-1]])
+    return found
+
+
+def cover(box: Rectangle, places: np.ndarray) -> float:
+    """The share of a box where the surface is seen; places: (k, 2) all over it, NaN for unseen ones."""
+    left, right, bottom, top = box
+    cells = np.floor((places - (left, bottom)) / (right - left, top - bottom) * CELLS)
+    within = cells[((cells >= 0) & (cells < CELLS)).all(axis=1)]
+    return len(np.unique(within, axis=0)) / CELLS**2
+
+
+def joins(source: Rectangle, box: Rectangle, is_taken: Callable[[np.ndarray], np.ndarray]) -> list[np.ndarray]:
+    """Lines (2, 2) between equal corners of an inset and of what it enlarges that run through neither.
+
+    is_taken: which of places (k, 2) are on the surface or another inset; a line that crosses these is left out.
+    """
+    found = []
+    for x in (0, 1):
+        for y in (2, 3):
+            a, b = (np.array([each[x], each[y]]) for each in (source, box))
+            way = a + np.linspace(0.01, 0.99, 100)[:, None] * (b - a)
+            if not any(inside(way, each).any() for each in (source, box)) and is_taken(way).mean() <= CROSSED:
+                found.append(np.stack([a, b]))
+    return found
+
+
+def taken_by(
+    places: np.ndarray, size: tuple[float, float], boxes: Sequence[Rectangle]
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Which of points (k, 2) lie near one of many places (m, 2) of a view of this size, or in one of the boxes."""
+    cell = max(min(size), 1) / FINE_CELLS
+    known = places[np.isfinite(places).all(axis=1)]
+    taken = {tuple(each) for each in np.unique(np.floor(known / cell).astype(int), axis=0).tolist()}
+
+    def is_taken(points: np.ndarray) -> np.ndarray:
+        on_surface = [tuple(each) in taken for each in np.floor(points / cell).astype(int).tolist()]
+        return np.any([on_surface, *(inside(points, box) for box in boxes)], axis=0)
+
+    return is_taken
+
+
+def inside(points: np.ndarray, box: Rectangle) -> np.ndarray:
+    """Which of points (k, 2) lie in a box."""
+    x, y = points.T
+    return (box[0] < x) & (x < box[1]) & (box[2] < y) & (y < box[3])
+
+
+def _meetings(box: Rectangle, others: Sequence[Rectangle]) -> int:
+    """How many of the others a box meets."""
+    return sum(box[0] < b[1] and b[0] < box[1] and box[2] < b[3] and b[2] < box[3] for b in others)

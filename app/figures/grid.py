@@ -1,0 +1,97 @@
+"""How large a page is, and in how many rows and columns its panels stand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .description import Figure
+from .size import UNITS_PER_INCH
+
+PANEL = (560.0, 640.0)
+"""The usual size of a panel with one view."""
+
+VIEW_WIDTH = 400.0
+"""The usual width of each view where a panel has several."""
+
+VIEW_HEIGHT = 512.0
+"""The usual height of views."""
+
+NARROWEST = 100.0
+"""Units of a panel's width, 26 mm, below which there are rather more rows."""
+
+MOST_IN_A_ROW = 4
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The page before its panels: units, and None for a height that follows from them.
+
+    scale: pixels per unit; pixels: of the page, None for what follows; is_printed: whether units are those of paper.
+    """
+
+    rows: int
+    columns: int
+    width: float
+    height: float | None
+    scale: float
+    pixels: tuple[int, int | None]
+    is_printed: bool
+
+
+def grid_of(figure: Figure) -> Grid:
+    """The page that a figure's size says."""
+    size = figure.size
+    dpi = size.resolution
+    if size.width is None or (dpi is None and size.height is None):
+        columns = _columns(figure, None if size.width is None else size.width)
+    elif size.height is None:
+        columns = _columns(figure, size.pixels_of(size.width) * UNITS_PER_INCH / dpi)
+    else:
+        columns = _fullest(figure, size.width / size.height)
+    rows = -(-len(figure.panels) // columns)
+    usual = columns * view_width(figure) * most_views(figure), rows * PANEL[1]
+    across, down, scale = size.pixels(usual)
+    is_free = size.height is None and size.width is not None and (dpi is not None or across < usual[0])
+    return Grid(
+        rows,
+        columns,
+        across / scale,
+        None if is_free else down / scale,
+        scale,
+        (across, None if is_free else down),
+        dpi is not None,
+    )
+
+
+def most_views(figure: Figure) -> int:
+    return max(len(panel.views) for panel in figure.panels)
+
+
+def view_width(figure: Figure) -> float:
+    """The usual width of a view."""
+    return PANEL[0] if most_views(figure) == 1 else VIEW_WIDTH
+
+
+def _columns(figure: Figure, width: float | None) -> int:
+    """As many as are asked for, or as a page of this width has room for."""
+    count = len(figure.panels)
+    if figure.columns is not None:
+        return min(figure.columns, count)
+    if width is None:
+        return count
+    most = max(int(width / (NARROWEST * most_views(figure) ** 0.5)), 1)
+    rows = -(-count // min(most, MOST_IN_A_ROW))
+    return -(-count // rows)
+
+
+def _fullest(figure: Figure, aspect: float) -> int:
+    """The number of columns with which panels are largest on a page of this width / height."""
+    count = len(figure.panels)
+    if figure.columns is not None:
+        return min(figure.columns, count)
+    wide = view_width(figure) * most_views(figure)
+
+    def room(columns: int) -> float:
+        return min(aspect / (columns * wide), 1 / (-(-count // columns) * PANEL[1]))
+
+    return max(range(count, 0, -1), key=room)

@@ -1,0 +1,180 @@
+"""Marks of a figure, with what is written at them, and the frames of its insets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..drawing.corners import Rectangle, joins
+from .boxes import Box, Words
+from .shots import Shot
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .canvas import Composition
+
+POINT = 0.75
+"""Points in a unit."""
+
+RING = 6.0
+"""Units across, from which on a mark is a ring, so that its place is seen in it."""
+
+RIM = 0.075
+"""The width of a mark's rims, as a share of what it is across."""
+
+OPEN = 0.46
+"""The same of the hole of a ring."""
+
+
+def draw_marks(
+    axes: Axes, page: Composition, shot: Shot, order: int, frame, write: Callable[[Words, int], None]
+) -> None:
+    """Those of one picture: rings around their places, discs where they have a value, dashed where they are hidden."""
+    style, panel = page.figure.style, page.figure.panels[shot.panel]
+    top, across = page.figure.tops()[shot.panel], page.layout.mark
+    insets = [other.box for other in page.shots if other.panel == shot.panel and other.source is not None]
+    insets = [box for box in insets if shot.source is None]
+    written: list[Box] = []
+    for _, x, y in shot.ghosts:
+        if not any(box.holds(x, y, across / 2) for box in insets):
+            _draw_ghost(axes, x, y, across, style, order)
+    for k, x, y in shot.marks:
+        if any(box.holds(x, y, across / 2) for box in insets):
+            continue
+        mark = panel.marks[k]
+        colour = style.largest if mark.is_largest else style.source
+        if mark.value is not None:
+            colour = style.colour_of(mark.value, top, panel.signed)
+        patches = _ring(x, y, across, colour, style.mark_edge, mark.value is None, order)
+        for patch in patches:
+            axes.add_artist(patch)
+            if shot.source is not None:
+                patch.set_clip_path(frame)
+        if mark.text:
+            words = _beside(page, shot, mark.text, (x, y), [*insets, *written])
+            if words:
+                written.append(_box_of(page, words))
+                write(words, order + 1)
+
+
+def _ring(x: float, y: float, across: float, colour, edge, may_be_open: bool, order: int) -> list:
+    from matplotlib.patches import Annulus, Circle
+
+    rim = max(RIM * across, 0.5)
+    if not may_be_open or across < RING:
+        look = {"facecolor": colour, "edgecolor": edge, "linewidth": rim * POINT}
+        return [Circle((x, y), across / 2 - rim / 2, zorder=order, **look)]
+    hole = OPEN * across / 2
+    # One in the other, so that no colour shows beside the rims.
+    dark = Annulus((x, y), across / 2, across / 2 - hole, facecolor=edge, linewidth=0, zorder=order)
+    light = Annulus((x, y), across / 2 - rim, across / 2 - hole - 2 * rim, facecolor=colour, linewidth=0, zorder=order)
+    return [dark, light]
+
+
+def _draw_ghost(axes: Axes, x: float, y: float, across: float, style, order: int) -> None:
+    """A hollow, dashed circle: light under dark, to be seen on every colour."""
+    from matplotlib.patches import Circle
+
+    width = max(0.14 * across, 0.8)
+    light = {"edgecolor": style.background, "linewidth": 1.9 * width * POINT}
+    dark = {"edgecolor": style.text, "linewidth": width * POINT, "linestyle": (0, (2.2, 1.4))}
+    for look in (light, dark):
+        axes.add_artist(Circle((x, y), across / 2 - width / 2, fill=False, zorder=order, **look))
+
+
+def _beside(page: Composition, shot: Shot, text: str, place: tuple[float, float], taken: list[Box]) -> Words | None:
+    """Words at a mark, where they stay in the picture and off all others; None if there is no such place."""
+    size, type = page.layout.label, page.layout.lettering
+    x, y = place
+    area, gap = shot.box, page.layout.mark / 2 + 0.3 * size
+    wide = type.width(text, size)
+    others = [Box(a - 1, b - 1, 2, 2) for k, a, b in shot.marks if (a, b) != place]
+    sides = ((x + gap + wide / 2, y), (x - gap - wide / 2, y), (x, y - gap - 0.5 * size), (x, y + gap + 0.5 * size))
+    for middle, level in sides:
+        middle = max(min(middle, area.right - wide / 2 - 1), area.x + wide / 2 + 1)
+        words = Words((text,), middle, level + 0.36 * size, size)
+        box = _box_of(page, words)
+        if (
+            area.holds(box.x, box.y)
+            and area.holds(box.right, box.bottom)
+            and not box.holds(x, y, 0.8 * page.layout.mark / 2)
+            and not any(box.meets(other) for other in (*taken, *others))
+        ):
+            return words
+    return None
+
+
+def _box_of(page: Composition, words: Words) -> Box:
+    wide = max(page.layout.lettering.width(line, words.size) for line in words.lines)
+    return Box(words.x - wide / 2, words.y - 0.95 * words.size, wide, 1.2 * words.size)
+
+
+def draw_frames(axes: Axes, page: Composition, shot: Shot, order: int, write: Callable[[Words, int], None]) -> None:
+    """Around what an inset enlarges, around the inset, and lines that join the two where they cross nothing.
+
+    Where they would, both have a number instead, if there are several.
+    """
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Rectangle
+
+    colour = page.figure.style.quiet_text
+    of_panel = [other for other in page.shots if other.panel == shot.panel]
+    main, insets = of_panel[0], [other for other in of_panel if other.source is not None]
+    for box in (shot.source, shot.box):
+        look = {"fill": False, "edgecolor": colour, "linewidth": POINT, "zorder": order}
+        axes.add_artist(Rectangle((box.x, box.y), box.width, box.height, **look))
+    others = [side for other in insets if other is not shot for side in (_upright(other.box), _upright(other.source))]
+
+    def is_taken(points: np.ndarray) -> np.ndarray:
+        on_shape = _on_shape(main, points)
+        inside = [
+            (points[:, 0] > a) & (points[:, 0] < b) & (-points[:, 1] > c) & (-points[:, 1] < d) for a, b, c, d in others
+        ]
+        return np.any([on_shape, *inside], axis=0)
+
+    lines = joins(_upright(shot.source), _upright(shot.box), lambda way: is_taken(way * (1, -1)))
+    for line in lines:
+        axes.add_artist(Line2D(line[:, 0], -line[:, 1], color=colour, linewidth=0.6 * POINT, zorder=order))
+    if not lines and len(insets) > 1:
+        size = page.layout.label
+        number = str(1 + insets.index(shot))
+        write(Words((number,), shot.box.x + 0.6 * size, shot.box.y + 1.1 * size, size), order)
+        x = shot.source.right + 0.5 * size
+        if x + 0.5 * size > main.box.right:
+            x = shot.source.x - 0.5 * size
+        write(Words((number,), x, shot.source.y + 0.8 * size, size), order)
+
+
+def _upright(box: Box) -> Rectangle:
+    """With y up."""
+    return box.x, box.right, -box.bottom, -box.y
+
+
+def _on_shape(shot: Shot, points: np.ndarray) -> np.ndarray:
+    """Which of points (k, 2) of the page lie on the shape in a picture."""
+    alpha = shot.image[..., 3]
+    rows, columns = alpha.shape
+    column = np.floor((points[:, 0] - shot.box.x) / shot.box.width * columns).astype(int)
+    row = np.floor((points[:, 1] - shot.box.y) / shot.box.height * rows).astype(int)
+    inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+    found = np.zeros(len(points), bool)
+    found[inside] = alpha[row[inside], column[inside]] > 127
+    return found
+
+
+def hidden_words(page: Composition) -> list[str]:
+    """A sentence on each source or other marked vertex that no picture of its panel shows."""
+    found: dict[str, None] = {}
+    for k, panel in enumerate(page.figure.panels):
+        shots = [shot for shot in page.shots if shot.panel == k]
+        shown = {mark[0] for shot in shots for mark in shot.marks}
+        hidden = {mark[0] for shot in shots for mark in shot.ghosts} - shown
+        names = " and ".join(view if isinstance(view, str) else "of the camera" for view in panel.views)
+        views = f"the view {names}" if len(panel.views) == 1 else f"the views {names}"
+        for index in sorted(hidden):
+            vertex = panel.marks[index].vertex
+            found[f"Vertex {vertex} is hidden in {views}: a dashed ring; try --view source or --two-views."] = None
+    return list(found)

@@ -1,0 +1,93 @@
+"""Words that fit their room: wrapped, then smaller, and at last shortened, but never beyond it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from .fonts import text_width
+
+LEAST, LAST = 8.0, 20 / 3
+"""Units: words become smaller down to 6 points if that is enough, and otherwise down to 5."""
+
+ALMOST = 0.7
+"""Down to this share of its size a text rather becomes smaller than it takes a second line."""
+
+LINE = 1.28
+"""From line to line, in sizes of the text."""
+
+_PARTS = re.compile(r"\S+?[_/](?=\S)|\S+")
+"""Where a line may end: after a space, an underscore, a slash."""
+
+Widths = Callable[[str, float], float]
+"""Of a line of text at a size, in units."""
+
+
+@dataclass(frozen=True)
+class Lettering:
+    """How all words of a page are set: their family, and whether their size is given, so that it stays."""
+
+    family: str = ""
+    stays: bool = False
+
+    def width(self, text: str, size: float, bold: bool = False) -> float:
+        return text_width(text, size, bold, self.family)
+
+    def fitted(
+        self, texts: list[str], size: float, room: float, most: int, bold: bool = False
+    ) -> tuple[float, list[tuple[str, ...]]]:
+        """Texts in at most `most` lines no wider than the room: the size they have in common, and their lines."""
+
+        def wide(text: str, size: float) -> float:
+            return self.width(text, size, bold)
+
+        sizes = [size] if self.stays else _sizes(size)
+        for smaller in sizes:
+            if smaller >= ALMOST * size and all(wide(text, smaller) <= room for text in texts):
+                return smaller, [(text,) if text else () for text in texts]
+        for smaller in sizes:
+            found = [wrapped(text, smaller, room, wide) for text in texts]
+            if all(len(lines) <= most and all(wide(x, smaller) <= room for x in lines) for lines in found):
+                return smaller, found
+        return sizes[-1], [shortened(text, sizes[-1], room, most, wide) for text in texts]
+
+
+def _sizes(size: float) -> list[float]:
+    """From a size down to the last."""
+    found, step = [size], 0.94
+    for floor in (LEAST, LAST):
+        while found[-1] > floor:
+            found.append(max(found[-1] * step, floor))
+    return found
+
+
+def wrapped(text: str, size: float, room: float, wide: Widths = text_width) -> tuple[str, ...]:
+    """The lines of a text that are no wider than the room, as far as its words allow."""
+    lines: list[str] = []
+    end = 0
+    for part in _PARTS.finditer(text):
+        longer = lines[-1] + text[end : part.end()] if lines else part[0]
+        if lines and wide(longer, size) <= room:
+            lines[-1] = longer
+        else:
+            lines.append(part[0])
+        end = part.end()
+    return tuple(lines)
+
+
+def shortened(text: str, size: float, room: float, most: int, wide: Widths = text_width) -> tuple[str, ...]:
+    """At most `most` lines no wider than the room; what is left out is an ellipsis."""
+    lines: list[str] = []
+    for line in wrapped(text, size, room, wide):
+        while wide(line, size) > room and len(line) > 1:
+            count = next((k for k in range(len(line) - 1, 1, -1) if wide(line[:k], size) <= room), 1)
+            lines.append(line[:count])
+            line = line[count:]
+        lines.append(line)
+    if len(lines) > most:
+        last = lines[most - 1]
+        while last and wide(f"{last}…", size) > room:
+            last = last[:-1].rstrip()
+        lines[most - 1 :] = [f"{last}…"]
+    return tuple(line for line in lines if wide(line, size) <= room)
