@@ -15,6 +15,7 @@ from ..drawing.camera import VIEW_ANGLE, Projection, directions, is_flat, outwar
 from ..drawing.drawable import drawable
 from ..drawing.relief import rise
 from .description import Figure
+from .grid import grid_of
 from .layout import lay_out
 from .size import Size
 
@@ -73,7 +74,8 @@ def fitted_size(figure: Figure, extent: tuple[float, float]) -> Size:
     scale, dpi = layout.scale, 96 * layout.scale
     if size.height is not None or not 10 <= dpi <= 2400:
         return size
-    rows, columns = figure.grid
+    grid = grid_of(figure)
+    rows, columns = grid.rows, grid.columns
     aspect = min(max(extent[0] / extent[1], STEEPEST), FLATTEST)
     box = layout.cells[0].views[0]
     width = layout.width

@@ -12,7 +12,6 @@ from PIL import Image
 from app.document.document import comparison
 from app.document.page import Page, Recipe
 from app.drawing.camera import Projection, turned
-from app.drawing.drawable import drawable
 from app.figures.description import Figure, FigurePanel
 from app.figures.frames import drawn_frames
 from app.figures.layout import lay_out
@@ -193,7 +192,7 @@ def test_the_source_is_seen_in_the_first_frame():
     surface = bumpy(400)
     for vertex in range(0, 400, 37):
         camera, axis = start_and_axis("home", surface, 360.0, 0.0, [vertex])
-        sight = Sight(surface, drawable(surface), Projection(camera, 1.0, surface.vertices), (300, 300))
+        sight = Sight(surface, Projection(camera, 1.0, surface.vertices), (300, 300))
         away = abs(surface.vertices[vertex] @ axis) / np.linalg.norm(surface.vertices[vertex])
         assert sight.sees(surface.vertices[vertex]) or away > 0.9  # from above the poles alone
     front = start_and_axis("front", surface, 360.0, 0.0, [5])[0]
