@@ -6,6 +6,7 @@ that show the same surface share its vertices in the graphics memory, and the co
 
 import os
 import sys
+from time import perf_counter
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the classes below are abstract without it)
@@ -63,10 +64,13 @@ class Board:
         scene.renderer.DrawOn()
         stand_back(scene.renderer.GetActiveCamera(), scene.bounds)
         scene.renderer.ResetCameraClippingRange(*scene.bounds)
+        start = perf_counter()
         self._window.Render()
         self.pictures += 1
         width, height = size
         self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._read)
+        if not scene.is_stand_in:
+            scene.seconds = perf_counter() - start
         picture = np.ascontiguousarray(vtk_to_numpy(self._read).reshape(height, width, 4)[::-1])
         picture[..., 3] = 255  # what smoothing leaves there means nothing
         return picture

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bihdist_core import Surface
 from bihdist_core.surface import connected, dots
 
 from .winding import Winding
@@ -26,26 +27,27 @@ class Split:
 
 
 def face_normals(vertices: np.ndarray, faces: np.ndarray) -> list[np.ndarray]:
-    """Three (m,), the coordinates of normals of length 1; 0 for faces of no area."""
-    x, corners = np.ascontiguousarray(vertices.T), np.ascontiguousarray(faces.T)
-    p, q, r = (x.take(ids, axis=1) for ids in corners)
+    """Three (m,), the coordinates of normals, whose lengths are twice the faces' areas."""
+    x = np.ascontiguousarray(vertices.T)
+    p, q, r = (x.take(faces[:, k], axis=1) for k in range(3))
     a, b = q - p, r - p
-    normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    _to_length_one(normal)
-    return normal
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def point_normals(normals: list[np.ndarray], faces: np.ndarray, n: int) -> np.ndarray:
-    """(n, 3) float32: the mean of the normals, three (m,), of a vertex' faces, of length 1; 0 where there is none."""
+    """(n, 3) float32 of length 1, 0 at no face: along the mean of the normals, three (m,), of a vertex' faces."""
     corners = np.ascontiguousarray(faces.T)
     sums = [sum(np.bincount(ids, x, n) for ids in corners) for x in normals]
-    _to_length_one(sums)
+    to_length_one(sums)
     return np.stack(sums, axis=1, dtype=np.float32)
 
 
 def bends(normals: list[np.ndarray], wound: Winding) -> np.ndarray:
-    """(e,) the cosines of the angles at which faces meet at the edges of two; 1 where one has no area."""
-    m = len(wound.faces)
+    """(e,) the cosines of the angles at which faces meet at the edges of two; 1 where one has no area.
+
+    normals: of length 1, of the faces as they are to be wound.
+    """
+    m = len(wound.turn)
     f, g = wound.left % m, wound.right % m
     cosine = dots([x.take(f) for x in normals], [x.take(g) for x in normals])
     cosine[wound.is_turned] *= -1
@@ -55,21 +57,23 @@ def bends(normals: list[np.ndarray], wound: Winding) -> np.ndarray:
     return cosine
 
 
-def has_creases(cosines: np.ndarray, lengths: np.ndarray, crease: float) -> bool:
-    """Whether edges, with cosines and lengths (e,), are those of a made thing, with creases of more than so many
-    degrees and little that is nearly one."""
-    sharp = float(lengths[cosines < np.cos(np.radians(crease))].sum())
-    nearly = float(lengths[cosines < np.cos(np.radians(NEARLY * crease))].sum()) - sharp
-    return sharp > 0 and sharp > GAP * nearly
+def has_creases(surface: Surface, edges: np.ndarray, cosines: np.ndarray, crease: float) -> bool:
+    """Whether edges (e,), with cosines (e,), are those of a made thing: with creases of more than so many degrees and
+    little that is nearly one."""
+    bent = np.flatnonzero(cosines < np.cos(np.radians(NEARLY * crease)))
+    i, j = surface.edges[edges[bent]].T
+    lengths = np.linalg.norm(surface.vertices[i] - surface.vertices[j], axis=1)
+    is_sharp = cosines[bent] < np.cos(np.radians(crease))
+    sharp = float(lengths[is_sharp].sum())
+    return sharp > 0 and sharp > GAP * float(lengths[~is_sharp].sum())
 
 
-def split(wound: Winding, ends: np.ndarray, is_cut: np.ndarray, n: int) -> Split:
-    """The faces with vertices of their own on each side of the edges that are cut.
+def split(surface: Surface, wound: Winding, is_cut: np.ndarray) -> Split:
+    """The surface's faces with vertices of their own on each side of the edges that are cut; is_cut: (e,) of all edges.
 
-    ends: (e, 2) the vertices of all edges; is_cut: (e,) whether.  At an end of a cut, faces stay together that can be
-    reached from each other without crossing one.
+    At an end of a cut, faces stay together that can be reached from each other without crossing one.
     """
-    faces, m = wound.faces, len(wound.faces)
+    faces, m, n, ends = surface.faces, len(surface.faces), len(surface.vertices), surface.edges
     cut = ends[is_cut]
     at_cut = np.zeros(n, bool)
     at_cut[cut.ravel()] = True
@@ -105,7 +109,7 @@ def _ends(side: np.ndarray, corner: np.ndarray, m: int) -> tuple[np.ndarray, np.
     return np.where(swap, b, a), np.where(swap, a, b)
 
 
-def _to_length_one(vectors: list[np.ndarray]) -> None:
+def to_length_one(vectors: list[np.ndarray]) -> None:
     """Divide vectors, three arrays of coordinates, by their lengths, in place; those of no length stay 0."""
     length = np.sqrt(dots(vectors, vectors))
     for x in vectors:

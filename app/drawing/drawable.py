@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from bihdist_core import Surface
 
 from ..document.looks import AS_IT_IS, Shading
-from .creases import bends, face_normals, has_creases, point_normals, split
+from .creases import bends, face_normals, has_creases, point_normals, split, to_length_one
 from .winding import winding
 
 _COPIES, _BACKS = "copies", "backs"
@@ -20,23 +20,25 @@ def drawable(surface: Surface, shading: Shading = AS_IT_IS) -> vtkPolyData:
     The faces are the surface's, in their order.  Vertex k of the surface is point k; points from n on are `copies_of`
     vertices.  Flat shading needs no normals of its own.  Safe to call on a background thread.
     """
-    n, wound = len(surface.vertices), winding(surface)
-    normals = face_normals(surface.vertices, wound.faces)
+    normals = face_normals(surface.vertices, surface.faces)
+    wound = winding(surface, normals)
+    to_length_one(normals)
+    if wound.turn.any():
+        for x in normals:
+            np.negative(x, out=x, where=wound.turn)
     is_cut = np.zeros(len(surface.edges), bool)
     # Faces wound against each other have normals that point to opposite sides.
     is_cut[wound.edges] = wound.is_turned
     if shading.normals in ("auto", "creased"):
         cosines = bends(normals, wound)
-        ends = surface.vertices[surface.edges[wound.edges]]
-        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        if shading.normals == "creased" or has_creases(cosines, lengths, shading.crease):
+        if shading.normals == "creased" or has_creases(surface, wound.edges, cosines, shading.crease):
             is_cut[wound.edges] |= cosines < np.cos(np.radians(shading.crease))
             is_cut |= surface.faces_per_edge > 2
-    drawn = split(wound, surface.edges, is_cut, n)
-    vertices = surface.vertices
+    drawn = split(surface, wound, is_cut)
+    vertices, faces = surface.vertices, wound.faces(drawn.faces)
     if len(drawn.copies):
         vertices = np.concatenate([vertices, vertices[drawn.copies]])
-    mesh = poly_data(vertices, drawn.faces, point_normals(normals, drawn.faces, len(vertices)))
+    mesh = poly_data(vertices, faces, point_normals(normals, faces, len(vertices)))
     copies = numpy_to_vtkIdTypeArray(drawn.copies, deep=True)
     copies.SetName(_COPIES)
     mesh.GetFieldData().AddArray(copies)
@@ -71,6 +73,18 @@ def copies_of(mesh: vtkPolyData) -> np.ndarray:
     """(k,) of which vertices of the surface the points behind its own are copies."""
     array = mesh.GetFieldData().GetArray(_COPIES)
     return np.empty(0, np.int64) if array is None or not array.GetNumberOfTuples() else vtk_to_numpy(array)
+
+
+def faces_of(mesh: vtkPolyData) -> np.ndarray:
+    """(m, 3) the points of its faces."""
+    return vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def with_backs_of(mesh: vtkPolyData, other: vtkPolyData) -> None:
+    """Let a mesh have an inside that can be seen, if another has."""
+    array = other.GetFieldData().GetArray(_BACKS)
+    if array is not None:
+        mesh.GetFieldData().AddArray(array)
 
 
 def has_backs(mesh: vtkPolyData) -> bool:

@@ -7,7 +7,7 @@ EDGE_WIDTH = 0.8
 
 EDGE_OPACITY = 0.55
 
-CLOSEST, CLEAR = 3.0, 9.0
+CLOSEST, CLEAR = 1.5, 6.0
 """Pixels of a face's least height at which its edges are no longer drawn, and from where on they are drawn in full."""
 
 _POSITION, _COLOUR, _NORMAL = "//VTK::PositionVC::Dec", "//VTK::Color::Impl", "//VTK::Normal::Impl"

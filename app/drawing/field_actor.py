@@ -13,6 +13,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 from ..document.looks import Shading
 from .drawable import copies_of, has_backs
 from .face_look import pass_on, put_face_look
+from .stand_in import StandInActor
 from .style import Style
 
 UNDEFINED = -1000.0
@@ -75,17 +76,28 @@ class FieldActor:
         self._edges = np.empty(0)
         self._own_maximum = 1.0
         self._make()
+        self.stand_in = StandInActor(self.actor)
         self.show_isolines(self._count)
         self.set_scale(scale)
         self.actor.VisibilityOff()
 
     def show_surface(self, mesh: vtkPolyData) -> None:
         """Show a surface made by `drawable`, without a field yet."""
+        count = mesh.GetNumberOfPoints() - len(copies_of(mesh))
+        self._put_mesh(mesh, np.full(count, UNDEFINED, np.float32))
+
+    def show_normals(self, mesh: vtkPolyData) -> None:
+        """The same surface, made by `drawable` with another shading; its field stays."""
+        count = mesh.GetNumberOfPoints() - len(copies_of(mesh))
+        self._put_mesh(mesh, self._values[:count])
+
+    def _put_mesh(self, mesh: vtkPolyData, values: np.ndarray) -> None:
+        self.stand_in.take(None)
         own = vtkPolyData()
         own.ShallowCopy(mesh)
         self._copies = copies_of(mesh)
         self._uniforms.SetUniformf("hasBacks", float(has_backs(mesh)))
-        self._values = np.full(mesh.GetNumberOfPoints(), UNDEFINED, np.float32)
+        self._values = np.concatenate([values, values[self._copies]])
         self._array = numpy_to_vtk(self._values)
         self._array.SetName("distance")
         own.GetPointData().AddArray(self._array)
@@ -162,6 +174,10 @@ class FieldActor:
         if bool(look.GetEdgeVisibility()) != shading.wireframe:
             look.SetEdgeVisibility(shading.wireframe)
             self._put_shaders(shading.wireframe)
+
+    def show_stand_in(self, is_shown: bool) -> None:
+        """Draw what `stand_in` has taken instead of the surface, if it has anything, or the surface again."""
+        self.stand_in.show(is_shown, self._array, UNDEFINED)
 
     def set_scale(self, scale: float) -> None:
         """Device pixels per pixel have changed."""

@@ -10,6 +10,8 @@ import numpy as np
 
 from bihdist_core import Surface
 
+from ..document.looks import AS_IT_IS, Shading
+
 FITTED = 20_000
 """How many points the camera is fitted to."""
 
@@ -19,13 +21,14 @@ SAMPLES = 5_000
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """A mesh to draw and a picker.
+    """Meshes to draw and a picker.
 
+    meshes: by shading, that which is chosen by itself ready.
     points: (k, 3) of the vertices that have a face, to fit the camera to, and their bounds (x, x, y, y, z, z).
     samples: (SAMPLES, 3) on the faces, as many for equal areas.  is_flat: whether it can become a relief.
     """
 
-    mesh: Any
+    meshes: "Meshes"
     picker: Any
     points: np.ndarray
     bounds: tuple[float, ...]
@@ -33,17 +36,62 @@ class Prepared:
     is_flat: bool
 
 
+class Meshes:
+    """What is drawn of a surface for each shading, with what stands in for it.  Two are kept: the usual and the last.
+
+    Asked on the view's thread, made on any.
+    """
+
+    def __init__(self, surface: Surface) -> None:
+        self.surface = surface
+        self.usual = self._made(AS_IT_IS)
+        self._last = self.usual
+
+    def ready(self, shading: Shading) -> "Drawn | None":
+        """None if it has not been made."""
+        key = _key(shading)
+        return next((made for made in (self.usual, self._last) if made.shading == key), None)
+
+    def make(self, shading: Shading) -> "Drawn":
+        """Now, if it is not ready."""
+        made = self.ready(shading)
+        if made is None:
+            self._last = made = self._made(shading)
+        return made
+
+    def _made(self, shading: Shading) -> "Drawn":
+        from .drawable import drawable
+        from .stand_in import stand_in
+
+        mesh = drawable(self.surface, shading)
+        return Drawn(_key(shading), mesh, stand_in(mesh))
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A mesh for VTK, and what is drawn instead of it while the camera moves, if it is large."""
+
+    shading: Shading
+    mesh: Any
+    stand_in: Any
+
+
+def _key(shading: Shading) -> Shading:
+    from .drawable import normals_shading
+
+    return normals_shading(shading)
+
+
 def prepare(surface: Surface) -> Prepared:
     """What the panels need of the surface; on any thread."""
     from .camera import is_flat
     from .picking import Picker
-    from .scene import drawable
 
     shown = surface.vertices[surface.component_of_vertex >= 0]
     bounds = tuple(float(end) for x in shown.T for end in (x.min(), x.max()))
     # The camera is fitted on the window's thread: some of the points of a large mesh do as well.
     points = shown[:: max(1, len(shown) // FITTED)]
-    return Prepared(drawable(surface), Picker(surface), points, bounds, _samples(surface), is_flat(shown))
+    return Prepared(Meshes(surface), Picker(surface), points, bounds, _samples(surface), is_flat(shown))
 
 
 def _samples(surface: Surface) -> np.ndarray:

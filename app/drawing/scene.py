@@ -6,13 +6,12 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from .drawable import drawable
+from ..document.looks import Shading
 from .field_actor import FieldActor, light
 from .insets import Insets
 from .marks import Marks
+from .stand_in import StandIn
 from .style import PAPER, Style
-
-__all__ = ["PanelScene", "drawable"]
 
 
 class PanelScene:
@@ -26,11 +25,13 @@ class PanelScene:
         self.style = style
         self.scale = scale
         self.bounds: Sequence[float] = (0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
+        self.seconds = 0.0  # that the last picture of all of it took
         self._field = FieldActor(style, scale)
         self._source = Marks(style.marker_size * scale, style.mark_edge)
         self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
         self._anchored = Marks(style.marker_size * scale, style.mark_edge)
         solid = [self._field.actor, *(marks.actor for marks in (self._source, self._largest, self._anchored))]
+        solid.append(self._field.stand_in.actor)
         self.insets = Insets(renderer, solid, style, scale)
         renderer.SetBackground(*style.background)
         # To find out what is out of sight VTK would go over all vertices, and here nothing ever is.
@@ -62,6 +63,31 @@ class PanelScene:
         """The same surface in another shape; its field has to be shown again."""
         self._field.show_surface(mesh)
         self.bounds = bounds
+
+    def show_normals(self, mesh: vtkPolyData) -> None:
+        """The same surface and shape with other normals; the field stays."""
+        self._field.show_normals(mesh)
+
+    def show_shading(self, shading: Shading) -> None:
+        """Whether faces are flat and edges drawn."""
+        self._field.show_shading(shading)
+
+    def take_stand_in(self, stand_in: StandIn | None) -> None:
+        """What may be drawn instead while the camera moves; after each change of the surface or its normals."""
+        self._field.stand_in.take(stand_in)
+
+    def show_stand_in(self, is_shown: bool) -> None:
+        """Draw what stands in, if there is anything, or the surface itself again."""
+        self._field.show_stand_in(is_shown)
+
+    @property
+    def can_stand_in(self) -> bool:
+        return self._field.stand_in.can_stand_in
+
+    @property
+    def is_stand_in(self) -> bool:
+        """Whether the next picture is of what stands in."""
+        return bool(self._field.stand_in.actor.GetVisibility())
 
     def show_field(self, field: np.ndarray, maximum: float | None = None, signed: bool = False) -> None:
         """Colour the surface by a field (n,), see `FieldActor.show_field`."""

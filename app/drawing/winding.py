@@ -18,22 +18,33 @@ HOLLOW = 0.005
 
 @dataclass(frozen=True, eq=False)
 class Winding:
-    """faces: (m, 3) the surface's, in their order, wound so that the outside sees them counter-clockwise where there
-    is an outside, and each as its neighbours where that is possible.  left, right: (e,) the sides of the faces (face +
-    m * corner) that meet at edges of two faces, and edges: (e,) those edges.  is_turned: (e,) whether these two are
-    wound against each other, as somewhere on a Möbius strip.  has_backs: whether an inside can be seen.
+    """turn: (m,) the faces to turn over so that the outside sees all counter-clockwise, where there is an outside, and
+    each is wound as its neighbours, where that is possible.  edges: (e,) those of two faces; left, right: (e,) their
+    sides there (face + m * corner); is_turned: (e,) whether these are then wound against each other, as somewhere on a
+    Möbius strip.  has_backs: whether an inside can be seen.
     """
 
-    faces: np.ndarray
+    turn: np.ndarray
+    edges: np.ndarray
     left: np.ndarray
     right: np.ndarray
-    edges: np.ndarray
     is_turned: np.ndarray
     has_backs: bool
 
+    def faces(self, faces: np.ndarray) -> np.ndarray:
+        """(m, 3) faces with those turned over that are to be."""
+        if not self.turn.any():
+            return faces
+        if self.turn.all():
+            return np.ascontiguousarray(faces[:, [0, 2, 1]])
+        return np.where(self.turn[:, None], faces[:, [0, 2, 1]], faces)
 
-def winding(surface: Surface) -> Winding:
-    """In NumPy, most of which releases the interpreter lock; half a second for a million vertices."""
+
+def winding(surface: Surface, normals: list[np.ndarray]) -> Winding:
+    """normals: three (m,), the coordinates of the faces' normals, whose lengths are twice their areas.
+
+    In NumPy, most of which releases the interpreter lock; half a second for a million vertices.
+    """
     faces, m = surface.faces, len(surface.faces)
     of_side, count = surface.edge_of_side, surface.faces_per_edge
     first, last = np.empty_like(count), np.empty_like(count)
@@ -48,14 +59,8 @@ def winding(surface: Surface) -> Winding:
         turn, patch, is_turned = _alike(left % m, right % m, is_turned, m)
     else:
         turn, patch = np.zeros(m, bool), surface.component_of_vertex.take(faces[:, 0])
-    inward, has_backs = _insides(surface, turn, patch, np.unique(patch[left[is_turned] % m]))
-    turn ^= inward
-    if turn.any():
-        faces = np.where(turn[:, None], faces[:, [0, 2, 1]], faces)
-        # The sides of a face that is turned over: 01 and 20 change places, 12 stays where it is.
-        place = np.array([2, 1, 0])
-        left, right = (np.where(turn[s % m], place[s // m] * m + s % m, s) for s in (left, right))
-    return Winding(faces, left, right, edges, is_turned, has_backs)
+    inward, has_backs = _insides(surface, normals, turn, patch, np.unique(patch[left[is_turned] % m]))
+    return Winding(turn ^ inward, edges, left, right, is_turned, has_backs)
 
 
 def _alike(one: np.ndarray, other: np.ndarray, is_turned: np.ndarray, m: int) -> tuple[np.ndarray, ...]:
@@ -73,25 +78,25 @@ def _alike(one: np.ndarray, other: np.ndarray, is_turned: np.ndarray, m: int) ->
     return turn, np.minimum(mine, turned), is_turned ^ turn[one] ^ turn[other]
 
 
-def _insides(surface: Surface, turn: np.ndarray, patch: np.ndarray, one_sided: np.ndarray) -> tuple[np.ndarray, bool]:
+def _insides(
+    surface: Surface, normals: list[np.ndarray], turn: np.ndarray, patch: np.ndarray, one_sided: np.ndarray
+) -> tuple[np.ndarray, bool]:
     """(m,) which faces are those of a patch that is wound inwards, and whether the inside of a patch can be seen.
 
     one_sided: (k,) the patches that have only one side.
     """
     m, patches = len(patch), int(patch.max()) + 1
-    sign = np.where(turn, -1.0, 1.0)
-    a, b, _ = surface.sides()
-    normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    area = np.bincount(patch, np.sqrt(dots(normal, normal)) / 2, patches)
-    normal = [sign * x / 2 for x in normal]
-    pointing = [np.bincount(patch, x, patches) for x in normal]
+    area = np.bincount(patch, np.sqrt(dots(normals, normals)) / 2, patches)
+    half = np.where(turn, -0.5, 0.5) if turn.any() else 0.5
+    normals = [half * x for x in normals]
+    pointing = [np.bincount(patch, x, patches) for x in normals]
     # A hole is closed by triangles that meet in the middle of all edges of holes, so that they have no part in it.
     boundary = np.flatnonzero(surface.faces_per_edge.take(surface.edge_of_side) != 2)
     corner, where = surface.faces.T.ravel().take(boundary), patch.take(boundary % m)
     holes = np.bincount(where, minlength=patches)
     corners = surface.faces[:, 0]
     volume = np.zeros(patches)
-    for x, along in zip(surface.vertices.T, normal, strict=True):
+    for x, along in zip(surface.vertices.T, normals, strict=True):
         middle = np.bincount(where, x.take(corner), patches) / np.maximum(holes, 1)
         volume += np.bincount(patch, (x.take(corners) - middle.take(patch)) * along, patches) / 3
     points, has_inside = np.sqrt(dots(pointing, pointing)), np.abs(volume) > HOLLOW * area**1.5

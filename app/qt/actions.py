@@ -151,6 +151,16 @@ VIEW = (
     Act("view before", "The view be&fore", lambda w: w.views.back(), ("Ctrl+[",), needs_mesh=True),
     Act("view after", "The view af&ter", lambda w: w.views.on(), ("Ctrl+]",), needs_mesh=True),
     Act(
+        "wireframe",
+        "&Wireframe",
+        lambda w: w.choices.wireframe(w.actions_by_word["wireframe"].isChecked()),
+        ("W",),
+        "The edges of the mesh",
+        needs_mesh=True,
+        is_check=True,
+    ),
+    Act("crease", "&Angle of creases …", lambda w: w.choices.ask_crease(), needs_mesh=True),
+    Act(
         "full screen",
         "F&ull screen for talks",
         lambda w: w.choices.toggle_full_screen(),

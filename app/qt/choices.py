@@ -18,6 +18,9 @@ from .preferences import Preferences, save
 
 COLOUR_FILES = "Colour maps (*.txt *.csv *.json);;All files (*)"
 
+LEAST_CREASE = 0.1
+"""Degrees."""
+
 
 class Choices:
     """Edits of the document and of the page; menus and buttons say what is chosen."""
@@ -42,6 +45,8 @@ class Choices:
         menus.colours.show_choice(style, document.colours)
         menus.show_choice(menus.range, "" if document.range == "own" and has_ends(document) else document.range)
         menus.show_choice(menus.theme, LOOK.choice)
+        menus.show_choice(menus.shading, document.shading.normals)
+        window.actions_by_word["wireframe"].setChecked(document.shading.wireframe)
 
     # ------------------------------------------------------------------ panels
     def add_panel(self) -> None:
@@ -70,6 +75,26 @@ class Choices:
         )
         if chosen:
             self.isolines(count)
+
+    def shading(self, word: str) -> None:
+        """One of NORMALS."""
+        self._shade(normals=word)
+
+    def wireframe(self, is_shown: bool) -> None:
+        self._shade(wireframe=is_shown)
+
+    def ask_crease(self) -> None:
+        shading = self._window.session.document.shading
+        words = "Normals are split where faces meet at more than so many degrees:"
+        crease, chosen = QtWidgets.QInputDialog.getDouble(
+            self._window, "Creases", words, shading.crease, LEAST_CREASE, 180 - LEAST_CREASE, 1
+        )
+        if chosen:
+            self._shade(crease=crease, normals="creased")
+
+    def _shade(self, **changes) -> None:
+        session = self._window.session
+        session.show(replace(session.document, shading=replace(session.document.shading, **changes)))
 
     def style(self, word: str) -> None:
         """One of the drawing's styles, for the panels and for the figures to come.

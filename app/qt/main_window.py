@@ -232,6 +232,8 @@ class MainWindow(QtWidgets.QMainWindow):
         if is_other or is_dressed or document.isolines != before.isolines:
             self.grid.show_isolines(document.isolines.count)
         is_raised = document.height != before.height
+        if document.shading != before.shading and not is_other:
+            self.grid.show_shading()
         if other_panels or is_raised or document.range != before.range:
             for panel in document.panels:
                 if self.session.is_answered(panel.id) or (is_dressed and panel.id in self.session.shown):

@@ -8,7 +8,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 
 from app.document.looks import Shading
-from app.drawing.creases import face_normals, point_normals
+from app.drawing.creases import face_normals, point_normals, to_length_one
 from app.drawing.drawable import drawable
 from bihdist_core import Surface
 from tests.shapes import bumpy, fin, grid, slivers, torus, two_pieces
@@ -19,7 +19,9 @@ SMOOTH = Shading("smooth")
 
 
 def normals_of(surface):
-    return point_normals(face_normals(surface.vertices, surface.faces), surface.faces, len(surface.vertices))
+    normals = face_normals(surface.vertices, surface.faces)
+    to_length_one(normals)
+    return point_normals(normals, surface.faces, len(surface.vertices))
 
 
 @pytest.mark.parametrize("surface", SHAPES, ids=str)

@@ -8,6 +8,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from app.document.looks import AS_IT_IS, Shading, shaded
 from app.drawing.camera import Projection, standard_camera
+from app.drawing.creases import face_normals as normals_of_faces
 from app.drawing.drawable import copies_of, drawable, has_backs, poly_data
 from app.drawing.style import PAPER
 from app.drawing.winding import winding
@@ -157,7 +158,7 @@ def _sense(faces: np.ndarray) -> np.ndarray:
 
 def test_what_has_one_side_only_is_cut_where_it_turns_over_and_has_no_back():
     surface = moebius()
-    wound = winding(surface)
+    wound = winding(surface, normals_of_faces(surface.vertices, surface.faces))
     assert wound.is_turned.sum() == 6  # one row of edges, across
     assert not has_backs(drawable(surface, SMOOTH))
     mesh = drawable(surface, SMOOTH)

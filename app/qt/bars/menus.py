@@ -60,6 +60,17 @@ class Menus:
         self.range.addSeparator()
         self.range.addAction("This panel ends at …", window.choices.ask_end)
         self.range.addAction("As in a session or recipe …", window.choices.ask_ends)
+        self.shading = self._choices(
+            "S&hading",
+            window.choices.shading,
+            [
+                ("auto", "Automatic: creased where there are sharp edges"),
+                ("smooth", "Smooth"),
+                ("creased", "Creased"),
+                ("flat", "Flat: a shade for each face"),
+            ],
+        )
+        self._fill(self.shading, [None, "crease", None, "wireframe"])
         self.theme = self._choices(
             "&Theme", window.choices.theme, [("desktop", "As the desktop"), ("light", "Light"), ("dark", "Dark")]
         )
@@ -86,7 +97,7 @@ class Menus:
         self._fill(
             view, [*self.views.actions(), None, self.up, keys, None, self.isolines, self.colours, self.range, None]
         )
-        self._fill(view, [self.theme, "full screen"])
+        self._fill(view, [self.shading, self.theme, "full screen"])
         edits = ("Duplicate this panel", "Move it back", "Move it on", "Remove it")
         self._fill(panels, ["add panel", None, *(f"panel {word}" for word in edits), None])
         self._fill(panels, ["next panel", "previous panel", "panels and bars"])

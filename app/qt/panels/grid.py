@@ -20,7 +20,9 @@ from ...session.anchors import anchors_on
 from ...session.questions import vertex_at
 from ...session.session import Session
 from ..look.look import LOOK
+from .moving import Moving
 from .panel import DistancePanel
+from .shades import Shades
 
 SIDE_BY_SIDE = 3
 """Panels in a row at most; more stand in rows as even as can be."""
@@ -51,6 +53,9 @@ class PanelGrid(QtWidgets.QWidget):
         super().__init__(parent)
         self._session = session
         self.board = Board()
+        self.moving = Moving(lambda: [panel.view for panel in self.panels], self)
+        self._shades = Shades(self)
+        self._shades.made.connect(self.show_shading)
         self.camera = vtkCamera()
         self.active = -1  # the id of the panel that the keys go to
         self.wheel_factor = 1.0
@@ -146,6 +151,7 @@ class PanelGrid(QtWidgets.QWidget):
         view.released.connect(self.released)
         view.hovered.connect(lambda met: self.hovered.emit(panel.id, met))
         view.moved.connect(self._looked)
+        view.let_go.connect(self.moving.rest)
         view.resized.connect(self._keep_in_view)
         view.menu_wanted.connect(lambda met, where: self.menu_wanted.emit(panel.id, met, where))
         view.centred.connect(lambda met: view.centre(met.position))
@@ -166,6 +172,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.show_style(self._style)
         if opened is not None:
             panel.show_surface(opened)
+            self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = self._upright
         panel.show_isolines(self._session.document.isolines.count)
@@ -184,6 +191,17 @@ class PanelGrid(QtWidgets.QWidget):
         for panel in self.panels:
             panel.show_surface(self._session.opened())
         self._pointed = None
+        self.show_shading()
+
+    def show_shading(self) -> None:
+        """Shade all surfaces as the document says, once the mesh for it has been made."""
+        if self._session.opened() is not None and not self._is_closed:
+            for panel in self.panels:
+                self._shade(panel)
+
+    def _shade(self, panel: DistancePanel) -> None:
+        shading = self._session.document.shading
+        panel.show_shading(shading, self._shades.drawn(self._session.opened().prepared.meshes, shading))
 
     def expect_sources(self, document: Document) -> None:
         """Tell each panel where its field starts."""
@@ -290,6 +308,7 @@ class PanelGrid(QtWidgets.QWidget):
     def _looked(self) -> None:
         """The user has moved the camera."""
         if self._session.surface is not None:
+            self.moving.moved()
             self.redraw()
             self.looked.emit(self.seen)
 

@@ -11,12 +11,13 @@ from bihdist_core import Surface
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import COMPARISON, Zoom
-from ...document.looks import TWENTY_STEPS, Isolines
+from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
 from ...document.quantities import Difference, DistanceFrom
 from ...drawing.bands import band_edges, beyond
 from ...drawing.board import Board
 from ...drawing.drawable import drawable
 from ...drawing.picking import Met, Picker
+from ...drawing.prepared import Drawn
 from ...drawing.relief import relief, rise
 from ...drawing.style import Style
 from ...session.anchors import anchor_value
@@ -69,6 +70,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._opened: Opened | None = None
         self._shape: Surface | None = None
         self._raised: tuple[int, float, float] | None = None  # the field, its top, and the height
+        self._shading, self._drawn = AS_IT_IS, None  # of the surface as it lies
         self._positions = np.empty((0, 3))
         self._source: int | None = None
         self._zooms: tuple[Zoom, ...] = ()
@@ -101,7 +103,7 @@ class DistancePanel(QtWidgets.QWidget):
 
     def rest(self) -> None:
         """Show nothing, and keep nothing of what was shown."""
-        self._opened = self.answer = self._source = self._shape = self._raised = None
+        self._opened = self.answer = self._source = self._shape = self._raised = self._drawn = None
         self._positions = np.empty((0, 3))
         self._anchors, self._zooms = (), ()
         self.view.picker = self.view.source = None
@@ -117,9 +119,23 @@ class DistancePanel(QtWidgets.QWidget):
         self.rest()
         self._opened, self._positions = opened, opened.surface.vertices
         self.view.picker = opened.prepared.picker
-        self.view.scene.show_surface(opened.prepared.mesh, opened.prepared.bounds)
+        self._drawn = opened.prepared.meshes.usual
+        self.view.scene.show_surface(self._drawn.mesh, opened.prepared.bounds)
+        self.view.scene.take_stand_in(self._drawn.stand_in)
         self.view.scene.show_bare()
         self.view.show_empty(False)
+
+    def show_shading(self, shading: Shading, drawn: Drawn) -> None:
+        """Shade the surface so; drawn: the mesh for that, as it lies."""
+        scene, before = self.view.scene, self._drawn
+        scene.show_shading(shading)
+        if self._raised is not None and shading != self._shading:
+            scene.show_normals(drawable(self._shape, shading))
+        elif self._raised is None and drawn is not before:
+            scene.show_normals(drawn.mesh)
+            scene.take_stand_in(drawn.stand_in)
+        self._shading, self._drawn = shading, drawn
+        self.view.redraw()
 
     def expect_source(self, vertex: int | None) -> None:
         """Where the field starts, None for one that starts nowhere; marked once that field is there."""
@@ -254,7 +270,9 @@ class DistancePanel(QtWidgets.QWidget):
         # Of a relief it is made when somebody points at it.
         self.view.picker = LatePicker(surface) if is_relief else prepared.picker
         self._positions = surface.vertices
-        self.view.scene.show_shape(drawable(surface) if is_relief else prepared.mesh, bounds)
+        self._shape = surface
+        self.view.scene.show_shape(drawable(surface, self._shading) if is_relief else self._drawn.mesh, bounds)
+        self.view.scene.take_stand_in(None if is_relief else self._drawn.stand_in)
         self.show_insets(self._zooms)
         self.settle_insets()
 

@@ -50,6 +50,7 @@ class View(QtWidgets.QWidget):
     clicked = QtCore.Signal(object)  # a `Met`, clicked without dragging
     dragged = QtCore.Signal(int)  # the mark of the source, over a vertex
     released = QtCore.Signal()  # the mark
+    let_go = QtCore.Signal()  # the button that has moved the camera
     hovered = QtCore.Signal(object)  # a `Met`, or None beside the surface
     moved = QtCore.Signal()  # the camera
     resized = QtCore.Signal()
@@ -181,8 +182,15 @@ class View(QtWidgets.QWidget):
             self._covered = self._cover()
         return self._picture
 
+    def draw_in_full(self) -> None:
+        """Draw the surface again where something has stood in for it."""
+        if self.scene.is_stand_in:
+            self.scene.show_stand_in(False)
+            self.redraw()
+
     def shot(self) -> np.ndarray:
         """(height, width, 3) uint8: the surface as it is drawn now, without what lies over it."""
+        self.draw_in_full()
         self._drawn()
         return self._drawing[..., :3].copy()
 
@@ -287,6 +295,8 @@ class View(QtWidgets.QWidget):
         if self._dragging:
             if held:
                 self.released.emit()
+            else:
+                self.let_go.emit()
             self.point_again()
         elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
             self.menu_wanted.emit(self.met_at(press), self.mapToGlobal(press))

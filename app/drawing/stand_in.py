@@ -1,0 +1,197 @@
+"""What is drawn instead of a large surface while the camera moves: a point for each cluster of near ones.
+
+Clusters are the cells of a grid, each parted where the surface turns away, so that two sheets in one cell stay two.
+Made in a third of a second for a million vertices, by NumPy, most of which releases the interpreter lock.
+"""
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDataArray
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+from .drawable import copies_of, faces_of, poly_data, with_backs_of
+
+CLUSTERS = 40_000
+"""About how many there are."""
+
+WORTHWHILE = 2
+"""Surfaces with fewer than so many times as many vertices are drawn themselves."""
+
+CELLS_PER_PATCH = 1.5
+"""Cells of a grid that a surface passes through, by how many of their sides would cover it."""
+
+APART, APART_AT_CREASES = 0.0, 0.7
+"""The cosine between normals of one cell from which on they belong to one cluster."""
+
+MOST_CELLS = 1 << 20
+"""Along a side of the grid, so that cells have numbers of 64 bits."""
+
+
+class StandIn:
+    """mesh: the clusters (k,) as points with normals, and the faces whose corners lie in three of them."""
+
+    def __init__(self, mesh: vtkPolyData, of_point: np.ndarray, count: int) -> None:
+        self.mesh = mesh
+        self._of_point, self._count = of_point, count
+
+    def averaged(self, values: np.ndarray, undefined: float) -> np.ndarray:
+        """(k,) float32 means over each cluster of values (n,) of all points; `undefined` where all of its are."""
+        known = values != undefined
+        if known.all():
+            points, known_values = self._of_point, values
+        else:
+            points, known_values = self._of_point[known], values[known]
+        # Points of no face are in a cluster of their own behind the others.
+        count = np.bincount(points, minlength=self._count + 1)[:-1]
+        total = np.bincount(points, known_values, self._count + 1)[:-1]
+        return np.where(count > 0, total / np.maximum(count, 1), undefined).astype(np.float32)
+
+
+def stand_in(mesh: vtkPolyData, clusters: int = CLUSTERS) -> StandIn | None:
+    """For a mesh made by `drawable`; None if it is too small, or has no area.  On any thread."""
+    x, faces = vtk_to_numpy(mesh.GetPoints().GetData()), faces_of(mesh)
+    used = np.zeros(len(x), bool)
+    used[faces.ravel()] = True
+    shown = np.flatnonzero(used)
+    if len(shown) < WORTHWHILE * clusters:
+        return None
+    normals = vtk_to_numpy(mesh.GetPointData().GetNormals())
+    coordinates = [np.ascontiguousarray(each) for each in x.T]
+    least = APART_AT_CREASES if len(copies_of(mesh)) else APART
+    cluster = _clusters([each[shown] for each in coordinates], normals[shown], _side(x, faces, clusters), least)
+    count = int(cluster.max()) + 1
+    of_point = np.full(len(x), count)
+    of_point[shown] = cluster
+    size = np.bincount(cluster, minlength=count)
+    centres = np.stack([np.bincount(cluster, each[shown], count) / size for each in coordinates], 1)
+    means = [np.bincount(cluster, np.ascontiguousarray(each)[shown], count) for each in normals.T]
+    means = np.stack(means, 1)
+    means /= np.maximum(np.linalg.norm(means, axis=1, keepdims=True), 1e-30)
+    kept = _faces(of_point, faces, centres, means)
+    if not len(kept):
+        return None
+    made = poly_data(centres, kept, means.astype(np.float32))
+    with_backs_of(made, mesh)
+    return StandIn(made, of_point, count)
+
+
+def _side(x: np.ndarray, faces: np.ndarray, clusters: int) -> float:
+    """Of a cell, so that the surface passes through about as many as there are to be clusters."""
+    # Some of the faces tell the area well enough.
+    some = faces[:: max(1, len(faces) // 100_000)]
+    a, b, c = (x[some[:, k]] for k in range(3))
+    area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2 * len(faces) / len(some)
+    return float(np.sqrt(CELLS_PER_PATCH * area / clusters))
+
+
+def _clusters(x: list[np.ndarray], normals: np.ndarray, side: float, least: float) -> np.ndarray:
+    """(n,) the cluster of each point, from 0; least: the cosine to its cell's first normal that parts it from that."""
+    lows = [float(each.min()) for each in x]
+    longest = max(float(each.max()) - low for each, low in zip(x, lows, strict=True))
+    side = max(side, longest / (MOST_CELLS - 1), np.finfo(float).tiny)
+    key = np.zeros(len(x[0]), np.int64)
+    for each, low in zip(x, lows, strict=True):
+        key *= MOST_CELLS
+        key += ((each - low) / side).astype(np.int64)
+    order = key.argsort()
+    sorted_key = key[order]
+    begins = np.append(True, sorted_key[1:] != sorted_key[:-1])
+    cell = np.cumsum(begins.astype(np.int64)) - 1
+    first = order[np.flatnonzero(begins)]
+    n = normals[order]
+    along = np.einsum("ij,ij->i", n, normals[first][cell])
+    # Numbers of halves of cells, and then only of those that are there.
+    half = 2 * cell + (along < least)
+    is_there = np.zeros(2 * len(first), np.int64)
+    is_there[half] = 1
+    number = np.cumsum(is_there) - 1
+    found = np.empty(len(key), np.int64)
+    found[order] = number[half]
+    return found
+
+
+def _faces(of_point: np.ndarray, faces: np.ndarray, centres: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """(m, 3) those with corners in three clusters, each once; not those that clustering has turned over."""
+    a, b, c = (of_point.take(faces[:, k]) for k in range(3))
+    whole = np.flatnonzero((a != b) & (b != c) & (c != a))
+    found = np.stack([a[whole], b[whole], c[whole]], 1)
+    p, q, r = (centres[found[:, k]] for k in range(3))
+    is_ahead = np.einsum("ij,ij->i", np.cross(q - p, r - p), normals[found].sum(axis=1)) > 0
+    found = found[is_ahead]
+    ordered = np.sort(found, axis=1)
+    count = len(centres)
+    by_corners = ((ordered[:, 0] * count + ordered[:, 1]) * count + ordered[:, 2]).argsort(kind="stable")
+    ordered = ordered[by_corners]
+    is_first = np.ones(len(ordered), bool)
+    is_first[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    return np.ascontiguousarray(found[by_corners[is_first]])
+
+
+class StandInActor:
+    """Draws a stand-in as another actor draws its surface: with its properties and shaders; hidden at first."""
+
+    def __init__(self, full: vtkActor) -> None:
+        self._full = full
+        self._stand_in: StandIn | None = None
+        self._values = np.empty(0, np.float32)
+        self._array = numpy_to_vtk(self._values)
+        self._averaged: tuple[int, int] | None = None  # of which array, and when that was last changed
+        self._mapper = vtkPolyDataMapper()
+        self.actor = vtkActor()
+        self.actor.SetMapper(self._mapper)
+        self.actor.SetProperty(full.GetProperty())
+        self.actor.SetShaderProperty(full.GetShaderProperty())
+        self.actor.VisibilityOff()
+
+    def take(self, stand_in: StandIn | None) -> None:
+        """Stand in for another surface; None if there is nothing that could."""
+        self.show(False)
+        self._stand_in, self._averaged = stand_in, None
+        if stand_in is None:
+            self._mapper.SetInputData(vtkPolyData())
+            return
+        own = vtkPolyData()
+        own.ShallowCopy(stand_in.mesh)
+        self._values = np.empty(own.GetNumberOfPoints(), np.float32)
+        self._array = numpy_to_vtk(self._values)
+        own.GetPointData().AddArray(self._array)
+        self._mapper.SetInputData(own)
+
+    @property
+    def can_stand_in(self) -> bool:
+        return self._stand_in is not None
+
+    def show(self, is_shown: bool, values: vtkDataArray | None = None, undefined: float = 0.0) -> None:
+        """Let this be drawn instead of the other actor, or that again.
+
+        values: (n,) of all points of the surface, under the name that they have there.
+        """
+        is_shown = is_shown and self._stand_in is not None and values is not None
+        if is_shown:
+            self._follow(values, undefined)
+        if is_shown != bool(self.actor.GetVisibility()):
+            self.actor.SetVisibility(is_shown)
+            self._full.SetVisibility(not is_shown)
+
+    def _follow(self, values: vtkDataArray, undefined: float) -> None:
+        """Show the values of now, in the colours of now."""
+        full = self._full.GetMapper()
+        if self._mapper.GetLookupTable() is not full.GetLookupTable():
+            self._mapper.SetLookupTable(full.GetLookupTable())
+        state = (id(values), values.GetMTime())
+        if state == self._averaged:
+            return
+        if self._averaged is None:
+            name = values.GetName()
+            self._array.SetName(name)
+            self._mapper.UseLookupTableScalarRangeOn()
+            self._mapper.SetScalarModeToUsePointFieldData()
+            self._mapper.SelectColorArray(name)
+            self._mapper.InterpolateScalarsBeforeMappingOn()
+            self._mapper.MapDataArrayToVertexAttribute(
+                "isolineAttribute", name, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
+            )
+        self._averaged = state
+        self._values[:] = self._stand_in.averaged(vtk_to_numpy(values), undefined)
+        self._array.Modified()

@@ -1,0 +1,44 @@
+"""Meshes of the shading that is wanted: made at once; of a large surface on a thread, with the old one until then."""
+
+from contextlib import suppress
+from threading import Thread
+
+from qtpy import QtCore
+
+from ...document.looks import Shading
+from ...drawing.prepared import Drawn, Meshes
+
+LARGE = 100_000
+"""Faces from which on it takes a tenth of a second and more."""
+
+
+class Shades(QtCore.QObject):
+    """See the module."""
+
+    made = QtCore.Signal()  # what was asked for last
+
+    def __init__(self, parent: QtCore.QObject | None = None) -> None:
+        super().__init__(parent)
+        self._making: tuple[Meshes, Shading] | None = None
+        self._last: tuple[Meshes, Drawn] | None = None
+
+    def drawn(self, meshes: Meshes, shading: Shading) -> Drawn:
+        """The mesh for a shading, or for now another one of the same surface."""
+        found = meshes.ready(shading)
+        if found is None and len(meshes.surface.faces) < LARGE:
+            found = meshes.make(shading)
+        if found is not None:
+            self._making, self._last = None, (meshes, found)
+            return found
+        if self._making != (meshes, shading):
+            self._making = (meshes, shading)
+            Thread(target=self._make, args=self._making, name="shading", daemon=True).start()
+        if self._last is not None and self._last[0] is meshes:
+            return self._last[1]
+        return meshes.usual
+
+    def _make(self, meshes: Meshes, shading: Shading) -> None:
+        meshes.make(shading)
+        if self._making == (meshes, shading):
+            with suppress(RuntimeError):  # the window may have been closed meanwhile
+                self.made.emit()

@@ -1,0 +1,221 @@
+"""Shading in the window, and what stands in for a large surface while the camera moves."""
+
+import numpy as np
+import pytest
+from qtpy import QtCore, QtGui, QtWidgets
+from qtpy.QtTest import QTest
+
+import app.drawing.stand_in
+import app.qt.panels.shades
+from app.document.looks import AS_IT_IS, Shading
+from bihdist_core.distances.kinds import Spec
+from tests.app.test_shading import box
+from tests.shapes import bumpy
+
+GEODESIC = Spec.of("geodesic", method="heat")
+
+
+@pytest.fixture
+def opened(screen, mesh_file):
+    def make(surface):
+        s = screen((GEODESIC, GEODESIC))
+        s.open(mesh_file(surface), 5)
+        return s
+
+    return make
+
+
+def differ(one, other):
+    return [float(np.abs(a.astype(int) - b).mean()) for a, b in zip(one, other, strict=True)]
+
+
+# ---------------------------------------------------------------------- shading
+def test_menus_shade_all_panels_and_undo_takes_it_back(opened):
+    s = opened(box(6))
+    window = s.window
+    usual = s.pictures()
+    choices = {action.data(): action for action in window.menus.shading.actions() if action.data()}
+    assert choices["auto"].isChecked()
+    pictures = {}
+    for word in ("smooth", "flat", "creased"):
+        choices[word].trigger()
+        s.settle(0.05)
+        assert s.document.shading == Shading(word)
+        assert choices[word].isChecked()
+        assert not choices["auto"].isChecked()
+        pictures[word] = s.pictures()
+    # A box has creases: what is chosen by itself, and what each face's own normal gives.
+    assert max(differ(pictures["creased"], usual)) == 0
+    assert max(differ(pictures["flat"], usual)) < 1
+    assert min(differ(pictures["smooth"], usual)) > 2
+    window.actions_by_word["wireframe"].trigger()
+    assert s.document.shading == Shading("creased", wireframe=True)
+    s.settle(0.05)
+    assert min(differ(s.pictures(), usual)) > 0.5
+    for _ in range(4):
+        window.session.undo()
+    s.settle(0.05)
+    assert s.document.shading == AS_IT_IS
+    assert max(differ(s.pictures(), usual)) == 0
+    assert not window.actions_by_word["wireframe"].isChecked()
+
+
+def test_the_key_w_shows_the_edges_in_new_panels_and_other_colours_too(opened):
+    s = opened(bumpy(300))
+    without, action = s.pictures(), s.window.actions_by_word["wireframe"]
+    assert [key.toString() for key in action.shortcuts()] == ["W"]
+    action.trigger()
+    s.settle(0.1)
+    assert s.document.shading.wireframe
+    assert min(differ(s.pictures(), without)) > 0.5
+    s.window.choices.add_panel()
+    s.until(lambda: s.session.is_complete)
+    s.window.choices.style("uniform")
+    s.settle(0.1)
+    wired = s.pictures()
+    s.window.actions_by_word["wireframe"].trigger()
+    s.settle(0.1)
+    assert len(wired) == 3
+    assert min(differ(s.pictures(), wired)) > 0.3
+
+
+def test_an_angle_is_asked_for_and_makes_it_creased(opened, monkeypatch):
+    s = opened(bumpy(300))
+    smooth = s.pictures()
+    monkeypatch.setattr(QtWidgets.QInputDialog, "getDouble", lambda *_: (12.5, True))
+    s.window.actions_by_word["crease"].trigger()
+    s.settle(0.1)
+    assert s.document.shading == Shading("creased", 12.5)
+    assert min(differ(s.pictures(), smooth)) > 0.3
+
+
+def test_a_flat_surface_raised_is_shaded_as_well(opened):
+    from dataclasses import replace
+
+    from tests.shapes import grid
+
+    s = opened(grid(8, 8))
+    s.session.show(replace(s.document, height=0.4))
+    s.settle(0.1)
+    before = s.pictures()
+    s.window.choices.shading("flat")
+    s.settle(0.1)
+    flat = s.pictures()
+    assert min(differ(flat, before)) > 0.1
+    s.window.choices.shading("auto")
+    s.settle(0.1)
+    assert max(differ(s.pictures(), before)) == 0
+
+
+def test_large_surfaces_are_split_on_a_thread_of_its_own(opened, monkeypatch):
+    s = opened(bumpy(2000))
+    smooth = s.pictures()
+    monkeypatch.setattr(app.qt.panels.shades, "LARGE", 10)
+    s.window.choices.shading("flat")  # needs no other mesh
+    s.window.choices.shading("creased")
+    crease = Shading("creased", 8.0)
+    from dataclasses import replace
+
+    s.session.show(replace(s.document, shading=crease))
+    meshes = s.session.opened().prepared.meshes
+    s.until(lambda: meshes.ready(crease) is not None)
+    s.settle(0.2)
+    assert min(differ(s.pictures(), smooth)) > 0.1
+    drawn = meshes.ready(crease)
+    assert all(panel._drawn is drawn for panel in s.panels)
+
+
+# ---------------------------------------------------------------------- moving
+@pytest.fixture
+def large(opened, monkeypatch):
+    """For which something stands in, and that is slow to draw."""
+    monkeypatch.setattr(app.drawing.stand_in.stand_in, "__defaults__", (400,))
+    s = opened(bumpy(4000))
+    s.window.grid.moving.fluent = 0.0
+    s.settle(0.1)
+    return s
+
+
+def standing(s):
+    return [panel.view.scene.is_stand_in for panel in s.panels]
+
+
+def drag(s, view, steps=3, let_go=True):
+    middle = view.rect().center()
+    QTest.mousePress(view, QtCore.Qt.MouseButton.LeftButton, pos=middle)
+    for step in range(1, steps + 1):
+        place = QtCore.QPointF(middle + QtCore.QPoint(30 * step, 5))
+        button, none = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.KeyboardModifier.NoModifier
+        move = QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, place, button, button, none)
+        s.application.sendEvent(view, move)
+    if let_go:
+        QTest.mouseRelease(view, QtCore.Qt.MouseButton.LeftButton, pos=place.toPoint())
+
+
+def test_what_stands_in_is_drawn_while_the_camera_moves_and_never_at_rest(large):
+    s, view = large, large.panels[0].view
+    drawn = []
+    board = s.window.grid.board
+    picture = board.picture
+    board.picture = lambda scene, size: drawn.append(scene.is_stand_in) or picture(scene, size)
+    drag(s, view, let_go=False)
+    assert standing(s) == [True, True]
+    for panel in s.panels:
+        panel.view.repaint()
+    assert drawn
+    assert all(drawn)
+    drawn.clear()
+    QTest.mouseRelease(view, QtCore.Qt.MouseButton.LeftButton, pos=view.rect().center())
+    assert standing(s) == [False, False]  # at once
+    s.settle(0.1)
+    assert drawn
+    assert not any(drawn)
+    full = s.pictures()
+    s.window.grid.redraw()
+    assert max(differ(s.pictures(), full)) == 0
+
+
+def test_a_camera_that_stops_without_being_let_go_is_at_rest_soon(large):
+    s, view = large, large.panels[0].view
+    view.zoom(1.1)
+    assert standing(s) == [True, True]
+    s.until(lambda: not any(standing(s)), 5)
+
+
+def test_screenshots_and_picks_are_of_the_surface_itself(large, tmp_path):
+    s, view = large, large.panels[0].view
+    s.settle(0.1)
+    place = s.point_of(s.panels[0], s.source)
+    met = view.met_at(place)
+    view.turn_by(1, 0)
+    view.turn_by(-1, 0)
+    assert any(standing(s))
+    again = view.met_at(place)
+    assert (again.face, again.vertex) == (met.face, met.vertex)
+    s.window.files.save_screenshot(str(tmp_path / "window.png"))
+    assert not any(standing(s))
+    view.turn_by(1, 0)
+    assert view.shot().any()
+    assert not view.scene.is_stand_in
+
+
+def test_quick_drawing_needs_no_stand_in_and_standard_views_neither(large):
+    s, view = large, large.panels[0].view
+    s.window.reset_view("front")
+    assert standing(s) == [False, False]
+    s.window.grid.moving.fluent = 1e9
+    view.turn_by(1, 0)
+    assert standing(s) == [False, False]
+
+
+def test_a_change_of_the_shading_while_moving_is_seen_at_rest(large):
+    s, view = large, large.panels[0].view
+    view.turn_by(1, 0)
+    s.window.choices.shading("creased")
+    s.until(lambda: not any(standing(s)), 5)
+    s.settle(0.3)
+    before = s.pictures()
+    s.window.grid.redraw()
+    assert max(differ(s.pictures(), before)) == 0
+    view.turn_by(1, 0)
+    assert standing(s) == [True, True]
