@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..drawing.corners import Rectangle, joins
+from ..drawing.style import Style
 from .boxes import Box, Words
 from .shots import Shot
 
@@ -27,6 +28,9 @@ RIM = 0.075
 
 OPEN = 0.46
 """The same of the hole of a ring."""
+
+GROUND = 0.8
+"""How much of what is under words their ground covers."""
 
 
 def draw_marks(
@@ -57,6 +61,7 @@ def draw_marks(
             words = _beside(page, shot, mark.text, (x, y), [*insets, *written])
             if words:
                 written.append(_box_of(page, words))
+                _draw_ground(axes, written[-1], style, order + 1)
                 write(words, order + 1)
 
 
@@ -105,6 +110,15 @@ def _beside(page: Composition, shot: Shot, text: str, place: tuple[float, float]
         ):
             return words
     return None
+
+
+def _draw_ground(axes: Axes, box: Box, style: Style, order: int) -> None:
+    """Under words that may stand on any of a map's colours."""
+    from matplotlib.patches import Rectangle
+
+    ground = Rectangle((box.x - 1, box.y), box.width + 2, box.height, linewidth=0, zorder=order)
+    ground.set_facecolor((*style.background, GROUND))
+    axes.add_artist(ground)
 
 
 def _box_of(page: Composition, words: Words) -> Box:
