@@ -31,12 +31,10 @@ _TOWARDS_THE_EYE = """//VTK::Normal::Impl
 # VTK's own geometry shader has the sides of the face as lines in the picture.  From their directions and the distances
 # to them follow the heights of the face: a closed mesh far away is not to become a blot.
 _EDGES = f"""
-  vec3 fromSide, sines;
-  for (int k = 0; k < 3; k++) {{
-    fromSide[k] = max(dot(edgeEqn[k].xy, gl_FragCoord.xy) + edgeEqn[k].w, 0.0);
-    vec2 one = edgeEqn[(k + 1) % 3].xy, other = edgeEqn[(k + 2) % 3].xy;
-    sines[k] = max(abs(one.x * other.y - one.y * other.x), 1e-4);
-  }}
+  vec3 along = vec3(edgeEqn[0].x, edgeEqn[1].x, edgeEqn[2].x), up = vec3(edgeEqn[0].y, edgeEqn[1].y, edgeEqn[2].y);
+  vec3 offset = vec3(edgeEqn[0].w, edgeEqn[1].w, edgeEqn[2].w);
+  vec3 fromSide = max(along * gl_FragCoord.x + up * gl_FragCoord.y + offset, 0.0);
+  vec3 sines = max(abs(along.yzx * up.zxy - up.yzx * along.zxy), 1e-4);
   float across = dot(fromSide, sines) / (sines.x * sines.y * sines.z);
   float least = across * min(min(sines.y * sines.z, sines.z * sines.x), sines.x * sines.y) / edgeScale;
   float nearest = min(min(fromSide.x, fromSide.y), fromSide.z);

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from datetime import date
 
-from . import drag_row, exact_rows, growth_rows, machine, other_rows, peers, window_rows
+from . import drag_row, exact_rows, growth_rows, machine, moving_row, other_rows, peers, window_rows
 from .size import FULL, QUICK, Size
 from .table import Line, as_json, render
 
@@ -31,6 +31,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     13: window_rows.drawing,
     14: window_rows.stalls,
     15: drag_row.drag,
+    16: moving_row.moving,
 }
 
 
