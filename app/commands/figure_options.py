@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..document.looks import PROJECTIONS
 from .colour_options import add_colours, add_range, with_colours, with_range
+from .isoline_options import add_isolines, with_isolines
 from .options import PANELS, add_areas, add_distance, add_up, check_parameters, given_parameters, quantities
 from .terminal import tell
 
@@ -31,7 +32,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     parser.add_argument(
         "--source", type=int, metavar="V", action="append", help="vertex id; repeat for a row of panels each"
     )
-    parser.add_argument("--isolines", type=int, metavar="N", help="number of steps (default: 20)")
+    add_isolines(parser)
     parser.add_argument(
         "--view",
         metavar="NAME",
@@ -49,7 +50,11 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         "--columns", type=int, metavar="N", help="panels side by side (default: all, or one row a source)"
     )
     parser.add_argument(
-        "--zoom", type=_zoom, action="append", metavar="V[,FACTOR]", help="enlarge the place of a vertex"
+        "--zoom",
+        type=_zoom,
+        action="append",
+        metavar="V[,FACTOR[,N]]",
+        help="enlarge the place of a vertex, perhaps with N steps of isolines",
     )
     parser.add_argument("--anchors", type=_anchors, metavar="V[=VALUE],…", help="mark vertices, coloured by a value")
     parser.add_argument(
@@ -120,15 +125,15 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     if options.zoom is not None:
         from ..document.document import Zoom
 
-        document = replace(document, zooms=tuple(Zoom(*zoom) for zoom in options.zoom))
+        zooms = tuple(Zoom(vertex, factor, isolines=steps) for vertex, factor, steps in options.zoom)
+        document = replace(document, zooms=zooms)
     if options.up is not None and not views:
         from ..document.edits import stand
 
         # A camera that comes with a recipe would be askew.
         document = stand(document, options.up)
     document = replace(document, **_given(options, "areas", "height", "up", "projection", "axes"))
-    if options.isolines is not None:
-        document = replace(document, isolines=replace(document.isolines, count=options.isolines))
+    document = with_isolines(document, options)
     shading = shaded(document.shading, options.shading, options.crease, options.wireframe)
     document = replace(document, shading=shading)
     document = with_range(with_colours(document, options), options, tell)
@@ -174,7 +179,8 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
             what = "--distance" if words else f"{len(options.source)} times --source"
             raise ParameterError(f"{what} makes the panels of one mesh, and this recipe has {len(document.surfaces)}.")
         surface, sources = document.surfaces[0].name, tuple(options.source or document.sources)
-        kept = [point for point in document.points if point.name in {anchor.point for anchor in document.anchors}]
+        used = {*(anchor.point for anchor in document.anchors), *document.isolines.through}
+        kept = [point for point in document.points if point.name in used]
         names = free_names("source", len(sources), [point.name for point in kept])
         points = [Point(name, at, surface) for name, at in zip(names, sources, strict=True)]
         panels = [Panel(k, from_point(each, name), surface) for k, (name, each) in enumerate(product(names, shows))]
@@ -215,7 +221,7 @@ def _with_anchors(document: "Document", anchors: tuple[tuple[int, float | None],
 
     if len(document.surfaces) != 1:
         raise ParameterError(f"--anchors are on one mesh, and this recipe has {len(document.surfaces)}.")
-    shown = {name for panel in document.panels for name in panel.shows.points}
+    shown = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
     gone = {anchor.point for anchor in document.anchors} - shown
     kept = [point for point in document.points if point.name not in gone]
     names = free_names("anchor", len(anchors), [point.name for point in kept])
@@ -230,12 +236,17 @@ def _camera(text: str) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(numbers[a:b]) for a, b in ((0, 3), (3, 6), (6, 9), (9, 11)))
 
 
-def _zoom(text: str) -> tuple[int, float]:
-    vertex, _, factor = text.partition(",")
+def _zoom(text: str) -> tuple[int, float, int | None]:
+    words = text.split(",")
     try:
-        return int(vertex), float(factor) if factor else 3.0
+        vertex, factor, steps, *others = *words, *[""] * (3 - len(words))
+        if others:
+            raise ValueError
+        return int(vertex), float(factor or 3), int(steps) if steps else None
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a vertex id, or an id and a factor such as 12,3") from None
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a vertex id, or an id and a factor such as 12,3, or these and a number of steps: 12,3,60"
+        ) from None
 
 
 def _anchors(text: str) -> tuple[tuple[int, float | None], ...]:

@@ -152,6 +152,11 @@ class Zoom:
             Isolines(whole_number(self.isolines, "A number of steps"))
 
 
+def isolines_in(zoom: Zoom, isolines: Isolines) -> Isolines:
+    """Those that an inset of a panel with these isolines has."""
+    return isolines if zoom.isolines is None else replace(isolines, count=zoom.isolines, spacing=None, values=())
+
+
 @dataclass(frozen=True)
 class Anchor:
     """A marked point, filled with the colour of a value; of the field's own there if it is None."""

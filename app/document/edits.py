@@ -34,6 +34,9 @@ def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> 
         points=tuple(point for point in points if point.name in shown or point.surface != mesh.name),
         panels=tuple(replace(p, maximum=None) if p.surface == mesh.name else p for p in document.panels),
         anchors=tuple(anchor for anchor in document.anchors if anchor.point not in gone),
+        isolines=replace(
+            document.isolines, through=tuple(name for name in document.isolines.through if name not in gone)
+        ),
         zooms=(),
         height=0.0,
         camera="home",

@@ -165,10 +165,14 @@ def _zooms(recipe: Recipe) -> Said:
     zooms = recipe.document.zooms
     if not zooms:
         return NOTHING
-    if any(zoom.corner != "auto" or zoom.isolines is not None for zoom in zooms):
-        raise _Unsaid("An inset has a corner or isolines of its own.")
-    options = tuple(("--zoom", f"{zoom.vertex},{_number(zoom.factor)}") for zoom in zooms)
-    return Said(options, {"zooms": [(zoom.vertex, zoom.factor) for zoom in zooms]})
+    if any(zoom.corner != "auto" for zoom in zooms):
+        raise _Unsaid("An inset has a corner of its own.")
+    steps = [() if zoom.isolines is None else (zoom.isolines,) for zoom in zooms]
+    options = tuple(
+        ("--zoom", ",".join([f"{zoom.vertex}", _number(zoom.factor), *map(str, n)]))
+        for zoom, n in zip(zooms, steps, strict=True)
+    )
+    return Said(options, {"zooms": [(zoom.vertex, zoom.factor, *n) for zoom, n in zip(zooms, steps, strict=True)]})
 
 
 def _anchors(recipe: Recipe) -> Said:
@@ -185,9 +189,38 @@ def _anchors(recipe: Recipe) -> Said:
 # ---------------------------------------------------------------------- how it looks
 def _isolines(recipe: Recipe) -> Said:
     isolines = recipe.document.isolines
-    if isolines.spacing is not None or isolines.values or isolines.bold or isolines.labels or isolines.through:
-        raise _Unsaid("Isolines are not so many equal steps.")
-    return NOTHING if isolines == USUAL.isolines else _option("--isolines", "isolines", isolines.count)
+    options: list[tuple[str, str | None]] = []
+    arguments: dict[str, Any] = {}
+    if isolines.spacing is not None:
+        options.append(("--isoline-spacing", _number(isolines.spacing)))
+        arguments["isoline_spacing"] = isolines.spacing
+    elif isolines.values:
+        options.append(("--isoline-values", ",".join(map(_number, isolines.values))))
+        arguments["isoline_values"] = list(isolines.values)
+    elif isolines.count != USUAL.isolines.count:
+        options.append(("--isolines", _number(isolines.count)))
+        arguments["isolines"] = isolines.count
+    vertices = [_vertex(recipe.document.point(name)) for name in isolines.through]
+    if None in vertices or not _has_own_points(recipe.document):
+        raise _Unsaid("An isoline passes through a point that is more than that.")
+    if vertices:
+        options += [("--isoline-through", str(vertex)) for vertex in vertices]
+        arguments["isoline_through"] = vertices
+    if isolines.bold:
+        options.append(("--bold-isolines", str(isolines.bold)))
+        arguments["bold_isolines"] = isolines.bold
+    if isolines.labels:
+        options.append(("--isoline-labels", None))
+        arguments["isoline_labels"] = True
+    return Said(tuple(options), arguments)
+
+
+def _has_own_points(document: Document) -> bool:
+    """Whether the points that isolines pass through are nothing else, and on the first surface."""
+    used = {name for panel in document.panels for name in panel.shows.points}
+    used |= {anchor.point for anchor in document.anchors}
+    first = document.surfaces[0].name
+    return all(name not in used and document.point(name).surface == first for name in document.isolines.through)
 
 
 def _range(recipe: Recipe) -> Said:

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..document.looks import MOST_ISOLINES, Isolines
-from .field_actor import half_steps
+from ..document.looks import Isolines
+from .levels import levels
 from .style import Colour, Style
 
 BAR_STEPS = 256
@@ -15,22 +15,9 @@ def band_edges(isolines: Isolines, maximum: float, signed: bool = False) -> np.n
 
     Empty where there are none, or more than can be told apart.
     """
-    low = -1.0 if signed else 0.0
     if not maximum > 0:
         return np.empty(0)
-    if isolines.values:
-        shares = np.array(isolines.values) / maximum
-    elif isolines.spacing is None and not isolines.count:
-        return np.empty(0)
-    else:
-        steps = half_steps(isolines.count) if signed else isolines.count
-        step = 1 / steps if isolines.spacing is None else isolines.spacing / maximum
-        if 1 / step > MOST_ISOLINES:
-            return np.empty(0)
-        # A hair within the end of the bar, by rounding, begins no band.
-        last = int(np.ceil(1 / step - 1e-6)) - 1
-        shares = step * np.arange(-last if signed else 1, last + 1)
-    return shares[(shares > low) & (shares < 1)]
+    return levels(isolines, maximum, maximum, signed).values / maximum
 
 
 def bar_parts(style: Style, edges: np.ndarray, signed: bool = False) -> list[tuple[float, Colour]]:

@@ -1,7 +1,7 @@
 """A surface coloured by a field, with isolines painted by the fragment shader.
 
 The field crosses the surface as a vertex attribute, and a fragment is painted where it is within half a line's width
-of a multiple of the step, measured in pixels.  Lines so drawn have the same width everywhere and cost no geometry.
+of a value that has a line, measured in pixels.  Lines so drawn have the same width everywhere and cost no geometry.
 """
 
 import numpy as np
@@ -10,9 +10,10 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
-from ..document.looks import Shading
+from ..document.looks import MOST_ISOLINES, TWENTY_STEPS, Isolines, Shading
 from .drawable import copies_of, has_backs
 from .face_look import pass_on, put_face_look
+from .levels import BOLD, Levels, levels
 from .stand_in import StandInActor
 from .style import Style
 
@@ -24,42 +25,48 @@ FINE = 8192
 """Colours of a table with bands, so that each ends where its isoline is."""
 
 _LIT = "//VTK::Light::Impl"
-BOLD = 2.0
-"""By how much the line at 0 of a signed field is wider than the others."""
+MOST_LINES = 2 * MOST_ISOLINES + 64
+"""That the shader has room for: on both sides of 0, and through points."""
 
+CASING = 1.2
+"""Pixels, at scale 1, of the dark rim of a line through a point."""
+
+# Values are in order.  Of the two lines nearest in value, one below and one above, the wider is painted last.
 _PAINT = """//VTK::Light::Impl
-  float steps = isolineValue / isolineStep;
-  float perPixel = length(vec2(dFdx(steps), dFdy(steps)));
-  float fromLine = abs(fract(steps - 0.5) - 0.5) / max(perPixel, 1e-12);
-  float halfWidth = isolineHalfWidth * (abs(floor(steps + 0.5) - isolineBold) < 0.5 ? BOLD : 1.0);
-  float paint = 1.0 - smoothstep(halfWidth - 0.6, halfWidth + 0.6, fromLine);
-  paint *= 1.0 - smoothstep(0.25, 0.5, perPixel);  // fade where lines would merge
-  paint *= step(1e-5, perPixel);                   // none where all is of one value
-  paint *= step(0.5, steps);                       // none at the source itself, none where undefined
-  paint *= step(steps, isolineLast + 0.5);         // none at the farthest point itself
-  paint *= isBack ? 0.0 : 1.0;
-  float isolineShare = abs(2.0 * floor(steps + 0.5) * isolineStep - 1.0);
-  fragOutput0.rgb = mix(fragOutput0.rgb, isolineShare > isolineTurn ? isolineFarColour : isolineColour, paint);
+  float perPixel = length(vec2(dFdx(isolineValue), dFdy(isolineValue)));
+  int above = 0, end = isolineCount;
+  while (above < end) {
+    int middle = (above + end) / 2;
+    if (isolineAt[middle] < isolineValue) above = middle + 1;
+    else end = middle;
+  }
+  // None where all is of one value, where the whole range passes in a few pixels, or where it is undefined.
+  float drawn = perPixel > 1e-8 && isolineValue > -900.0 && !isBack ? 1.0 - smoothstep(0.2, 0.4, perPixel) : 0.0;
+  for (int pass = 0; pass < 2; pass++) {
+    for (int k = max(above - 1, 0); k < min(above + 1, isolineCount); k++) {
+      bool isThrough = isolineKind[k] > 1.5;
+      if (isThrough != (pass == 1)) continue;
+      float halfWidth = isolineHalfWidth * (isolineKind[k] > 0.5 ? BOLD : 1.0);
+      float fromLine = abs(isolineValue - isolineAt[k]) / max(perPixel, 1e-12);
+      float paint = drawn * (1.0 - smoothstep(halfWidth - 0.6, halfWidth + 0.6, fromLine));
+      if (isThrough) {
+        float rim = halfWidth + isolineCasing;
+        float under = drawn * (1.0 - smoothstep(rim - 0.6, rim + 0.6, fromLine));
+        fragOutput0.rgb = mix(fragOutput0.rgb, isolineCasingColour, under);
+        fragOutput0.rgb = mix(fragOutput0.rgb, isolineThroughColour, paint);
+        continue;
+      }
+      // Lines fade where they would merge; bold ones stay longer.
+      float room = 1e9;
+      if (k > 0) room = min(room, isolineAt[k] - isolineAt[k - 1]);
+      if (k + 1 < isolineCount) room = min(room, isolineAt[k + 1] - isolineAt[k]);
+      float least = isolineKind[k] > 0.5 ? 0.4 : 2.0;
+      paint *= smoothstep(least, 2.0 * least, room / max(perPixel, 1e-12));
+      float share = abs(2.0 * isolineAt[k] - 1.0);
+      fragOutput0.rgb = mix(fragOutput0.rgb, share > isolineTurn ? isolineFarColour : isolineColour, paint);
+    }
+  }
 """.replace("BOLD", str(BOLD))
-
-
-def isoline_values(field: np.ndarray, maximum: float, count: int, signed: bool = False) -> np.ndarray:
-    """(k,) the values that get a line: multiples of maximum / count, above 0 and below the field's own maximum.
-
-    signed: of count steps from -maximum to maximum, an even number of them, so that 0 has a line.
-    """
-    own = float(np.nanmax(np.abs(field) if signed else field, initial=0.0))
-    if not count or maximum <= 0 or own <= 0:
-        return np.empty(0)
-    step = maximum / (half_steps(count) if signed else count)
-    # A millionth of a step: at the farthest point itself a line would be a blot.
-    last = int(np.ceil(own / step - 1e-6)) - 1
-    return step * np.arange(-last if signed else 1, last + 1)
-
-
-def half_steps(count: int) -> int:
-    """Steps on each side of 0."""
-    return max(1, round(count / 2))
 
 
 class FieldActor:
@@ -72,12 +79,12 @@ class FieldActor:
         self.actor = vtkActor()
         self.maximum = 1.0
         self._mapper = vtkPolyDataMapper()
-        self._count = 20
+        self._isolines, self._through = TWENTY_STEPS, ()
         self._edges = np.empty(0)
         self._own_maximum = 1.0
         self._make()
         self.stand_in = StandInActor(self.actor)
-        self.show_isolines(self._count)
+        self.show_isolines(self._isolines, self._through)
         self.set_scale(scale)
         self.actor.VisibilityOff()
 
@@ -123,26 +130,29 @@ class FieldActor:
         if signed != self.is_signed:
             self.is_signed = signed
             self._set_colours()
-        self.show_isolines(self._count)
+        self.show_isolines(self._isolines, self._through)
 
     def show_bare(self) -> None:
         """All of the surface grey."""
         self._values[:] = UNDEFINED
         self._array.Modified()
         self.maximum = self._own_maximum = 0.0
-        self.show_isolines(self._count)
+        self.show_isolines(self._isolines, self._through)
 
-    def show_isolines(self, count: int) -> None:
-        """So many equal steps from 0 to the maximum; 0 for no lines."""
-        self._count = count
-        share = self._own_maximum / self.maximum if self.maximum > 0 else 0.0
-        lines = isoline_values(np.array([share]), 1.0, count, self.is_signed)
-        half = half_steps(count)
-        steps = 2 * half if self.is_signed else count
-        last = half + len(lines) // 2 if self.is_signed else len(lines)
-        self._uniforms.SetUniformf("isolineStep", 1 / steps if count else 1e9)
-        self._uniforms.SetUniformf("isolineLast", float(last))
-        self._uniforms.SetUniformf("isolineBold", float(half) if self.is_signed else -1.0)
+    def show_isolines(self, isolines: Isolines, through: tuple[float, ...] = ()) -> None:
+        """These, and one of each value `through`, which stands out."""
+        self._isolines, self._through = isolines, through
+        found = self.levels
+        shares = found.values / self.maximum if self.maximum > 0 else found.values
+        at = (shares + 1) / 2 if self.is_signed else shares
+        kinds = np.where(found.is_through, 2.0, np.where(found.is_bold, 1.0, 0.0))
+        count = min(len(at), MOST_LINES)
+        self._uniforms.SetUniformi("isolineCount", count)
+        # Of one size, so that the shader need not be made anew.
+        for name, numbers in (("isolineAt", at), ("isolineKind", kinds)):
+            padded = np.zeros(MOST_LINES)
+            padded[:count] = numbers[:count]
+            self._uniforms.SetUniform1fv(name, MOST_LINES, padded.tolist())
 
     def show_bands(self, edges: np.ndarray) -> None:
         """Where bands, if the style has any, end: shares (k,) of the maximum."""
@@ -157,12 +167,14 @@ class FieldActor:
         self._mapper.SetLookupTable(self.table)
         self._uniforms.SetUniform3f("isolineColour", self.style.line(self.is_signed))
         self._uniforms.SetUniform3f("isolineFarColour", self.style.line(self.is_signed, 1.0))
+        self._uniforms.SetUniform3f("isolineThroughColour", self.style.source)
+        self._uniforms.SetUniform3f("isolineCasingColour", self.style.mark_edge)
         self._uniforms.SetUniformf("isolineTurn", self.style.turn if self.is_signed else 1e9)
 
     @property
-    def isolines(self) -> np.ndarray:
-        """(k,) the values that have a line."""
-        return isoline_values(np.array([self._own_maximum]), self.maximum, self._count, self.is_signed)
+    def levels(self) -> Levels:
+        """The values that have a line."""
+        return levels(self._isolines, self.maximum, self._own_maximum, self.is_signed, self._through)
 
     def show_shading(self, shading: Shading) -> None:
         """Whether faces are flat, and edges drawn; where normals are split, `drawable` has done."""
@@ -182,6 +194,7 @@ class FieldActor:
     def set_scale(self, scale: float) -> None:
         """Device pixels per pixel have changed."""
         self._uniforms.SetUniformf("edgeScale", scale)
+        self._uniforms.SetUniformf("isolineCasing", CASING * scale)
         self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale)
 
     def _make(self) -> None:

@@ -6,9 +6,10 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from ..document.looks import Shading
+from ..document.looks import Isolines, Shading
 from .field_actor import FieldActor, light
 from .insets import Insets
+from .levels import Levels
 from .marks import Marks
 from .stand_in import StandIn
 from .style import PAPER, Style
@@ -97,18 +98,23 @@ class PanelScene:
         """The surface without a field."""
         self._field.show_bare()
 
-    def show_isolines(self, count: int) -> None:
-        """So many equal steps from 0 to the maximum; 0 for no lines."""
-        self._field.show_isolines(count)
+    def show_isolines(self, isolines: Isolines, through: tuple[float, ...] = ()) -> None:
+        """These, and one of each value `through`."""
+        self._field.show_isolines(isolines, through)
 
     def show_bands(self, edges: np.ndarray) -> None:
         """Where bands end, see `FieldActor.show_bands`."""
         self._field.show_bands(edges)
 
     @property
+    def levels(self) -> Levels:
+        """The values that have a line, and how."""
+        return self._field.levels
+
+    @property
     def isolines(self) -> np.ndarray:
-        """(k,) the values that have a line."""
-        return self._field.isolines
+        """(k,) those values."""
+        return self.levels.values
 
     @property
     def maximum(self) -> float:

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..drawing.bands import band_edges, bar_parts
-from ..drawing.field_actor import BOLD, half_steps
+from ..drawing.field_actor import CASING
+from ..drawing.levels import BOLD, levels
 from ..drawing.style import Colour
 from .bars import TICK, Bar
 from .boxes import Box, Words
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Canvas
     from matplotlib.path import Path
 
+
+LINE_ROOM = 4.0
+"""Units from one isoline on a colour bar to the next, at least."""
 
 FINENESS = 0.03
 """Units by which a curve may differ from its exact course to need fewer points."""
@@ -109,13 +113,16 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
     # One object for all curves: it is then written once.
     shape = edge and TransformedPath(edge, axes.transData)
     signed, top = page.figure.panels[shot.panel].signed, page.figure.tops()[shot.panel]
-    for k, (value, lines) in enumerate(shot.isolines):
-        width = style.isoline_width * stroke * (BOLD if signed and value == 0 else 1)
-        line = style.line(signed, value / top if top > 0 else 0.0)
-        curve = _curve(lines, line, width, "butt", order + 2, f"isoline-{number}-{k}")
-        axes.add_artist(curve)
-        # The stroke is cut where the shape ends, which its middle line does already.
-        curve.set_clip_path(shape)
+    for k, line in enumerate(sorted(shot.isolines, key=lambda line: line.is_through)):
+        colour, width = style.line(signed, line.value / top if top > 0 else 0.0), style.isoline_width * stroke
+        strokes = [(colour, width * (BOLD if line.is_bold else 1))]
+        if line.is_through:
+            strokes = [(style.mark_edge, BOLD * width + 2 * CASING * stroke), (style.source, BOLD * width)]
+        for colour, width in strokes:
+            curve = _curve(line.parts, colour, width, "butt", order + 2, f"isoline-{number}-{k}")
+            axes.add_artist(curve)
+            # The stroke is cut where the shape ends, which its middle line does already.
+            curve.set_clip_path(shape)
     if shot.outlines:
         curve = _curve(
             shot.outlines, style.outline_colour, style.outline * stroke, "round", order + 3, f"outline-{number}"
@@ -277,15 +284,7 @@ def _draw_bar(axes: Axes, page: Composition, bar: Bar) -> None:
             corner = (box.x, box.y) if bar.is_upright else (box.right - rest, box.y)
             size = (box.width, rest) if bar.is_upright else (rest, box.height)
             axes.add_artist(Rectangle(corner, *size, facecolor=colour, linewidth=0))
-    count = panel.isolines.count
-    steps = 2 * half_steps(count) if signed else count
-    step = (box.height if bar.is_upright else box.width) / steps if count else 0.0
-    if step >= 4:
-        for k in range(1, steps):
-            width = min(style.isoline_width * page.layout.stroke, step / 4)
-            width *= BOLD if signed and 2 * k == steps else 1
-            line = style.line(signed, 2 * k / steps - 1)
-            _across(axes, bar, bar.low + k * (bar.high - bar.low) / steps, (0, 1), line, width)
+    _draw_lines_on_bar(axes, page, bar)
     if not style.coloured:
         axes.add_artist(
             Rectangle((box.x, box.y), box.width, box.height, fill=False, edgecolor=style.text, linewidth=0.8 * POINT)
@@ -320,6 +319,26 @@ def _draw_point(axes: Axes, box: Box, is_upright: bool, way: int, colour: Colour
         x = box.x
         corners = [(x, y + way), (x, y), (x + thick / 2, y - 0.7 * way * thick), (x + thick, y), (x + thick, y + way)]
     axes.add_artist(Polygon(corners, facecolor=colour, linewidth=0))
+
+
+def _draw_lines_on_bar(axes: Axes, page: Composition, bar: Bar) -> None:
+    """The isolines' values, unless they would be too close; those through points always."""
+    style, panel, stroke = page.figure.style, page.figure.panels[bar.panel], page.layout.stroke
+    top = page.figure.tops()[bar.panel]
+    found = levels(panel.isolines, top, top, panel.signed, panel.through)
+    low = -top if panel.signed else 0.0
+    shares = (found.values - low) / (top - low) if top > 0 else found.values
+    usual = np.concatenate([[0.0], shares[~found.is_through], [1.0]])
+    room = float(np.diff(usual).min()) * (bar.box.height if bar.is_upright else bar.box.width)
+    for share, value, bold, through in zip(shares, found.values, found.is_bold, found.is_through, strict=True):
+        # Where bars are in shares of the maximum, they do not end there.
+        at, width = bar.low + share * (bar.high - bar.low), style.isoline_width * stroke
+        if through:
+            _across(axes, bar, at, (0, 1), style.mark_edge, BOLD * width + 2 * CASING * stroke)
+            _across(axes, bar, at, (0, 1), style.source, BOLD * width)
+        elif room >= LINE_ROOM:
+            width = min(width, room / 4) * (BOLD if bold else 1)
+            _across(axes, bar, at, (0, 1), style.line(panel.signed, value / top), width)
 
 
 def _write(axes: Axes, page: Composition, words: Words, order: int = 1000) -> None:

@@ -34,11 +34,12 @@ class FigurePanel:
     """One panel: a surface, a field (n,) on it with NaN where undefined, or None for the bare shape, and its words.
 
     label and unit stand at the colour bar, heading and hint above.  maximum: the end of the colour bar, the field's
-    own if None.  views: pictures of the same side by side, each a
-    standard one or a camera.  height: a flat surface becomes a relief, raised by the field so that its maximum is this
-    share of the surface's extent.  failure: why there is no field, to be read on the bare shape.  signed: the field has
-    values on both sides of 0, and its colour bar goes from -maximum to maximum.  up: which axis is up in standard
-    views.  source: the vertex that the view from the source looks at.  is_parallel: nothing gets smaller with distance.
+    own if None.  through: values that have an isoline besides, which stands out.  views: pictures of the same side by
+    side, each a standard one or a camera.  height: a flat surface becomes a relief, raised by the field so that its
+    maximum is this share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
+    signed: the field has values on both sides of 0, and its colour bar goes from -maximum to maximum.
+    up: which axis is up in standard views.  source: the vertex that the view from the source looks at.  is_parallel:
+    nothing gets smaller with distance.
     """
 
     surface: Surface
@@ -49,6 +50,7 @@ class FigurePanel:
     unit: str = ""
     maximum: float | None = None
     isolines: Isolines = TWENTY_STEPS
+    through: tuple[float, ...] = ()
     views: tuple[View, ...] = ("home",)
     marks: tuple[Mark, ...] = ()
     zooms: tuple[Zoom, ...] = ()

@@ -15,6 +15,7 @@ from ..drawing.style import style_of
 from ..session.anchors import anchor_value, anchors_on
 from ..session.given import Given
 from ..session.opened import Opened, open_mesh
+from ..session.passed import values_through
 from ..session.questions import questions, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from .description import Figure, FigurePanel, Mark
@@ -150,6 +151,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         failure=answer.failure,
         maximum=panel.maximum,
         isolines=document.isolines,
+        through=values_through(document, panel.surface, opened, answer),
         views=recipe.views,
         marks=(*map(Mark, starts), *_anchor_marks(document, panel, opened, answer), *_largest(answer)),
         zooms=document.zooms,

@@ -17,6 +17,7 @@ from bihdist_core.progress import Progress
 from ..document.camera import Camera, View
 from ..document.document import Anchor, Document, Point, Zoom, free_names
 from ..document.file import read_recipe
+from ..document.isoline_edits import pass_through
 from ..document.looks import AS_IT_IS, Colours, Isolines, shaded
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity
@@ -78,6 +79,11 @@ def figure(
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
     isolines: int | Isolines = 20,
+    isoline_spacing: float | None = None,
+    isoline_values: Sequence[float] = (),
+    isoline_through: Sequence[int] = (),
+    bold_isolines: int = 0,
+    isoline_labels: bool = False,
     colours: str | Colours = "",
     reversed: bool = False,
     bands: bool = False,
@@ -88,7 +94,7 @@ def figure(
     projection: str = "perspective",
     axes: bool = False,
     camera: Sequence[float] | None = None,
-    zooms: Sequence[int | tuple[int, float]] = (),
+    zooms: Sequence[int | tuple[int, float] | tuple[int, float, int]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
     height: float = 0.0,
     shading: str | None = None,
@@ -110,8 +116,10 @@ def figure(
     distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, or several for a row of
     panels each; the highest if None.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is
     named in `distances` like one: "biharmonic - mine".  views: names or cameras, side by side.  camera: the eleven
-    numbers that `--camera` takes, after other views.  zooms: vertices, or with a factor.  anchors: vertices to be
-    marked, perhaps each with a value.  shading: "smooth", "creased" at more than `crease` degrees, or "flat";
+    numbers that `--camera` takes, after other views.  zooms: vertices, or with a factor, or with that and a number of
+    steps.  isolines: a number of steps; isoline_spacing, isoline_values: where they are instead; isoline_through:
+    vertices that have one more; bold_isolines: every so many.  anchors: vertices to be marked, perhaps each with a
+    value.  shading: "smooth", "creased" at more than `crease` degrees, or "flat";
     "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own", "shared"
     (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or the
     session or recipe whose ends are taken; shared_range: the same as "shared".  size: "85mm", "1680x640", "column",
@@ -131,13 +139,15 @@ def figure(
     marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
     names = free_names("anchor", len(marked), [point.name for point in document.points])
     chosen = _views(views, camera)
+    lines = isolines if isinstance(isolines, Isolines) else Isolines(isolines, isoline_spacing, tuple(isoline_values))
+    lines = replace(lines, bold=bold_isolines or lines.bold, labels=isoline_labels or lines.labels)
     found = colours if isinstance(colours, Colours) else colours_named(colours)
     document = replace(
         document,
         points=(*document.points, *(Point(name, vertex) for name, vertex in zip(names, marked, strict=True))),
         anchors=tuple(Anchor(name, value) for name, value in zip(names, marked.values(), strict=True)),
-        zooms=tuple(Zoom(*zoom) if isinstance(zoom, tuple) else Zoom(zoom) for zoom in zooms),
-        isolines=isolines,
+        zooms=tuple(_zoom(zoom) for zoom in zooms),
+        isolines=lines,
         colours=replace(found, reversed=reversed or found.reversed, bands=bands or found.bands),
         height=height,
         up=up,
@@ -146,6 +156,8 @@ def figure(
         shading=shaded(AS_IT_IS, shading, crease, wireframe),
         camera=chosen[0] if chosen else "home",
     )
+    if len(isoline_through):
+        document = pass_through(document, tuple(isoline_through))
     page = Page(
         size=size,
         style=style,
@@ -186,3 +198,10 @@ def _views(views: View | Sequence[View], camera: Sequence[float] | None) -> tupl
     x = tuple(numbers)
     given = Camera((x[0], x[1], x[2]), (x[3], x[4], x[5]), (x[6], x[7], x[8]), (x[9], x[10]))
     return (given,) if views == "home" else (*chosen, given)  # a list with "home" asks for both
+
+
+def _zoom(zoom: int | tuple[int, float] | tuple[int, float, int]) -> Zoom:
+    if not isinstance(zoom, tuple):
+        return Zoom(zoom)
+    vertex, factor, *steps = zoom
+    return Zoom(vertex, factor, isolines=steps[0] if steps else None)

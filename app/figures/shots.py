@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from bihdist_core import Surface
+from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.isoline_tracing import isolines
 from bihdist_core.progress import Progress, part
 
-from ..document.looks import Shading
+from ..document.document import isolines_in
+from ..document.looks import Isolines, Shading
 from ..drawing.bands import band_edges
 from ..drawing.drawable import drawable, normals_shading, outward_faces
-from ..drawing.field_actor import isoline_values
+from ..drawing.levels import levels, too_many
 from ..drawing.style import Style
 from .description import Figure
 from .framing import Framed, shown_surface
@@ -34,18 +35,28 @@ PlacedMark = tuple[int, float, float]
 
 
 @dataclass(frozen=True, eq=False)
+class Contour:
+    """An isoline: its value, its visible parts, and how it stands out."""
+
+    value: float
+    parts: list[Line]
+    is_bold: bool = False
+    is_through: bool = False
+
+
+@dataclass(frozen=True, eq=False)
 class Shot:
     """A rectangle of the page with a picture in it.
 
-    image: (h, w, 4) uint8, colours multiplied by alpha; isolines: a list of visible parts for each curve, with its
-    value; marks: their index in the panel, and where (x, y) on the page; ghosts: the same of marks that the shape
+    image: (h, w, 4) uint8, colours multiplied by alpha; isolines: in the order of their
+    values; marks: their index in the panel, and where (x, y) on the page; ghosts: the same of marks that the shape
     hides; source: for an inset, what it enlarges.
     """
 
     panel: int
     box: Box
     image: np.ndarray
-    isolines: list[tuple[float, list[Line]]]
+    isolines: list[Contour]
     outlines: list[Line]
     marks: list[PlacedMark]
     ghosts: list[PlacedMark] = field(default_factory=list)
@@ -110,16 +121,16 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
                 studio.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
-            studio.shown.show_isolines(0)  # they are drawn as curves
+            studio.shown.show_isolines(Isolines(0))  # they are drawn as curves
             for number, (view, box, shown) in enumerate(zip(panel.views, cell.views, cell.parts, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 framed = Framed(view, panel, surface, box, shown)
                 taker = _Taker(figure, index, surface, outward_faces(mesh), tops[index], framed, layout, studio)
-                shots.append(taker.take(box, step))
+                shots.append(taker.take(box, panel.isolines, step))
                 for zoom, inset in zip(panel.zooms, cell.insets, strict=True) if number == 0 else ():
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                     source = source_of(framed, surface, zoom.vertex, inset.width, zoom.factor, box)
-                    shots.append(taker.take(inset, step, source))
+                    shots.append(taker.take(inset, isolines_in(zoom, panel.isolines), step, source))
     return shots
 
 
@@ -142,12 +153,12 @@ class _Taker:
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
         self._sight = Sight(surface, self._projection, (self._box.width, self._box.height), outward)
-        self._isolines: list[tuple[float, list[Line]]] | None = None
+        self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         self._marks, self._ghosts = self._placed_marks()
 
-    def take(self, box: Box, progress: Progress, source: Box | None = None) -> Shot:
-        """A box of the page: what it shows of the view or, for an inset, a part of it enlarged."""
+    def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
+        """A box of the page: what it shows of the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
         image = self._studio.shade(
             self._projection,
@@ -157,8 +168,7 @@ class _Taker:
             part(progress, 0, 0.7),
         )
         progress(0.7, "finding what is hidden")
-        if self._isolines is None:
-            self._isolines = self._visible_isolines()
+        contours = self._contours(wanted)
         if self._style.outline and self._outlines is None:
             self._outlines = outlines(self._sight)
         move = _Move(source or box, box)
@@ -170,7 +180,7 @@ class _Taker:
             self._index,
             box,
             image,
-            [(value, [(move(p + self._corner), c) for p, c in parts]) for value, parts in self._isolines or []],
+            [replace(line, parts=[(move(p + self._corner), c) for p, c in line.parts]) for line in contours],
             [(move(p + self._corner), c) for p, c in self._outlines or []],
             [mark for mark in marks if box.holds(*mark[1:])],
             [mark for mark in ghosts if source is None and box.holds(*mark[1:])],
@@ -188,15 +198,28 @@ class _Taker:
         y = [1 - 2 * (side - whole.y) / whole.height for side in (source.bottom, source.y)]
         return (*x, *y)
 
-    def _visible_isolines(self) -> list[tuple[float, list[Line]]]:
+    def _contours(self, wanted: Isolines) -> list[Contour]:
+        """The visible parts of isolines; traced once for all pictures that have the same."""
+        if wanted not in self._found:
+            self._found[wanted] = self._visible_isolines(wanted)
+        return self._found[wanted]
+
+    def _visible_isolines(self, wanted: Isolines) -> list[Contour]:
         panel = self._panel
         if panel.field is None:
             return []
-        found = isolines(
-            self._surface, panel.field, isoline_values(panel.field, self._top, panel.isolines.count, panel.signed)
-        )
-        parts = self._sight.visible(Curve(line.points, line.edges, line.closed) for line in found)
-        return [(line.value, p) for line, p in zip(found, parts, strict=True) if p]
+        own = float(np.nanmax(np.abs(panel.field) if panel.signed else panel.field, initial=0.0))
+        found = levels(wanted, self._top, own, panel.signed, panel.through)
+        if said := too_many(found, wanted, own):
+            raise ParameterError(said)
+        lines = isolines(self._surface, panel.field, found.values)
+        parts = self._sight.visible(Curve(line.points, line.edges, line.closed) for line in lines)
+        of = np.searchsorted(found.values, [line.value for line in lines])
+        return [
+            Contour(line.value, seen, bool(found.is_bold[k]), bool(found.is_through[k]))
+            for line, seen, k in zip(lines, parts, of, strict=True)
+            if seen
+        ]
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Those that are seen, and those that the shape hides."""

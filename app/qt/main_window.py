@@ -229,8 +229,9 @@ class MainWindow(QtWidgets.QMainWindow):
             self.grid.mark_anchors(document)
         if other_panels or document.zooms != before.zooms:
             self.grid.show_insets(document)
-        if is_other or is_dressed or document.isolines != before.isolines:
-            self.grid.show_isolines(document.isolines.count)
+        passed = document.isolines.through and document.points != before.points
+        if is_other or is_dressed or passed or document.isolines != before.isolines:
+            self.grid.show_isolines(document)
         is_raised = document.height != before.height
         if document.shading != before.shading and not is_other:
             self.grid.show_shading()
@@ -279,7 +280,7 @@ class MainWindow(QtWidgets.QMainWindow):
         document = self.session.document
         self.grid.show_surface()
         self.grid.expect_sources(document)
-        self.grid.show_isolines(document.isolines.count)
+        self.grid.show_isolines(document)
         self.grid.mark_anchors(document)
         self.grid.show_insets(document)
         for id in self.session.shown:

@@ -159,11 +159,10 @@ ELSEWHERE = {
     "Document.height": "needs a flat mesh: see its test",
 }
 
-WORDLESS = {"Zoom.corner", "Zoom.isolines"} | {
+WORDLESS = {"Zoom.corner"} | {
     name
     for name in EXAMPLES
-    if name == "Colours.stops"
-    or name in ("Isolines.spacing", "Isolines.values", "Isolines.bold", "Isolines.labels", "Isolines.through")
+    if name == "Colours.stops" or name == "Isolines.through"  # the source itself
 }
 """Parts that only a recipe's file says so far."""
 

@@ -7,9 +7,10 @@ import pytest
 from scipy.spatial import cKDTree
 from scipy.special import eval_legendre
 
+from app.document.looks import Isolines
 from app.drawing.camera import Camera, Projection, standard_camera
 from app.drawing.drawable import drawable, outward_faces
-from app.drawing.field_actor import isoline_values
+from app.drawing.levels import levels
 from app.figures.outlines import outlines
 from app.figures.sight import Curve, Sight
 from app.figures.simplified import simplified
@@ -55,7 +56,7 @@ def test_isolines_on_a_sphere_are_the_visible_parts_of_analytic_circles():
     weight = (2 * degree + 1) / (2 * np.pi * (degree * (degree + 1.0)) ** 2)
     series = np.sqrt(weight @ (1 - eval_legendre(degree[:, None], np.cos(angles))))
     distance = np.interp(np.arccos(np.clip(ball.vertices @ axis, -1, 1)), angles, series)
-    values = isoline_values(distance, distance.max(), 20)
+    values = levels(Isolines(20), distance.max(), distance.max()).values
     camera = standard_camera(ball.vertices, 1.0, "home")
     sight = sight_of(ball, camera)
     right = np.cross(axis, [1.0, 0, 0])

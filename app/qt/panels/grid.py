@@ -9,7 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 from bihdist_core.analysis.upright import axis_of
 
 from ...document.camera import Camera, View
-from ...document.document import Document
+from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
 from ...document.quantities import Difference
 from ...drawing.board import Board
@@ -17,6 +17,7 @@ from ...drawing.camera import camera_seen, outwards_at, show_camera, standard_ca
 from ...drawing.relief import rise
 from ...drawing.style import PAPER, Style
 from ...session.anchors import anchors_on
+from ...session.passed import values_through
 from ...session.questions import vertex_at
 from ...session.session import Session
 from ..look.look import LOOK
@@ -175,7 +176,7 @@ class PanelGrid(QtWidgets.QWidget):
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = self._upright
-        panel.show_isolines(self._session.document.isolines.count)
+        panel.show_isolines(self._session.document.isolines)
         panel.show()
 
     def show_style(self, style: Style) -> bool:
@@ -232,9 +233,17 @@ class PanelGrid(QtWidgets.QWidget):
         opened, height = self._session.opened(), self._session.document.height
         return rise(opened.prepared.bounds, height) if height and opened and opened.prepared.is_flat else 0.0
 
-    def show_isolines(self, count: int) -> None:
-        for panel in self.panels:
-            panel.show_isolines(count)
+    def show_isolines(self, document: Document) -> None:
+        """Those of the document, through its points, too."""
+        for panel in document.panels:
+            if panel.id in self._panels:
+                self._panels[panel.id].show_isolines(document.isolines, self._through(document, panel))
+
+    def _through(self, document: Document, panel: Panel) -> tuple[float, ...]:
+        opened, shown = self._session.opened(panel.surface), self._session.shown.get(panel.id)
+        if opened is None or shown is None:
+            return ()
+        return values_through(document, panel.surface, opened, shown.answer)
 
     # ------------------------------------------------------------------ answers
     def show_answer(self, id: int) -> None:
@@ -243,7 +252,10 @@ class PanelGrid(QtWidgets.QWidget):
         for other in shown if document.range == "shared" else (id,):
             if other in self._panels:
                 in_shares = document.range == "shares"
-                self._panels[other].show_answer(shown[other], self._maximum(other), document.height, in_shares)
+                widget = self._panels[other]
+                widget.show_answer(shown[other], self._maximum(other), document.height, in_shares)
+                if document.isolines.through:
+                    widget.show_isolines(document.isolines, self._through(document, document.panel(other)))
         self._point_again()
 
     def show_certificate(self, id: int) -> None:

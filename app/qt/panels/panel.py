@@ -160,9 +160,10 @@ class DistancePanel(QtWidgets.QWidget):
             marked = [vertex for vertex, _ in self._anchors] + ([] if self._source is None else [self._source])
             self.view.scene.insets.settle(samples, self._positions[marked])
 
-    def show_isolines(self, count: int) -> None:
-        self._isolines = Isolines(count)
-        self.view.scene.show_isolines(count)
+    def show_isolines(self, isolines: Isolines, through: tuple[float, ...] = ()) -> None:
+        """These, and one of each value `through`."""
+        self._isolines = isolines
+        self.view.scene.show_isolines(isolines, through)
         self._show_bands()
         self._show_bar()
         self.view.redraw()
@@ -230,7 +231,7 @@ class DistancePanel(QtWidgets.QWidget):
             style.band_colours(edges, signed) if style.bands and len(edges) else style.colours(signed=signed),
             -top if signed else 0.0,
             top,
-            scene.isolines,
+            scene.levels.values,
             answer.unit,
             signed,
             style.line(signed),

@@ -1,0 +1,65 @@
+"""The options of isolines, and what they make of a document."""
+
+import argparse
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..document.document import Document
+
+
+def add_isolines(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--isolines", type=int, metavar="N", help="number of steps, 0 for none (default: 20)")
+    parser.add_argument(
+        "--isoline-spacing", type=float, metavar="STEP", help="isolines at multiples of this, in the field's unit"
+    )
+    parser.add_argument("--isoline-values", type=_values, metavar="A,B,…", help="isolines at these values")
+    parser.add_argument(
+        "--isoline-through", type=int, action="append", metavar="V", help="one more through a vertex; repeat for more"
+    )
+    parser.add_argument(
+        "--bold-isolines", type=int, nargs="?", const=5, metavar="N", help="every fifth, or Nth, is bolder"
+    )
+    parser.add_argument(
+        "--isoline-labels", action=argparse.BooleanOptionalAction, default=None, help="the values stand on the lines"
+    )
+
+
+def with_isolines(document: "Document", options: argparse.Namespace) -> "Document":
+    """With the lines that are asked for; ParameterError for what there is not."""
+    from bihdist_core import ParameterError
+
+    from ..document.isoline_edits import pass_through, pass_through_none
+
+    now, given = document.isolines, {}
+    asked = {
+        "--isolines": options.isolines,
+        "--isoline-spacing": options.isoline_spacing,
+        "--isoline-values": options.isoline_values,
+    }
+    named = [name for name, value in asked.items() if value is not None]
+    if len(named) > 1:
+        raise ParameterError(f"{' and '.join(named)} are two ways to say where isolines are; choose one.")
+    if named:
+        values = options.isoline_values or ()
+        given = {"spacing": options.isoline_spacing, "values": values}
+        given["count"] = now.count if options.isolines is None else options.isolines
+    if options.bold_isolines is not None:
+        given["bold"] = options.bold_isolines
+    if options.isoline_labels is not None:
+        given["labels"] = options.isoline_labels
+    document = replace(document, isolines=replace(now, **given))
+    if options.isoline_through is not None:
+        if len(document.surfaces) != 1:
+            raise ParameterError(
+                f"--isoline-through names vertices of one mesh, and this recipe has {len(document.surfaces)}."
+            )
+        document = pass_through(pass_through_none(document), tuple(options.isoline_through), document.surfaces[0].name)
+    return document
+
+
+def _values(text: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(word) for word in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not numbers with commas between them") from None

@@ -1,0 +1,92 @@
+"""Which values have an isoline, and which of them stand out: the same for surfaces, pictures and colour bars."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..document.looks import MOST_ISOLINES, Isolines
+
+BOLD = 2.0
+"""By how much bold lines are wider than the others."""
+
+
+@dataclass(frozen=True, eq=False)
+class Levels:
+    """values: (k,) in order; is_bold, is_through: (k,), the latter for those through a point.
+
+    wanted: how many there would be but for those through points; of a spacing that makes too many, none are.
+    """
+
+    values: np.ndarray
+    is_bold: np.ndarray
+    is_through: np.ndarray
+    wanted: int
+
+    @property
+    def widths(self) -> np.ndarray:
+        """(k,) in those of a usual line."""
+        return np.where(self.is_bold | self.is_through, BOLD, 1.0)
+
+
+def levels(
+    isolines: Isolines, maximum: float, own: float, signed: bool = False, through: Sequence[float] = ()
+) -> Levels:
+    """Those of a field that goes up to `own`, from 0 or, if signed, -own, where the colour bar ends at `maximum`.
+
+    Multiples of a step lie above 0 and below the field's own maximum; if signed, there is an even number of steps from
+    -maximum to maximum, so that 0 has a line, which is bold.  through: the field's values at points, NaN for none.
+    """
+    if not (maximum > 0 and own > 0):
+        return _merged(np.empty(0), np.empty(0, bool), np.empty(0), 0)
+    # A millionth of a step: at the farthest point itself a line would be a blot.
+    low, high = (-own if signed else 0.0), own
+    if isolines.values:
+        values = np.array(isolines.values)
+        number = np.arange(1, len(values) + 1)
+        inside = (values > low + 1e-6 * own) & (values < high - 1e-6 * own)
+        values, number = values[inside], number[inside]
+        wanted = len(values)
+    else:
+        step = isolines.spacing or 0.0
+        if isolines.spacing is None and isolines.count:
+            step = maximum / (half_steps(isolines.count) if signed else isolines.count)
+        last = int(min(np.ceil(own / step - 1e-6) - 1, 1e9)) if step else 0
+        wanted = 2 * last + 1 if signed and step else last
+        if isolines.spacing is None:
+            last = min(last, MOST_ISOLINES)  # of a field that goes far beyond its colour bar
+        elif wanted > MOST_ISOLINES:
+            step = 0.0
+        number = np.arange(-last if signed else 1, last + 1) if step else np.empty(0, int)
+        values = step * number
+    is_bold = number % isolines.bold == 0 if isolines.bold else np.zeros(len(number), bool)
+    if signed:
+        is_bold |= values == 0
+    passed = np.array([v for v in through if low < v < high], float)
+    return _merged(values, is_bold, passed, wanted)
+
+
+def _merged(values: np.ndarray, is_bold: np.ndarray, through: np.ndarray, wanted: int) -> Levels:
+    through = np.unique(through)
+    kept = ~np.isin(values, through)
+    values, is_bold = values[kept], is_bold[kept]
+    both = np.concatenate([values, through])
+    order = np.argsort(both, kind="stable")
+    is_through = np.arange(len(both)) >= len(values)
+    bold = np.append(is_bold, np.zeros(len(through), bool))
+    return Levels(both[order], bold[order], is_through[order], wanted)
+
+
+def half_steps(count: int) -> int:
+    """Steps on each side of 0."""
+    return max(1, round(count / 2))
+
+
+def too_many(found: Levels, isolines: Isolines, own: float) -> str:
+    """What to say where a spacing makes more lines than are drawn; "" where it does not."""
+    if isolines.spacing is None or found.wanted <= MOST_ISOLINES:
+        return ""
+    return (
+        f"A spacing of {isolines.spacing:g} makes {found.wanted:,} isolines up to {own:.4g}; "
+        f"up to {MOST_ISOLINES:,} are drawn. Choose a spacing of {own / MOST_ISOLINES:.2g} or more."
+    )
