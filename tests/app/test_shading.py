@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from app.document.looks import AS_IT_IS, Shading, shaded
+from app.document.looks import AS_IT_IS, Isolines, Shading, shaded
 from app.drawing.camera import Projection, standard_camera
 from app.drawing.creases import face_normals as normals_of_faces
 from app.drawing.drawable import copies_of, drawable, has_backs, poly_data
@@ -188,7 +188,7 @@ def picture(surface, shading=AS_IT_IS, field=None, view="front", side=240, steps
         studio.shown.show_surface(drawable(surface, shading))
         studio.shown.show_shading(shading)
         studio.shown.show_field(np.full(len(surface.vertices), 0.3) if field is None else field, 1.0)
-        studio.shown.show_isolines(steps)
+        studio.shown.show_isolines(Isolines(steps))
         camera = standard_camera(surface.vertices, 1.0, view)
         return studio.shade(Projection(camera, 1.0, surface.vertices, 0.03), (side, side), 1.0)
 

@@ -13,7 +13,8 @@ from app.drawing.bands import band_edges, bar_parts, beyond
 from app.drawing.board import Board
 from app.drawing.colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened
 from app.drawing.drawable import drawable
-from app.drawing.field_actor import FieldActor, isoline_values
+from app.drawing.field_actor import FieldActor
+from app.drawing.levels import levels
 from app.drawing.oklab import oklab, srgb
 from app.drawing.style import DARK, INK, LINES, PAPER, STYLES, WHITE, line_on, style_of
 from bihdist_core import ParameterError
@@ -118,7 +119,7 @@ def test_the_style_of_lines_has_no_colours_and_unknown_words_are_named():
 @pytest.mark.parametrize("signed", [False, True])
 @pytest.mark.parametrize("count", [0, 1, 2, 7, 20, 31])
 def test_bands_end_at_the_isolines(count, signed):
-    values = isoline_values(np.array([3.0]), 3.0, count, signed)
+    values = levels(Isolines(count), 3.0, 3.0, signed).values
     assert 3.0 * band_edges(Isolines(count), 3.0, signed) == pytest.approx(values)
 
 
@@ -161,7 +162,7 @@ def painted(style, values, edges, width=1000):
     actor.show_surface(drawable(strip))
     actor.show_field(np.array([low, high, high, low]), 1.0, low < 0)
     actor.show_bands(edges)
-    actor.show_isolines(0)
+    actor.show_isolines(Isolines(0))
     Board().close()  # which finds out what can be drawn with here
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.AddActor(actor.actor)
