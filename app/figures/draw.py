@@ -29,13 +29,18 @@ VECTOR_DPI = 300
 
 
 def draw_figure(
-    figure: Figure, progress: Progress | None = None, stage: Stage | None = None, words: KeptWords | None = None
+    figure: Figure,
+    progress: Progress | None = None,
+    stage: Stage | None = None,
+    words: KeptWords | None = None,
+    share: float = 1.0,
 ) -> np.ndarray:
     """(height, width, 3) uint8 picture, or (height, width, 4) with alpha if it is transparent.
 
-    stage, words: kept from one figure to the next.  Raises BihdistError where nothing can be drawn off screen.
+    stage, words: kept from one figure to the next.  share: of its own resolution.
+    Raises BihdistError where nothing can be drawn off screen.
     """
-    return page_pixels(_page(figure, False, progress, stage), words)
+    return page_pixels(_page(figure, False, progress, stage, share), words)
 
 
 def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress | None = None) -> list[str]:
@@ -67,6 +72,8 @@ def described(figure: Figure) -> str:
     return f"{count} {'panel' if count == 1 else 'panels'} on {width} x {height} pixels"
 
 
-def _page(figure: Figure, vector: bool, progress: Progress | None, stage: Stage | None = None) -> Composition:
-    layout = lay_out(figure, VECTOR_DPI / 96 if vector else 0.0)
+def _page(
+    figure: Figure, vector: bool, progress: Progress | None, stage: Stage | None = None, share: float = 1.0
+) -> Composition:
+    layout = lay_out(figure, VECTOR_DPI / 96 if vector else 0.0, share)
     return Composition(figure, layout, take_shots(figure, layout, part(progress, 0.0, 0.95), stage))

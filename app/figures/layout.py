@@ -86,8 +86,8 @@ class Layout:
         return 0.75 * min((each.size for each in texts if each.lines), default=self.label)
 
 
-def lay_out(figure: Figure, least_scale: float = 0.0) -> Layout:
-    """The figure's layout, at its own resolution or at least at `least_scale`."""
+def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> Layout:
+    """The figure's layout, at its own resolution or at least at `least_scale`; or the same at a share of it."""
     grid = grid_of(figure)
     room = grid.width / grid.columns
     factor = _factor(figure, grid, room)
@@ -102,7 +102,7 @@ def lay_out(figure: Figure, least_scale: float = 0.0) -> Layout:
             if grid.height is None or sizes.high >= LEAST_VIEWS * (sizes.high + texts.head + texts.foot):
                 break
         rooms = sizes.columns
-    return _placed(figure, grid, texts, strip, sizes, least_scale)
+    return _placed(figure, grid, texts, strip, sizes, max(grid.scale, least_scale) * share)
 
 
 def _factor(figure: Figure, grid: Grid, room: float) -> float:
@@ -260,8 +260,7 @@ class _Sizes:
 
 
 # ---------------------------------------------------------------------- where it stands
-def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Sizes, least_scale: float) -> Layout:
-    scale = max(grid.scale, least_scale)
+def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Sizes, scale: float) -> Layout:
     width, height = sizes.width, sizes.height
     page = (round(width * scale), round(height * scale))
     if scale == grid.scale and not figure.crop:

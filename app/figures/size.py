@@ -12,6 +12,8 @@ UNITS_PER_INCH = 96
 PRINT_DPI = 300.0
 """Where a size is in millimetres and no resolution is given."""
 
+LEAST_DPI, MOST_DPI = 10, 2400
+
 LARGEST = 32_000
 """Pixels along a side."""
 
@@ -42,8 +44,8 @@ class Size:
         for number in (self.width, self.height, self.dpi):
             if number is not None and not 0 < number < 1e6:
                 raise ParameterError(f"A size and its resolution are positive numbers, not {number!r}.")
-        if self.dpi is not None and not 10 <= self.dpi <= 2400:
-            raise ParameterError(f"A resolution is from 10 to 2400 dpi, not {self.dpi:g}.")
+        if self.dpi is not None and not LEAST_DPI <= self.dpi <= MOST_DPI:
+            raise ParameterError(f"A resolution is from {LEAST_DPI} to {MOST_DPI} dpi, not {self.dpi:g}.")
 
     @classmethod
     def parse(cls, text: str) -> "Size":

@@ -15,13 +15,13 @@ from tests.shapes import bumpy, grid
 pytest.importorskip("qtpy")
 
 
-def exported(s, path, **choices):
+def exported(s, path, size=None):
     """The dialog's figure at a path, once it is there."""
     from app.qt.files.figure_actions import export_figure
 
     dialog = export_figure(s.window)
-    for name, text in choices.items():
-        getattr(dialog, name).setText(text)
+    if size is not None:
+        dialog.size.write(size)
     ended = []
     s.window.exports.saved.connect(ended.append)
     s.window.exports.failed.connect(ended.append)
@@ -37,7 +37,7 @@ def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tm
     s.open(mesh_file(bumpy(800)), 5)
     s.window.grid.camera.Azimuth(40)
     s.panels[0].view.moved.emit()
-    exported(s, tmp_path / "window.png", size_text="600x300")
+    exported(s, tmp_path / "window.png", size="600x300")
     assert main(["figure", "--recipe", str(tmp_path / "window.json"), "-o", str(tmp_path / "again.png")]) == 0
     window, again = ((tmp_path / name).read_bytes() for name in ("window.png", "again.png"))
     assert window == again
@@ -55,7 +55,7 @@ def test_an_export_that_is_cancelled_leaves_nothing(screen, mesh_file, tmp_path)
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
     dialog = export_figure(s.window)
-    dialog.size_text.setText("12000px")
+    dialog.size.write("12000px")
     out = tmp_path / "out"
     out.mkdir()
     dialog.export(str(out / "large.png"))
@@ -107,7 +107,7 @@ def test_a_movie_is_made_and_announced(screen, mesh_file, tmp_path):
     s = screen()
     s.open(mesh_file(bumpy(200)), 5)
     dialog = export_movie(s.window)
-    dialog.size_text.setText("300x120")
+    dialog.size.write("300x120")
     dialog.path_text.setText("5,90")
     dialog.turn.setValue(0)
     dialog.frames.setValue(2)

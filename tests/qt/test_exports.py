@@ -76,7 +76,7 @@ def movie_dialog(small, frames, size="300x120"):
 
     dialog = export_movie(small)
     dialog.frames.setValue(frames)
-    dialog.size_text.setText(size)
+    dialog.size.write(size)
     return dialog
 
 
@@ -87,7 +87,7 @@ def test_a_figure_is_drawn_while_the_window_answers(small, out):
     from app.qt.files.figure_actions import export_figure
 
     dialog = export_figure(small)
-    dialog.size_text.setText("400x300")
+    dialog.size.write("400x300")
     beats = []
     heart = QtCore.QTimer(interval=20)
     heart.timeout.connect(lambda: beats.append(small.exports.running[:]))
@@ -277,14 +277,14 @@ def test_where_no_process_starts_it_is_said(small, out, monkeypatch):
 def test_a_wrong_box_is_marked_and_says_why_under_it(small, out):
     dialog = movie_dialog(small, 2, size="wide")
     dialog.choose_path()
-    sentence = dialog._sentences[dialog.size_text]
-    assert "'wide' is not a size" in sentence.text()
+    sentence = dialog._sentences[dialog.size.width_box]
+    assert "'wide' is not a number of pixels" in sentence.text()
     assert sentence.isVisible()
-    assert dialog.size_text.property("wrong")
-    dialog.size_text.setText("8px")
+    assert dialog.size.width_box.property("wrong")
+    dialog.size.write("8px")
     dialog.choose_path()
     assert "16 to 32000 pixels" in sentence.text()
-    dialog.size_text.setText("")
+    dialog.size.write("")
     for wrong, words in [
         ("5,here", "not vertex ids"),
         ("5,200", "No vertex 200 here: 0 to 199"),
@@ -326,17 +326,29 @@ def test_the_path_is_asked_for_in_the_format_that_is_chosen(small, out):
 
 
 def test_a_size_has_a_name_or_is_one_s_own(small):
+    from qtpy import QtTest
+
     from app.qt.files.figure_actions import export_figure
 
     dialog = export_figure(small)
-    assert dialog._sizes.checkedButton().text() == "Usual"
-    next(row for row in dialog._sizes.buttons() if row.text() == "Two columns").click()
+    size = dialog.size
+    assert size.name() == "Usual"
+    next(row for row in size.rows.buttons() if row.text() == "Two columns").click()
     assert dialog.chosen().page.size == "178mm"
-    dialog.size_text.setText("160x80mm")
-    assert dialog._sizes.checkedButton().text() == "Own size"
-    assert dialog.chosen().page.size == "160x80mm"
-    dialog.size_text.setText("1920×1080")
-    assert dialog._sizes.checkedButton().text() == "Slide"
+    assert (size.width_box.text(), size.unit.currentText()) == ("178", "mm")
+    for text in ("160x80mm", "640x480px@200", "90mm@600"):
+        size.write(text)
+        assert size.name() == "Own size"
+        assert dialog.chosen().page.size == text
+    size.write("1920×1080")
+    assert size.name() == "Slide"
+    size.width_box.setFocus()
+    QtTest.QTest.keyClicks(size.width_box, "0")
+    assert size.name() == "Own size"
+    assert dialog.chosen().page.size == "19200x1080px"
+    size.width_box.clear()
+    dialog.choose_path()
+    assert "A height needs a width" in dialog._sentences[size.width_box].text()
     dialog.close()
 
 

@@ -93,7 +93,8 @@ class Menus:
         )
         self._fill(file, ["open", self.recent, self.samples, None, "save", "save as", None])
         self._fill(file, ["figure", "movie", "screenshot", None, "quit"])
-        self._fill(edit, ["undo", "redo", None, "copy camera", "paste camera", None, "preferences"])
+        self._fill(edit, ["undo", "redo", None, "copy picture", "copy command", "copy python", None])
+        self._fill(edit, ["copy camera", "paste camera", None, "preferences"])
         self._fill(
             view, [*self.views.actions(), None, self.up, keys, None, self.isolines, self.colours, self.range, None]
         )

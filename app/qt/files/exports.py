@@ -14,8 +14,9 @@ from ...figures.job import FigureJob
 from ..look.icons import pixmap, put_icon
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
+from .preview import Draughtsman
 
-PATIENCE = 10.0
+PATIENCE = 5.0
 """Seconds that closing waits for drawings to stop; what still goes on then stops by itself, without a file."""
 
 
@@ -69,7 +70,8 @@ class Export(QtCore.QObject):
 class Exports(QtCore.QObject):
     """All that is being drawn, a process each.  `saved` has the path, `failed` a sentence; a cancelled one has neither.
 
-    running: in the order of their starts.  folder: where the last one went, "" at first.
+    running: in the order of their starts.  folder: where the last one went, "" at first.  previews: what draws for
+    dialogs, and for the clipboard.
     """
 
     changed = QtCore.Signal()
@@ -80,6 +82,7 @@ class Exports(QtCore.QObject):
         super().__init__(parent)
         self.running: list[Export] = []
         self.folder = ""
+        self.previews = Draughtsman(self)
 
     def start(self, work: Callable[..., None], path: str, what: str) -> Export:
         """Run `work(progress=...)`, whose result is the file at `path`.
@@ -107,6 +110,7 @@ class Exports(QtCore.QObject):
 
     def close(self) -> None:
         """Cancel all and wait for them."""
+        self.previews.close()
         for export in self.running:
             export.is_stopping = True
             export.job.cancel()

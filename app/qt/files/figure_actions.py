@@ -1,14 +1,19 @@
-"""The window's figures: File > Export figure, Export movie.  `window` is the main window, which has the `exports`."""
+"""The window's figures: exported, as movies, and copied.  `window` is the main window, which has the `exports`."""
 
 import os
 from dataclasses import replace
+from functools import partial
+
+from bihdist_core import BihdistError
 
 from ...document.page import Recipe
 from ...figures.export import Surfaces
 from ...version import version
-from .export_dialog import ExportDialog, MovieDialog
+from .copies import copy_line, copy_picture
+from .export_dialog import ExportDialog
 from .exports import Export
 from .job_dialog import JobDialog
+from .movie_dialog import MovieDialog
 
 
 def export_figure(window) -> ExportDialog | None:
@@ -21,6 +26,7 @@ def export_figure(window) -> ExportDialog | None:
     surfaces = _surfaces(window, recipe)
     dialog = ExportDialog(recipe, surfaces, session.given, answers, version(), window.exports, window)
     dialog.allow_sharing(_has_one_unit(window))
+    dialog.copying.connect(partial(_copy, window))
     return _opened(dialog, window)
 
 
@@ -33,6 +39,25 @@ def export_movie(window) -> MovieDialog | None:
     dialog = MovieDialog(recipe, surfaces, window.session.given, window.exports, window)
     dialog.allow_sharing(_has_one_unit(window))
     return _opened(dialog, window)
+
+
+def copy(window, what: str) -> None:
+    """Copy what the window shows, as it would be exported: what is "picture", "command" or "python"."""
+    recipe = _complete_recipe(window)
+    if recipe is not None:
+        try:
+            _copy(window, what, recipe)
+        except BihdistError as error:
+            window.failed(str(error))
+
+
+def _copy(window, what: str, recipe: Recipe) -> None:
+    surfaces = _surfaces(window, recipe)
+    if what == "picture":
+        answers = [window.session.shown[panel.id].answer for panel in recipe.document.panels]
+        copy_picture(window, recipe, surfaces, answers)
+    else:
+        copy_line(window, recipe, surfaces, is_python=what == "python")
 
 
 def _has_one_unit(window) -> bool:

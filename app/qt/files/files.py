@@ -65,6 +65,12 @@ class Files(QtCore.QObject):
 
         export_movie(self._window)
 
+    def copy(self, what: str) -> None:
+        """Copy the figure: "picture", or the line that makes it: "command", "python"."""
+        from .figure_actions import copy
+
+        copy(self._window, what)
+
     def choose_screenshot(self) -> None:
         dialog = QtWidgets.QFileDialog(self._window, "Save a picture of the window", "bihdist.png", "Pictures (*.png)")
         dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)

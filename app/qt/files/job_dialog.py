@@ -17,7 +17,13 @@ from .exports import Exports
 WIDTH = 388
 """Of the column of choices, at the usual size of letters, in logical pixels."""
 
-LABEL = 116
+BESIDE = 316
+"""The same beside a picture."""
+
+LARGE = (1140, 780)
+"""Of a dialog with a picture in it, where there is room."""
+
+LABEL = 96
 """Of the words before a box."""
 
 
@@ -63,12 +69,17 @@ class JobDialog(QtWidgets.QDialog):
         kinds: tuple[FileKind, ...],
         exports: Exports,
         parent: QtWidgets.QWidget | None = None,
+        side: QtWidgets.QWidget | None = None,
     ) -> None:
-        """what: is drawn, "Movie"; name: of the file, as a proposal and without an extension."""
+        """what: is drawn, "Movie"; name: of the file, as a proposal and without an extension.
+
+        side: what stands beside the choices.
+        """
         super().__init__(parent)
         self.setWindowTitle(title)
         self._what, self._name, self._kinds, self._exports = what, name, kinds, exports
         self._sentences: dict[QtWidgets.QWidget, QtWidgets.QLabel] = {}
+        self._side = side
         self._fill()
         self.section("Format")
         self.kinds = Segments({kind.name: kind.name for kind in kinds}, "The format of the file")
@@ -85,7 +96,7 @@ class JobDialog(QtWidgets.QDialog):
 
     def export(self, path: str) -> None:
         """Have it drawn to a path, and close; what is refused is said here instead."""
-        with self._refusals_shown():
+        with self.refusals_shown():
             self.check()
             export = self._exports.start(self.work(path), path, self._what)
             self.started.emit(export)
@@ -93,7 +104,7 @@ class JobDialog(QtWidgets.QDialog):
 
     def choose_path(self) -> None:
         """Ask where to, if all in the dialog makes sense."""
-        with self._refusals_shown():
+        with self.refusals_shown():
             self.check()
             self._ask_path()
 
@@ -111,7 +122,7 @@ class JobDialog(QtWidgets.QDialog):
 
     # ------------------------------------------------------------------ what is wrong
     @contextmanager
-    def _refusals_shown(self) -> Iterator[None]:
+    def refusals_shown(self) -> Iterator[None]:
         self._forget_wrong()
         try:
             yield
@@ -168,6 +179,13 @@ class JobDialog(QtWidgets.QDialog):
         self.column.addWidget(box)
         return box
 
+    def button(self, words: str, tip: str) -> QtWidgets.QPushButton:
+        """One more at the foot, before those that close the dialog."""
+        button = QtWidgets.QPushButton(words, autoDefault=False)
+        self._name_box(button, words.replace("&", ""), tip)
+        self._feet.insertWidget(self._feet.count() - 1, button)
+        return button
+
     def room_for_wrong(self, box: QtWidgets.QWidget) -> None:
         """Where the sentence stands if what is in the box makes no sense."""
         self._sentences[box] = _sentence()
@@ -204,11 +222,19 @@ class JobDialog(QtWidgets.QDialog):
         foot.setContentsMargins(24, 12, 24, 12)
         foot.setSpacing(8)
         foot.addWidget(self.refusal)
-        foot.addWidget(buttons)
+        self._feet = QtWidgets.QHBoxLayout()
+        self._feet.setSpacing(8)
+        self._feet.addWidget(buttons, 1)
+        foot.addLayout(self._feet)
         layout = QtWidgets.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        layout.addWidget(self.scroll, 1)
+        body = QtWidgets.QHBoxLayout()
+        body.setSpacing(0)
+        body.addWidget(self.scroll, 0 if self._side else 1)
+        if self._side is not None:
+            body.addWidget(self._side, 1)
+        layout.addLayout(body, 1)
         layout.addWidget(QtWidgets.QFrame(objectName="hairline"))
         layout.addLayout(foot)
 
@@ -221,12 +247,26 @@ class JobDialog(QtWidgets.QDialog):
     def _fit(self) -> None:
         """As high as all choices need, where the screen is; the rest is scrolled to."""
         choices = self.scroll.widget()
-        wide = max(round(WIDTH * LOOK.scale), choices.minimumSizeHint().width())
-        needed = 1 + _height(self.column, wide) + _height(self._foot, wide)
-        screen = self.screen().availableGeometry().height() - 60
-        bar = 0 if needed <= screen else self.scroll.verticalScrollBar().sizeHint().width()
-        self.setMinimumWidth(wide + bar)
-        self.resize(max(self.width(), wide + bar), min(max(self.height(), needed), screen))
+        narrow = WIDTH if self._side is None else BESIDE
+        wide = max(round(narrow * LOOK.scale), choices.minimumSizeHint().width())
+        needed = 1 + _height(self.column, wide)
+        screen = self.screen().availableGeometry()
+        foot = _height(self._foot, max(self.width(), wide))
+        most = screen.height() - 60 - foot
+        bar = 0 if needed <= most else self.scroll.verticalScrollBar().sizeHint().width()
+        if self._side is None:
+            self.setMinimumWidth(wide + bar)
+            self.resize(max(self.width(), wide + bar), min(max(self.height(), needed + foot), most + foot))
+        else:
+            self.scroll.setFixedWidth(wide + self.scroll.verticalScrollBar().sizeHint().width())
+            if not self.testAttribute(QtCore.Qt.WidgetAttribute.WA_Resized):
+                self.resize(self._beside(screen.size()))
+
+    def _beside(self, screen: QtCore.QSize) -> QtCore.QSize:
+        """As large as the window that it stands over leaves it, with a picture beside the choices."""
+        over = self.parentWidget().window().size() if self.parentWidget() else screen
+        usual = QtCore.QSize(round(LARGE[0] * LOOK.scale), round(LARGE[1] * LOOK.scale))
+        return usual.boundedTo(over - QtCore.QSize(40, 40)).boundedTo(screen - QtCore.QSize(20, 60))
 
 
 class Choice(QtWidgets.QComboBox):

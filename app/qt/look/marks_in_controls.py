@@ -63,6 +63,10 @@ QAbstractSpinBox::up-arrow:disabled, QAbstractSpinBox::up-arrow:off {{ image: {o
 QAbstractSpinBox::down-arrow {{ image: {down}; width: 12px; height: 12px; }}
 QAbstractSpinBox::down-arrow:disabled, QAbstractSpinBox::down-arrow:off {{ image: {off_down}; }}
 QToolButton[chevron="true"] {{ padding-right: 20px; }}
+QPushButton[chevron="true"] {{ padding-right: 26px; }}
+QPushButton[chevron="true"]:focus {{ padding-right: 25px; }}
+QPushButton[chevron="true"]::menu-indicator {{ image: {down}; width: 14px; height: 14px;
+  subcontrol-origin: border; subcontrol-position: right center; right: 8px; }}
 QToolButton[chevron="true"]::menu-indicator {{ image: {down}; width: 14px; height: 14px;
   subcontrol-origin: border; subcontrol-position: right center; right: 4px; }}
 QToolButton[chevron="true"]::menu-indicator:disabled {{ image: {off_down}; }}

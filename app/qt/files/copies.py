@@ -1,0 +1,116 @@
+"""Copies of what the window shows: as a picture, and as a line that makes it.  `window` is the main window."""
+
+import hashlib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core import BihdistError
+
+from ...document import one_line
+from ...document.document import Place
+from ...document.file import recipe_text
+from ...document.page import Recipe
+from ...figures.export import Surfaces, figure_of
+from ...figures.preview import whole_picture
+from ...session.questions import vertex_at
+from ...session.recipe_file import recipe_written
+from ...version import version
+from .. import remembered
+from .job_dialog import stem
+from .preview import image_of
+
+MOST = 8000
+"""Pixels along a side of a picture on the clipboard."""
+
+SHOWN = 70
+"""Letters of a line that is copied, in the message that says so."""
+
+INCH = 0.0254
+
+
+def copy_line(window: Any, recipe: Recipe, surfaces: Surfaces, is_python: bool) -> str:
+    """Put the line that makes a figure on the clipboard, and say so; the line."""
+    recipe = _at_vertices(recipe, surfaces)
+    output = f"{stem(recipe.document.surfaces[0].path, 'figure')}.{recipe.page.format or 'png'}"
+    reason = one_line.why_not(recipe)
+    if not reason:
+        line = (one_line.python_line if is_python else one_line.command_line)(recipe, output)
+    else:
+        path = str(_kept(recipe, window.session.given))
+        line = (one_line.recipe_python_line if is_python else one_line.recipe_command_line)(path, output)
+    QtWidgets.QApplication.clipboard().setText(line)
+    window.say(f"{reason} The copied line names a recipe of it." if reason else f"Copied: {_short(line)}")
+    return line
+
+
+def copy_picture(window: Any, recipe: Recipe, surfaces: Surfaces, answers: list) -> None:
+    """Put the figure itself on the clipboard once it is drawn, which the window does not wait for."""
+    draughtsman = window.exports.previews
+    _Waiting(draughtsman, window).number = draughtsman.ask(
+        "copy", whole_picture, figure_of(recipe, surfaces, answers), MOST
+    )
+    window.say("Drawing the picture …")
+
+
+class _Waiting(QtCore.QObject):
+    """For one picture."""
+
+    def __init__(self, draughtsman: QtCore.QObject, window: Any) -> None:
+        super().__init__(draughtsman)
+        self._window, self.number = window, 0
+        draughtsman.answered.connect(self._take)
+        draughtsman.refused.connect(self._refuse)
+        draughtsman.dropped.connect(self._drop)
+
+    def _take(self, number: int, found: tuple[np.ndarray, float]) -> None:
+        if number == self.number:
+            self.deleteLater()
+            pixels, per_inch = found
+            image = image_of(pixels)
+            image.setDotsPerMeterX(round(per_inch / INCH))
+            image.setDotsPerMeterY(round(per_inch / INCH))
+            QtWidgets.QApplication.clipboard().setImage(image)
+            self._window.say(f"Copied the picture, {image.width()} × {image.height()} pixels")
+
+    def _drop(self, number: int) -> None:
+        if number == self.number:
+            self.deleteLater()
+
+    def _refuse(self, number: int, sentence: str) -> None:
+        if number == self.number:
+            self.deleteLater()
+            self._window.failed(sentence)
+
+
+def _at_vertices(recipe: Recipe, surfaces: Surfaces) -> Recipe:
+    """The same with each point at the vertex that it stands for, which is what is drawn."""
+    document = recipe.document
+    points = tuple(
+        replace(point, at=vertex_at(point.at, surfaces[point.surface].surface))
+        if isinstance(point.at, Place)
+        else point
+        for point in document.points
+    )
+    return replace(recipe, document=replace(document, points=points))
+
+
+def _kept(recipe: Recipe, given: Any) -> Path:
+    """A file with a recipe that no line can say, among the program's data."""
+    folder = remembered.folder() / "recipes"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BihdistError(f"The recipe cannot be kept in {folder}: {error.strerror or error}.") from error
+    text = recipe_text(recipe, version())
+    name = f"{stem(recipe.document.surfaces[0].path, 'figure')}-{hashlib.sha256(text.encode()).hexdigest()[:8]}.json"
+    with recipe_written(recipe, given, folder / name, version(), format=recipe.page.format):
+        pass
+    return folder / name
+
+
+def _short(line: str) -> str:
+    return line if len(line) <= SHOWN else f"{line[: SHOWN - 2]} …"

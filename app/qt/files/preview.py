@@ -1,0 +1,192 @@
+"""The figure itself beside the choices of a dialog, drawn by a process that stays alive; the window never waits."""
+
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import BihdistError
+
+from ...figures.worker import GONE, Worker
+from ..look.look import LOOK
+
+DIM = 0.35
+"""How much is seen of a picture that is not true any more."""
+
+SQUARE = 8
+"""Pixels along a side of the squares that stand for nothing."""
+
+
+class Draughtsman(QtCore.QObject):
+    """Has things drawn one after the other in another process; of those that wait only the last of each kind is drawn.
+
+    `answered` is emitted with the number of what was asked and the result, `refused` with it and a sentence; `dropped`
+    with that of what nobody waits for any more.
+    """
+
+    dropped = QtCore.Signal(int)
+    answered = QtCore.Signal(int, object)
+    refused = QtCore.Signal(int, str)
+
+    def __init__(self, parent: QtCore.QObject | None = None) -> None:
+        super().__init__(parent)
+        self._asked: dict[str, tuple[int, Callable[..., Any], tuple]] = {}
+        self._number, self._is_closed = 0, False
+        self._change = threading.Condition()
+        self._worker: Worker | None = None
+        self._thread: threading.Thread | None = None
+
+    def ask(self, kind: str, function: Callable[..., Any], *arguments: Any) -> int:
+        """Have a function called there; its number.
+
+        What was asked before of this kind, and has not begun, is dropped.
+        """
+        with self._change:
+            if kind in self._asked:
+                self.dropped.emit(self._asked[kind][0])
+            self._number += 1
+            self._asked[kind] = (self._number, function, arguments)
+            if self._thread is None and not self._is_closed:
+                self._thread = threading.Thread(target=self._work, name="preview", daemon=True)
+                self._thread.start()
+            self._change.notify()
+            return self._number
+
+    def close(self) -> None:
+        """End the process, whatever it draws."""
+        with self._change:
+            self._is_closed = True
+            self._change.notify()
+            worker = self._worker
+        if worker is not None:
+            worker.close()
+        if self._thread is not None:
+            self._thread.join(5)
+
+    def _work(self) -> None:
+        while True:
+            with self._change:
+                while not self._asked and not self._is_closed:
+                    self._change.wait()
+                if self._is_closed:
+                    return
+                number, function, arguments = self._asked.pop(next(iter(self._asked)))
+            try:
+                result, sentence = self._made(function, arguments), ""
+            except BihdistError as error:
+                result, sentence = None, str(error)
+            except OSError as error:
+                result, sentence = None, f"Nothing can be drawn in the background: {error.strerror or error}."
+            with self._change:
+                if self._is_closed:
+                    return
+                with suppress(RuntimeError):  # the window is gone
+                    if sentence:
+                        self.refused.emit(number, sentence)
+                    else:
+                        self.answered.emit(number, result)
+
+    def _made(self, function: Callable[..., Any], arguments: tuple) -> Any:
+        with self._change:
+            if self._worker is None:
+                self._worker = Worker()
+        try:
+            return self._worker.ask(function, *arguments)
+        except BihdistError as error:
+            if str(error) == GONE:
+                self._worker.close()
+                self._worker = None  # the next question starts another one
+            raise
+
+
+class PreviewPane(QtWidgets.QWidget):
+    """A picture in the middle of a ground, with a line under it, and a thin one above while a new one is drawn.
+
+    `resized` is emitted when a picture of another size would fit.
+    """
+
+    resized = QtCore.Signal()
+    MARGIN, LINE = 24, 40
+
+    def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setMinimumSize(260, 200)
+        self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Expanding)
+        self.setAccessibleName("Preview of the figure")
+        self.image = QtGui.QImage()
+        self.caption, self.is_warning, self.is_true = "", False, False
+        LOOK.follow(self, self.update)
+
+    def room(self) -> tuple[int, int]:
+        """Device pixels that a picture may have."""
+        scale = self.devicePixelRatioF()
+        width, height = self.width() - 2 * self.MARGIN, self.height() - 2 * self.MARGIN - self.LINE
+        return max(round(width * scale), 64), max(round(height * scale), 64)
+
+    def wait(self) -> None:
+        """What is shown is not true any more."""
+        self.is_true = False
+        self.update()
+
+    def show_picture(self, pixels: np.ndarray, caption: str, is_warning: bool) -> None:
+        self.image, self.is_true = image_of(pixels), True
+        self.say(caption, is_warning)
+
+    def say(self, caption: str, is_warning: bool) -> None:
+        self.caption, self.is_warning = caption, is_warning
+        self.setAccessibleDescription(caption)
+        self.update()
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.resized.emit()
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, QtGui.QPainter(self)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.SmoothPixmapTransform)
+        painter.fillRect(self.rect(), QtGui.QColor(theme.hover))
+        box = self._box()
+        if not self.image.isNull():
+            if self.image.hasAlphaChannel():
+                _paint_squares(painter, box)
+            painter.setOpacity(1.0 if self.is_true else DIM)
+            painter.drawImage(box, self.image)
+            painter.setOpacity(1.0)
+        painter.setPen(QtGui.QColor(theme.warning if self.is_warning else theme.quiet))
+        painter.setFont(LOOK.font(12.5))
+        line = QtCore.QRect(self.MARGIN, box.bottom() + 10, self.width() - 2 * self.MARGIN, self.LINE + 12)
+        flags = QtCore.Qt.AlignmentFlag.AlignHCenter | QtCore.Qt.AlignmentFlag.AlignTop
+        painter.drawText(line, int(flags) | int(QtCore.Qt.TextFlag.TextWordWrap), self.caption)
+        if not self.is_true:
+            painter.fillRect(QtCore.QRect(0, 0, self.width(), 2), QtGui.QColor(theme.accent))
+
+    def _box(self) -> QtCore.QRect:
+        """Where the picture stands, in logical pixels."""
+        wide, high = (side / self.devicePixelRatioF() for side in self.room())
+        if self.image.isNull():
+            return QtCore.QRect(self.MARGIN, round((self.height() - self.LINE) / 2), round(wide), 0)
+        share = min(wide / self.image.width(), high / self.image.height())
+        width, height = round(self.image.width() * share), round(self.image.height() * share)
+        return QtCore.QRect((self.width() - width) // 2, (self.height() - self.LINE - height) // 2, width, height)
+
+
+def image_of(pixels: np.ndarray) -> QtGui.QImage:
+    """A picture (height, width, 3 or 4) uint8 that owns its memory."""
+    height, width, channels = pixels.shape
+    kinds = QtGui.QImage.Format
+    kind = kinds.Format_RGBA8888 if channels == 4 else kinds.Format_RGB888
+    pixels = np.ascontiguousarray(pixels)
+    return QtGui.QImage(pixels.data, width, height, channels * width, kind).copy()
+
+
+def _paint_squares(painter: QtGui.QPainter, box: QtCore.QRect) -> None:
+    painter.fillRect(box, QtGui.QColor("#FFFFFF"))
+    painter.save()
+    painter.setClipRect(box)
+    for row, y in enumerate(range(box.top(), box.bottom() + 1, SQUARE)):
+        for x in range(box.left() + SQUARE * (row % 2), box.right() + 1, 2 * SQUARE):
+            painter.fillRect(x, y, SQUARE, SQUARE, QtGui.QColor("#E4E7EA"))
+    painter.restore()

@@ -1,0 +1,155 @@
+"""The size of a figure: rows of sizes by what they are for, and boxes for one's own."""
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import ParameterError
+
+from ...figures.size import PRINT_DPI, Size
+from ..look.look import LOOK
+
+UNITS = {"mm": "millimetres", "px": "pixels"}
+
+SizeNames = tuple[tuple[str, str, str], ...]
+"""Of each size its name, how it is written, and what is said beside it."""
+
+
+class SizeBoxes(QtWidgets.QWidget):
+    """`changed` is emitted when another size is chosen or written."""
+
+    changed = QtCore.Signal()
+
+    def __init__(self, sizes: SizeNames, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._sizes, self._is_filling = sizes, False
+        self.rows = QtWidgets.QButtonGroup(self)
+        column = QtWidgets.QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        for number, (name, _, detail) in enumerate((*sizes, ("Own size", "", ""))):
+            row = _SizeRow(name, detail)
+            row.setToolTip(f"{name}: {detail}" if detail else "Written in the boxes below")
+            row.setAccessibleName(f"Size: {name}, {detail}" if detail else f"Size: {name}")
+            self.rows.addButton(row, number)
+            column.addWidget(row)
+        self.width_box, self.height_box = self._box("Width"), self._box("Height")
+        self.unit = QtWidgets.QComboBox()
+        self.unit.addItems(["mm", "px"])
+        self.unit.setAccessibleName("Unit of the size")
+        self.unit.setToolTip("Millimetres as printed, or pixels")
+        self.dpi = self._box("Pixels per inch")
+        line = QtWidgets.QHBoxLayout()
+        line.setContentsMargins(0, 8, 0, 0)
+        line.setSpacing(6)
+        for box in (self.width_box, QtWidgets.QLabel("×"), self.height_box, self.unit, self.dpi):
+            line.addWidget(box, 1 if isinstance(box, QtWidgets.QLineEdit) else 0)
+        dots = QtWidgets.QLabel("dpi")
+        dots.setProperty("quiet", True)
+        line.addWidget(dots)
+        column.addLayout(line)
+        self.rows.idClicked.connect(self._take_row)
+        for box in (self.width_box, self.height_box, self.dpi):
+            box.textEdited.connect(self._written_by_hand)
+        self.unit.activated.connect(self._written_by_hand)
+        self.write("")
+
+    def text(self) -> str:
+        """The size as `Size.parse` reads it, empty for the usual one."""
+        number = self.rows.checkedId()
+        if 0 <= number < len(self._sizes):
+            return self._sizes[number][1]
+        width, height = self.width_box.text().strip(), self.height_box.text().strip()
+        dpi = self.dpi.text().strip()
+        if not width and not height and not dpi:
+            return ""
+        for number, unit in (
+            (width, UNITS[self.unit.currentText()]),
+            (height, UNITS[self.unit.currentText()]),
+            (dpi, "dpi"),
+        ):
+            if number and not _is_number(number):
+                raise ParameterError(f"{number!r} is not a number of {unit}.")
+        if height and not width:
+            raise ParameterError("A height needs a width beside it.")
+        return f"{width}{'x' if height else ''}{height}{self.unit.currentText()}{'@' if dpi else ''}{dpi}"
+
+    def name(self) -> str:
+        """Of the chosen row."""
+        return self.rows.checkedButton().text()
+
+    def write(self, text: str) -> None:
+        """Show a size as it is written: its row, or one's own."""
+        text = text.strip().replace("×", "x")
+        known = [_read(written) for _, written, _ in self._sizes]
+        size = _read(text)
+        self.rows.button(known.index(size) if size is not None and size in known else len(known)).setChecked(True)
+        self._fill(text)
+        self.changed.emit()
+
+    def _fill(self, text: str) -> None:
+        size = _read(text)
+        if size is None:
+            size = Size()
+            self.width_box.setText(text)
+        else:
+            self.width_box.setText("" if size.width is None else f"{size.width:g}")
+        self.height_box.setText("" if size.height is None else f"{size.height:g}")
+        self.dpi.setText("" if size.dpi is None else f"{size.dpi:g}")
+        self.unit.setCurrentText(size.unit)
+        self._show_usual()
+
+    def _show_usual(self) -> None:
+        """What an empty box means."""
+        for box in (self.width_box, self.height_box):
+            box.setPlaceholderText("auto")
+        self.dpi.setPlaceholderText(f"{PRINT_DPI:g}" if self.unit.currentText() == "mm" else "auto")
+
+    def _take_row(self, number: int) -> None:
+        if number < len(self._sizes):
+            self._fill(self._sizes[number][1])
+        else:
+            self.width_box.setFocus()
+            self.width_box.selectAll()
+        self.changed.emit()
+
+    def _written_by_hand(self, *_: object) -> None:
+        self.rows.button(len(self._sizes)).setChecked(True)
+        self._show_usual()
+        self.changed.emit()
+
+    def _box(self, name: str) -> QtWidgets.QLineEdit:
+        box = QtWidgets.QLineEdit()
+        box.setAccessibleName(f"{name} of the figure" if name != "Pixels per inch" else name)
+        box.setToolTip(f"{name}; empty: as the rest asks for")
+        box.setMinimumWidth(round(46 * LOOK.scale))
+        return box
+
+
+def _read(text: str) -> Size | None:
+    try:
+        return Size.parse(text) if text else Size(unit="mm")
+    except ParameterError:
+        return None
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return 0 < float(text) < float("inf")
+    except ValueError:
+        return False
+
+
+class _SizeRow(QtWidgets.QRadioButton):
+    """A choice with a quiet word at its end."""
+
+    def __init__(self, name: str, detail: str) -> None:
+        super().__init__(name)
+        self._detail = detail
+        self.setProperty("row", True)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        super().paintEvent(event)
+        painter = QtGui.QPainter(self)
+        painter.setFont(LOOK.font())
+        painter.setPen(QtGui.QColor(LOOK.theme.quiet))
+        align = QtCore.Qt.AlignmentFlag
+        painter.drawText(self.rect().adjusted(0, 0, -8, 0), align.AlignRight | align.AlignVCenter, self._detail)

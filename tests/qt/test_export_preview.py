@@ -1,0 +1,215 @@
+"""The export dialog shows the figure itself, and what it says is true of the file; copies are the figure again."""
+
+import os
+import shlex
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.document.document import Anchor, Panel, Place, Point, Zoom
+from app.document.page import Page
+from app.document.quantities import DistanceFrom
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+
+
+def shown_dialog(s, **page):
+    from app.qt.files.figure_actions import export_figure
+
+    s.window.page = replace(s.window.page, **page)
+    dialog = export_figure(s.window)
+    s.until(lambda: dialog.pane.is_true)
+    return dialog
+
+
+def pixels_of(image):
+    from qtpy.QtGui import QImage
+
+    image = image.convertToFormat(QImage.Format.Format_RGB888)
+    memory = image.constBits()
+    memory.setsize(image.sizeInBytes())
+    rows = np.frombuffer(memory, np.uint8).reshape(image.height(), image.bytesPerLine())
+    return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int).copy()
+
+
+def pasted():
+    from qtpy.QtWidgets import QApplication
+
+    return QApplication.clipboard()
+
+
+def test_the_preview_is_the_figure_and_the_window_does_not_wait(screen, mesh_file, tmp_path):
+    from PIL import Image
+
+    s = screen()
+    s.open(mesh_file(bumpy(400)), 5)
+    dialog = shown_dialog(s, size="85mm")
+    assert dialog.pane.caption.startswith("One column, 85 × ")
+    first = pixels_of(dialog.pane.image)
+    dialog.export(str(tmp_path / "f.png"))
+    s.until(lambda: (tmp_path / "f.json").exists() and not s.window.exports.running)
+    with Image.open(tmp_path / "f.png") as file:
+        small = np.asarray(file.convert("RGB").resize(first.shape[1::-1], Image.Resampling.BOX)).astype(int)
+        assert abs(file.size[0] / 300 * 25.4 - 85) < 0.1
+        assert f"85 × {file.size[1] / 300 * 25.4:.0f} mm" in dialog.pane.caption
+    # The same picture drawn coarser: letters and thin lines differ at their edges.
+    assert np.abs(first - small).mean() < 6
+
+
+def test_each_change_is_seen_and_the_last_one_stays(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(400)), 5)
+    dialog = shown_dialog(s)
+    before = pixels_of(dialog.pane.image)
+    for width in range(300, 330):
+        dialog.size.write(f"{width}x200")
+    dialog.style_box.setCurrentIndex(dialog.style_box.findData("dark"))
+    assert not dialog.pane.is_true  # what is shown is dimmed until the new one is there
+    s.until(lambda: dialog.pane.is_true)
+    assert dialog.pane.caption.startswith("Own size, 329 × 200 pixels")
+    after = pixels_of(dialog.pane.image)
+    assert before[0, 0].tolist() == [255] * 3
+    assert after[0, 0].max() < 40
+    dialog.transparent.setChecked(True)
+    s.until(lambda: dialog.pane.is_true)
+    assert dialog.pane.image.hasAlphaChannel()
+    dialog.size.write("8px")
+    s.until(lambda: "16 to 32000 pixels" in dialog.pane.caption)
+    assert dialog.pane.is_warning
+    assert not dialog.pane.is_true
+    dialog.size.write("400x300")
+    s.until(lambda: dialog.pane.is_true)
+    dialog.close()
+
+
+def test_letters_too_small_to_read_are_said(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(400)), 5)
+    dialog = shown_dialog(s, size="178mm")
+    assert not dialog.pane.is_warning
+    dialog.size.write("200x100")
+    s.until(lambda: dialog.pane.is_true)
+    assert dialog.pane.is_warning
+    assert "hard to read" in dialog.pane.caption
+    dialog.close()
+
+
+def test_a_process_that_dies_is_said_and_the_next_change_starts_another(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(400)), 5)
+    dialog = shown_dialog(s)
+    s.window.exports.previews._worker._process.kill()
+    dialog.hints.click()
+    s.until(lambda: "ended without a word" in dialog.pane.caption)
+    assert not dialog.pane.is_true
+    dialog.hints.click()
+    s.until(lambda: dialog.pane.is_true)
+    dialog.close()
+
+
+def test_all_of_the_dialog_is_there_in_a_small_window(screen, mesh_file):
+    s = screen()
+    s.window.resize(900, 600)
+    s.open(mesh_file(bumpy(400)), 5)
+    dialog = shown_dialog(s)
+    assert dialog.width() <= 900
+    assert dialog.height() <= 600
+    assert dialog.pane.width() >= 260
+    for button in (dialog.save, dialog.cancel, dialog.copy_picture, dialog.copy_line):
+        place = button.mapTo(dialog, button.rect().bottomRight())
+        assert dialog.rect().contains(place)
+    dialog.close()
+
+
+def test_the_picture_on_the_clipboard_is_the_exported_one(screen, mesh_file, tmp_path):
+    from PIL import Image
+
+    s = screen()
+    s.open(mesh_file(bumpy(400)), 5)
+    s.window.page = replace(s.window.page, size="400x300")
+    pasted().clear()
+    s.window.actions_by_word["copy picture"].trigger()
+    s.until(lambda: not pasted().image().isNull())
+    dialog = shown_dialog(s)
+    dialog.export(str(tmp_path / "f.png"))
+    s.until(lambda: (tmp_path / "f.json").exists() and not s.window.exports.running)
+    with Image.open(tmp_path / "f.png") as file:
+        assert np.array_equal(pixels_of(pasted().image()), np.asarray(file.convert("RGB")).astype(int))
+    assert s.refusals == []
+
+
+def turned(s):
+    s.window.grid.camera.Azimuth(40)
+    s.panels[0].view.moved.emit()
+
+
+def other_panels(s):
+    document = s.document
+    panels = (Panel(7, DistanceFrom(Spec.of("diffusion", t=1 / 15))), Panel(9, DistanceFrom(Spec.of("commute-time"))))
+    s.session.show(replace(document, panels=panels, next_id=10, areas="barycentric", isolines=12))
+
+
+def marked(s):
+    points = (Point("source", Place(3, (0.2, 0.2, 0.6))), Point("a", 40))
+    document = replace(s.document, points=points, anchors=(Anchor("a", 0.1),), zooms=(Zoom(5, 2.5),))
+    s.session.show(replace(document, panels=document.panels[:1]))
+
+
+STATES = [(turned, Page(size="300x200"), "png"), (other_panels, Page(size="85mm@100", style="dark"), "png")]
+STATES += [(marked, Page(size="85mm", hints=True, columns=1), "pdf")]
+
+
+@pytest.mark.parametrize(("change", "page", "format"), STATES)
+def test_the_copied_lines_make_the_bytes_of_the_export(screen, mesh_file, tmp_path, change, page, format):
+    s = screen()
+    s.open(mesh_file(bumpy(400), "a mesh.off"), 5)
+    change(s)
+    s.until(lambda: s.session.is_complete)
+    dialog = shown_dialog(s, **{f: getattr(page, f) for f in ("size", "style", "hints", "columns")}, format=format)
+    dialog.copy_line.menu().actions()[0].trigger()
+    command = shlex.split(pasted().text())
+    dialog.copy_line.menu().actions()[1].trigger()
+    python = pasted().text()
+    out = tmp_path / f"window.{format}"
+    dialog.export(str(out))
+    s.until(lambda: out.with_suffix(".json").exists() and not s.window.exports.running)
+    (tmp_path / "elsewhere").mkdir()
+    place = {"cwd": tmp_path / "elsewhere", "env": {**os.environ, "PYTHONPATH": os.getcwd()}, "check": True}
+    made = tmp_path / "elsewhere" / f"a mesh.{format}"
+    assert command[0] == "bihdist"
+    for words in (
+        [sys.executable, "-m", "app", *command[1:]],
+        [sys.executable, "-c", f"import app as bihdist; {python.partition('; ')[2]}"],
+    ):
+        subprocess.run(words, **place, stdout=subprocess.DEVNULL)
+        assert made.read_bytes() == out.read_bytes()
+        made.unlink()
+
+
+def test_what_no_line_can_say_is_kept_as_a_recipe(screen, mesh_file, tmp_path, monkeypatch):
+    from app.main import main
+    from app.qt import remembered
+
+    monkeypatch.setattr(remembered, "folder", lambda: tmp_path / "kept")
+    s = screen()
+    s.open(mesh_file(bumpy(400)), 5)
+    document = replace(s.document, points=(*s.document.points, Point("other", 40)))
+    panels = (document.panels[0], replace(document.panels[1], shows=DistanceFrom(Spec.of("commute-time"), "other")))
+    s.session.show(replace(document, panels=panels))
+    s.until(lambda: s.session.is_complete)
+    said = []
+    s.window.say = said.append
+    s.window.files.copy("command")
+    words = shlex.split(pasted().text())
+    assert words[:3] == ["bihdist", "figure", "--recipe"]
+    assert "different points" in said[-1]
+    out = tmp_path / "again.png"
+    assert main([*words[1:4], "--size", "300x200", "-o", str(out)]) == 0
+    assert out.exists()
+    s.window.files.copy("python")
+    assert f"figure_again({words[3]!r})" in pasted().text()
