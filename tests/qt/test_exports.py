@@ -334,18 +334,19 @@ def test_a_size_has_a_name_or_is_one_s_own(small):
     size = dialog.size
     assert size.name() == "Usual"
     next(row for row in size.rows.buttons() if row.text() == "Two columns").click()
-    assert dialog.chosen().page.size == "178mm"
+    assert dialog.chosen().page.size == "double"
     assert (size.width_box.text(), size.unit.currentText()) == ("178", "mm")
     for text in ("160x80mm", "640x480px@200", "90mm@600"):
         size.write(text)
         assert size.name() == "Own size"
         assert dialog.chosen().page.size == text
-    size.write("1920×1080")
-    assert size.name() == "Slide"
+    for text, name in (("85mm", "One column"), ("1920×1080@192", "Slide"), ("", "Usual"), ("slide", "Slide")):
+        size.write(text)
+        assert size.name() == name
     size.width_box.setFocus()
     QtTest.QTest.keyClicks(size.width_box, "0")
     assert size.name() == "Own size"
-    assert dialog.chosen().page.size == "19200x1080px"
+    assert dialog.chosen().page.size == "19200x1080px@192"
     size.width_box.clear()
     dialog.choose_path()
     assert "A height needs a width" in dialog._sentences[size.width_box].text()

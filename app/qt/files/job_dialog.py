@@ -49,6 +49,8 @@ def blamed_on(box: QtWidgets.QWidget) -> Iterator[None]:
     """What is refused inside is the fault of what stands in the box."""
     try:
         yield
+    except WrongBox:  # of another one
+        raise
     except BihdistError as error:
         raise WrongBox(str(error), box) from error
 
