@@ -50,6 +50,11 @@ class Insets:
             window.AddRenderer(self.renderers[-1])
         self._frames.SetVisibility(bool(zooms))
 
+    @property
+    def corners(self) -> tuple[str, ...]:
+        """Where they stand."""
+        return tuple(self._corners)
+
     def remove(self) -> None:
         """They are gone for good."""
         self.show((), self._positions)

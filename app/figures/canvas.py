@@ -17,6 +17,7 @@ from ..drawing.bands import band_edges, bar_parts
 from ..drawing.field_actor import CASING
 from ..drawing.levels import BOLD, levels
 from ..drawing.style import Colour
+from .axes import draw_axes
 from .bars import TICK, Bar
 from .boxes import Box, Words
 from .description import Figure
@@ -95,7 +96,8 @@ def drawn(page: Composition, vector: bool, shots: bool = True, words: bool = Tru
     for number, shot in enumerate(page.shots if shots else ()):
         _draw_shot(axes, page, number, shot, vector)
     if words:
-        _draw_words(axes, page)
+        draw_axes(axes, page, 10 * len(page.shots))
+    _draw_words(axes, page)
     return canvas
 
 

@@ -39,7 +39,7 @@ class FigurePanel:
     maximum is this share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
     signed: the field has values on both sides of 0, and its colour bar goes from -maximum to maximum.
     up: which axis is up in standard views.  source: the vertex that the view from the source looks at.  is_parallel:
-    nothing gets smaller with distance.
+    nothing gets smaller with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.
     """
 
     surface: Surface
@@ -61,6 +61,7 @@ class FigurePanel:
     up: str = "y"
     source: int | None = None
     is_parallel: bool = False
+    axes: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

@@ -161,6 +161,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         up=document.up if document.up != "auto" else opened.up,
         source=starts[0] if starts else None,
         is_parallel=document.projection == "orthographic",
+        axes=document.axes,
     )
 
 

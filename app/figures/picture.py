@@ -116,13 +116,14 @@ def figure(
     distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, or several for a row of
     panels each; the highest if None.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is
     named in `distances` like one: "biharmonic - mine".  views: names or cameras, side by side.  camera: the eleven
-    numbers that `--camera` takes, after other views.  zooms: vertices, or with a factor, or with that and a number of
-    steps.  isolines: a number of steps; isoline_spacing, isoline_values: where they are instead; isoline_through:
-    vertices that have one more; bold_isolines: every so many.  anchors: vertices to be marked, perhaps each with a
-    value.  shading: "smooth", "creased" at more than `crease` degrees, or "flat";
-    "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own", "shared"
-    (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or the
-    session or recipe whose ends are taken; shared_range: the same as "shared".  size: "85mm", "1680x640", "column",
+    numbers that `--camera` takes, after other views.  up: the axis that points up, "z" or "-z", "auto" for a guess.
+    projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
+    with a factor, or with that and a number of steps.  isolines: a number of steps; isoline_spacing, isoline_values:
+    where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.  anchors:
+    vertices to be marked, perhaps each with a value.  shading: "smooth", "creased" at more than `crease` degrees, or
+    "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
+    "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
+    the session or recipe whose ends are taken; shared_range: the same as "shared".  size: "85mm", "1680x640", "column",
     "slide", as the command takes it.  title: names as "heading", as "caption" at the colour bars, or "none".  font: a
     family; text: the size of labels in points.  Raises BihdistError, as the command says its sentences.
 

@@ -48,9 +48,9 @@ class Contour:
 class Shot:
     """A rectangle of the page with a picture in it.
 
-    image: (h, w, 4) uint8, colours multiplied by alpha; isolines: in the order of their
-    values; marks: their index in the panel, and where (x, y) on the page; ghosts: the same of marks that the shape
-    hides; source: for an inset, what it enlarges.
+    image: (h, w, 4) uint8, colours multiplied by alpha; isolines: in the order of their values; marks: their index in
+    the panel, and where (x, y) on the page; frame: (3, 3) of the camera, see `drawing.camera.frame`; ghosts: of marks
+    that the shape hides, the same; source: for an inset, what it enlarges.
     """
 
     panel: int
@@ -59,6 +59,7 @@ class Shot:
     isolines: list[Contour]
     outlines: list[Line]
     marks: list[PlacedMark]
+    frame: np.ndarray
     ghosts: list[PlacedMark] = field(default_factory=list)
     source: Box | None = None
 
@@ -183,6 +184,7 @@ class _Taker:
             [replace(line, parts=[(move(p + self._corner), c) for p, c in line.parts]) for line in contours],
             [(move(p + self._corner), c) for p, c in self._outlines or []],
             [mark for mark in marks if box.holds(*mark[1:])],
+            self._projection.view[:3, :3].T,
             [mark for mark in ghosts if source is None and box.holds(*mark[1:])],
             source,
         )

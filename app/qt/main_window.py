@@ -239,14 +239,7 @@ class MainWindow(QtWidgets.QMainWindow):
             for panel in document.panels:
                 if self.session.is_answered(panel.id) or (is_dressed and panel.id in self.session.shown):
                     self.answer_changed(panel.id)
-        is_stood_otherwise = (document.up, document.projection) != (before.up, before.projection)
-        follows = document.camera == "source" and document.points != before.points
-        if self.remembers and not is_other and document.up != before.up:
-            remembered.remember_up(document.surfaces[0].sha256, document.up)
-        if is_other or is_raised or is_stood_otherwise or follows or document.camera != before.camera:
-            self.grid.turn_upright()
-            self.grid.look(document.camera)
-            self.views.rest_soon()
+        self.views.document_changed(before, is_other, is_raised)
         self._offer_steps()
         self.choices.show()
         self.waits.expect(before)

@@ -9,7 +9,7 @@ import os
 import sys
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -238,6 +238,7 @@ def show(
     source: int | None = None,
     *,
     areas: str = "voronoi",
+    up: str = "auto",
     on_pick: Callable[[Pick], object] | None = None,
     block: bool | None = None,
 ) -> Viewer:
@@ -246,7 +247,8 @@ def show(
     mesh: a file, a sample, a Surface, or vertices (n, 3) and faces (m, 3).  distances: a panel each, in words:
     "diffusion(t=1/4)", "biharmonic - geodesic".  fields: your own by name, (n,) with NaN where undefined; each has a
     panel, coloured from 0 (from minus its largest absolute value, if it has negative values), or is named in
-    `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None.  on_pick: called with a `Pick`
+    `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None.  up: which
+    axis is, "z" or "-z"; "auto" for what was chosen for the mesh before, or a guess.  on_pick: called with a `Pick`
     for each click on the surface, once the source is there.  block: wait until the window is closed; if None, in
     scripts, but not in IPython, notebooks and Python's own prompt, where the window lives while you go on.
 
@@ -265,6 +267,7 @@ def show(
     if on_pick is not None and not callable(on_pick):
         raise ParameterError(f"on_pick is a function, not {on_pick!r}.")
     document, given = given_comparison(mesh, distances, {} if fields is None else fields, (source,), areas)
+    document = replace(document, up=up)
     for each in document.surfaces:
         checked_path(each)
     check_screen()

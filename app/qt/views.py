@@ -9,12 +9,14 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError
 
-from ..document.camera import View
+from ..document.camera import Camera, View
 from ..document.camera_text import camera_text, read_camera
+from ..document.document import Document
 from ..document.edits import stand
 from ..document.history import Trail
 from .look.numbers import MINUS
 from .preferences import save
+from .remembered import remember_up
 
 STILL_MS = 500
 """When the camera has not moved for so long, what is seen is a view that one can come back to."""
@@ -33,6 +35,21 @@ class Views:
         """Another mesh is there."""
         self._trail = Trail()
         self._offer()
+
+    def document_changed(self, before: Document, is_other: bool, is_raised: bool) -> None:
+        """Let the camera see what the document says.  is_other: another mesh is there; is_raised: a relief changed."""
+        window, document = self._window, self._window.session.document
+        if window.remembers and not is_other and document.up != before.up:
+            remember_up(document.surfaces[0].sha256, document.up)
+        window.grid.show_axes(document.axes)
+        is_stood_otherwise = (document.up, document.projection) != (before.up, before.projection)
+        follows = document.camera == "source" and document.points != before.points
+        if is_other or is_raised or is_stood_otherwise or follows or document.camera != before.camera:
+            window.grid.turn_upright()
+            window.grid.look(document.camera)
+            self.rest_soon()
+        if document.up != before.up and isinstance(document.camera, Camera) and document.camera == before.camera:
+            self.see("home")  # undone and done again it would be askew
 
     def moved(self, view: View) -> None:
         """The camera sees this now."""

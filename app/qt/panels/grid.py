@@ -176,6 +176,7 @@ class PanelGrid(QtWidgets.QWidget):
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = self._upright
+        panel.view.show_axes(self._session.document.axes)
         panel.show_isolines(self._session.document.isolines)
         panel.show()
 
@@ -300,6 +301,10 @@ class PanelGrid(QtWidgets.QWidget):
         document, surface = self._session.document, self._session.opened().surface
         sources = document.sources
         return outwards_at(surface, vertex_at(sources[0], surface)) if sources else None
+
+    def show_axes(self, has_axes: bool) -> None:
+        for panel in self.panels:
+            panel.view.show_axes(has_axes)
 
     @property
     def seen(self) -> Camera:

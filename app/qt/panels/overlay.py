@@ -1,7 +1,11 @@
-"""What lies over a view and needs no drawing of the surface: the ring and the label at the pointer, and sentences."""
+"""What lies over a view and needs no drawing of the surface: the ring and the label at the pointer, the
+axes, and sentences."""
+
+from collections.abc import Sequence
 
 from qtpy import QtCore, QtGui
 
+from ...drawing.axes import ARM, Arm
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
 
@@ -66,6 +70,25 @@ def paint_label(painter: QtGui.QPainter, place: QtCore.QRectF, value: str, share
         painter.setPen(QtGui.QColor(colour))
         baseline = place.center().y() + (metrics.ascent() - metrics.descent()) / 2
         x = paint_number(painter, x, baseline, text) + LABEL_GAP
+
+
+def paint_axes(painter: QtGui.QPainter, arms: Sequence[Arm], at: tuple[float, float]) -> None:
+    """The cross of the axes about a place."""
+    painter.setFont(LOOK.font(11))
+    metrics = painter.fontMetrics()
+    x, y = at
+    for arm in arms:
+        colour = QtGui.QColor(LOOK.theme.quiet)
+        colour.setAlphaF(arm.opacity)
+        pen = QtGui.QPen(colour, 1.5)
+        pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
+        painter.setPen(pen)
+        painter.drawLine(QtCore.QPointF(x, y), QtCore.QPointF(x + ARM * arm.x, y - ARM * arm.y))
+        if arm.letter_at is None:
+            continue
+        right, up = arm.letter_at
+        width = metrics.horizontalAdvance(arm.name)
+        painter.drawText(QtCore.QPointF(x + right - width / 2, y - up + metrics.xHeight() / 2), arm.name)
 
 
 def paint_sentence(painter: QtGui.QPainter, view: QtCore.QRect, words: str) -> None:

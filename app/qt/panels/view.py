@@ -10,7 +10,9 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from ...drawing import moves
+from ...drawing.axes import arms, middle
 from ...drawing.board import Board
+from ...drawing.camera import camera_seen, frame
 from ...drawing.picking import Met, Picker, pixel_of
 from ...drawing.style import Style
 from ..look.look import LOOK
@@ -71,6 +73,7 @@ class View(QtWidgets.QWidget):
         self._is_empty = True
         self._is_dimmed = False
         self.sentence = ""
+        self._has_axes = False
         self._pointed: Pointed | None = None
         self._covered = QtCore.QRect()
         self._press: QtCore.QPoint | None = None
@@ -138,6 +141,12 @@ class View(QtWidgets.QWidget):
             self.sentence = sentence
             self.update()
 
+    def show_axes(self, has_axes: bool) -> None:
+        """Whether a cross in a corner says where x, y and z point to."""
+        if has_axes != self._has_axes:
+            self._has_axes = has_axes
+            self.update()
+
     def point_at(self, pointed: Pointed | None) -> None:
         """Put the ring somewhere; the surface is not drawn for it."""
         self._pointed = pointed
@@ -158,6 +167,9 @@ class View(QtWidgets.QWidget):
         painter.drawImage(QtCore.QPointF(0, 0), picture)
         painter.setOpacity(1.0)
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        if self._has_axes:
+            at = middle(self.width(), self.height(), self.scene.insets.corners)
+            overlay.paint_axes(painter, arms(frame(camera_seen(self.camera, 1.0))), at)
         if self.sentence:
             overlay.paint_sentence(painter, self.rect(), self.sentence)
         if self._pointed is not None:
