@@ -65,7 +65,8 @@ class Screen:
 
     def open(self, path, source=None):
         self.window.open(str(path), source)
-        self.until(lambda: self.session.is_complete)
+        # Until it is there, what was shown before is complete.
+        self.until(lambda: self.session.is_complete and not self.session.is_opening)
         self.settle(0.1)
 
     def pictures(self):
