@@ -44,6 +44,15 @@ def with_colours(document: "Document", options: argparse.Namespace) -> "Document
     return replace(document, colours=replace(colours, **given))
 
 
+def tell_if_unseen(style: str, options: argparse.Namespace, say: Callable[[str], None]) -> None:
+    """A sentence on colours that are named for a style that has none."""
+    from ..drawing.style import STYLES
+
+    named = [f"--{name}" for name in ("colours", "reversed", "bands") if getattr(options, name)]
+    if named and style in STYLES and not STYLES[style].coloured:
+        say(f"The style {style} has no colours; {', '.join(named)} cannot be seen in it.")
+
+
 def with_range(document: "Document", options: argparse.Namespace, say: Callable[[str], None]) -> "Document":
     """With the ends that are asked for; `say` gets a sentence on those that were taken from a file."""
     from bihdist_core import ParameterError

@@ -10,7 +10,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from ..document.looks import PROJECTIONS
-from .colour_options import add_colours, add_range, with_colours, with_range
+from .colour_options import add_colours, add_range, tell_if_unseen, with_colours, with_range
 from .isoline_options import add_isolines, with_isolines
 from .options import PANELS, add_areas, add_distance, add_up, check_parameters, given_parameters, quantities
 from .terminal import tell
@@ -138,6 +138,7 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     document = replace(document, shading=shading)
     document = with_range(with_colours(document, options), options, tell)
     page = replace(page, **_given(options, "size", "style", "hints", "transparent", "crop", "title", "font", "text"))
+    tell_if_unseen(page.style, options, tell)
     columns = options.columns if options.columns is not None else rows or page.columns
     if views:
         document = replace(document, camera=views[0])

@@ -23,6 +23,7 @@ from bihdist_core import BihdistError, ParameterError
 from ..document.document import Document
 from ..document.edits import move_source
 from ..document.quantities import Quantity
+from ..drawing.style import map_of
 from ..session.given import Mesh, given_comparison
 from ..session.opened import checked_path
 from ..session.questions import vertex_at
@@ -182,6 +183,7 @@ class Viewer:
         """Show a document and wait for it; BihdistError with what the user would be told, or if it was stopped."""
         if not isinstance(document, Document) or len(document.surfaces) != 1:
             raise ParameterError("The window shows a Document with one mesh, and this is none.")
+        map_of(document.colours)
         window = self._there
         refusals: list[str] = []
         arrived: list[bool] = []

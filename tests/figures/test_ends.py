@@ -82,6 +82,13 @@ def test_the_options_of_colours_and_ranges():
             recipe_of(*words)
 
 
+def test_colours_that_a_style_does_not_show_are_named(capsys):
+    recipe_of("--style", "lines", "--isolines", "5")
+    assert capsys.readouterr().err == ""
+    recipe_of("--style", "lines", "--colours", "safe", "--bands")
+    assert "The style lines has no colours; --colours, --bands cannot be seen in it." in capsys.readouterr().err
+
+
 def test_ends_are_taken_by_quantity_and_else_by_place():
     ends = [End("geodesic", 3.0), End("biharmonic", 1.0), End("geodesic", 4.0)]
     taken, said = ended_as(document("biharmonic", "geodesic", "geodesic"), ends, "a.json")

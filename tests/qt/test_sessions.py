@@ -15,6 +15,7 @@ from app.document.camera import Camera
 from app.document.document import comparison
 from app.document.edits import add_panel, move_source
 from app.document.file import read_recipe, recipe_text
+from app.document.looks import Colours
 from app.document.page import Page, Recipe
 from app.document.quantities import quantity
 from app.session.given import given_comparison
@@ -195,11 +196,13 @@ def test_after_a_crash_what_was_shown_is_offered_and_after_a_proper_end_it_is_no
 
 def test_view_saves_its_session(mesh_file, tmp_path):
     words = ["view", mesh_file(bumpy(300)), "--source", "7", "--distance", "biharmonic - geodesic"]
+    words += ["--colours", "safe", "--bands"]
     outputs = ["--screenshot", str(tmp_path / "w.png"), "--save-session", str(tmp_path / "s.json")]
     done = subprocess.run([sys.executable, "-m", "app", *words, *outputs], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     document = read_recipe(tmp_path / "s.json").document
     assert (document.sources, [str(panel.shows) for panel in document.panels]) == ((7,), ["biharmonic - geodesic"])
+    assert document.colours == Colours("safe", bands=True)
     assert not (tmp_path / "data").exists()
     again = ["view", str(tmp_path / "s.json"), "--screenshot", str(tmp_path / "again.png")]
     done = subprocess.run([sys.executable, "-m", "app", *again], cwd=ROOT, capture_output=True, text=True)

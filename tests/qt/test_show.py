@@ -10,6 +10,7 @@ import app
 from app.document.document import Document
 from app.document.edits import remove_panel
 from app.document.file import read_recipe
+from app.document.looks import Colours
 from bihdist_core import BiharmonicDistance, BihdistError, MeshError, ParameterError, VertexError
 from tests.shapes import bumpy, two_pieces
 
@@ -86,6 +87,8 @@ def test_a_document_is_shown_and_can_be_undone(shown):
     assert viewer.document == before
     with pytest.raises(BihdistError, match="not there"):
         viewer.document = replace(before, surfaces=(replace(before.surfaces[0], path="gone.off"),))
+    with pytest.raises(ParameterError, match="no colour map 'jet'"):
+        viewer.document = replace(before, colours=Colours("jet"))
     assert viewer.document == before
 
 
@@ -133,8 +136,8 @@ def test_where_a_difference_is_nothing_no_line_is_drawn(shown):
     )
     viewer.panels  # noqa: B018
     views = [panel.view.shot() for panel in viewer._window.grid.panels]
-    # The middle of the colours is light; lines are dark.
-    dark = [(view.max(axis=2) < 90).mean() for view in views]
+    # The middle of the colours is light and the end violet; lines are dark and grey.
+    dark = [((view.max(axis=2) < 90) & (np.ptp(view, axis=2) < 20)).mean() for view in views]
     assert dark[0] < 0.006
     assert dark[0] < dark[1] < 0.06
     assert viewer._window.grid.panels[0].answer.largest is None
