@@ -10,7 +10,7 @@ import numpy as np
 from ..drawing.bands import beyond
 from .boxes import Box, Words
 from .description import Figure
-from .words import LINE, Lettering
+from .words import BOUND, LINE, Lettering
 
 THICK = 11.0
 TICK = 3.0
@@ -70,10 +70,10 @@ def end_words(figure: Figure, panel: int) -> str:
         return ""
     if each.signed:
         vertex = int(np.nanargmax(np.abs(each.field))) if np.isfinite(each.field).any() else 0
-        end = f"largest {_signed(each.field[vertex])} at vertex {vertex}"
+        end = f"largest{BOUND}{_signed(each.field[vertex])} at{BOUND}vertex{BOUND}{vertex}"
     else:
         top = figure.tops()[panel]
-        end = f"max {each.own_top if any(goes_beyond(figure, panel)) else top:.4g}"
+        end = f"max{BOUND}{each.own_top if any(goes_beyond(figure, panel)) else top:.4g}"
     if figure.range == "shares":
         return f"% of the {end}{' ' + each.unit if each.unit else ''}"
     return f"{each.unit}, {end}" if each.unit else end

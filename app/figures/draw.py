@@ -25,7 +25,10 @@ __all__ = ["FIGURE_FORMATS", "Figure", "FigurePanel", "Mark", "Zoom", "check_off
 FIGURE_FORMATS = (".png", ".pdf", ".svg")
 
 VECTOR_DPI = 300
-"""The least resolution of the shading in PDF and SVG."""
+"""The least resolution of the shading in PDF, SVG and EPS, as long as the page is not larger than MOST_PIXELS."""
+
+MOST_PIXELS = 6000
+"""Along a side of a page with vectors: a poster is seen from farther away."""
 
 
 def draw_figure(
@@ -75,5 +78,7 @@ def described(figure: Figure) -> str:
 def _page(
     figure: Figure, vector: bool, progress: Progress | None, stage: Stage | None = None, share: float = 1.0
 ) -> Composition:
-    layout = lay_out(figure, VECTOR_DPI / 96 if vector else 0.0, share)
+    layout = lay_out(figure, 0.0, share)
+    if vector:
+        layout = lay_out(figure, min(VECTOR_DPI / 96, MOST_PIXELS / max(layout.width, layout.height)), share)
     return Composition(figure, layout, take_shots(figure, layout, part(progress, 0.0, 0.95), stage))

@@ -94,4 +94,5 @@ def _fullest(figure: Figure, aspect: float) -> int:
     def room(columns: int) -> float:
         return min(aspect / (columns * wide), 1 / (-(-count // columns) * PANEL[1]))
 
-    return max(range(count, 0, -1), key=room)
+    rows = (-(-count // columns) for columns in range(count, 0, -1))
+    return max((-(-count // each) for each in rows), key=room)

@@ -19,7 +19,7 @@ from .words import LINE, Lettering
 HEADING, HINT, LABEL = 17.0, 13.0, 12.0
 """The usual sizes of words, in units."""
 
-NARROW, WIDE = 420.0, 700.0
+NARROW, WIDE = 420.0, 600.0
 """Panels narrower than the one have smaller words; on paper those wider than the other have larger ones."""
 
 SMALLEST_WORDS = 0.67
@@ -27,6 +27,9 @@ SMALLEST_WORDS = 0.67
 
 STROKE = 400.0
 """Views narrower than this many units have thinner lines."""
+
+THINNEST = 0.35
+"""How much thinner at most: what is white must still be seen in print."""
 
 MARK, LEAST_MARK = 0.026, 4.0
 """How far a mark is across: a share of the shorter side of a view, and units."""
@@ -287,7 +290,7 @@ def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Si
         box = _bar_box(Box(0, 0, width, height), height - sizes.pad - strip.height + 7 * texts.factor, texts.factor)
         shared = bars.flat_bar(figure, strip.panel, box, (3, width - 3), strip.lines, strip.label, texts.lettering)
     narrowest = min(view.width for cell in cells for view in cell.views)
-    stroke = min(max(narrowest / STROKE, 0.5), 1.0)
+    stroke = min(max(narrowest / STROKE, THINNEST), 1.0)
     if grid.is_printed:
         stroke = max(stroke, narrowest / WIDE)
     sides = min(min(view.width, view.height) for cell in cells for view in cell.views)

@@ -17,8 +17,11 @@ ALMOST = 0.7
 LINE = 1.28
 """From line to line, in sizes of the text."""
 
-_PARTS = re.compile(r"\S+?[_/](?=\S)|\S+")
-"""Where a line may end: after a space, an underscore, a slash."""
+_PARTS = re.compile(r"[^ ]+?[_/](?=[^ ])|[^ ]+")
+"""Where a line may end: after a space, an underscore, a slash; not after a space that binds."""
+
+BOUND = "\u00a0"
+"""A space at which no line ends."""
 
 Widths = Callable[[str, float], float]
 """Of a line of text at a size, in units."""
@@ -45,12 +48,16 @@ class Lettering:
         sizes = [size] if self.stays else _sizes(size)
         for smaller in sizes:
             if smaller >= ALMOST * size and all(wide(text, smaller) <= room for text in texts):
-                return smaller, [(text,) if text else () for text in texts]
+                return smaller, [_plain((text,)) if text else () for text in texts]
         for smaller in sizes:
             found = [wrapped(text, smaller, room, wide) for text in texts]
             if all(len(lines) <= most and all(wide(x, smaller) <= room for x in lines) for lines in found):
-                return smaller, found
-        return sizes[-1], [shortened(text, sizes[-1], room, most, wide) for text in texts]
+                return smaller, [_plain(lines) for lines in found]
+        return sizes[-1], [_plain(shortened(text, sizes[-1], room, most, wide)) for text in texts]
+
+
+def _plain(lines: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(line.replace(BOUND, " ") for line in lines)
 
 
 def _sizes(size: float) -> list[float]:
