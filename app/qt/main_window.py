@@ -394,6 +394,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def _allow(self, has_mesh: bool) -> None:
         self.actions_by_word.allow(has_mesh)
+        self.menus.allow(has_mesh)
         self.tool_bar.allow(has_mesh)
         self._offer_steps()
 

@@ -31,6 +31,12 @@ def shown(screen, mesh_file):
     return s
 
 
+def test_nothing_is_chosen_without_a_mesh(screen, shown):
+    menus = ("isolines", "colours", "range", "shading", "up")
+    for s, has_mesh in ((screen(), False), (shown, True)):
+        assert {getattr(s.window.menus, name).menuAction().isEnabled() for name in menus} == {has_mesh}
+
+
 def choose(s, data):
     next(action for action in s.window.menus.colours.actions() if action.data() == data).trigger()
     s.settle()

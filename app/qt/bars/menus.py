@@ -105,6 +105,11 @@ class Menus:
         self._fill(tools, self.tools.actions())
         self._fill(about, ["keys", "tour", None, "about"])
 
+    def allow(self, has_mesh: bool) -> None:
+        """How fields are shown can be chosen while there are some."""
+        for menu in (self.isolines, self.colours, self.range, self.shading, self.up):
+            menu.menuAction().setEnabled(has_mesh)
+
     def _fill(self, menu: QtWidgets.QMenu, entries: Sequence[object]) -> None:
         """By words of actions, with None for a line; menus and actions as they are."""
         for entry in entries:
