@@ -1,18 +1,24 @@
 """Where cameras stand: standard views turn with what is up, lines of sight may be parallel, and text holds a camera."""
 
+import argparse
 import json
+import shutil
 from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+import app
+from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document.camera import VIEWS, Camera
 from app.document.camera_text import camera_text, read_camera
 from app.document.document import Document, comparison
 from app.document.edits import stand
+from app.document.file import read_recipe, recipe_text
 from app.document.form import view_data
 from app.document.looks import UPS
+from app.document.page import Recipe
 from app.drawing.axes import BEYOND, arms, middle
 from app.drawing.camera import FRONTS, Projection, directions, frame, outwards_at, standard_camera
 from app.drawing.drawable import drawable
@@ -21,6 +27,9 @@ from app.figures.draw import Figure, FigurePanel, draw_figure
 from app.figures.raster import Studio
 from app.figures.sight import Sight
 from app.figures.turning import start_and_axis
+from app.main import main
+from app.paper import reproduce
+from app.samples import mesh_path
 from app.session.questions import first_source
 from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.upright import axis_of
@@ -220,3 +229,66 @@ def test_other_texts_are_no_cameras(text, words):
 
 def test_the_usual_document_leaves_up_to_be_guessed():
     assert Document().up == "auto"
+
+
+# ---------------------------------------------------------------------- the commands
+@pytest.fixture
+def scan(tmp_path):
+    """The hare, lying on its back in the eyes of whoever takes y for up; a file without a guess of its own."""
+    path = tmp_path / "scan.ply"
+    shutil.copy(mesh_path("hare"), path)
+    return path
+
+
+def document_of(path):
+    return read_recipe(path.with_suffix(".json")).document
+
+
+def test_a_figure_stands_as_it_is_told_or_as_it_is_guessed(scan, tmp_path):
+    first, second, third = (tmp_path / f"{k}.png" for k in range(3))
+    few = ["--distance", "geodesic", "--method", "dijkstra", "--size", "200x200"]
+    assert main(["figure", str(scan), *few, "-o", str(first)]) == 0
+    assert document_of(first).up == "z"
+    assert (
+        main(["figure", str(scan), *few, "--up=-y", "--projection", "orthographic", "--axes", "-o", str(second)]) == 0
+    )
+    found = document_of(second)
+    assert (found.up, found.projection, found.axes) == ("-y", "orthographic", True)
+    assert first.read_bytes() != second.read_bytes()
+    # A recipe from before ways up were known was drawn with y up, and is.
+    data = json.loads(first.with_suffix(".json").read_text())
+    del data["document"]["up"]
+    first.with_suffix(".json").write_text(json.dumps(data))
+    assert main(["figure", "--recipe", str(first.with_suffix(".json")), "-o", str(third)]) == 0
+    assert document_of(third).up == "y"
+
+
+def test_a_camera_of_a_recipe_is_left_for_another_way_up(scan, tmp_path):
+    parser = argparse.ArgumentParser()
+    add_figure_options(parser, "")
+    recipe = tmp_path / "r.json"
+    shown = replace(comparison(str(scan)), camera=CAMERA, up="y")
+    recipe.write_text(recipe_text(Recipe(shown), "0.2"))
+
+    def chosen(*words):
+        return chosen_recipe(parser.parse_args(["--recipe", str(recipe), "-o", "x.png", *words])).document
+
+    assert chosen().camera == CAMERA
+    assert (chosen("--up", "z").camera, chosen("--up", "z").up) == ("home", "z")
+    assert chosen("--up", "z", "--camera", camera_text(CAMERA)).camera == CAMERA
+
+
+def test_the_papers_pictures_of_a_mesh_of_ones_own_stand(scan, tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(reproduce, "_picture", lambda folder, name, figure: drawn.append(figure) or b"")
+    for up, expected in (("auto", "z"), ("x", "x")):
+        drawn.clear()
+        reproduce.reproduce(str(tmp_path / up), ["fig1"], str(scan), quick=True, say=lambda line: None, up=up)
+        assert {panel.up for figure in drawn for panel in figure.panels} == {expected}
+
+
+def test_python_says_what_is_up(scan):
+    picture = app.figure(scan, ["geodesic(method=dijkstra)"], up="-z", axes=True, projection="orthographic")
+    assert (picture.document.up, picture.document.axes) == ("-z", True)
+    with pytest.raises(ParameterError, match="no direction 'sideways'"):
+        app.figure(scan, up="sideways")

@@ -195,7 +195,8 @@ def test_the_dialog_shows_and_gives_what_it_is_told(dialog):
     assert dialog.chosen() == Preferences("light", 12, True, b"\1", "/tmp")
     dialog.isolines.setValue(30)
     dialog.wheel.buttons[""].click()
-    assert dialog.chosen() == Preferences("light", 30, False, b"\1", "/tmp")
+    dialog.turning.buttons["turntable"].click()
+    assert dialog.chosen() == Preferences("light", 30, False, b"\1", "/tmp", turntable=True)
 
 
 def test_a_theme_is_seen_at_once_and_cancel_undoes_it(dialog):

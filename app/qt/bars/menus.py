@@ -4,7 +4,8 @@ from collections.abc import Callable, Sequence
 
 from qtpy import QtGui, QtWidgets
 
-from ...document.looks import UPS
+from bihdist_core.analysis.upright import DIRECTIONS
+
 from ...samples import mesh_path, sample_names, thumbnail
 from .. import remembered
 from ..actions import ISOLINES, TURNS, VIEWS
@@ -83,7 +84,7 @@ class Menus:
         )
         self._fill(self.views, [None, "centre", "zoom to", None, "view before", "view after"])
         self.up = self._choices(
-            "&Up", lambda word: window.views.stand(word), [(up, up.replace("-", MINUS)) for up in UPS if up != "auto"]
+            "&Up", lambda word: window.views.stand(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
         )
         self._fill(self.up, [None, "next up", "other end up"])
         steps = ("step left", "step right", "step up", "step down")

@@ -10,6 +10,7 @@ from ..look.segments import Segments
 from ..preferences import Preferences, load, save
 
 THEMES = {"As the desktop": "desktop", "Light": "light", "Dark": "dark"}
+TURNING = {"Freely": "", "Turntable": "turntable"}
 WHEEL = {"Forwards goes closer": "", "Forwards goes away": "reversed"}
 RESET = "All as at the first start."
 LABELS = 88
@@ -34,6 +35,8 @@ class PreferencesDialog(QtWidgets.QDialog):
         )
         self.wheel = Segments(WHEEL, "Wheel")
         self.wheel.setToolTip("What turning the wheel away from you does to the view")
+        self.turning = Segments(TURNING, "Turning")
+        self.turning.setToolTip("On a turntable, what is up stays upright while the surface is dragged")
         self.again = QtWidgets.QPushButton("Reset all preferences", objectName="link", autoDefault=False)
         self.again.setToolTip("Everything as at the first start, also the window's place; Cancel undoes it")
         self.again.clicked.connect(self.reset)
@@ -57,6 +60,7 @@ class PreferencesDialog(QtWidgets.QDialog):
             theme=self.theme.choice(),
             isolines=self.isolines.value(),
             wheel_reversed=bool(self.wheel.choice()),
+            turntable=bool(self.turning.choice()),
         )
 
     def reset(self) -> None:
@@ -70,6 +74,7 @@ class PreferencesDialog(QtWidgets.QDialog):
         self.theme.choose(preferences.theme)
         self.isolines.setValue(preferences.isolines)
         self.wheel.choose("reversed" if preferences.wheel_reversed else "")
+        self.turning.choose("turntable" if preferences.turntable else "")
 
     def _rows(self) -> QtWidgets.QLayout:
         rows = QtWidgets.QGridLayout()
@@ -89,6 +94,7 @@ class PreferencesDialog(QtWidgets.QDialog):
                 ("&Theme", self.theme, self.theme),
                 ("&Isolines", isolines, self.isolines),
                 ("&Wheel", self.wheel, self.wheel),
+                ("T&urning", self.turning, self.turning),
             ]
         ):
             label = QtWidgets.QLabel(text)
