@@ -99,6 +99,10 @@ def test_only_the_window_loads_qt():
     assert not loaded(*modules(*folders - {"qt"})) & QT
 
 
+def test_the_window_opens_before_what_draws_is_loaded():
+    assert not loaded("app.qt.main_window") & DRAWING
+
+
 def test_the_library_has_one_name():
     said = run("import app, sys; print('numpy' in sys.modules, app.Surface.__module__)")
     assert said.split() == ["False", "bihdist_core.surface"]

@@ -2,14 +2,17 @@
 window."""
 
 import os
+from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError
 from bihdist_core.distances.answers import failure_in_words
 
-from ...figures.ends import End, ended_as, ends_in
 from ...session.lane import Lane
+
+if TYPE_CHECKING:
+    from ...figures.ends import End
 
 PATIENCE_MS = 400
 """How long nothing is said of it."""
@@ -57,13 +60,18 @@ class TakenEnds(QtCore.QObject):
         self._end_waiting()
 
     def _compute(self, request: list[str], lane: Lane[list[str]]) -> None:
+        # Not when the window opens, which is before what draws is imported.
+        from ...figures.ends import ends_in
+
         self._found.emit(request, ends_in(request[0], lane.progress(lambda latest: latest is request)))
 
     def _show_progress(self, fraction: float | None, words: str) -> None:
         if self._waiting is not None and fraction is not None:
             self._waiting.setValue(min(int(100 * fraction), 99))
 
-    def _take(self, request: list[str], ends: tuple[End, ...]) -> None:
+    def _take(self, request: list[str], ends: "tuple[End, ...]") -> None:
+        from ...figures.ends import ended_as
+
         if request is not self._wanted:
             return
         self._wanted = None
