@@ -8,11 +8,13 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError
 
 from ..document.edits import MOST_ADDED, PANEL_EDITS, add_another, end_at, has_ends, possible_edits, with_range
-from ..document.looks import MOST_ISOLINES, Colours
+from ..document.looks import Colours
 from ..drawing.colour_file import read_stops
 from ..drawing.colour_maps import MAPS
 from .bars.colour_menu import colours_in_words
+from .bars.isoline_menu import isolines_in_words
 from .files.taken_ends import TakenEnds
+from .isoline_choices import IsolineChoices
 from .look.look import LOOK, TALK
 from .preferences import Preferences, save
 
@@ -29,19 +31,20 @@ class Choices:
         self._window = window
         self.is_full_screen = False
         self.ends = TakenEnds(window)
+        self.isoline = IsolineChoices(window)
 
     def show(self) -> None:
         """Let menus and buttons say what is chosen."""
         window, document, style = self._window, self._window.session.document, self._window.page.style
         window.views.show()
         for name, value in {
-            "isolines": str(document.isolines.count),
+            "isolines": isolines_in_words(document.isolines),
             "colours": colours_in_words(style, document.colours),
             "range": "Typed" if document.range == "own" and has_ends(document) else document.range.capitalize(),
         }.items():
             window.tools[name].show_value(value)
         menus = window.menus
-        menus.show_choice(menus.isolines, str(document.isolines.count))
+        menus.isolines.show_choice(document.isolines)
         menus.colours.show_choice(style, document.colours)
         menus.show_choice(menus.range, "" if document.range == "own" and has_ends(document) else document.range)
         menus.show_choice(menus.theme, LOOK.choice)
@@ -64,17 +67,7 @@ class Choices:
 
     # ------------------------------------------------------------------ how fields are shown
     def isolines(self, count: int) -> None:
-        session = self._window.session
-        now = session.document.isolines
-        session.show(replace(session.document, isolines=replace(now, count=count)), key="isolines")
-
-    def ask_isolines(self) -> None:
-        now = self._window.session.document.isolines.count
-        count, chosen = QtWidgets.QInputDialog.getInt(
-            self._window, "Isolines", "Equal steps from 0 to each panel's maximum:", now, 0, MOST_ISOLINES
-        )
-        if chosen:
-            self.isolines(count)
+        self.isoline.steps(count)
 
     def shading(self, word: str) -> None:
         """One of NORMALS."""

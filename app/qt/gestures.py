@@ -145,6 +145,10 @@ class Gestures:
             self._grid.point_at(panel, vertex)
             menu.addAction("Source here\tClick", lambda: self._click(panel, met))
             menu.addSeparator()
+            menu.addAction("Isoline through here", lambda: window.choices.isoline.pass_through(panel, vertex))
+            if window.session.document.isolines.through:
+                menu.addAction("Remove isolines through points", window.choices.isoline.pass_through_none)
+            menu.addSeparator()
             menu.addAction("Centre the view here\tC", lambda: view.centre(met.position))
             menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, met))
             menu.addSeparator()

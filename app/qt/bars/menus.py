@@ -8,9 +8,10 @@ from bihdist_core.analysis.upright import DIRECTIONS
 
 from ...samples import mesh_path, sample_names, thumbnail
 from .. import remembered
-from ..actions import ISOLINES, TURNS, VIEWS
+from ..actions import TURNS, VIEWS
 from ..look.numbers import MINUS
 from .colour_menu import ColourMenu
+from .isoline_menu import IsolineMenu
 
 THUMBNAIL = 56
 
@@ -47,7 +48,7 @@ class Menus:
         self.samples = self._samples()
         self.recent = QtWidgets.QMenu("Re&cent", window)
         self.recent.aboutToShow.connect(self._fill_recent)
-        self.isolines = self._isolines()
+        self.isolines = IsolineMenu(window)
         self.colours = ColourMenu(window)
         self.range = self._choices(
             "Ran&ge",
@@ -137,13 +138,6 @@ class Menus:
             action.setCheckable(True)
             group.addAction(action)
             action.triggered.connect(lambda *_, word=word: choose(word))
-        return menu
-
-    def _isolines(self) -> QtWidgets.QMenu:
-        words = [(str(count), f"{count} steps" if count else "None") for count in ISOLINES]
-        menu = self._choices("&Isolines", lambda word: self._window.choices.isolines(int(word)), words)
-        menu.addSeparator()
-        menu.addAction("Another number …", self._window.choices.ask_isolines)
         return menu
 
     def _samples(self) -> QtWidgets.QMenu:

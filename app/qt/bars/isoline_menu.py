@@ -1,0 +1,79 @@
+"""The menu of isolines: where they are, and how they look.  `window` is the main window."""
+
+from qtpy import QtWidgets
+
+from ...document.looks import Isolines
+from ..actions import ISOLINES
+from ..look.numbers import number
+
+BOLD = 5
+"""Every so many are bolder, once some are."""
+
+
+class IsolineMenu(QtWidgets.QMenu):
+    """Entries for numbers of steps have them, as words, as data."""
+
+    def __init__(self, window) -> None:
+        super().__init__("&Isolines", window)
+        choices = window.choices.isoline
+        self.setToolTipsVisible(True)
+        self._where = QtWidgets.QActionGroup(self)
+        for count in ISOLINES:
+            action = self._entry(f"{count} steps" if count else "None", str(count))
+            action.triggered.connect(lambda *_, count=count: choices.steps(count))
+        self.addSeparator()
+        self._other = self._entry("Another number …", "other")
+        self._other.triggered.connect(choices.ask_steps)
+        self._spacing = self._entry("Spacing …", "spacing")
+        self._spacing.setToolTip("At multiples of a number, the same in all panels of a unit")
+        self._spacing.triggered.connect(choices.ask_spacing)
+        self._values = self._entry("Values …", "values")
+        self._values.setToolTip("At the values that are typed")
+        self._values.triggered.connect(choices.ask_values)
+        self.addSeparator()
+        self.bold = self.addAction("Every fifth bolder")
+        self.bold.setCheckable(True)
+        self.bold.triggered.connect(choices.bold)
+        self.labels = self.addAction("Labels")
+        self.labels.setCheckable(True)
+        self.labels.setToolTip("The lines' values stand on them")
+        self.labels.triggered.connect(choices.labels)
+        self.addSeparator()
+        self.through = self.addAction("Remove those through points", choices.pass_through_none)
+        self.through.setToolTip("One passes through a point by the menu of the surface (right button)")
+
+    def show_choice(self, isolines: Isolines) -> None:
+        """Tick what is chosen."""
+        word = str(isolines.count)
+        if isolines.spacing is not None:
+            word = "spacing"
+        elif isolines.values:
+            word = "values"
+        elif isolines.count not in ISOLINES:
+            word = "other"
+        for action in self._where.actions():
+            action.setChecked(action.data() == word)
+        self._other.setText(f"Another number ({isolines.count}) …" if word == "other" else "Another number …")
+        self._spacing.setText(
+            f"Spacing ({number(isolines.spacing)}) …" if isolines.spacing is not None else "Spacing …"
+        )
+        self._values.setText(f"Values ({len(isolines.values)}) …" if word == "values" else "Values …")
+        self.bold.setChecked(bool(isolines.bold))
+        self.labels.setChecked(isolines.labels)
+        self.through.setEnabled(bool(isolines.through))
+
+    def _entry(self, text: str, word: str) -> QtWidgets.QAction:
+        action = self.addAction(text)
+        action.setData(word)
+        action.setCheckable(True)
+        self._where.addAction(action)
+        return action
+
+
+def isolines_in_words(isolines: Isolines) -> str:
+    """For the button: "20", "0.05 apart", "3 values"."""
+    if isolines.spacing is not None:
+        return f"{number(isolines.spacing)} apart"
+    if isolines.values:
+        return "1 value" if len(isolines.values) == 1 else f"{len(isolines.values)} values"
+    return str(isolines.count)

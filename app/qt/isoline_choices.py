@@ -1,0 +1,112 @@
+"""What the user chooses of isolines.  `window` is the main window throughout."""
+
+from dataclasses import replace
+
+from qtpy import QtWidgets
+
+from bihdist_core import ParameterError
+
+from ..document.isoline_edits import pass_through, pass_through_none
+from ..document.looks import MOST_ISOLINES
+from ..drawing.levels import levels, too_many
+from .bars.isoline_menu import BOLD
+
+
+class IsolineChoices:
+    """Edits of the document's isolines."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+
+    def steps(self, count: int) -> None:
+        """So many equal steps from 0 to each panel's maximum."""
+        self._change("isolines", count=count, spacing=None, values=())
+
+    def ask_steps(self) -> None:
+        now = self._window.session.document.isolines.count
+        count, chosen = QtWidgets.QInputDialog.getInt(
+            self._window, "Isolines", "Equal steps from 0 to each panel's maximum:", now, 0, MOST_ISOLINES
+        )
+        if chosen:
+            self.steps(count)
+        self._window.choices.show()
+
+    def ask_spacing(self) -> None:
+        now = self._window.session.document.isolines.spacing
+        self._ask(
+            "From one isoline to the next, in each panel's unit:", "" if now is None else f"{now:.6g}", self.spacing
+        )
+
+    def spacing(self, text: str) -> None:
+        """A typed one; ParameterError if it makes more lines than can be drawn."""
+        session = self._window.session
+        wanted = replace(session.document.isolines, spacing=_number(text), values=())
+        for shown in session.shown.values():
+            own, answer = shown.answer.maximum, shown.answer
+            if said := too_many(levels(wanted, own, own, answer.is_signed), wanted, own):
+                raise ParameterError(said)
+        self._change("", spacing=wanted.spacing, values=())
+
+    def ask_values(self) -> None:
+        now = self._window.session.document.isolines.values
+        said = "Isolines at these values, in each panel's unit, with spaces between them:"
+        self._ask(said, " ".join(f"{value:.6g}" for value in now), self.values)
+
+    def values(self, text: str) -> None:
+        """Typed ones."""
+        words = text.replace(";", " ").replace(", ", " ").split()
+        if len(words) == 1 and words[0].count(",") > 1:
+            words = words[0].split(",")
+        values = tuple(map(_number, words))
+        if not values:
+            raise ParameterError("Isolines at values need one value at least, such as 0.5.")
+        self._change("", spacing=None, values=values)
+
+    def bold(self, is_on: bool) -> None:
+        self._change("", bold=BOLD if is_on else 0)
+
+    def labels(self, is_on: bool) -> None:
+        self._change("", labels=is_on)
+
+    # ------------------------------------------------------------------ through points
+    def pass_through(self, panel: int, vertex: int) -> None:
+        """One more, through a vertex of a panel's surface, in all panels of that."""
+        session = self._window.session
+        surface = session.document.panel(panel).surface
+        session.show(pass_through(session.document, (vertex,), surface))
+
+    def pass_through_none(self) -> None:
+        session = self._window.session
+        session.show(pass_through_none(session.document))
+
+    # ------------------------------------------------------------------
+    def _change(self, key: str, **changes: object) -> None:
+        session = self._window.session
+        isolines = replace(session.document.isolines, **changes)
+        session.show(replace(session.document, isolines=isolines), key=key)
+        self._window.choices.show()
+
+    def _ask(self, said: str, now: str, take) -> None:
+        """For a text, until it is one that can be taken."""
+        dialog = QtWidgets.QInputDialog(self._window)
+        dialog.setWindowTitle("Isolines")
+        dialog.setTextValue(now)
+        dialog.setLabelText(said)
+        while dialog.exec():
+            try:
+                take(dialog.textValue())
+                break
+            except ParameterError as error:
+                dialog.setLabelText(f"{said}\n{error}")
+        self._window.choices.show()
+        dialog.deleteLater()
+
+
+def _number(text: str) -> float:
+    word = text.strip().replace("\N{MINUS SIGN}", "-")
+    if word.count(",") == 1 and "." not in word:
+        word = word.replace(",", ".")  # a comma for the point
+    try:
+        return float(word)
+    except ValueError:
+        raise ParameterError(f"{text.strip()[:20] or 'Nothing'!r} is not a number.") from None

@@ -1,0 +1,109 @@
+"""Isolines in the window: chosen from the menu, through points, on the surface and on the colour bar."""
+
+import numpy as np
+import pytest
+
+from app.document.edits import move_source
+from app.document.looks import Isolines
+from bihdist_core import ParameterError
+from tests.shapes import bumpy
+
+
+@pytest.fixture
+def s(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    return s
+
+
+def words(menu):
+    return [action.text() for action in menu.actions() if action.isChecked()]
+
+
+def test_the_menu_and_the_button_say_where_they_are(s):
+    menu, button = s.window.menus.isolines, s.window.tools["isolines"]
+    choices = s.window.choices.isoline
+    assert (words(menu), button.accessibleDescription()) == (["20 steps"], "20")
+    choices.steps(7)
+    assert (words(menu), button.accessibleDescription()) == (["Another number (7) …"], "7")
+    choices.spacing("0,25")
+    assert (words(menu), button.accessibleDescription()) == (["Spacing (0.2500) …"], "0.2500 apart")
+    choices.values("0.5 0.1 0.5")
+    assert (words(menu), s.document.isolines.values) == (["Values (2) …"], (0.1, 0.5))
+    menu.bold.trigger()
+    menu.labels.trigger()
+    assert s.document.isolines == Isolines(7, values=(0.1, 0.5), bold=5, labels=True)
+    choices.steps(10)
+    assert words(menu) == ["10 steps", "Every fifth bolder", "Labels"]
+    for _ in range(6):
+        s.session.undo()
+    assert (s.document.isolines, words(menu)) == (Isolines(), ["20 steps"])
+
+
+def test_what_is_typed_wrong_is_said(s):
+    choices = s.window.choices.isoline
+    for take, text, said in [
+        (choices.spacing, "wide", "'wide' is not a number"),
+        (choices.spacing, "0", "positive"),
+        (choices.spacing, "1e-9", "isolines up to"),
+        (choices.values, "", "one value at least"),
+        (choices.values, "1 x", "'x' is not a number"),
+    ]:
+        with pytest.raises(ParameterError, match=said):
+            take(text)
+    assert s.document.isolines == Isolines()
+
+
+def test_lines_are_where_their_values_are(s):
+    s.window.choices.isoline.steps(0)
+    s.settle()
+    bare = s.pictures()[0].astype(int)
+    field = s.answers[0].field
+    values = np.array([0.2, 0.4, 0.7, 0.9]) * field.max()
+    s.window.choices.isoline.values(" ".join(map(repr, values.tolist())))
+    s.settle()
+    changed = np.abs(s.pictures()[0].astype(int) - bare).max(axis=2) > 40
+    assert changed.sum() > 100
+    view, surface = s.panels[0].view, s.session.surface
+    at = np.array([[p.x(), p.y()] for p in map(view.place_of, surface.vertices)]) * view.devicePixelRatioF()
+    found = []
+    for value in values:
+        a, b = field[surface.edges.T] - value
+        crossed = a * b < 0
+        ends, share = at[surface.edges[crossed]], (a / (a - b))[crossed, None]
+        found.append((1 - share) * ends[:, 0] + share * ends[:, 1])
+    rows, columns = np.nonzero(changed)
+    # Every changed pixel is near where some edge of the mesh has one of the values.
+    off = np.linalg.norm(np.stack([columns, rows], 1)[:, None] - np.concatenate(found)[None], axis=2).min(axis=1)
+    assert np.median(off) < 5
+    assert off.max() < 45  # an edge of this mesh is some 80 pixels long
+    assert s.panels[0].bar._reading.lines == pytest.approx(values)
+
+
+def test_a_line_through_a_point_follows_source_and_undo(s):
+    choices = s.window.choices.isoline
+    choices.pass_through(0, 40)
+    s.settle()
+    field = s.answers[0].field
+
+    def through():
+        found = s.panels[0].view.scene.levels
+        return found.values[found.is_through].tolist()
+
+    assert through() == [field[40]]
+    assert field[40] in s.panels[0].bar._reading.lines
+    assert s.window.menus.isolines.through.isEnabled()
+    s.session.show(move_source(s.document, 0, 100))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert s.answers[0].field[40] != field[40]
+    assert through() == [s.answers[0].field[40]]
+    choices.pass_through_none()
+    assert through() == []
+    s.session.undo()
+    assert through() == [s.answers[0].field[40]]
+    # A new panel has it, too.
+    s.window.choices.add_panel()
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    assert s.panels[-1].view.scene.levels.is_through.sum() == 1
