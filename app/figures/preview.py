@@ -11,6 +11,9 @@ from .layout import lay_out
 from .shots import Stage
 from .size import MM_PER_INCH, UNITS_PER_INCH
 
+FINER = 2
+"""Letters of a few pixels are read where they are drawn larger, and made smaller as a picture."""
+
 
 @dataclass(frozen=True, eq=False)
 class Preview:
@@ -30,14 +33,14 @@ _STAGE: list[Stage] = []
 
 
 def preview(figure: Figure, room: tuple[int, int]) -> Preview:
-    """The figure as it will be, in a picture that fills so many pixels across or down.
+    """The figure as it will be, in a picture that fills FINER times so many pixels across or down.
 
     For a process of its own: what it needs for the next one is kept.
     """
     if not _STAGE:
-        _STAGE.append(Stage(samples=0))
+        _STAGE.append(Stage(finer=1, samples=0))
     layout = lay_out(figure)
-    share = min(room[0] / layout.page[0], room[1] / layout.page[1])
+    share = FINER * min(room[0] / layout.page[0], room[1] / layout.page[1])
     pixels = draw_figure(figure, stage=_STAGE[0], share=share)
     is_printed = figure.size.unit == "mm"
     size = (layout.width, layout.height) if is_printed else layout.page

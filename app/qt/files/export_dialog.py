@@ -11,6 +11,7 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.page import FORMATS, Recipe
 from ...figures.description import Figure
+from ...figures.draw import FIGURE_FORMATS
 from ...figures.export import Surfaces, check_export, figure_of, write_figure
 from ...figures.preview import Preview, preview
 from ...session.given import Given
@@ -21,12 +22,13 @@ from .looks_dialog import LooksDialog
 from .preview import PreviewPane
 from .size_boxes import SizeNames
 
-FIGURE_KINDS = (
+KINDS = (
     FileKind(".png", "PNG", "PNG picture"),
     FileKind(".pdf", "PDF", "PDF with vector isolines"),
     FileKind(".svg", "SVG", "SVG with vector isolines"),
     FileKind(".eps", "EPS", "EPS with vector isolines"),
 )
+FIGURE_KINDS = tuple(kind for kind in KINDS if kind.extension in FIGURE_FORMATS)
 FIGURE_SIZES: SizeNames = (
     ("Usual", "", "follows the panels"),
     ("One column", "column", "85 mm"),

@@ -23,7 +23,7 @@ BESIDE = 316
 LARGE = (1140, 780)
 """Of a dialog with a picture in it, where there is room."""
 
-LABEL = 96
+LABEL, LABEL_BESIDE = 116, 96
 """Of the words before a box."""
 
 
@@ -167,7 +167,7 @@ class JobDialog(QtWidgets.QDialog):
         words = QtWidgets.QLabel(label)
         words.setBuddy(box)
         words.setToolTip(tip)
-        words.setMinimumWidth(round(LABEL * LOOK.scale))
+        words.setMinimumWidth(round((LABEL if self._side is None else LABEL_BESIDE) * LOOK.scale))
         self._name_box(box, label.replace("&", ""), tip)
         line = QtWidgets.QHBoxLayout()
         line.addWidget(words)

@@ -116,7 +116,7 @@ class PreviewPane(QtWidgets.QWidget):
         self.setMinimumSize(260, 200)
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Expanding)
         self.setAccessibleName("Preview of the figure")
-        self.image = QtGui.QImage()
+        self.image = self._small = QtGui.QImage()
         self.caption, self.is_warning, self.is_true = "", False, False
         LOOK.follow(self, self.update)
 
@@ -133,6 +133,7 @@ class PreviewPane(QtWidgets.QWidget):
 
     def show_picture(self, pixels: np.ndarray, caption: str, is_warning: bool) -> None:
         self.image, self.is_true = image_of(pixels), True
+        self._small = QtGui.QImage()
         self.say(caption, is_warning)
 
     def say(self, caption: str, is_warning: bool) -> None:
@@ -153,7 +154,7 @@ class PreviewPane(QtWidgets.QWidget):
             if self.image.hasAlphaChannel():
                 _paint_squares(painter, box)
             painter.setOpacity(1.0 if self.is_true else DIM)
-            painter.drawImage(box, self.image)
+            painter.drawImage(box, self._smaller(box.size() * self.devicePixelRatioF()))
             painter.setOpacity(1.0)
         painter.setPen(QtGui.QColor(theme.warning if self.is_warning else theme.quiet))
         painter.setFont(LOOK.font(12.5))
@@ -162,6 +163,15 @@ class PreviewPane(QtWidgets.QWidget):
         painter.drawText(line, int(flags) | int(QtCore.Qt.TextFlag.TextWordWrap), self.caption)
         if not self.is_true:
             painter.fillRect(QtCore.QRect(0, 0, self.width(), 2), QtGui.QColor(theme.accent))
+
+    def _smaller(self, size: QtCore.QSize) -> QtGui.QImage:
+        """The picture at a size in device pixels, made once."""
+        if self._small.size() != size:
+            modes = QtCore.Qt
+            self._small = self.image.scaled(
+                size, modes.AspectRatioMode.IgnoreAspectRatio, modes.TransformationMode.SmoothTransformation
+            )
+        return self._small
 
     def _box(self) -> QtCore.QRect:
         """Where the picture stands, in logical pixels."""
