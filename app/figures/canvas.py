@@ -95,9 +95,10 @@ def drawn(page: Composition, vector: bool, shots: bool = True, words: bool = Tru
     axes.axis("off")
     for number, shot in enumerate(page.shots if shots else ()):
         _draw_shot(axes, page, number, shot, vector)
-    if words:
+    if shots:  # axes turn with them
         draw_axes(axes, page, 10 * len(page.shots))
-    _draw_words(axes, page)
+    if words:
+        _draw_words(axes, page)
     return canvas
 
 
@@ -111,7 +112,7 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
     frame.set_facecolor(style.background if shot.source is not None else "none")
     axes.add_artist(frame)
     _draw_image(axes, page, shot, order + 1, vector)
-    edge = _silhouette(shot, page.layout.scale)
+    edge = _silhouette(shot, page.layout.scale) if shot.isolines else None
     # One object for all curves: it is then written once.
     shape = edge and TransformedPath(edge, axes.transData)
     signed, top = page.figure.panels[shot.panel].signed, page.figure.tops()[shot.panel]

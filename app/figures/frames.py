@@ -54,7 +54,7 @@ class _Drawing:
 
     def __init__(self) -> None:
         # Without a graphics card sampling costs three times as much; in what moves nobody sees its absence.
-        self.stage, self.words = Stage(samples=0), KeptWords()
+        self.stage, self.words = Stage(samples=0, curves=False), KeptWords()
 
     def frame(self, figure: Figure, mode: str, progress: Progress | None = None) -> Any:
         picture = draw_figure(figure, progress, self.stage, self.words)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 
@@ -67,11 +67,12 @@ class Shot:
 class Stage:
     """What is kept from one figure to the next: the off-screen window, and surfaces made ready.  Use it as a context.
 
-    finer, samples: see `Studio`.
+    finer, samples: see `Studio`.  curves: isolines are exact, found and hidden one by one; otherwise the surface is
+    painted with them, as in the window, which takes a fraction of the time.
     """
 
-    def __init__(self, finer: int = FINER, samples: int = SAMPLES) -> None:
-        self._finer, self._samples = finer, samples
+    def __init__(self, finer: int = FINER, samples: int = SAMPLES, curves: bool = True) -> None:
+        self._finer, self._samples, self.curves = finer, samples, curves
         self._studio: Studio | None = None
         self._meshes: dict[tuple[int, Shading], tuple[Surface, vtkPolyData]] = {}
 
@@ -110,6 +111,7 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
     shots: list[Shot] = []
     tops = figure.tops()
     count = sum(len(p.views) + len(p.zooms) for p in figure.panels)
+    sights: dict[Hashable, Sight] = {}
     with Stage() if stage is None else nullcontext(stage) as stage:
         stage.keep(panel.surface for panel in figure.panels)
         studio = stage.studio(figure.style)
@@ -122,11 +124,16 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
                 studio.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
-            studio.shown.show_isolines(Isolines(0))  # they are drawn as curves
+            curves = stage.curves or panel.isolines.labels  # which stand on curves
             for number, (view, box, shown) in enumerate(zip(panel.views, cell.views, cell.parts, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 framed = Framed(view, panel, surface, box, shown)
-                taker = _Taker(figure, index, surface, outward_faces(mesh), tops[index], framed, layout, studio)
+                size = (framed.whole.width, framed.whole.height)
+                # Panels of one surface that are seen alike differ in their fields alone.
+                key = (id(mesh), size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
+                if key not in sights:
+                    sights[key] = Sight(surface, framed.projection, size, outward_faces(mesh))
+                taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, studio, curves)
                 shots.append(taker.take(box, panel.isolines, step))
                 for zoom, inset in zip(panel.zooms, cell.insets, strict=True) if number == 0 else ():
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
@@ -143,17 +150,18 @@ class _Taker:
         figure: Figure,
         index: int,
         surface: Surface,
-        outward: np.ndarray | None,
+        sight: Sight,
         top: float,
         framed: Framed,
         layout: Layout,
         studio: Studio,
+        curves: bool,
     ) -> None:
         self._style, self._panel, self._index = figure.style, figure.panels[index], index
         self._surface, self._top, self._box, self._studio = surface, top, framed.whole, studio
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
-        self._sight = Sight(surface, self._projection, (self._box.width, self._box.height), outward)
+        self._sight, self._curves = sight, curves
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         self._marks, self._ghosts = self._placed_marks()
@@ -161,6 +169,7 @@ class _Taker:
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
         """A box of the page: what it shows of the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
+        self._studio.shown.show_isolines(Isolines(0) if self._curves else wanted, self._panel.through)
         image = self._studio.shade(
             self._projection,
             (width, height),
@@ -169,7 +178,7 @@ class _Taker:
             part(progress, 0, 0.7),
         )
         progress(0.7, "finding what is hidden")
-        contours = self._contours(wanted)
+        contours = self._contours(wanted) if self._curves else []
         if self._style.outline and self._outlines is None:
             self._outlines = outlines(self._sight)
         move = _Move(source or box, box)

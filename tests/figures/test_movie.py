@@ -12,6 +12,7 @@ from PIL import Image
 from app.document.document import comparison
 from app.document.page import Page, Recipe
 from app.drawing.camera import Projection, turned
+from app.figures import canvas
 from app.figures.description import Figure, FigurePanel
 from app.figures.frames import drawn_frames
 from app.figures.layout import lay_out
@@ -215,3 +216,20 @@ def test_a_frame_is_as_large_as_what_turns_and_no_larger():
             assert reached.max() <= 1
             assert reached.max() > 0.9
             assert reached.min() > (0.9 if surface is not long else 0.15)
+
+
+def test_words_are_drawn_once_while_the_shape_turns(monkeypatch):
+    drawn = []
+    real = canvas._draw_words
+    monkeypatch.setattr(canvas, "_draw_words", lambda axes, page: drawn.append(1) or real(axes, page))
+    surface, field = bumpy(60), np.linspace(0, 1, 60)
+    figures = [
+        Figure((FigurePanel(surface, field, "a", views=(view,)),), size=Size(90, 90)) for view in ("front", "left")
+    ]
+    both = list(drawn_frames(iter(figures), 2, "RGB", 1, silent))
+    assert len(drawn) == 1
+    other = replace(figures[0], panels=(replace(figures[0].panels[0], field=field / 2, heading="b"),))
+    third = list(drawn_frames(iter([*figures, other]), 3, "RGB", 1, silent))
+    assert len(drawn) == 3
+    assert np.array_equal(third[0], both[0])
+    assert not np.array_equal(third[2], both[0])
