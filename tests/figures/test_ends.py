@@ -13,6 +13,7 @@ from app.document.edits import end_at, has_ends, with_range
 from app.document.file import read_recipe
 from app.document.looks import Colours
 from app.document.quantities import quantity
+from app.drawing.colour_maps import MAPS
 from app.figures.ends import End, ended_as, ends_in, ranged
 from app.main import main
 from bihdist_core import ParameterError
@@ -80,6 +81,13 @@ def test_the_options_of_colours_and_ranges():
     ]:
         with pytest.raises(ParameterError, match=sentence):
             recipe_of(*words)
+
+
+def test_help_names_all_maps(capsys):
+    with pytest.raises(SystemExit):
+        main(["figure", "--help"])
+    said = " ".join(capsys.readouterr().out.split())
+    assert all(word in said.partition("a colour map:")[2].partition("or a .txt")[0] for word in MAPS)
 
 
 def test_colours_that_a_style_does_not_show_are_named(capsys):
