@@ -40,8 +40,8 @@ _PAINT = """//VTK::Light::Impl
     if (isolineAt[middle] < isolineValue) above = middle + 1;
     else end = middle;
   }
-  // None where all is of one value, where the whole range passes in a few pixels, or where it is undefined.
-  float drawn = perPixel > 1e-8 && isolineValue > -900.0 && !isBack ? 1.0 - smoothstep(0.2, 0.4, perPixel) : 0.0;
+  // None where all is of one value but for rounding, where the range passes in a few pixels, or where it is undefined.
+  float drawn = perPixel > 5e-7 && isolineValue > -900.0 && !isBack ? 1.0 - smoothstep(0.2, 0.4, perPixel) : 0.0;
   for (int pass = 0; pass < 2; pass++) {
     for (int k = max(above - 1, 0); k < min(above + 1, isolineCount); k++) {
       bool isThrough = isolineKind[k] > 1.5;
