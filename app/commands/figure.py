@@ -10,7 +10,8 @@ WORDS = "the window's comparison as a picture, without a window"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    add_figure_options(parser, "a .png, .pdf or .svg file")
+    add_figure_options(parser, "a .png, .pdf, .svg or .eps file")
+    parser.add_argument("--tex", action="store_true", help="a LaTeX snippet beside it, with a caption")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -21,7 +22,7 @@ def run(options: argparse.Namespace) -> int:
     recipe = chosen_recipe(options)
     remarks: list[str] = []
     with progress_line() as progress:
-        figure, recipe, answers = export(recipe, options.output, version(), progress, remarks.append)
+        figure, recipe, answers = export(recipe, options.output, version(), progress, remarks.append, options.tex)
     for text in remarks:
         tell(text)
     surface = figure.panels[0].surface

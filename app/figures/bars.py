@@ -75,8 +75,13 @@ def end_words(figure: Figure, panel: int) -> str:
         top = figure.tops()[panel]
         end = f"max{BOUND}{each.own_top if any(goes_beyond(figure, panel)) else top:.4g}"
     if figure.range == "shares":
-        return f"% of the {end}{' ' + each.unit if each.unit else ''}"
+        return f"% of the {end}{with_unit(each.unit)}"
     return f"{each.unit}, {end}" if each.unit else end
+
+
+def with_unit(unit: str) -> str:
+    """What follows a value in a unit."""
+    return unit.removeprefix("1") if unit.startswith("1 /") else f" {unit}" if unit else ""
 
 
 def bar_words(figure: Figure, panel: int) -> str:

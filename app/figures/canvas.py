@@ -51,6 +51,7 @@ class Composition:
     figure: Figure
     layout: Layout
     shots: list[Shot]
+    is_opaque: bool = False
 
 
 @contextmanager
@@ -64,9 +65,11 @@ def matplotlib_settings(font: str = "") -> Iterator[None]:
             {
                 "font.family": families(font),
                 "text.parse_math": False,
+                "text.hinting": "none",  # letters are as wide on every page
                 "svg.fonttype": "none",
                 "svg.hashsalt": "bihdist",
                 "pdf.fonttype": 42,
+                "ps.fonttype": 42,
                 "path.simplify": False,
                 "image.composite_image": False,
             }
@@ -105,7 +108,6 @@ def drawn(page: Composition, vector: bool, shots: bool = True, words: bool = Tru
 # ---------------------------------------------------------------------- pictures
 def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: bool) -> None:
     from matplotlib.patches import Rectangle
-    from matplotlib.transforms import TransformedPath
 
     style, order, stroke = page.figure.style, 10 * number, page.layout.stroke
     frame = Rectangle((shot.box.x, shot.box.y), shot.box.width, shot.box.height, linewidth=0, zorder=order)
@@ -114,7 +116,7 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
     _draw_image(axes, page, shot, order + 1, vector)
     edge = _silhouette(shot, page.layout.scale) if shot.isolines else None
     # One object for all curves: it is then written once.
-    shape = edge and TransformedPath(edge, axes.transData)
+    shape = edge and _clip_path()(edge, axes.transData)
     signed, top = page.figure.panels[shot.panel].signed, page.figure.tops()[shot.panel]
     for k, line in enumerate(sorted(shot.isolines, key=lambda line: line.is_through)):
         colour, width = style.line(signed, line.value / top if top > 0 else 0.0), style.isoline_width * stroke
@@ -139,7 +141,7 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
 
 
 def _draw_image(axes: Axes, page: Composition, shot: Shot, order: int, vector: bool) -> None:
-    """The shaded pixels on their background, without the empty rows and columns around them."""
+    """The shaded pixels on their background, without what is empty around them."""
     from matplotlib.image import AxesImage
 
     alpha = shot.image[..., 3]
@@ -158,6 +160,27 @@ def _draw_image(axes: Axes, page: Composition, shot: Shot, order: int, vector: b
     image = AxesImage(axes, origin="upper", interpolation="none", extent=(left, right, bottom, top), zorder=order)
     image.set_data(pixels if page.figure.transparent else pixels[..., :3])
     axes.add_artist(image)
+    if not page.figure.transparent:
+        # White of a picture becomes a light grey where some readers make it smaller: what is empty is not painted.
+        edge = _silhouette(shot, page.layout.scale, wider=2)
+        image.set_clip_path(edge and _clip_path()(edge, axes.transData))
+
+
+@cache
+def _clip_path() -> type:
+    """The class of clip paths that are the same object whenever they are asked for, so that EPS has each once."""
+    from matplotlib.transforms import TransformedPath
+
+    class ClipPath(TransformedPath):
+        _kept: tuple = (None, None)
+
+        def get_transformed_path_and_affine(self):
+            found = super().get_transformed_path_and_affine()
+            if found[0] is not self._kept[0]:
+                self._kept = found
+            return self._kept
+
+    return ClipPath
 
 
 @cache
@@ -223,15 +246,19 @@ def _path(rings: list[Line]) -> Path:
     return Path(np.concatenate([p for p, _ in rings]), np.concatenate(codes))
 
 
-def _silhouette(shot: Shot, scale: float) -> Path | None:
-    """The edge of the shape in the picture, between its pixels."""
+def _silhouette(shot: Shot, scale: float, wider: int = 0) -> Path | None:
+    """The edge of the shape in the picture, between its pixels; or so many pixels outside of all that is drawn."""
     from contourpy import contour_generator
 
-    alpha = np.pad(shot.image[..., 3].astype(np.float32), 1)
+    alpha = np.pad(shot.image[..., 3].astype(np.float32), 1 + wider)
     if not alpha.any():
         return None
-    at = [(np.arange(-1, side + 1) + 0.5) / scale for side in shot.image.shape[1::-1]]
-    loops = contour_generator(at[0] + shot.box.x, at[1] + shot.box.y, alpha).lines(127.5)
+    at = [(np.arange(-1 - wider, side + 1 + wider) + 0.5) / scale for side in shot.image.shape[1::-1]]
+    for _ in range(wider):
+        for axis in (0, 1):
+            one, other = (np.roll(alpha, step, axis) for step in (1, -1))
+            alpha = np.maximum(np.maximum(one, other), alpha)
+    loops = contour_generator(at[0] + shot.box.x, at[1] + shot.box.y, alpha).lines(0.5 if wider else 127.5)
     return _path([(simplified(loop, EDGE_FINENESS), True) for loop in loops if len(loop) > 3])
 
 
@@ -263,7 +290,7 @@ def _draw_failure(axes: Axes, page: Composition, failure: str, cell: Cell) -> No
     high = (len(lines) - 1) * LINE * size + 1.9 * size
     x, y = area.middle
     ground = Rectangle((x - wide / 2, y - high / 2), wide, high, linewidth=0, zorder=999)
-    ground.set_facecolor((*style.background, 0.88))
+    ground.set_facecolor((*style.background, 1.0 if page.is_opaque else 0.88))
     axes.add_artist(ground)
     _write(axes, page, Words(lines, x, y - high / 2 + 1.3 * size, size))
 

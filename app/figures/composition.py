@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import fields
 from pathlib import Path
 
@@ -65,14 +66,17 @@ def page_pixels(page: Composition, words: KeptWords | None = None) -> np.ndarray
 
 
 def write_vector(page: Composition, path: Path) -> None:
-    """A .pdf or .svg file: one image per picture; isolines, outlines, text and bars as what they are."""
+    """A .pdf, .svg or .eps file: one image per picture; isolines, outlines, text and bars as what they are."""
     figure = page.figure
     # What is white is left out: paper is white by itself.
     is_bare = figure.transparent or figure.style.background == (1, 1, 1)
     options: dict = {"transparent": is_bare, "facecolor": figure.style.background}
-    dates = {"CreationDate": None} if path.suffix.lower() == ".pdf" else {"Date": None}
+    dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(path.suffix.lower(), {})
     with matplotlib_settings(figure.font):
         drawn(page, vector=True).savefig(path, metadata={"Creator": "bihdist", **dates}, **options)
+    if path.suffix.lower() == ".eps":
+        content = path.read_bytes()
+        path.write_bytes(re.sub(rb"^%%(CreationDate|Title):[^\n]*\n", b"", content, count=2, flags=re.MULTILINE))
 
 
 def _drawn(page: Composition, shots: bool = True, words: bool = True) -> np.ndarray:

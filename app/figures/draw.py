@@ -4,6 +4,7 @@ A `Figure` says everything that can be seen; `draw_figure` and `save_figure` are
 """
 
 import os
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from .shots import Stage, take_shots
 
 __all__ = ["FIGURE_FORMATS", "Figure", "FigurePanel", "Mark", "Zoom", "check_offscreen", "draw_figure", "save_figure"]
 
-FIGURE_FORMATS = (".png", ".pdf", ".svg")
+FIGURE_FORMATS = (".png", ".pdf", ".svg", ".eps")
 
 VECTOR_DPI = 300
 """The least resolution of the shading in PDF, SVG and EPS, as long as the page is not larger than MOST_PIXELS."""
@@ -52,6 +53,7 @@ def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress
     Raises OutputError if it cannot be written; what was at `path` before then stays.
     """
     extension = check_output(path, FIGURE_FORMATS)
+    check_transparency(figure.transparent, path)
     with whole_file(path) as temporary:
         if extension == ".png":
             from PIL import Image
@@ -60,12 +62,18 @@ def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress
             dpi = 96 * page.layout.scale
             Image.fromarray(page_pixels(page)).save(temporary, dpi=(dpi, dpi))
         else:
-            page = _page(figure, True, progress)
+            page = replace(_page(figure, True, progress), is_opaque=extension == ".eps")
             try:
                 write_vector(page, temporary)
             except ValueError as error:  # matplotlib's word for a page it cannot make
                 raise OutputError(f"{path} could not be written: {error}.") from error
     return hidden_words(page)
+
+
+def check_transparency(transparent: bool, path: str | os.PathLike[str]) -> None:
+    """OutputError for a page without background in a format that has none of that."""
+    if transparent and os.fspath(path).lower().endswith(".eps"):
+        raise OutputError(f"{path}: EPS has no transparency; leave --transparent away, or write PDF, SVG or PNG.")
 
 
 def described(figure: Figure) -> str:

@@ -2,12 +2,14 @@
 
 import os
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from dataclasses import replace
+from pathlib import Path
 
-from bihdist_core import ParameterError, SolverError
+from bihdist_core import OutputError, ParameterError, SolverError
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
-from bihdist_core.whole_file import check_output
+from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.document import Document, Panel
 from ..document.page import Recipe
@@ -19,8 +21,9 @@ from ..session.passed import values_through
 from ..session.questions import questions, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from .description import Figure, FigurePanel, Mark
-from .draw import FIGURE_FORMATS, check_offscreen, save_figure
+from .draw import FIGURE_FORMATS, check_offscreen, check_transparency, save_figure
 from .size import Size
+from .tex import tex_path, tex_snippet
 
 Surfaces = dict[str, Opened]
 """The surfaces of a document, by their names in it."""
@@ -31,6 +34,15 @@ def check_export(document: Document, path: str | os.PathLike[str]) -> None:
     check_output(path, FIGURE_FORMATS)
     check_offscreen()
     check_recipe_beside(document, path)
+
+
+def check_tex(path: str | os.PathLike[str]) -> Path:
+    """Where the LaTeX snippet of a figure goes; OutputError if it cannot."""
+    snippet = tex_path(Path(path))
+    check_output(snippet, (".tex",))
+    if snippet.exists() and "\\includegraphics" not in snippet.read_text(encoding="utf-8", errors="replace"):
+        raise OutputError(f"{snippet}, where the snippet would go, is another file; give the figure another name.")
+    return snippet
 
 
 def open_document(recipe: Recipe, given: Given) -> tuple[Document, Surfaces]:
@@ -99,12 +111,20 @@ def write_figure(
     version: str,
     progress: Progress | None = None,
     say: Callable[[str], None] = _silent,
+    tex: Sequence[Answer] | None = None,
 ) -> None:
-    """The figure at `path` and its recipe beside it, all or nothing; `say` gets a sentence on an unusual place."""
+    """The figure at `path` and its recipe beside it, all or nothing; `say` gets sentences on what is unusual.
+
+    tex: the panels' answers, if a LaTeX snippet is to be written too.
+    """
     check_export(recipe.document, path)
     place, format = place_beside(path, recipe)
     usual, is_new = recipe_paths(path)[0], not place.exists()
-    with recipe_written(recipe, given, place, version, format=format):
+    with ExitStack() as files:
+        files.enter_context(recipe_written(recipe, given, place, version, format=format))
+        if tex is not None:
+            snippet = files.enter_context(whole_file(check_tex(path)))
+            snippet.write_text(tex_snippet(figure, recipe, tex, Path(path)), encoding="utf-8")
         remarks = save_figure(figure, path, progress)
     for remark in remarks:
         say(remark)
@@ -118,12 +138,16 @@ def export(
     version: str,
     progress: Progress | None = None,
     say: Callable[[str], None] = _silent,
+    tex: bool = False,
 ) -> tuple[Figure, Recipe, list[Answer]]:
     """Everything: read, compute, draw, write.  Returns the figure, the recipe with its sources, and the answers.
 
-    say: as in `write_figure`.
+    say: as in `write_figure`.  tex: with a LaTeX snippet.
     """
     check_export(recipe.document, path)
+    check_transparency(recipe.page.transparent, path)
+    if tex:
+        check_tex(path)
     given = Given.read(recipe)
     document, surfaces = open_document(recipe, given)
     recipe = replace(recipe, document=document)
@@ -131,7 +155,7 @@ def export(
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
     answers = compute(document, surfaces, part(progress, 0.0, 0.6))
     figure = figure_of(recipe, surfaces, answers)
-    write_figure(figure, recipe, given, path, version, part(progress, 0.6, 1.0), say)
+    write_figure(figure, recipe, given, path, version, part(progress, 0.6, 1.0), say, answers if tex else None)
     return figure, recipe, answers
 
 

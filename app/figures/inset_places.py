@@ -13,7 +13,7 @@ from .framing import Framed, Seen, places
 
 GAP = 4.0
 
-HIDDEN = 0.06
+HIDDEN = 0.02
 """The share of an inset that may lie on the shape, before it gets room of its own."""
 
 

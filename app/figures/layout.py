@@ -97,7 +97,7 @@ def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> Lay
     lettering = Lettering(figure.font, figure.text is not None)
     views = [_shapes(figure, k) for k in range(len(figure.panels))]
     rooms = [room] * grid.columns
-    for _ in range(3 if figure.crop else 1):
+    for _ in range(3 if figure.crop else 2 if figure.has_one_bar else 1):
         for level in range(6):
             texts = _Texts(figure, lettering, factor, rooms, level)
             strip = _Strip(figure, grid, texts)

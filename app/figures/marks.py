@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..drawing.corners import Rectangle, joins
-from ..drawing.style import Style
+from ..drawing.corners import Rectangle, inside, joins
 from .boxes import Box, Words
 from .shots import Shot
 
@@ -57,11 +56,11 @@ def draw_marks(
             axes.add_artist(patch)
             if shot.source is not None:
                 patch.set_clip_path(frame)
-        if mark.text:
+        if mark.text and not panel.failure:
             words = _beside(page, shot, mark.text, (x, y), [*insets, *written])
             if words:
                 written.append(_box_of(page, words))
-                _draw_ground(axes, written[-1], style, order + 1)
+                _draw_ground(axes, page, written[-1], order + 1)
                 write(words, order + 1)
 
 
@@ -112,12 +111,12 @@ def _beside(page: Composition, shot: Shot, text: str, place: tuple[float, float]
     return None
 
 
-def _draw_ground(axes: Axes, box: Box, style: Style, order: int) -> None:
+def _draw_ground(axes: Axes, page: Composition, box: Box, order: int) -> None:
     """Under words that may stand on any of a map's colours."""
     from matplotlib.patches import Rectangle
 
     ground = Rectangle((box.x - 1, box.y), box.width + 2, box.height, linewidth=0, zorder=order)
-    ground.set_facecolor((*style.background, GROUND))
+    ground.set_facecolor((*page.figure.style.background, 1.0 if page.is_opaque else GROUND))
     axes.add_artist(ground)
 
 
@@ -140,26 +139,33 @@ def draw_frames(axes: Axes, page: Composition, shot: Shot, order: int, write: Ca
     for box in (shot.source, shot.box):
         look = {"fill": False, "edgecolor": colour, "linewidth": POINT, "zorder": order}
         axes.add_artist(Rectangle((box.x, box.y), box.width, box.height, **look))
-    others = [side for other in insets if other is not shot for side in (_upright(other.box), _upright(other.source))]
-
-    def is_taken(points: np.ndarray) -> np.ndarray:
-        on_shape = _on_shape(main, points)
-        inside = [
-            (points[:, 0] > a) & (points[:, 0] < b) & (-points[:, 1] > c) & (-points[:, 1] < d) for a, b, c, d in others
-        ]
-        return np.any([on_shape, *inside], axis=0)
-
-    lines = joins(_upright(shot.source), _upright(shot.box), lambda way: is_taken(way * (1, -1)))
-    for line in lines:
-        axes.add_artist(Line2D(line[:, 0], -line[:, 1], color=colour, linewidth=0.6 * POINT, zorder=order))
-    if not lines and len(insets) > 1:
-        size = page.layout.label
+    for line in _leaders(main, insets, shot):
+        axes.add_artist(Line2D(line[:, 0], line[:, 1], color=colour, linewidth=0.6 * POINT, zorder=order))
+    if len(insets) > 1 and not all(_leaders(main, insets, other) for other in insets):
+        size, source = page.layout.label, shot.source
         number = str(1 + insets.index(shot))
         write(Words((number,), shot.box.x + 0.6 * size, shot.box.y + 1.1 * size, size), order)
-        x = shot.source.right + 0.5 * size
-        if x + 0.5 * size > main.box.right:
-            x = shot.source.x - 0.5 * size
-        write(Words((number,), x, shot.source.y + 0.8 * size, size), order)
+        middle, gap = source.middle, 0.55 * size
+        places = [(source.right + gap, middle[1]), (source.x - gap, middle[1]), (middle[0], source.y - gap)]
+        places.append((middle[0], source.bottom + gap))
+        free = ~_taken(main, insets, shot, np.array(places))
+        x, y = places[int(free.argmax())]
+        write(Words((number,), x, y + 0.36 * size, size), order)
+
+
+def _leaders(main: Shot, insets: list[Shot], shot: Shot) -> list[np.ndarray]:
+    """Lines (2, 2) that join an inset to what it enlarges."""
+
+    def is_taken(points: np.ndarray) -> np.ndarray:
+        return _taken(main, insets, shot, points * (1, -1))
+
+    return [line * (1, -1) for line in joins(_upright(shot.source), _upright(shot.box), is_taken)]
+
+
+def _taken(main: Shot, insets: list[Shot], shot: Shot, points: np.ndarray) -> np.ndarray:
+    """Which of points (k, 2) of the page lie on the shape, on another inset, or on what that enlarges."""
+    others = [_upright(box) for other in insets if other is not shot for box in (other.box, other.source)]
+    return np.any([_on_shape(main, points), *(inside(points * (1, -1), box) for box in others)], axis=0)
 
 
 def _upright(box: Box) -> Rectangle:

@@ -41,9 +41,13 @@ class Picture:
         self.answers = answers
         self._recipe, self._surfaces, self._given = recipe, surfaces, given
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Into a .png, .pdf or .svg file, with its recipe beside it, and what came as arrays; OutputError if not."""
-        write_figure(self._figure, self._recipe, self._given, os.fspath(path), version())
+    def save(self, path: str | os.PathLike[str], tex: bool = False) -> Path:
+        """Into a .png, .pdf, .svg or .eps file, with its recipe beside it, and what came as arrays; OutputError if not.
+
+        tex: with a LaTeX snippet of the same name that includes it.
+        """
+        answers = self.answers if tex else None
+        write_figure(self._figure, self._recipe, self._given, os.fspath(path), version(), tex=answers)
         return Path(path)
 
     @property

@@ -1,0 +1,88 @@
+"""What a figure needs in LaTeX: a snippet that includes it at its width, with a caption that says what it shows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from bihdist_core.distances.answers import Answer
+
+from ..document.page import Recipe
+from ..session.questions import vertex_at
+from .bars import with_unit
+from .description import Figure
+from .layout import lay_out
+from .size import MM_PER_INCH, UNITS_PER_INCH
+
+_SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    **{sign: f"\\{sign}" for sign in "&%$#_{}"},
+    "−": "$-$",
+    "…": r"\dots{}",
+    "α": r"$\alpha$",
+    "λ": r"$\lambda$",
+    "×": r"$\times$",
+}
+
+
+def tex_path(figure: Path) -> Path:
+    """Where the snippet of a figure goes."""
+    return figure.with_suffix(".tex")
+
+
+def tex_snippet(figure: Figure, recipe: Recipe, answers: Sequence[Answer], file: Path) -> str:
+    """A figure environment for a file, to be read with \\input; it needs the package graphicx."""
+    layout = lay_out(figure)
+    width = layout.width / UNITS_PER_INCH * MM_PER_INCH
+    # LaTeX has no way to read SVG; the same name may be there as PDF.
+    name = file.stem if file.suffix == ".svg" else file.name
+    return (
+        "\\begin{figure}\n"
+        "  \\centering\n"
+        f"  \\includegraphics[width={width:.4g}mm]{{\\detokenize{{{name}}}}}\n"
+        f"  \\caption{{{caption(figure, recipe, answers)}}}\n"
+        f"  \\label{{fig:{re.sub(r'[^A-Za-z0-9]+', '-', file.stem).strip('-').lower()}}}\n"
+        "\\end{figure}\n"
+    )
+
+
+def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
+    """In LaTeX: the mesh, the source, and of each panel the quantity, its unit and its range."""
+    document, tops = recipe.document, figure.tops()
+    meshes = dict.fromkeys(panel.surface.name for panel in figure.panels)
+    sentences = [f"Distances on {_listed(list(meshes))}"]
+    surface = figure.panels[0].surface
+    sources = [str(vertex_at(at, surface)) for at in document.sources]
+    if sources:
+        sentences[0] += f" from {'vertex' if len(sources) == 1 else 'vertices'} {_listed(sources)}"
+    parts = []
+    for shown, answer, top in zip(figure.panels, answers, tops, strict=True):
+        if shown.field is None:
+            parts.append(f"{shown.heading or answer.label}: not shown")
+            continue
+        low = -top if shown.signed else 0.0
+        parts.append(
+            f"{shown.heading or answer.label}, {low:.4g} to {top:.4g}{with_unit(shown.unit)}".replace("-", "−")
+        )
+    sentences.append("; ".join(parts))
+    ranges = {"shared": "Panels of one unit share a range", "shares": "Colours are shares of each maximum"}
+    if figure.range in ranges:
+        sentences.append(ranges[figure.range])
+    isolines = figure.panels[0].isolines
+    if isolines.count and isolines.spacing is None and not isolines.values:
+        sentences.append(f"Isolines at {isolines.count} equal steps")
+    elif isolines.spacing is not None:
+        sentences.append(f"Isolines every {isolines.spacing:.4g}")
+    return escaped(". ".join(sentence[0].upper() + sentence[1:] for sentence in sentences) + ".")
+
+
+def escaped(text: str) -> str:
+    """A text as LaTeX sets it."""
+    return "".join(_SPECIAL.get(sign, sign) for sign in text)
+
+
+def _listed(words: list[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

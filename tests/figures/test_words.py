@@ -1,0 +1,156 @@
+"""Words on the page as it is drawn: none beyond its edges, none on another, at any width and for any number of panels.
+
+The boxes of words are matplotlib's, of the very page that is written as PDF.
+"""
+
+import re
+import shutil
+import subprocess
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from app.figures.canvas import Composition, drawn, matplotlib_settings
+from app.figures.draw import Figure, FigurePanel, Mark, save_figure
+from app.figures.fonts import check_font
+from app.figures.layout import lay_out
+from app.figures.shots import Shot
+from app.figures.size import Size
+from app.figures.words import LAST, LEAST, Lettering
+from bihdist_core import OutputError, ParameterError
+from tests.shapes import bumpy
+
+LONG = (
+    "a field of forty characters in its label",
+    "potential_of_the_second_kind_on_mesh_no2",
+    "Donaudampfschifffahrtsgesellschaftskapit",
+)
+SIZES = ("60mm", "85mm", "178mm", "slide", "A0", "640x200", "300x500@96dpi")
+
+
+@pytest.fixture(scope="module")
+def ball():
+    return bumpy(100)
+
+
+def figure_of(ball, count, size, **options):
+    fields = [np.linspace(0, 10.0**k, 100) for k in (-7, 0, 6)]
+    fields[1] = fields[1] - 0.4
+    panels = tuple(
+        FigurePanel(
+            ball,
+            None if failure else fields[k % 3],
+            heading=LONG[k % 3],
+            hint="what is to be looked for in this panel of the figure" if k % 2 else "",
+            label=LONG[k % 3],
+            unit="1 / mesh units",
+            marks=(Mark(3, text="+0.00123 at 123456"), Mark(40, text="another mark at the edge")),
+            failure="There is no field here, and this is a sentence on why that is so. " * 2 if failure else "",
+            signed=k % 3 == 1 and options.get("range") != "shared",
+        )
+        for k in range(count)
+        for failure in [k == 5]
+    )
+    return Figure(panels, size=Size.parse(size), **options)
+
+
+def boxes_of(figure):
+    """Of each line of text on the page: its box in units, and the text; and the size of the page."""
+    layout = lay_out(figure)
+    shots = [
+        Shot(
+            k, box, np.zeros((4, 4, 4), np.uint8), [], [], [(0, *box.middle), (1, box.right - 1, box.y + 1)], np.eye(3)
+        )
+        for k, cell in enumerate(layout.cells)
+        for box in cell.views
+    ]
+    with matplotlib_settings(figure.font):
+        canvas = drawn(Composition(figure, layout, shots), vector=True)
+        renderer = canvas.canvas.get_renderer()
+        per_unit = canvas.dpi / 96
+        found = [
+            (np.array(text.get_window_extent(renderer).extents) / per_unit, text.get_text())
+            for text in canvas.axes[0].texts
+        ]
+    return found, (layout.width, layout.height)
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("count", [1, 3, 6])
+def test_no_word_is_off_the_page_and_none_on_another(ball, size, count):
+    for options in (
+        {},
+        {"title": "caption"},
+        {"range": "shared"},
+        {"range": "shares", "title": "none"},
+        {"crop": True},
+        {"columns": count, "text": 9.0},
+        {"font": "DejaVu Serif", "range": "shares", "crop": True},
+    ):
+        found, (width, height) = boxes_of(figure_of(ball, count, size, **options))
+        assert found
+        for box, text in found:
+            assert box[0] >= 0, (text, options)
+            assert box[1] >= 0, (text, options)
+            assert box[2] <= width, (text, options)
+            assert box[3] <= height, (text, options)
+        for (a, one), (b, other) in combinations(found, 2):
+            across, up = min(a[2], b[2]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[1], b[1])
+            # Boxes are as high as the font, which is more than its letters.
+            assert not (across > 0 and up > 0.5), (one, other, options)
+
+
+@pytest.mark.parametrize("size", ["60mm", "85mm"])
+def test_as_another_program_reads_the_pdf(ball, size, tmp_path):
+    if shutil.which("pdftotext") is None:
+        pytest.skip("pdftotext is not there")
+    save_figure(figure_of(ball, 3, size), tmp_path / "f.pdf")
+    words = subprocess.run(["pdftotext", "-bbox", tmp_path / "f.pdf", "-"], capture_output=True, text=True, check=True)
+    width, height = map(float, re.search(r'<page width="([\d.]+)" height="([\d.]+)"', words.stdout).groups())
+    pattern = r'xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)" yMax="([-\d.]+)">'
+    found = [tuple(map(float, box)) for box in re.findall(pattern, words.stdout)]
+    assert len(found) > 15
+    assert all(a >= 0 and b >= 0 and c <= width and d <= height for a, b, c, d in found)
+    for one, other in combinations(found, 2):
+        across = min(one[2], other[2]) - max(one[0], other[0])
+        # Such boxes have the height of the font, which is more than that of letters.
+        up = min(one[3], other[3]) - max(one[1], other[1])
+        assert not (across > 0.05 and up > 0.3 * (one[3] - one[1]))
+
+
+def test_words_wrap_then_shrink_and_are_shortened_last():
+    type = Lettering()
+    wide = type.width("a few words", 12)
+    assert type.fitted(["a few words"], 12, wide, 2) == (12, [("a few words",)])
+    size, (lines,) = type.fitted(["a few words"], 12, 0.8 * wide, 2)
+    assert (LEAST <= size < 12, lines) == (True, ("a few words",))
+    assert type.fitted(["a few words"], 12, 0.6 * wide, 2)[1] == [("a few", "words")]
+    size, (lines,) = type.fitted(["a few words " * 20], 12, wide, 2)
+    assert size == LAST
+    assert len(lines) == 2
+    assert lines[1].endswith("…")
+    assert Lettering(stays=True).fitted(["a few words " * 20], 12, wide, 2)[0] == 12
+    assert type.fitted([""], 12, wide, 2)[1] == [()]
+
+
+def test_a_size_of_text_is_kept_and_fonts_are_looked_for(ball):
+    figure = figure_of(ball, 1, "178mm", text=7.0)
+    assert lay_out(figure).label == pytest.approx(7 / 0.75)
+    assert lay_out(figure_of(ball, 6, "60mm")).smallest >= 5 - 1e-9
+    check_font("dejavu serif")
+    with pytest.raises(ParameterError, match=r"No font 'DejaVu Serf' is installed; there is .*DejaVu Serif"):
+        figure_of(ball, 1, "85mm", font="DejaVu Serf")
+
+
+def test_eps_has_letters_and_no_transparency(ball, tmp_path):
+    figure = figure_of(ball, 1, "60mm")
+    for name in ("a.eps", "b.eps"):
+        save_figure(figure, tmp_path / name)
+    text = (tmp_path / "a.eps").read_bytes()
+    assert text == (tmp_path / "b.eps").read_bytes()
+    assert text.startswith(b"%!PS-Adobe-3.0 EPSF-3.0")
+    assert b"/FontName /DejaVuSans" in text
+    with pytest.raises(OutputError, match="EPS has no transparency"):
+        save_figure(figure_of(ball, 1, "85mm", transparent=True), tmp_path / "c.eps")
+    assert not (tmp_path / "c.eps").exists()
