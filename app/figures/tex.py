@@ -42,7 +42,7 @@ def tex_snippet(figure: Figure, recipe: Recipe, answers: Sequence[Answer], file:
     return (
         "\\begin{figure}\n"
         "  \\centering\n"
-        f"  \\includegraphics[width={width:.4g}mm]{{\\detokenize{{{name}}}}}\n"
+        f"  \\includegraphics[width={round(width, 1):g}mm]{{\\detokenize{{{name}}}}}\n"
         f"  \\caption{{{caption(figure, recipe, answers)}}}\n"
         f"  \\label{{fig:{re.sub(r'[^A-Za-z0-9]+', '-', file.stem).strip('-').lower()}}}\n"
         "\\end{figure}\n"
@@ -53,9 +53,9 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
     """In LaTeX: the mesh, the source, and of each panel the quantity, its unit and its range."""
     document, tops = recipe.document, figure.tops()
     meshes = dict.fromkeys(panel.surface.name for panel in figure.panels)
-    sentences = [f"Distances on {_listed(list(meshes))}"]
     surface = figure.panels[0].surface
     sources = [str(vertex_at(at, surface)) for at in document.sources]
+    sentences = [f"{'Distances' if sources else 'Fields'} on {_listed(list(meshes))}"]
     if sources:
         sentences[0] += f" from {'vertex' if len(sources) == 1 else 'vertices'} {_listed(sources)}"
     parts = []

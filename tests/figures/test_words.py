@@ -17,7 +17,9 @@ from app.figures.fonts import check_font
 from app.figures.layout import lay_out
 from app.figures.shots import Shot
 from app.figures.size import Size
+from app.figures.tex import escaped
 from app.figures.words import LAST, LEAST, Lettering
+from app.main import main
 from bihdist_core import OutputError, ParameterError
 from tests.shapes import bumpy
 
@@ -154,3 +156,21 @@ def test_eps_has_letters_and_no_transparency(ball, tmp_path):
     with pytest.raises(OutputError, match="EPS has no transparency"):
         save_figure(figure_of(ball, 1, "85mm", transparent=True), tmp_path / "c.eps")
     assert not (tmp_path / "c.eps").exists()
+
+
+def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_file, tmp_path, capsys):
+    out = tmp_path / "my_figure.pdf"
+    words = ["figure", mesh_file(bumpy(200)), "--source", "4", "--size", "column", "--tex", "--isolines", "9"]
+    words += ["--distance", "biharmonic", "--distance", "diffusion", "-o", str(out)]
+    assert main(words) == 0
+    text = (tmp_path / "my_figure.tex").read_text()
+    assert r"\includegraphics[width=85mm]{\detokenize{my_figure.pdf}}" in text
+    caption = re.search(r"\\caption\{(.*)\}\n", text)[1]
+    assert "Distances on mesh.off from vertex 4. Biharmonic, exact, 0 to " in caption
+    assert "mesh units; diffusion, t = 1, 0 to " in caption
+    assert caption.endswith("Isolines at 9 equal steps.")
+    assert escaped(r"50% of a_b & {c} \\ −1") == r"50\% of a\_b \& \{c\} \textbackslash{}\textbackslash{} $-$1"
+    (tmp_path / "my_figure.tex").write_text("an article")
+    assert main(words) == 1
+    assert "is another file" in capsys.readouterr().err
+    assert (tmp_path / "my_figure.tex").read_text() == "an article"
