@@ -171,6 +171,6 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     assert caption.endswith("Isolines at 9 equal steps.")
     assert escaped(r"50% of a_b & {c} \\ −1") == r"50\% of a\_b \& \{c\} \textbackslash{}\textbackslash{} $-$1"
     (tmp_path / "my_figure.tex").write_text("an article")
-    assert main(words) == 1
+    assert main(words) == 2
     assert "is another file" in capsys.readouterr().err
     assert (tmp_path / "my_figure.tex").read_text() == "an article"
