@@ -22,6 +22,7 @@ from .bars import TICK, Bar
 from .boxes import Box, Words
 from .description import Figure
 from .fonts import families
+from .isoline_labels import draw_labels
 from .layout import Cell, Layout
 from .marks import POINT, draw_frames, draw_marks
 from .shots import Line, Shot
@@ -118,7 +119,12 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
     # One object for all curves: it is then written once.
     shape = edge and _clip_path()(edge, axes.transData)
     signed, top = page.figure.panels[shot.panel].signed, page.figure.tops()[shot.panel]
-    for k, line in enumerate(sorted(shot.isolines, key=lambda line: line.is_through)):
+    contours = shot.isolines
+    if page.figure.panels[shot.panel].isolines.labels:
+        contours = draw_labels(axes, page.figure, page.layout, shot, order + 2)
+    for k, line in enumerate(sorted(contours, key=lambda line: line.is_through)):
+        if not line.parts:
+            continue
         colour, width = style.line(signed, line.value / top if top > 0 else 0.0), style.isoline_width * stroke
         strokes = [(colour, width * (BOLD if line.is_bold else 1))]
         if line.is_through:
