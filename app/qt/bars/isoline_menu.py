@@ -36,7 +36,7 @@ class IsolineMenu(QtWidgets.QMenu):
         self.bold.triggered.connect(choices.bold)
         self.labels = self.addAction("Labels")
         self.labels.setCheckable(True)
-        self.labels.setToolTip("The lines' values stand on them")
+        self.labels.setToolTip("In figures, the lines' values stand on them")
         self.labels.triggered.connect(choices.labels)
         self.addSeparator()
         self.through = self.addAction("Remove those through points", choices.pass_through_none)
