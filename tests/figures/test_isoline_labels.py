@@ -74,7 +74,14 @@ def test_pictures_have_them_on_wish():
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(0.0, "0"), (0.05, "0.05"), (1234.6, "1235"), (-0.25, "\N{MINUS SIGN}0.25"), (3.967, "3.97"), (1e-9, "1e\N{MINUS SIGN}09")],
+    [
+        (0.0, "0"),
+        (0.05, "0.05"),
+        (1234.6, "1235"),
+        (-0.25, "\N{MINUS SIGN}0.25"),
+        (3.967, "3.97"),
+        (1e-9, "1e\N{MINUS SIGN}09"),
+    ],
 )
 def test_values_have_three_digits(value, text):
     assert value_text(value) == text
