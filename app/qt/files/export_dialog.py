@@ -83,6 +83,11 @@ class ExportDialog(LooksDialog):
         self.crop = self.tick("Without the empty &margins", recipe.page.crop, "Cut to what is drawn")
         self.section("Look")
         self.add_look()
+        self.letters = QtWidgets.QDoubleSpinBox(decimals=1, maximum=72, singleStep=0.5, suffix=" pt")
+        self.letters.setSpecialValueText("As they fit")
+        self.letters.setButtonSymbols(QtWidgets.QAbstractSpinBox.ButtonSymbols.NoButtons)
+        self.letters.setValue(recipe.page.text or 0.0)
+        self.row("&Text", self.letters, "The size of labels in points, the others in proportion; 0: as they fit")
         self._add_copying()
         self._number = 0
         self._soon = QtCore.QTimer(self, singleShot=True, interval=WAIT)
@@ -103,9 +108,17 @@ class ExportDialog(LooksDialog):
             crop=self.crop.isChecked(),
             title=self.names.currentData(),
             views=views,
+            text=self._text(),
             format=self.kinds.choice().lower(),
         )
         return replace(recipe, page=page)
+
+    def _text(self) -> float | None:
+        """As it was where nobody has changed it: the box has one digit."""
+        value, was = self.letters.value(), self._recipe.page.text
+        if was is not None and abs(value - was) < 0.05:
+            return was
+        return max(value, 2.0) if value else None
 
     def check(self) -> None:
         self.check_size(self.chosen())
