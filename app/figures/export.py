@@ -195,7 +195,7 @@ def _largest(answer: Answer) -> list[Mark]:
     if vertex is None or answer.field is None:
         return []
     value = float(answer.field[vertex])
-    return [Mark(vertex, text=f"{value:+.3g} at {vertex}", is_largest=True)]
+    return [Mark(vertex, text=f"{value:+.3g} at {vertex}".replace("-", "−"), is_largest=True)]
 
 
 def _anchor_marks(document: Document, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:

@@ -89,9 +89,9 @@ def _beside(
             step = side + GAP + max((long - count * side - GAP * (count - 1)) / (count + 1), 0) * (count > 1)
             start = (long - (count - 1) * step - side) / 2
             if is_right:
-                found = [Box(area.right - side, area.y + start + k * step, side, side) for k in range(count)]
+                found = [Box(area.right - side - 1, area.y + start + k * step, side, side) for k in range(count)]
             else:
-                found = [Box(area.x + start + k * step, area.bottom - side, side, side) for k in range(count)]
+                found = [Box(area.x + start + k * step, area.bottom - side - 1, side, side) for k in range(count)]
             best = size, box, found
     _, box, found = best
     box = box.snapped(scale)

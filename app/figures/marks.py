@@ -28,6 +28,9 @@ RIM = 0.075
 OPEN = 0.46
 """The same of the hole of a ring."""
 
+LEAST_GHOST = 7.5
+"""Units across, at which dashes are still told apart."""
+
 GROUND = 0.8
 """How much of what is under words their ground covers."""
 
@@ -82,7 +85,8 @@ def _draw_ghost(axes: Axes, x: float, y: float, across: float, style, order: int
     """A hollow, dashed circle: light under dark, to be seen on every colour."""
     from matplotlib.patches import Circle
 
-    width = max(0.14 * across, 0.8)
+    across = max(across, LEAST_GHOST)
+    width = max(0.12 * across, 0.7)
     light = {"edgecolor": style.background, "linewidth": 1.9 * width * POINT}
     dark = {"edgecolor": style.text, "linewidth": width * POINT, "linestyle": (0, (2.2, 1.4))}
     for look in (light, dark):
