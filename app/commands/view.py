@@ -73,4 +73,4 @@ def _refuse_options(options: argparse.Namespace) -> None:
     given |= given_parameters(options)
     for name, value in given.items():
         if value is not None:
-            raise ParameterError(f"A session has a {name} of its own; leave out --{name}.")
+            raise ParameterError(f"A session says {name} itself; leave out --{name}.")

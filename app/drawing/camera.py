@@ -32,6 +32,9 @@ FRONTS = {"y": "z", "-y": "z", "x": "z", "-x": "z", "z": "-y", "-z": "y"}
 NEIGHBOURHOOD = 0.08
 """The share of the shape's diagonal over which the direction outwards is averaged."""
 
+SOME = 50_000
+"""Faces that tell of a large surface which side is outside."""
+
 
 @dataclass(frozen=True)
 class Margins:
@@ -136,7 +139,7 @@ def standard_camera(
     direction, upright = directions(view, up, outwards)
     if view == "home" and is_flat(points) and up[-1] != "z":
         direction = np.array([0.0, 0, 1])  # a flat domain is looked at straight
-    return _aim(points, aspect, direction, upright, margins or Margins(), is_parallel)
+    return aimed(points, aspect, direction, upright, margins or Margins(), is_parallel)
 
 
 def directions(view: str, up: str = "y", outwards: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
@@ -156,22 +159,30 @@ def directions(view: str, up: str = "y", outwards: np.ndarray | None = None) -> 
 
 def outwards_at(surface: Surface, vertex: int) -> np.ndarray | None:
     """(3,) the unit normal that points out of a surface, averaged about a vertex; None where there is none."""
-    corners = surface.vertices[surface.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    own = normals[(surface.faces == vertex).any(axis=1)].sum(axis=0)
-    used = surface.vertices[surface.component_of_vertex >= 0]
+    x, faces = surface.vertices, surface.faces
+    used = x[surface.component_of_vertex >= 0]
     reach = NEIGHBOURHOOD * float(np.linalg.norm(np.ptp(used, axis=0)))
-    near = np.linalg.norm(surface.vertices - surface.vertices[vertex], axis=1) <= reach
+    near = np.linalg.norm(x - x[vertex], axis=1) <= reach
     near[vertex] = True
-    about = np.flatnonzero(near[surface.faces].any(axis=1))
+    about = faces[near[faces].any(axis=1)]
+    normals = _area_normals(x[about])
+    own = normals[(about == vertex).any(axis=1)].sum(axis=0)
     # Of what is near, also the other side of something thin, only what hangs together and faces alike.
-    piece = connected(surface.faces[about][:, [[0, 1], [1, 2]]].reshape(-1, 2).T, len(surface.vertices))
-    about = about[(piece[surface.faces[about, 0]] == piece[vertex]) & (normals[about] @ own > 0)]
-    total = normals[about].sum(axis=0)
-    middle = used.mean(axis=0)
-    volume = float(np.einsum("ij,ij->", corners.mean(axis=1) - middle, normals))
+    ids, place = np.unique(about, return_inverse=True)
+    place = place.reshape(-1, 3)
+    piece = connected(place[:, [[0, 1], [1, 2]]].reshape(-1, 2).T, len(ids))
+    is_own = piece[place[:, 0]] == piece[np.searchsorted(ids, vertex)]
+    total = normals[is_own & (normals @ own > 0)].sum(axis=0)
+    # Normals that point inwards make the volume negative; of many faces some tell that as well.
+    corners = x[faces[:: max(1, len(faces) // SOME)]] - used.mean(axis=0)
+    volume = float(np.einsum("ij,ij->", corners.sum(axis=1), _area_normals(corners)))
     length = float(np.linalg.norm(total))
     return None if length <= 0 else total / length * (-1.0 if volume < 0 else 1.0)
+
+
+def _area_normals(corners: np.ndarray) -> np.ndarray:
+    """(m, 3) normals of faces (m, 3, 3), twice as long as the faces are large."""
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
 def is_flat(points: np.ndarray) -> bool:
@@ -226,7 +237,7 @@ def stand_back(camera: vtkCamera, bounds: Sequence[float]) -> None:
         camera.SetPosition(*(position + min(ahead, before - 0.1 * size) * along))
 
 
-def _aim(
+def aimed(
     points: np.ndarray,
     aspect: float,
     direction: np.ndarray,

@@ -5,8 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 import pyvista
 
-from app.drawing.camera import Margins, aim
-from app.drawing.field_actor import FieldActor, drawable, light
+from app.document.looks import Isolines
+from app.drawing.camera import Margins, aimed, show_camera
+from app.drawing.drawable import drawable
+from app.drawing.field_actor import FieldActor, light
 from app.drawing.style import PAPER
 from bihdist_core import Surface
 
@@ -37,15 +39,16 @@ def row(
         for renderer, side in zip(plotter.renderers, sides, strict=True):
             painted = FieldActor(PAPER, scale)
             painted.show_surface(mesh)
-            painted.show_isolines(isolines if field is not None else 0)
+            painted.show_isolines(Isolines(isolines if field is not None else 0))
             if field is not None:
                 painted.show_field(field)
             renderer.AddActor(painted.actor)
             renderer.SetBackground(*PAPER.background)
             light(renderer)
             upright = np.array(up) if abs(np.dot(side, up)) < 0.9 * np.linalg.norm(side) else -np.roll(up, 1)
-            camera = renderer.GetActiveCamera()
-            aim(camera, surface.vertices, width / height, np.array(side, float), upright.astype(float), MARGINS)
+            aspect, back = width / height, np.array(side, float)
+            camera = aimed(surface.vertices, aspect, back, upright.astype(float), MARGINS)
+            show_camera(renderer.GetActiveCamera(), camera, aspect, MARGINS)
             renderer.camera_set = True
         plotter.show(auto_close=False, interactive=False)
         return np.array(plotter.screenshot(return_img=True))[..., :3]
