@@ -105,7 +105,8 @@ class Figure:
     range: where colour bars end, one of RANGES: with "shared", panels of one unit end at the largest maximum of them,
     and with "shares" each is drawn in shares of its own.  crop: without empty space around shapes and at the edges.
     title: where panels have their names, one of TITLES; font: a family, "" for the usual one; text: the size of labels
-    in points, all other words in proportion, the usual one if None.
+    in points, all other words in proportion, the usual one if None; is_moving: one of the pictures of a movie, in all
+    of which insets stand in the same places.
     """
 
     panels: tuple[FigurePanel, ...]
@@ -118,6 +119,7 @@ class Figure:
     title: str = "heading"
     font: str = ""
     text: float | None = None
+    is_moving: bool = False
 
     def __post_init__(self) -> None:
         if not self.panels:

@@ -23,10 +23,13 @@ def insets_of(
     """The box left to the first view of a panel with zooms, of all its area, and the boxes of the insets."""
     each = figure.panels[panel]
     side = SIDE * min(area.width, area.height)
+    is_free = all(zoom.corner == "auto" for zoom in each.zooms)
+    if figure.is_moving and is_free:
+        return _beside(figure, panel, surface, area, part, scale)
     view = _View(figure, panel, surface, area, part)
     names, hidden = view.corners(side, area)
     boxes = [view.box(name, side, area) for name in names]
-    if hidden > HIDDEN and all(zoom.corner == "auto" for zoom in each.zooms):
+    if hidden > HIDDEN and is_free:
         return _beside(figure, panel, surface, area, part, scale)
     return area, tuple(box.snapped(scale) for box in boxes)
 
@@ -78,6 +81,8 @@ def _beside(
     each = figure.panels[panel]
     count = len(each.zooms)
     aspect = part.aspect if part else _aspect(figure, panel, surface)
+    if figure.is_moving:  # the same for all of its pictures
+        aspect = area.width / area.height / 2
     best: tuple[float, Box, list[Box]] | None = None
     for is_right in (True, False):
         long, short = (area.height, area.width) if is_right else (area.width, area.height)
@@ -95,6 +100,8 @@ def _beside(
             best = size, box, found
     _, box, found = best
     box = box.snapped(scale)
+    if figure.is_moving:
+        return box, tuple(each.snapped(scale) for each in found)
     framed = Framed(each.views[0], each, surface, box, part)
     targets = framed.places(surface.vertices[[z.vertex for z in each.zooms]])
     # In the order of their places, so that the lines that join them do not cross.

@@ -176,7 +176,8 @@ class _Fields:
         recipe = Recipe(
             replace(document, panels=panels), replace(self._recipe.page, views=views, crop=False, transparent=False)
         )
-        return figure_of(recipe, self._surfaces, [self._answers[q] for q in questions(document).values()])
+        answers = [self._answers[q] for q in questions(document).values()]
+        return replace(figure_of(recipe, self._surfaces, answers), is_moving=True)
 
 
 def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:

@@ -107,6 +107,22 @@ def test_a_zoom_shows_its_vertex_enlarged(ball):
         Zoom(vertex, 2, "middle")
 
 
+def test_insets_hide_nothing_and_stay_where_they_are_while_a_shape_turns(ball):
+    vertices = [int(ball.vertices[:, k].argmax()) for k in (0, 2)]
+    field = ball.vertices[:, 1] + 2
+    zooms = tuple(Zoom(vertex, 4) for vertex in vertices)
+    places = set()
+    for view in ("front", "home", "right"):
+        panel = FigurePanel(ball, field, views=(view,), zooms=zooms)
+        for is_moving in (False, True):
+            cell = lay_out(Figure((panel,), size=SIZE, is_moving=is_moving)).cells[0]
+            # A ball leaves no corner free: they stand beside it.
+            assert not any(inset.meets(other) for inset in cell.insets for other in cell.views)
+            assert not cell.insets[0].meets(cell.insets[1])
+        places.add(cell.insets)
+    assert len(places) == 1
+
+
 def test_a_relief_rises_where_the_field_does():
     flat = grid(20, 20)
     field = np.linalg.norm(flat.vertices[:, :2] - 10, axis=1)
