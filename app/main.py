@@ -5,6 +5,7 @@ What is heavy (numpy, VTK, Qt) is imported by the command that needs it, when it
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Sequence
 
@@ -15,6 +16,9 @@ from .version import version
 COMMANDS = {module.__name__.rpartition(".")[2]: module for module in (view, field, pairs, figure, movie, info, paper)}
 """By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`."""
 
+NEGATIVE = re.compile(r"-[xyz]|-[\d.][-+.\deE]*,[-+.,\deE]*")
+"""The value of an option, though it begins like one: `--up -z`, `--camera -1,0,…`.  argparse knows single numbers."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status: 0, 1 for a figure with a failed panel, 2 for what the user can
@@ -23,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from bihdist_core.errors import BihdistError
 
     try:
-        options = _parser().parse_args(_with_command(arguments))
+        options = _parser().parse_args(_with_values(_with_command(arguments)))
         status = COMMANDS[options.command].run(options) or 0
         sys.stdout.flush()
         return status
@@ -50,6 +54,18 @@ def _with_command(arguments: list[str]) -> list[str]:
         # Before the options, which may be those of the command that was meant.
         check_mesh(arguments[0], COMMANDS)
     return ["view", *arguments]
+
+
+def _with_values(arguments: list[str]) -> list[str]:
+    """The arguments with negative values joined to their options by `=`, without which argparse refuses them."""
+    joined: list[str] = []
+    for word in arguments:
+        last = joined[-1] if joined else ""
+        if NEGATIVE.fullmatch(word) and len(last) > 2 and last.startswith("--") and "=" not in last:
+            joined[-1] = f"{last}={word}"
+        else:
+            joined.append(word)
+    return joined
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -13,7 +13,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 from ..document.looks import MOST_ISOLINES, TWENTY_STEPS, Isolines, Shading
 from .drawable import copies_of, has_backs
 from .face_look import pass_on, put_face_look
-from .levels import BOLD, Levels, levels
+from .levels import BOLD, Levels, levels, too_many
 from .stand_in import StandInActor
 from .style import Style
 
@@ -175,6 +175,11 @@ class FieldActor:
     def levels(self) -> Levels:
         """The values that have a line."""
         return levels(self._isolines, self.maximum, self._own_maximum, self.is_signed, self._through)
+
+    @property
+    def too_many(self) -> str:
+        """A sentence where a spacing makes more lines than are drawn, so that none are; else ""."""
+        return too_many(self.levels, self._isolines, self._own_maximum)
 
     def show_shading(self, shading: Shading) -> None:
         """Whether faces are flat, and edges drawn; where normals are split, `drawable` has done."""

@@ -117,6 +117,11 @@ class PanelScene:
         return self.levels.values
 
     @property
+    def too_many(self) -> str:
+        """See `FieldActor.too_many`."""
+        return self._field.too_many
+
+    @property
     def maximum(self) -> float:
         """Where the colours end."""
         return self._field.maximum

@@ -74,7 +74,7 @@ def end_words(figure: Figure, panel: int) -> str:
     else:
         top = figure.tops()[panel]
         end = f"max{BOUND}{each.own_top if any(goes_beyond(figure, panel)) else top:.4g}"
-    if figure.range == "shares":
+    if figure.range == "shares" and not figure.has_one_bar:
         return f"% of the {end}{with_unit(each.unit)}"
     return f"{each.unit}, {end}" if each.unit else end
 
@@ -89,8 +89,6 @@ def bar_words(figure: Figure, panel: int) -> str:
     each, end = figure.panels[panel], end_words(figure, panel)
     if figure.has_one_bar and figure.range == "shared":
         end = ""
-    elif figure.has_one_bar:
-        end = end.removeprefix("% of the ")
     if figure.title == "none" or (figure.title == "heading" and each.heading):
         return end
     name = name_of(figure, panel) if figure.title == "caption" else each.label

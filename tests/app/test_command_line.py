@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.main import main
+from app.document.file import read_recipe
+from app.main import _with_values, main
 from bihdist_core import (
     BiharmonicDistance,
     CommuteTimeDistance,
@@ -347,3 +348,24 @@ def test_light_commands_import_nothing_heavy():
     )
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+@pytest.mark.parametrize(
+    ("given", "joined"),
+    [
+        (["--up", "-z", "-o", "a.png"], ["--up=-z", "-o", "a.png"]),
+        (["--camera", "-1,0,2e-3,-.5", "--hints"], ["--camera=-1,0,2e-3,-.5", "--hints"]),
+        (["--source", "-1", "3"], ["--source", "-1", "3"]),
+        (["--distance", "alpha", "-o", "-1,2"], ["--distance", "alpha", "-o", "-1,2"]),
+    ],
+)
+def test_values_that_begin_with_a_minus_belong_to_their_option(given, joined):
+    assert _with_values(given) == joined
+
+
+def test_a_figure_with_minus_z_up_and_isolines_below_0(mesh, tmp_path):
+    out = tmp_path / "a.png"
+    camera = ["--camera", "-3,1,2,0,0,0,0,1,0,0.4,0.4"]
+    assert main(["figure", mesh, "--up", "-z", *camera, "--isoline-values", "-1,0.1", "-o", str(out)]) == 0
+    document = read_recipe(out.with_suffix(".json")).document
+    assert (document.up, document.isolines.values) == ("-z", (-1.0, 0.1))

@@ -11,6 +11,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from app.figures.bars import bar_words, shared_words
 from app.figures.canvas import Composition, drawn, matplotlib_settings
 from app.figures.draw import Figure, FigurePanel, Mark, save_figure
 from app.figures.fonts import check_font
@@ -174,3 +175,11 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     assert main(words) == 2
     assert "is another file" in capsys.readouterr().err
     assert (tmp_path / "my_figure.tex").read_text() == "an article"
+
+
+def test_the_unit_stands_before_the_maximum_where_one_bar_is_in_shares(ball):
+    field = np.linspace(0, 0.5078, 100)
+    panels = tuple(FigurePanel(ball, field, unit=unit) for unit in ("1 / mesh units", "mesh units"))
+    of = Figure(panels, range="shares")
+    assert [bar_words(of, k) for k in (0, 1)] == ["1 / mesh units, max\xa00.5078", "mesh units, max\xa00.5078"]
+    assert shared_words(of, 0) == "% of each maximum"

@@ -1,5 +1,7 @@
 """Isolines in the window: chosen from the menu, through points, on the surface and on the colour bar."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -107,3 +109,44 @@ def test_a_line_through_a_point_follows_source_and_undo(s):
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert s.panels[-1].view.scene.levels.is_through.sum() == 1
+
+
+def test_the_colour_bar_tells_bold_lines_and_lines_through_points(s):
+    choices = s.window.choices.isoline
+    choices.steps(10)
+    choices.bold(True)
+    choices.pass_through(0, 40)
+    s.settle()
+    bar, scene = s.panels[0].bar, s.panels[0].view.scene
+    layout, value = bar._layout, s.answers[0].field[40]
+    assert (len(layout.isolines), len(layout.bold), len(layout.through)) == (9, 1, 1)
+    picture = bar.grab().toImage()
+    ratio, row = bar.devicePixelRatioF(), layout.bar.center().y()
+
+    def colour(x):
+        return np.array(picture.pixelColor(int(x * ratio), int(row * bar.devicePixelRatioF())).getRgbF()[:3])
+
+    (x,) = layout.through
+    assert x == pytest.approx(layout.bar.left() + layout.bar.width() * value / scene.maximum)
+    assert colour(x) == pytest.approx(scene.style.source, abs=0.02)
+    (x,) = layout.bold
+    usual = next(other for other in layout.isolines if other != x)
+    line = np.array(scene.style.line())
+
+    def width(x):
+        return sum(np.abs(colour(x + step) - line).max() < 0.02 for step in np.arange(-4, 5) / ratio)
+
+    assert width(x) == 2 * width(usual)
+
+
+def test_a_spacing_that_is_too_small_for_a_field_is_said(s):
+    panel = s.panels[0]
+    spacing = s.answers[0].maximum / 3000
+    s.session.show(replace(s.document, isolines=Isolines(spacing=spacing)))  # as of a session's file
+    s.settle()
+    assert len(panel.view.scene.levels.values) == 0
+    assert panel.bar._reading.note == "no isolines: 2,999 are too many"
+    assert "Choose a spacing of" in panel.head.warning.toolTip()
+    s.session.undo()
+    s.settle()
+    assert (panel.bar._reading.note, panel.head.warning.toolTip()) == ("", "")

@@ -1,5 +1,6 @@
 """What a colour bar says, and where: the words above it, the round values under it, the isolines on it."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -33,6 +34,7 @@ UNDEFINED = "not connected to the source"
 class Reading:
     """What a bar has to say: values in `unit`; lines: those of the isolines; maximum: the field's own.
 
+    bold, through: those of the lines that are bolder, and that pass through points.
     value: at the pointer, or None; words: in its place; note: in place of the maximum.  in_shares: the ticks are shares
     of high.
     """
@@ -48,6 +50,8 @@ class Reading:
     words: str = ""
     note: str = ""
     in_shares: bool = False
+    bold: frozenset[float] = frozenset()
+    through: frozenset[float] = frozenset()
 
     def place(self, value: float) -> float:
         """Of a value on the bar, 0 to 1."""
@@ -112,14 +116,17 @@ class Word:
 class Layout:
     """Where everything stands, in pixels of the widget.
 
-    bar: the colours; line: the words above it; ticks: those under it; isolines: (m,) their x; zero: x of the bold
-    line; pointer: x of the value's tick; is_whole: nothing had to be left out or cut.
+    bar: the colours; line: the words above it; ticks: those under it; isolines: (m,) their x; bold: the same of those
+    that are bolder; through: of those through points, which are not among them; zero: x of the bold line at 0; pointer:
+    x of the value's tick; is_whole: nothing had to be left out or cut.
     """
 
     bar: QtCore.QRectF
     line: tuple[Word, ...] = ()
     ticks: tuple[Word, ...] = ()
     isolines: tuple[float, ...] = ()
+    bold: tuple[float, ...] = ()
+    through: tuple[float, ...] = ()
     zero: float | None = None
     pointer: float | None = None
     is_whole: bool = True
@@ -138,7 +145,7 @@ def lay_out(reading: Reading | None, width: int, is_compact: bool = False) -> La
     under_it = _tick_line(reading, QtCore.QRectF(left, under * scale, across, 16 * scale))
     zero = left + across * reading.place(0.0) if reading.signed else None
     pointer = None if reading.value is None else left + across * reading.place(reading.value)
-    return Layout(bar, line, under_it, _isolines(reading, bar), zero, pointer, is_whole)
+    return Layout(bar, line, under_it, *_isolines(reading, bar), zero, pointer, is_whole)
 
 
 # ---------------------------------------------------------------------- the first line
@@ -247,10 +254,20 @@ def tick_text(value: float, top: float, signed: bool = False) -> str:
     return text.replace("-", MINUS)
 
 
-def _isolines(reading: Reading, bar: QtCore.QRectF) -> tuple[float, ...]:
-    """(m,) x of the isolines, or none where they would be too close."""
-    within = [value for value in reading.lines if reading.low <= value <= reading.high]
-    places = [bar.left() + bar.width() * reading.place(value) for value in within]
-    if any(b - a < LINE_ROOM - SLACK for a, b in pairwise(places)):
-        return ()
-    return tuple(x for x in places if bar.left() + LINE_MARGIN <= x <= bar.right() - LINE_MARGIN)
+def _isolines(reading: Reading, bar: QtCore.QRectF) -> tuple[tuple[float, ...], ...]:
+    """The x of isolines, of the bold ones among them, and of those through points.
+
+    Where they would be too close there are only those through points.
+    """
+
+    def places(values: Iterable[float]) -> list[float]:
+        return [bar.left() + bar.width() * reading.place(v) for v in values if reading.low <= v <= reading.high]
+
+    def inside(places: list[float]) -> tuple[float, ...]:
+        return tuple(x for x in places if bar.left() + LINE_MARGIN <= x <= bar.right() - LINE_MARGIN)
+
+    usual = places(value for value in reading.lines if value not in reading.through)
+    if any(b - a < LINE_ROOM - SLACK for a, b in pairwise(usual)):
+        usual = []
+    bold = places(sorted(reading.bold)) if usual else []
+    return inside(usual), inside(bold), inside(places(sorted(reading.through)))

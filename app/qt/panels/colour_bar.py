@@ -30,6 +30,7 @@ class ColourBar(QtWidgets.QWidget):
         self._reading: Reading | None = None
         self._has_shares, self._is_compact = True, False
         self._colours, self._line_colour = QtGui.QBrush(), QtGui.QColor()
+        self._through: tuple[QtGui.QColor, ...] = ()
         self._ends: tuple[str, ...] = ()
         self._bands: list[tuple[float, QtGui.QColor]] = []
         self._beyond, self._far = (False, False), (2.0, QtGui.QColor())
@@ -54,6 +55,9 @@ class ColourBar(QtWidgets.QWidget):
         bands: npt.ArrayLike = (),
         beyond: tuple[bool, bool] = (False, False),
         in_shares: bool = False,
+        bold: npt.ArrayLike = (),
+        through: npt.ArrayLike = (),
+        through_colours: tuple[tuple[float, float, float], ...] = ((1, 1, 1), (0, 0, 0)),
     ) -> None:
         """A new field, of which nothing is said yet: colours (k, 3), 0 to 1, evenly from low to high, in `unit`.
 
@@ -61,14 +65,18 @@ class ColourBar(QtWidgets.QWidget):
         field's own (of its absolute values, if signed), which may be another than high.  far: the share of the way from
         the middle to an end from which on lines have another colour, and that colour.  bands: (k - 1,) places, 0 to 1,
         where one colour ends and the next begins.  beyond: whether values lie beyond the low and the high end.
-        in_shares: the ticks are shares of high.
+        in_shares: the ticks are shares of high.  bold, through: (k,) those of the lines that are bolder, or pass
+        through points; these have a colour and that of a rim.
         """
         colours = np.clip(np.asarray(colours, float), 0, 1).reshape(-1, 3)
         own = high if maximum is None else maximum
         if not (all(map(math.isfinite, (low, high, own))) and low <= high and len(colours)):
             raise ValueError(f"{len(colours)} colours from {low} to {high}, maximum {own}, make no colour bar.")
         values = tuple(sorted(float(value) for value in np.ravel(lines)))
-        self._reading = Reading(low, high, values, unit, signed, own, self._has_shares, in_shares=in_shares)
+        bold, through = (frozenset(map(float, np.ravel(some))) for some in (bold, through))
+        self._reading = Reading(
+            low, high, values, unit, signed, own, self._has_shares, in_shares=in_shares, bold=bold, through=through
+        )
         if high == low:
             colours, bands = colours[[len(colours) // 2 if signed else 0]], ()
         self._colours = _gradient(colours)
@@ -76,6 +84,7 @@ class ColourBar(QtWidgets.QWidget):
         self._beyond = beyond
         self._ends = tuple(QtGui.QColor.fromRgbF(*colours[k]).name() for k in (0, -1))
         self._line_colour = QtGui.QColor.fromRgbF(*line_colour)
+        self._through = tuple(QtGui.QColor.fromRgbF(*colour) for colour in through_colours)
         self._far = (2.0, self._line_colour) if far is None else (far[0], QtGui.QColor.fromRgbF(*far[1]))
         self._lay_out()
 
@@ -161,9 +170,14 @@ class ColourBar(QtWidgets.QWidget):
             self._paint_bands(painter, bar, shape)
         for x in self._layout.isolines:
             from_middle = abs(2 * (x - bar.left()) / bar.width() - 1)
-            self._paint_line(painter, x, 1, self._far[1] if from_middle > self._far[0] else self._line_colour)
+            width = 2 if x in self._layout.bold else 1
+            self._paint_line(painter, x, width, self._far[1] if from_middle > self._far[0] else self._line_colour)
         if self._layout.zero is not None:
             self._paint_line(painter, self._layout.zero, 2, self._line_colour)
+        for x in self._layout.through:
+            colour, rim = self._through
+            self._paint_line(painter, x, 4, rim)
+            self._paint_line(painter, x, 2, colour)
         if self._reading is not None and any(contrast(end, theme.canvas) < FAINT for end in self._ends):
             painter.setPen(QtGui.QPen(QtGui.QColor(theme.strong), 1))
             painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)

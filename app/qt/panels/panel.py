@@ -166,6 +166,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.scene.show_isolines(isolines, through)
         self._show_bands()
         self._show_bar()
+        self._warn()
         self.view.redraw()
 
     def _show_bands(self) -> None:
@@ -226,12 +227,12 @@ class DistancePanel(QtWidgets.QWidget):
             self.bar.clear()
             return
         top, style, signed = scene.maximum, scene.style, answer.is_signed
-        edges = self._edges if style.bands else np.empty(0)
+        edges, lines = self._edges if style.bands else np.empty(0), scene.levels
         self.bar.show_range(
             style.band_colours(edges, signed) if style.bands and len(edges) else style.colours(signed=signed),
             -top if signed else 0.0,
             top,
-            scene.levels.values,
+            lines.values,
             answer.unit,
             signed,
             style.line(signed),
@@ -240,13 +241,16 @@ class DistancePanel(QtWidgets.QWidget):
             bands=(edges + 1) / 2 if signed else edges,
             beyond=beyond(answer.field, top, signed),
             in_shares=self._in_shares,
+            bold=lines.values[lines.is_bold],
+            through=lines.values[lines.is_through],
+            through_colours=(style.source, style.mark_edge),
         )
         self.bar.show_shares(not answer.is_signed)
         if answer.largest is not None:
             value = float(answer.field[answer.largest])
             self.bar.show_note(f"largest {number(value, signed=True)} at vertex {answer.largest}")
         else:
-            self.bar.show_note("")
+            self.bar.show_note(f"no isolines: {lines.wanted:,} are too many" if scene.too_many else "")
 
     def ask_end(self) -> None:
         """Let it be typed where the colour bar ends."""
@@ -281,9 +285,15 @@ class DistancePanel(QtWidgets.QWidget):
         """How accurate the field is."""
         self.answer, self._is_preview = shown.answer, shown.is_preview
         accuracy = shown.answer.accuracy
-        self.head.show_warning(f"Not exact here: only {accuracy.text}." if accuracy.is_poor else "")
+        self._warn()
         said = [shown.answer.label, self.head.shows.hint, accuracy.text]
         self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in said if text))
+
+    def _warn(self) -> None:
+        """Of what is not as one would think."""
+        accuracy = None if self.answer is None else self.answer.accuracy
+        poor = f"Not exact here: only {accuracy.text}." if accuracy is not None and accuracy.is_poor else ""
+        self.head.show_warning(" ".join(said for said in (poor, self.view.scene.too_many) if said))
 
     def show_waiting(self, progress: tuple[float, str] | None, is_old: bool = True) -> None:
         """What is being computed; None when nothing is.  is_old: the field that is shown is not what is asked for."""
