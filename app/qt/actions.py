@@ -13,6 +13,9 @@ from ..document.edits import PANEL_EDITS
 from .look.icons import put_icon
 
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
+VIEW_TEXTS = {"right": "Ri&ght", "bottom": "Botto&m", "source": "From the &source"}
+"""Where not the first letter is the key in a menu."""
+
 ISOLINES = (0, 10, 20, 30, 50)
 
 
@@ -121,7 +124,7 @@ VIEW = (
     *(
         Act(
             f"view {name}",
-            "From the &source" if name == "source" else f"&{name.capitalize()}",
+            VIEW_TEXTS.get(name, f"&{name.capitalize()}"),
             lambda w, name=name: w.reset_view(name),
             (str(number),),
             needs_mesh=True,
@@ -166,13 +169,13 @@ VIEW = (
     ),
     Act(
         "turntable",
-        "Turn as on a turn&table",
+        "Turn as on a tur&ntable",
         lambda w: w.views.turn_upright(),
         tip="What is up stays upright while the surface turns",
         is_check=True,
     ),
-    Act("view before", "The view be&fore", lambda w: w.views.back(), ("Ctrl+[",), needs_mesh=True),
-    Act("view after", "The view af&ter", lambda w: w.views.on(), ("Ctrl+]",), needs_mesh=True),
+    Act("view before", "The &view before", lambda w: w.views.back(), ("Ctrl+[",), needs_mesh=True),
+    Act("view after", "The view &after", lambda w: w.views.on(), ("Ctrl+]",), needs_mesh=True),
     Act(
         "wireframe",
         "&Wireframe",
@@ -185,7 +188,7 @@ VIEW = (
     Act("crease", "&Angle of creases …", lambda w: w.choices.ask_crease(), needs_mesh=True),
     Act(
         "full screen",
-        "F&ull screen for talks",
+        "&Full screen for talks",
         lambda w: w.choices.toggle_full_screen(),
         ("F11",),
         "Panels and bars only, in larger letters",
@@ -226,7 +229,7 @@ PANELS = (
 TOOLS = (
     Act("source id", "&Type a vertex id", lambda w: w.type_source(), ("G",), "", "source", needs_mesh=True),
     Act("source before", "The source be&fore", lambda w: w.session.walk_sources(-1), ("Alt+Left",), needs_mesh=True),
-    Act("source after", "The source af&ter", lambda w: w.session.walk_sources(1), ("Alt+Right",), needs_mesh=True),
+    Act("source after", "The source &after", lambda w: w.session.walk_sources(1), ("Alt+Right",), needs_mesh=True),
     Act(
         "live",
         "&Live: the source follows the pointer",

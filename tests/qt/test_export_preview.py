@@ -87,6 +87,22 @@ def test_each_change_is_seen_and_the_last_one_stays(screen, mesh_file):
     dialog.close()
 
 
+def test_a_picture_that_comes_late_is_shown_dimmed_until_the_right_one_is_there(screen, mesh_file):
+    from app.qt.files.figure_actions import export_figure
+
+    s = screen()
+    s.open(mesh_file(bumpy(400)), 5)
+    dialog = export_figure(s.window)
+    s.until(lambda: dialog._number)
+    s.until(lambda: not s.window.exports.previews._asked)  # it is being drawn
+    dialog.size.write("500x300")
+    s.until(lambda: not dialog.pane.image.isNull())
+    assert (dialog.pane.is_true, dialog.pane.caption) == (False, "")
+    s.until(lambda: dialog.pane.is_true)
+    assert dialog.pane.caption.startswith("Own size, 500 × 300 pixels")
+    dialog.close()
+
+
 def test_letters_too_small_to_read_are_said(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(400)), 5)

@@ -182,6 +182,7 @@ def test_the_menu_of_a_place_offers_what_can_be_done_there(opened):
     offered = {action.text().partition("\t")[0]: action for action in menu.actions() if action.text()}
     assert [*offered] == [
         "Source here",
+        "Isoline through here",
         "Centre the view here",
         "Zoom to it",
         f"Copy vertex id {target}",

@@ -29,14 +29,16 @@ def test_the_menu_and_the_button_say_where_they_are(s):
     choices.steps(7)
     assert (words(menu), button.accessibleDescription()) == (["Another number (7) …"], "7")
     choices.spacing("0,25")
-    assert (words(menu), button.accessibleDescription()) == (["Spacing (0.2500) …"], "0.2500 apart")
+    assert (words(menu), button.accessibleDescription()) == (["Spacing (0.25) …"], "0.25 apart")
     choices.values("0.5 0.1 0.5")
     assert (words(menu), s.document.isolines.values) == (["Values (2) …"], (0.1, 0.5))
     menu.bold.trigger()
     menu.labels.trigger()
     assert s.document.isolines == Isolines(7, values=(0.1, 0.5), bold=5, labels=True)
     choices.steps(10)
-    assert words(menu) == ["10 steps", "Every fifth bolder", "Labels"]
+    assert words(menu) == ["10 steps", "Every fifth bolder", "Labels in figures"]
+    choices.steps(0)
+    assert (words(menu)[0], button.accessibleDescription()) == ("None", "None")
     for _ in range(6):
         s.session.undo()
     assert (s.document.isolines, words(menu)) == (Isolines(), ["20 steps"])

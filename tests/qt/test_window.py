@@ -272,7 +272,7 @@ def test_samples_are_listed_with_their_pictures_and_open(screen):
 
     s = screen()
     file = s.window.menuBar().actions()[0].menu()
-    samples = next(action.menu() for action in file.actions() if action.text() == "&Samples")
+    samples = next(action.menu() for action in file.actions() if action.text() == "Sam&ples")
     actions = {action.text(): action for action in samples.actions()}
     assert list(actions) == [name.replace("_", " ").capitalize() for name in sample_names()]
     assert not any(action.icon().isNull() for action in actions.values())

@@ -25,7 +25,7 @@ class ColourMenu(QtWidgets.QMenu):
     """Entries have words as data: a style's, or ("map", a map's), with None for a file's.  `window` is the main one."""
 
     def __init__(self, window) -> None:
-        super().__init__("&Colours", window)
+        super().__init__("Co&lours", window)
         self.setToolTipsVisible(True)
         # Room for the strips, which are painted where no icon could stand beside a tick.
         self.setStyleSheet(f"QMenu::item {{ padding-right: {WIDTH + 2 * MARGIN + 8}px; }}")

@@ -4,7 +4,7 @@ from qtpy import QtWidgets
 
 from ...document.looks import Isolines
 from ..actions import ISOLINES
-from ..look.numbers import number
+from ..look.numbers import tick
 
 BOLD = 5
 """Every so many are bolder, once some are."""
@@ -34,12 +34,12 @@ class IsolineMenu(QtWidgets.QMenu):
         self.bold = self.addAction("Every fifth bolder")
         self.bold.setCheckable(True)
         self.bold.triggered.connect(choices.bold)
-        self.labels = self.addAction("Labels")
+        self.labels = self.addAction("Labels in figures")
         self.labels.setCheckable(True)
-        self.labels.setToolTip("In figures, the lines' values stand on them")
+        self.labels.setToolTip("Figures have the lines' values on them; panels have none")
         self.labels.triggered.connect(choices.labels)
         self.addSeparator()
-        self.through = self.addAction("Remove those through points", choices.pass_through_none)
+        self.through = self.addAction("Remove isolines through points", choices.pass_through_none)
         self.through.setToolTip("One passes through a point by the menu of the surface (right button)")
 
     def show_choice(self, isolines: Isolines) -> None:
@@ -54,9 +54,7 @@ class IsolineMenu(QtWidgets.QMenu):
         for action in self._where.actions():
             action.setChecked(action.data() == word)
         self._other.setText(f"Another number ({isolines.count}) …" if word == "other" else "Another number …")
-        self._spacing.setText(
-            f"Spacing ({number(isolines.spacing)}) …" if isolines.spacing is not None else "Spacing …"
-        )
+        self._spacing.setText(f"Spacing ({tick(isolines.spacing)}) …" if isolines.spacing is not None else "Spacing …")
         self._values.setText(f"Values ({len(isolines.values)}) …" if word == "values" else "Values …")
         self.bold.setChecked(bool(isolines.bold))
         self.labels.setChecked(isolines.labels)
@@ -71,9 +69,9 @@ class IsolineMenu(QtWidgets.QMenu):
 
 
 def isolines_in_words(isolines: Isolines) -> str:
-    """For the button: "20", "0.05 apart", "3 values"."""
+    """For the button: "20", "None", "0.05 apart", "3 values"."""
     if isolines.spacing is not None:
-        return f"{number(isolines.spacing)} apart"
+        return f"{tick(isolines.spacing)} apart"
     if isolines.values:
         return "1 value" if len(isolines.values) == 1 else f"{len(isolines.values)} values"
-    return str(isolines.count)
+    return str(isolines.count or "None")

@@ -46,7 +46,7 @@ class Menus:
         bar.setStyle(no_underlines)
         self.open = QtWidgets.QMenu("&Open", window)
         self.samples = self._samples()
-        self.recent = QtWidgets.QMenu("Re&cent", window)
+        self.recent = QtWidgets.QMenu("&Recent", window)
         self.recent.aboutToShow.connect(self._fill_recent)
         self.isolines = IsolineMenu(window)
         self.colours = ColourMenu(window)
@@ -77,13 +77,13 @@ class Menus:
             "&Theme", window.choices.theme, [("desktop", "As the desktop"), ("light", "Light"), ("dark", "Dark")]
         )
         self.views, self.tools = QtWidgets.QMenu("&Views", window), QtWidgets.QMenu("&Tools", window)
-        keys = QtWidgets.QMenu("Turn and move by &keys", window)
+        keys, standard = (QtWidgets.QMenu(title, window) for title in ("Turn and move by &keys", "&Standard views"))
+        named, at_pointer = [f"view {name}" for name in VIEWS], ["centre", "zoom to"]
+        cameras, walked = ["orthographic", "axes", "turntable"], ["view before", "view after"]
         self._fill(keys, [act.word for act in TURNS])
+        self._fill(standard, named)
         self._fill(self.open, ["open", None, self.recent, self.samples])
-        self._fill(
-            self.views, ["reset", *(f"view {name}" for name in VIEWS), None, "orthographic", "axes", "turntable"]
-        )
-        self._fill(self.views, [None, "centre", "zoom to", None, "view before", "view after"])
+        self._fill(self.views, ["reset", *named, None, *cameras, None, *at_pointer, None, *walked])
         self.up = self._choices(
             "&Up", lambda word: window.views.stand(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
         )
@@ -97,10 +97,9 @@ class Menus:
         self._fill(file, ["figure", "movie", "screenshot", None, "quit"])
         self._fill(edit, ["undo", "redo", None, "copy picture", "copy command", "copy python", None])
         self._fill(edit, ["copy camera", "paste camera", None, "preferences"])
-        self._fill(
-            view, [*self.views.actions(), None, self.up, keys, None, self.isolines, self.colours, self.range, None]
-        )
-        self._fill(view, [self.shading, self.theme, "full screen"])
+        # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
+        self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, *walked, None])
+        self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
         edits = ("Duplicate this panel", "Move it back", "Move it on", "Remove it")
         self._fill(panels, ["add panel", None, *(f"panel {word}" for word in edits), None])
         self._fill(panels, ["next panel", "previous panel", "panels and bars"])
@@ -141,7 +140,7 @@ class Menus:
         return menu
 
     def _samples(self) -> QtWidgets.QMenu:
-        menu = QtWidgets.QMenu("&Samples", self._window)
+        menu = QtWidgets.QMenu("Sam&ples", self._window)
         large_icons = LargeIcons()
         large_icons.setParent(menu)
         menu.setStyle(large_icons)

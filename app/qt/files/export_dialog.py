@@ -14,13 +14,14 @@ from ...figures.description import Figure
 from ...figures.draw import FIGURE_FORMATS
 from ...figures.export import Surfaces, check_export, figure_of, write_figure
 from ...figures.preview import Preview, preview
+from ...figures.size import NAMED
 from ...session.given import Given
 from ..look.icons import put_icon
 from .exports import Exports
 from .job_dialog import Choice, FileKind
 from .looks_dialog import LooksDialog
 from .preview import PreviewPane
-from .size_boxes import SizeNames
+from .size_boxes import SizeNames, in_words
 
 KINDS = (
     FileKind(".png", "PNG", "PNG picture"),
@@ -29,12 +30,10 @@ KINDS = (
     FileKind(".eps", "EPS", "EPS with vector isolines"),
 )
 FIGURE_KINDS = tuple(kind for kind in KINDS if kind.extension in FIGURE_FORMATS)
+SIZE_NAMES = {"column": "One column", "double": "Two columns", "slide": "Slide", "A0": "Poster A0"}
 FIGURE_SIZES: SizeNames = (
     ("Usual", "", "follows the panels"),
-    ("One column", "column", "85 mm"),
-    ("Two columns", "double", "178 mm"),
-    ("Slide", "slide", "1920 × 1080 px"),
-    ("Poster A0", "A0", "1189 × 841 mm"),
+    *((SIZE_NAMES.get(word, word), word, in_words(word)) for word in NAMED),
 )
 NAMES = {"heading": "Over the panels", "caption": "Under the panels", "none": "Nowhere"}
 """Where a panel's name stands."""
@@ -89,7 +88,7 @@ class ExportDialog(LooksDialog):
         self.letters.setValue(recipe.page.text or 0.0)
         self.row("&Text", self.letters, "The size of labels in points, the others in proportion; 0: as they fit")
         self._add_copying()
-        self._number = 0
+        self._number, self._asked = 0, set[int]()
         self._soon = QtCore.QTimer(self, singleShot=True, interval=WAIT)
         self._soon.timeout.connect(self._draw)
         exports.previews.answered.connect(self._show_preview)
@@ -133,6 +132,7 @@ class ExportDialog(LooksDialog):
 
     # ------------------------------------------------------------------ what it will be like
     def _changed(self, *_: object) -> None:
+        self._number = 0
         self.pane.wait()
         self._soon.start()
 
@@ -146,10 +146,14 @@ class ExportDialog(LooksDialog):
             self.pane.say(str(error), True)
             return
         self._number = self._exports.previews.ask("preview", preview, figure, self.pane.room())
+        self._asked.add(self._number)
 
     def _show_preview(self, number: int, found: Preview) -> None:
         if number == self._number:
             self.pane.show_picture(found.pixels, *self._caption(found))
+        elif number in self._asked and (self._number or self._soon.isActive()):
+            self.pane.show_late(found.pixels)  # nearer to what is chosen than what was there
+        self._asked.discard(number)
 
     def _show_refusal(self, number: int, sentence: str) -> None:
         if number == self._number:

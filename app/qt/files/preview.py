@@ -131,6 +131,11 @@ class PreviewPane(QtWidgets.QWidget):
         self.is_true = False
         self.update()
 
+    def show_late(self, pixels: np.ndarray) -> None:
+        """A picture of what was chosen before, while another one is drawn."""
+        self.image, self._small = image_of(pixels), QtGui.QImage()
+        self.say("", False)
+
     def show_picture(self, pixels: np.ndarray, caption: str, is_warning: bool) -> None:
         self.image, self.is_true = image_of(pixels), True
         self._small = QtGui.QImage()
@@ -159,8 +164,9 @@ class PreviewPane(QtWidgets.QWidget):
         painter.setPen(QtGui.QColor(theme.warning if self.is_warning else theme.quiet))
         painter.setFont(LOOK.font(12.5))
         line = QtCore.QRect(self.MARGIN, box.bottom() + 10, self.width() - 2 * self.MARGIN, self.LINE + 12)
+        words = self.caption if self.caption or self.is_true else "Drawing …"
         flags = QtCore.Qt.AlignmentFlag.AlignHCenter | QtCore.Qt.AlignmentFlag.AlignTop
-        painter.drawText(line, int(flags) | int(QtCore.Qt.TextFlag.TextWordWrap), self.caption)
+        painter.drawText(line, int(flags) | int(QtCore.Qt.TextFlag.TextWordWrap), words)
         if not self.is_true:
             painter.fillRect(QtCore.QRect(0, 0, self.width(), 2), QtGui.QColor(theme.accent))
 

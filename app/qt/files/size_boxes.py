@@ -20,7 +20,7 @@ class SizeBoxes(QtWidgets.QWidget):
 
     def __init__(self, sizes: SizeNames, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self._sizes, self._is_filling = sizes, False
+        self._sizes, self._written = sizes, ""
         self.rows = QtWidgets.QButtonGroup(self)
         column = QtWidgets.QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -53,7 +53,11 @@ class SizeBoxes(QtWidgets.QWidget):
         self.write("")
 
     def text(self) -> str:
-        """The size as `Size.parse` reads it, empty for the usual one."""
+        """The size as `Size.parse` reads it, empty for the usual one; as it was written while it is that one."""
+        text = self._text()
+        return self._written if _read(text) == _read(self._written) else text
+
+    def _text(self) -> str:
         number = self.rows.checkedId()
         if 0 <= number < len(self._sizes):
             return self._sizes[number][1]
@@ -78,6 +82,7 @@ class SizeBoxes(QtWidgets.QWidget):
 
     def write(self, text: str) -> None:
         """Show a size as it is written: its row, or one's own."""
+        self._written = text
         text = text.strip().replace("×", "x")
         known = [_read(written) for _, written, _ in self._sizes]
         size = _read(text)
@@ -122,6 +127,12 @@ class SizeBoxes(QtWidgets.QWidget):
         box.setToolTip(f"{name}; empty: as the rest asks for")
         box.setMinimumWidth(round(46 * LOOK.scale))
         return box
+
+
+def in_words(text: str) -> str:
+    """A size as one reads it: "85 mm", "1920 × 1080 px"."""
+    size = Size.parse(text)
+    return f"{' × '.join(f'{side:g}' for side in (size.width, size.height) if side is not None)} {size.unit}"
 
 
 def _read(text: str) -> Size | None:
