@@ -21,7 +21,7 @@ from .axes import draw_axes
 from .bars import TICK, Bar
 from .boxes import Box, Words
 from .description import Figure
-from .fonts import families
+from .fonts import families, has_cff_outlines
 from .isoline_labels import draw_labels
 from .layout import Cell, Layout
 from .marks import POINT, draw_frames, draw_marks
@@ -60,6 +60,8 @@ def matplotlib_settings(font: str = "") -> Iterator[None]:
     """matplotlib as it is delivered, whatever the user's settings, and files that are equal when drawn again."""
     import matplotlib
 
+    # As type 42, which is for TrueType, PDF viewers warn of CFF outlines, and PostScript's refuse them.
+    font_type = 3 if has_cff_outlines(font) else 42
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(
@@ -69,8 +71,8 @@ def matplotlib_settings(font: str = "") -> Iterator[None]:
                 "text.hinting": "none",  # letters are as wide on every page
                 "svg.fonttype": "none",
                 "svg.hashsalt": "bihdist",
-                "pdf.fonttype": 42,
-                "ps.fonttype": 42,
+                "pdf.fonttype": font_type,
+                "ps.fonttype": font_type,
                 "path.simplify": False,
                 "image.composite_image": False,
             }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from difflib import get_close_matches
 from functools import cache
 
@@ -16,9 +17,9 @@ SLACK = 1.02
 
 def check_font(family: str) -> None:
     """ParameterError, with names like it, if no font of this family is installed; "" is the usual one."""
-    known = _families()
-    if not family or family.lower() in known:
+    if not family or _is_there(family):
         return
+    known = _families()
     near = [known[name] for name in get_close_matches(family.lower(), known, 3, 0.5)]
     there = f"there is {' or '.join(near)}" if near else f"without one it is {FONT}"
     raise ParameterError(f"No font {family!r} is installed; {there}.")
@@ -26,7 +27,21 @@ def check_font(family: str) -> None:
 
 def families(family: str) -> list[str]:
     """What is looked for, in order."""
+    if family:
+        _is_there(family)
     return list(dict.fromkeys([family or FONT, FONT]))
+
+
+@cache
+def has_cff_outlines(family: str) -> bool:
+    """Whether letters of a family are PostScript outlines (CFF), as those of many .otf files are."""
+    from matplotlib.font_manager import FontProperties, findfont
+
+    for weight in ("normal", "bold"):
+        with open(findfont(FontProperties(family=families(family), weight=weight)), "rb") as file:
+            if file.read(4) == b"OTTO":
+                return True
+    return False
 
 
 def text_width(text: str, size: float, bold: bool = False, family: str = "") -> float:
@@ -35,9 +50,22 @@ def text_width(text: str, size: float, bold: bool = False, family: str = "") -> 
 
 
 @cache
-def _families() -> dict[str, str]:
-    from matplotlib.font_manager import fontManager
+def _is_there(family: str) -> bool:
+    return family.lower() in _families() or family.lower() in _families(anew=True)
 
+
+def _families(anew: bool = False) -> dict[str, str]:
+    """Names of fonts by their small letters.
+
+    anew: matplotlib keeps a list of what was there when it was first used; those installed since are looked for, too.
+    """
+    from matplotlib.font_manager import findSystemFonts, fontManager
+
+    known = {font.fname for font in fontManager.ttflist}
+    for path in findSystemFonts() if anew else ():
+        if path not in known:
+            with suppress(OSError, RuntimeError):  # what is no font, or one of an unknown kind
+                fontManager.addfont(path)
     return {name.lower(): name for name in fontManager.get_font_names()}
 
 

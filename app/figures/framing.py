@@ -72,6 +72,20 @@ def seen(view: View, panel: FigurePanel, surface: Surface) -> Seen:
     return found
 
 
+def height_for(width: float, view: View, panel: FigurePanel, surface: Surface) -> float:
+    """How high a box of this width is that shows all of the shape that higher ones would."""
+    camera = camera_of(view, panel, surface, 1.0)
+    flat = Projection(camera, 1.0, surface.vertices, 0.0, panel.is_parallel)(_used(surface))[:, :2]
+    if not np.isfinite(flat).all():
+        return np.inf
+    if not isinstance(view, Camera):
+        wide, high = np.ptp(flat, axis=0)
+        # The space that is left free beside a flat shape is too little above it.
+        return float(width * high / wide) + 4 * FREE * width if wide > 1e-3 else np.inf
+    across, up = (side / max(camera.extent) for side in camera.extent)
+    return float(width * max(np.abs(flat[:, 1]).max(), up) / across) + 2 * FREE * width
+
+
 def places(surface: Surface) -> np.ndarray:
     """(k, 3) places all over a surface: middles of faces, or of every so many."""
     faces = surface.faces[:: max(len(surface.faces) // MOST_PLACES, 1)]

@@ -10,7 +10,7 @@ from . import bars
 from .bars import Bar
 from .boxes import Box, Words
 from .description import Figure
-from .framing import Seen, seen, shown_surface
+from .framing import Seen, height_for, seen, shown_surface
 from .grid import VIEW_HEIGHT, Grid, grid_of, most_views, view_width
 from .inset_places import insets_of
 from .size import check_pixels
@@ -134,6 +134,21 @@ def _shapes(figure: Figure, panel: int) -> list[tuple[float, float, Seen | None]
     return found
 
 
+def _tallest(figure: Figure, room: float) -> float:
+    """How high views in panels of this width have use for; the rest would be empty.
+
+    Insets may need that, and what moves is to stay where it is.
+    """
+    if figure.is_moving or any(panel.zooms for panel in figure.panels):
+        return float("inf")
+    tops = figure.tops()
+    return max(
+        height_for(room / len(panel.views), view, panel, shown_surface(panel, top))
+        for panel, top in zip(figure.panels, tops, strict=True)
+        for view in panel.views
+    )
+
+
 class _Texts:
     """The words of all panels, in columns of these widths, and what they take at the top and bottom of each.
 
@@ -197,7 +212,8 @@ class _Strip:
 class _Sizes:
     """How wide columns are, how high the views of each row, and the page.
 
-    high: the usual height of views, of which each has its share.
+    high: the usual height of views, of which each has its share; space: above each row and under the last, where the
+    page is higher than its shapes.
     """
 
     def __init__(
@@ -216,7 +232,7 @@ class _Sizes:
             wide = self.columns[0] / most_views(figure) / view_width(figure)
             free = VIEW_HEIGHT * wide
             self.high = free if grid.height is None else (grid.height - strip.height) / grid.rows - self.words
-            self.high = max(self.high, 4.0)
+            self.high = max(min(self.high, _tallest(figure, self.columns[0])) if grid.height else self.high, 4.0)
             self.rows = [self.high] * grid.rows
             self.width = grid.width
         else:
@@ -226,6 +242,8 @@ class _Sizes:
             if grid.height is not None and not figure.crop
             else sum(self.rows) + grid.rows * self.words + strip.height + 2 * self.pad
         )
+        free = self.height - sum(self.rows) - grid.rows * self.words - strip.height - 2 * self.pad
+        self.space = max(free, 0.0) / (grid.rows + 1)
 
     def _crop(self, figure: Figure, texts: _Texts, strip: _Strip) -> None:
         grid, self.pad = self.grid, MARGIN
@@ -271,7 +289,7 @@ def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Si
     check_pixels(*page)
     gap = sizes.gap if figure.crop else 0.0
     cells = []
-    top = sizes.pad
+    top = sizes.pad + sizes.space
     for row, high in enumerate(sizes.rows):
         left = sizes.pad
         for column, wide in enumerate(sizes.columns):
@@ -280,14 +298,15 @@ def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Si
                 box = Box(left, top, wide, high + sizes.words)
                 cells.append(_cell(figure, k, box, texts, sizes, scale))
             left += wide + gap
-        top += high + sizes.words
+        top += high + sizes.words + sizes.space
     shared = None
     if strip.width:
         views = cells[0].views[0].y, cells[-1].views[0].bottom
         room = Box(width - sizes.pad - strip.width, views[0], strip.width, views[1] - views[0])
         shared = bars.upright_bar(figure, strip.panel, room, texts.factor, strip.label, texts.lettering)
     elif strip.height:
-        box = _bar_box(Box(0, 0, width, height), height - sizes.pad - strip.height + 7 * texts.factor, texts.factor)
+        under = height - sizes.pad - sizes.space - strip.height
+        box = _bar_box(Box(0, 0, width, height), under + 7 * texts.factor, texts.factor)
         shared = bars.flat_bar(figure, strip.panel, box, (3, width - 3), strip.lines, strip.label, texts.lettering)
     narrowest = min(view.width for cell in cells for view in cell.views)
     stroke = min(max(narrowest / STROKE, THINNEST), 1.0)

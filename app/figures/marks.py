@@ -146,15 +146,23 @@ def draw_frames(axes: Axes, page: Composition, shot: Shot, order: int, write: Ca
     for line in _leaders(main, insets, shot):
         axes.add_artist(Line2D(line[:, 0], line[:, 1], color=colour, linewidth=0.6 * POINT, zorder=order))
     if len(insets) > 1 and not all(_leaders(main, insets, other) for other in insets):
-        size, source = page.layout.label, shot.source
-        number = str(1 + insets.index(shot))
-        write(Words((number,), shot.box.x + 0.6 * size, shot.box.y + 1.1 * size, size), order)
-        middle, gap = source.middle, 0.55 * size
-        places = [(source.right + gap, middle[1]), (source.x - gap, middle[1]), (middle[0], source.y - gap)]
-        places.append((middle[0], source.bottom + gap))
-        free = ~_taken(main, insets, shot, np.array(places))
-        x, y = places[int(free.argmax())]
-        write(Words((number,), x, y + 0.36 * size, size), order)
+        for words in _numbers(page, main, insets, shot):
+            _draw_ground(axes, page, _box_of(page, words), order)
+            write(words, order)
+
+
+def _numbers(page: Composition, main: Shot, insets: list[Shot], shot: Shot) -> tuple[Words, Words]:
+    """The number of an inset, in its corner and beside what it enlarges, where nothing is hidden if may be."""
+    size, source = page.layout.label, shot.source
+    assert source is not None
+    number, gap, (x, y) = (str(1 + insets.index(shot)),), 0.55 * size, source.middle
+    places = np.array([(source.right + gap, y), (source.x - gap, y), (x, source.y - gap), (x, source.bottom + gap)])
+    is_there = np.array([main.box.holds(*place, -gap) for place in places])
+    free = is_there & ~_taken(main, insets, shot, places)
+    # Where no side has room, a number stands in the frame.
+    at = places[int((2 * free + is_there).argmax())] if is_there.any() else (source.x + gap, source.y + gap)
+    corner = Words(number, shot.box.x + 0.6 * size, shot.box.y + 1.1 * size, size)
+    return corner, Words(number, at[0], at[1] + 0.36 * size, size)
 
 
 def _leaders(main: Shot, insets: list[Shot], shot: Shot) -> list[np.ndarray]:

@@ -10,19 +10,22 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from matplotlib.patches import Rectangle
 
+from app.document.document import Zoom
 from app.figures.bars import bar_words, shared_words
 from app.figures.canvas import Composition, drawn, matplotlib_settings
 from app.figures.draw import Figure, FigurePanel, Mark, save_figure
 from app.figures.fonts import check_font
 from app.figures.layout import lay_out
-from app.figures.shots import Shot
+from app.figures.shots import Shot, take_shots
 from app.figures.size import Size
 from app.figures.tex import escaped
 from app.figures.words import LAST, LEAST, Lettering
 from app.main import main
 from bihdist_core import OutputError, ParameterError
-from tests.shapes import bumpy
+from bihdist_core.progress import silent
+from tests.shapes import bumpy, sphere
 
 LONG = (
     "a field of forty characters in its label",
@@ -183,3 +186,41 @@ def test_the_unit_stands_before_the_maximum_where_one_bar_is_in_shares(ball):
     of = Figure(panels, range="shares")
     assert [bar_words(of, k) for k in (0, 1)] == ["1 / mesh units, max\xa00.5078", "mesh units, max\xa00.5078"]
     assert shared_words(of, 0) == "% of each maximum"
+
+
+def test_numbers_of_insets_stand_on_grounds_inside_the_page():
+    surface = sphere(600)
+    front = np.argsort(-surface.vertices[:, 2])
+    right = int(np.argmax(surface.vertices[:, 0]))
+    zooms = tuple(Zoom(int(vertex), 4.0) for vertex in (front[0], front[8], right))
+    panel = FigurePanel(surface, 50 * surface.vertices[:, 1] + 50, zooms=zooms, views=("front",))
+    figure = Figure((panel,), size=Size.parse("300x300"))
+    layout = lay_out(figure)
+    shots = take_shots(figure, layout, silent)
+    with matplotlib_settings():
+        (axes,) = drawn(Composition(figure, layout, shots), vector=True).axes
+    numbers = [text for text in axes.texts if text.get_text() in ("1", "2", "3")]
+    assert sorted(text.get_text() for text in numbers) == ["1", "1", "2", "2", "3", "3"]
+    paper = pytest.approx(figure.style.background)
+    grounds = [box for box in axes.patches if isinstance(box, Rectangle) and box.get_facecolor()[:3] == paper]
+    for text in numbers:
+        x, y = text.get_position()
+        assert 4 < x < layout.width - 4
+        assert 8 < y < layout.height
+        on = [box for box in grounds if box.get_x() < x - 3 and box.get_x() + box.get_width() > x + 3]
+        assert any(box.get_y() < y - 6 and box.get_y() + box.get_height() > y for box in on)
+
+
+def test_words_stay_with_shapes_on_pages_that_are_higher(ball):
+    bare = {"range": "shared", "title": "none"}
+    for options in ({}, {"title": "caption"}, bare):
+        layout = lay_out(figure_of(ball, 3, "600x900", columns=3, **options))
+        (first, *_), last = layout.cells, layout.cells[-1]
+        view = first.views[0]
+        assert view.height < 1.5 * view.width
+        above, under = first.box.y, layout.height - last.box.bottom
+        assert above > 100
+        assert above == pytest.approx(under, abs=1) or options is bare
+        if layout.shared_bar:
+            bar = layout.shared_bar.box
+            assert bar.y - last.box.bottom < 20 or abs(bar.middle[1] - view.middle[1]) < 20
