@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.ndimage import maximum_filter, minimum_filter
 from scipy.spatial import cKDTree
 
 from ..drawing.field_actor import CASING
@@ -27,7 +29,7 @@ EVERY = 3.0
 PAD = 3.0
 """Units of the gap to each side of the words."""
 
-STRAIGHT = 0.22
+STRAIGHT = 0.35
 """Of the letters' size: a line may be off the words' own by so much."""
 
 CLEAR = 0.75
@@ -58,15 +60,19 @@ def value_text(value: float) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
-def labelled(shot: Shot, size: float, width: Callable[[str], float], marks: float) -> tuple[list[Contour], list[Label]]:
+def labelled(
+    shot: Shot, size: float, width: Callable[[str], float], marks: float, written: Sequence[tuple[float, float]] = ()
+) -> tuple[list[Contour], list[Label]]:
     """The shot's isolines with gaps, and what stands in them: one for each value that has room somewhere.
 
-    size: of the letters; width: of a text in them; marks: how far words keep from the middle of a mark.
+    size: of the letters; width: of a text in them; marks: how far words keep from the middle of a mark;
+    written: middles of single signs that stand in the picture.
     """
     dense = [[_along(part, 1.0)[0] for part in line.parts] for line in shot.isolines]
     points = np.concatenate([np.empty((0, 2)), *(p for parts in dense for p in parts)])
     owner = np.concatenate([np.empty(0, int), *(np.full(len(p), k) for k, ps in enumerate(dense) for p in ps)])
-    tree, taken = cKDTree(points) if len(points) else None, []
+    tree, taken = cKDTree(points) if len(points) else None, [(np.array(place), size / 2) for place in written]
+    crowded = _crowded(shot, points, owner, CLEAR * size)
     marked = np.array([[x, y] for _, x, y in shot.marks]).reshape(-1, 2)
     lines, labels = list(shot.isolines), []
     done: set[float] = set()
@@ -81,7 +87,7 @@ def labelled(shot: Shot, size: float, width: Callable[[str], float], marks: floa
         best = None
         for number, part in enumerate(line.parts):
             best = max(
-                [best, *_places(shot, part, number, wide, size, tree, points, owner, k, marked, marks, taken)],
+                [best, *_places(shot, part, number, wide, size, tree, points, owner, k, marked, marks, taken, crowded)],
                 key=lambda place: -np.inf if place is None else place[0],
             )
         if best is None:
@@ -98,30 +104,32 @@ def labelled(shot: Shot, size: float, width: Callable[[str], float], marks: floa
     return lines, labels
 
 
-def _places(shot, part: Line, number: int, wide: float, size: float, tree, points, owner, k, marked, marks, taken):
+def _places(shot, part: Line, number: int, wide, size, tree, points, owner, k, marked, marks, taken, crowded):
     """Places on a part of a line that have room: how good, the part, from where to where, the middle and the way."""
     at, length = _along(part, 1.0)
+    starts = np.arange(0.0, length[-1] - wide, EVERY)
+    first, last = (np.stack([np.interp(s, length, at[:, i]) for i in (0, 1)], 1) for s in (starts, starts + wide))
+    # First what is found out at once for all places.
+    chords = np.hypot(*(last - first).T)
+    ways = (last - first) / np.maximum(chords, 1e-9)[:, None]
+    middles = (first + last) / 2
+    is_free = (chords >= 0.96 * wide) & ~crowded(middles)
+    for s in (-1, -0.5, 0, 0.5, 1):
+        for t in (-1, 1):
+            corner = middles + s * wide / 2 * ways + t * EDGE * size * np.stack([-ways[:, 1], ways[:, 0]], 1)
+            is_free &= _is_covered(shot, corner)
+    for other, half in taken:
+        is_free &= np.hypot(*(middles - other).T) >= half + wide / 2 + size
+    for mark in marked:
+        is_free &= np.hypot(*(middles - mark).T) >= marks + wide / 2
     found = []
-    for start in np.arange(0.0, length[-1] - wide, EVERY):
-        stop = start + wide
-        a, b = (np.array([np.interp(s, length, at[:, i]) for i in (0, 1)]) for s in (start, stop))
-        chord = float(np.hypot(*(b - a)))
-        if chord < 0.96 * wide:
-            continue
-        way = (b - a) / chord
+    for place in np.flatnonzero(is_free):
+        start, stop, a, b, way, middle, chord = (
+            each[place] for each in (starts, starts + wide, first, last, ways, middles, chords)
+        )
         inner = at[(length > start) & (length < stop)]
         off = np.abs((inner - a) @ [-way[1], way[0]]).max(initial=0.0)
-        middle = (a + b) / 2
-        box = [
-            middle + s * wide / 2 * way + t * EDGE * size * np.array([-way[1], way[0]])
-            for s in (-1, -0.5, 0, 0.5, 1)
-            for t in (-1, 1)
-        ]
-        if off > STRAIGHT * size or not all(_is_covered(shot, corner) for corner in box):
-            continue
-        if any(np.hypot(*(middle - other)) < half + wide / 2 + size for other, half in taken):
-            continue
-        if len(marked) and np.hypot(*(marked - middle).T).min() < marks + wide / 2:
+        if off > STRAIGHT * size:
             continue
         near = tree.query_ball_point(middle, wide / 2 + size)
         others = [j for j in near if owner[j] != k or not _is_between(points[j], a, way, chord)]
@@ -129,6 +137,28 @@ def _places(shot, part: Line, number: int, wide: float, size: float, tree, point
         if room >= CLEAR * size:
             found.append((min(room, 2 * size) / size - off / size, number, start, stop, middle, way))
     return found
+
+
+def _crowded(shot: Shot, points: np.ndarray, owner: np.ndarray, clear: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Says of places (k, 2) on lines whether another line is nearer than `clear` for sure.
+
+    points: (n, 2) of all lines, owner: (n,) which line each is of.
+    """
+    reach = int(clear / np.sqrt(2) - 1.5)  # of a square inside the circle, whose units are whole
+    if reach < 1 or not len(points):
+        return lambda places: np.zeros(len(places), bool)
+    corner = np.array([shot.box.x, shot.box.y])
+    shape = (int(shot.box.height) + 2, int(shot.box.width) + 2)
+
+    def cells(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        column, row = np.floor(places - corner).astype(int).T
+        return np.clip(row, 0, shape[0] - 1), np.clip(column, 0, shape[1] - 1)
+
+    least, most = np.full(shape, owner.max() + 1), np.full(shape, -1)
+    np.minimum.at(least, cells(points), owner)
+    np.maximum.at(most, cells(points), owner)
+    least, most = minimum_filter(least, 2 * reach + 1), maximum_filter(most, 2 * reach + 1)
+    return lambda places: least[cells(places)] < most[cells(places)]
 
 
 def _is_between(point: np.ndarray, a: np.ndarray, way: np.ndarray, chord: float) -> bool:
@@ -145,11 +175,13 @@ def _least_distance(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> float:
     return float(np.hypot(*(points - a - t[:, None] * (b - a)).T).min())
 
 
-def _is_covered(shot: Shot, place: np.ndarray) -> bool:
+def _is_covered(shot: Shot, places: np.ndarray) -> np.ndarray:
+    """Which of places (k, 2) are wholly on the shape."""
     height, width = shot.image.shape[:2]
-    x = int((place[0] - shot.box.x) / shot.box.width * width)
-    y = int((place[1] - shot.box.y) / shot.box.height * height)
-    return 0 <= x < width and 0 <= y < height and shot.image[y, x, 3] > 250
+    x = ((places[:, 0] - shot.box.x) / shot.box.width * width).astype(int)
+    y = ((places[:, 1] - shot.box.y) / shot.box.height * height).astype(int)
+    is_inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
+    return is_inside & (shot.image[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1), 3] > 250)
 
 
 def _length(line: Contour) -> float:
@@ -188,7 +220,10 @@ def draw_labels(axes: Axes, figure: Figure, layout: Layout, shot: Shot, order: i
 
     style, panel, top = figure.style, figure.panels[shot.panel], figure.tops()[shot.panel]
     size = LABEL_SIZE * layout.label
-    contours, labels = labelled(shot, size, lambda text: layout.lettering.width(text, size), layout.mark / 2 + 3)
+    # The number of an inset.
+    corner = [(shot.box.x + 0.6 * size, shot.box.y + 0.8 * size)] if shot.source and len(panel.zooms) > 1 else []
+    width = partial(layout.lettering.width, size=size)
+    contours, labels = labelled(shot, size, width, layout.mark / 2 + 3, corner)
     for label in labels:
         line = contours[label.contour]
         text = axes.text(
