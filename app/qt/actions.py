@@ -227,7 +227,7 @@ PANELS = (
     Act("panels and bars", "Between panels and tool bar", lambda w: w.change_part(), ("F6",)),
 )
 TOOLS = (
-    Act("source id", "&Type a vertex id", lambda w: w.type_source(), ("G",), "", "source", needs_mesh=True),
+    Act("source id", "&Type a vertex id", lambda w: w.typed_source.ask(), ("G",), "", "source", needs_mesh=True),
     Act("source before", "The source be&fore", lambda w: w.session.walk_sources(-1), ("Alt+Left",), needs_mesh=True),
     Act("source after", "The source &after", lambda w: w.session.walk_sources(1), ("Alt+Right",), needs_mesh=True),
     Act(

@@ -9,16 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core import BihdistError
-
 from ..document.camera import View as CameraView
 from ..document.document import Document
-from ..document.edits import move_source
 from ..document.page import Page, Recipe
 from ..drawing.prepared import prepare
 from ..drawing.style import STYLES, Style
 from ..session.opened import Opened
-from ..session.questions import vertex_at
 from ..session.session import Session
 from . import remembered
 from .actions import Actions
@@ -34,6 +30,7 @@ from .look.look import LOOK
 from .pages.guide import Guide
 from .pages.messages import Notice, tell
 from .preferences import Preferences, fit_to_screen
+from .typed_source import TypedSource
 from .views import Views
 from .waits import Waits
 
@@ -82,8 +79,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.tool_bar = ToolBar(self, self.actions_by_word, self.menus)
         self.tools = self.tool_bar.buttons
         self.source_box = self.tool_bar.source_box
-        self.source_box.chosen.connect(self.choose_source)
-        self.source_box.left.connect(self.leave_boxes)
+        self.typed_source = TypedSource(self)
         self.addToolBar(self.tool_bar)
         self.status = StatusBar(self, ExportChip(self.exports))
         self.setStatusBar(self.status)
@@ -224,7 +220,7 @@ class MainWindow(QtWidgets.QMainWindow):
             self.grid.show_surface()
         if other_panels or document.points != before.points:
             self.grid.expect_sources(document)
-            self._show_source()
+            self.typed_source.show()
         if other_panels or (document.points, document.anchors) != (before.points, before.anchors):
             self.grid.mark_anchors(document)
         if other_panels or document.zooms != before.zooms:
@@ -332,30 +328,6 @@ class MainWindow(QtWidgets.QMainWindow):
             self.complete.emit()
 
     # ------------------------------------------------------------------ what the user chooses
-    def choose_source(self, vertex: int) -> None:
-        """The vertex that the first panel's field starts from."""
-        document = self.session.document
-        if self.session.surface is not None and document.panels:
-            try:
-                self.session.surface.check_vertex(vertex)
-            except BihdistError as error:
-                self.refused.emit(str(error))
-                self.source_box.refuse(str(error))
-                return
-            self.session.show(move_source(document, document.panels[0].id, vertex))
-            self._show_source()
-
-    def type_source(self) -> None:
-        if self.source_box.isEnabled():
-            self.source_box.setFocus(QtCore.Qt.FocusReason.ShortcutFocusReason)
-            self.source_box.selectAll()
-
-    def _show_source(self) -> None:
-        """Let the box say which vertex the first panel's field starts from."""
-        sources, surface = self.session.document.sources, self.session.surface
-        known = vertex_at(sources[0], surface) if surface is not None and sources else None
-        self.source_box.show_source(known, 0 if surface is None else len(surface.vertices))
-
     def cancel(self) -> None:
         """Esc: out of a box, the tour, the live source or the full screen; otherwise stop what is being computed."""
         if self.source_box.hasFocus():

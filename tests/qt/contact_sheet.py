@@ -13,28 +13,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
+from .driver import Driver, Look
+
 ROOT = Path(__file__).resolve().parents[2]
-PATIENCE = 120.0
-STILL = 0.3
-
-
-@dataclass(frozen=True)
-class Look:
-    """A theme in a window of a size in logical pixels, each of them `scale` device pixels."""
-
-    theme: str
-    width: int
-    height: int
-    scale: int = 1
-
-    @property
-    def word(self) -> str:
-        return f"{self.theme}-{self.width}x{self.height}" + (f"@{self.scale}" if self.scale > 1 else "")
 
 
 LOOKS = [Look(theme, *size) for theme in ("light", "dark") for size in ((1600, 1000), (900, 600), (900, 600, 2))]
@@ -91,110 +74,10 @@ def _write_page(out: Path, beside: Path | None) -> None:
 
 
 # ---------------------------------------------------------------------- one look
-class Driver:
-    """A window in the hands of a script, with a pointer."""
-
-    def __init__(self, look: Look, out: Path) -> None:
-        from app.document.document import COMPARISON, comparison
-        from app.qt.application import application
-        from app.qt.look.look import LOOK
-        from app.qt.main_window import MainWindow
-
-        self.look, self._out, self._count = look, out / look.word, 0
-        self._out.mkdir(exist_ok=True)
-        self.application = application()
-        LOOK.choose(look.theme)
-        self.window = MainWindow(comparison("", COMPARISON))
-        self.window.move(0, 0)
-        self.window.resize(look.width, look.height)
-        self.window.show()
-        self.spin(0.1)
-        self.window.build_panels()
-
-    def spin(self, seconds: float = STILL) -> None:
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            self.application.processEvents()
-            time.sleep(0.005)
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            if time.monotonic() > end:
-                raise RuntimeError("The window did not get ready.")
-            self.spin(0.02)
-
-    def complete(self) -> None:
-        self.until(lambda: self.window.session.is_complete and not self.window.session.progress)
-        self.spin()
-
-    def open(self, path: object) -> None:
-        self.window.open(str(path))
-        self.until(lambda: not self.window.session.is_opening)
-        self.complete()
-
-    def shot(self, name: str) -> None:
-        """What is on the screen now."""
-        self.spin()
-        self._count += 1
-        screen = self.application.primaryScreen()
-        screen.grabWindow(0).save(str(self._out / f"{self._count:02}_{name.replace(' ', '_')}.png"))
-
-    def pointer(self, *words: object) -> None:
-        subprocess.run(["xdotool", *map(str, words)], check=True)
-        self.spin(0.2)
-
-    def point(self, panel: int, x: float, y: float) -> None:
-        """To a place of a view, as shares of its width and height."""
-        from qtpy import QtCore
-
-        view, scale = self.window.grid.panels[panel].view, self.look.scale
-        at = view.mapToGlobal(QtCore.QPoint(round(x * view.width()), round(y * view.height())))
-        self.pointer("mousemove", at.x() * scale, at.y() * scale)
-
-    def point_at_surface(self, panel: int = 0) -> None:
-        """To the surface, where it is met first on the way from the middle."""
-        from qtpy import QtCore
-
-        view = self.window.grid.panels[panel].view
-        for step in range(40):
-            x, y = 0.5 + 0.011 * step * (-1) ** step, 0.5 + 0.007 * step
-            if view.met_at(QtCore.QPoint(round(x * view.width()), round(y * view.height()))) is not None:
-                self.point(panel, x, y)
-                return
-
-    def close_dialogs(self) -> None:
-        from qtpy import QtWidgets
-
-        for each in self.application.topLevelWidgets():
-            if isinstance(each, QtWidgets.QDialog | QtWidgets.QMenu) and each.isVisible():
-                each.close()
-        self.spin(0.1)
-
-    def shot_while(self, act: Callable[[], object], name: str) -> None:
-        """Of what stays open until it is answered."""
-        from qtpy import QtCore
-
-        def look() -> None:
-            self.shot(name)
-            self.close_dialogs()
-
-        QtCore.QTimer.singleShot(400, look)
-        act()
-
-    def with_menu(self, button: str, name: str) -> None:
-        menu = self.window.tools[button].menu()
-        from qtpy import QtCore
-
-        menu.popup(self.window.tools[button].mapToGlobal(QtCore.QPoint(0, self.window.tools[button].height())))
-        self.shot(name)
-        menu.hide()
-
-
 def drive(look: Look, out: Path, meshes: Path | None) -> None:
     """Through all there is to see."""
     driver = Driver(look, out)
-    for scene in (_beginning, _pointing, _heads, _bars_and_menus, _panels, _waiting, _dialogs, _help, _talk):
+    for scene in (_beginning, _pointing, _heads, _bars_and_menus, _looks, _panels, _waiting, _dialogs, _help, _talk):
         scene(driver)
     for path in sorted(meshes.glob("*.o[bf][jf]")) if meshes else ():
         driver.open(path)
@@ -252,11 +135,50 @@ def _heads(d: Driver) -> None:
 
 
 def _bars_and_menus(d: Driver) -> None:
-    for button in ("open", "isolines", "colours", "range", "views", "tools"):
+    for button in ("open", "isolines", "colours", "range", "views", "up", "tools"):
         d.with_menu(button, f"menu of {button}")
+    bar = d.window.menuBar()
+    for action in bar.actions():
+        action.menu().popup(bar.mapToGlobal(bar.actionGeometry(action).bottomLeft()))
+        d.shot(f"menu {action.text().strip('&')}")
+        action.menu().hide()
     for style in ("uniform", "lines", "paper"):
         d.window.choices.style(style)
         d.shot(f"style {style}")
+
+
+def _looks(d: Driver) -> None:
+    """Colours, ranges, isolines, shading and cameras."""
+    window, before = d.window, d.window.session.document
+    choices, first = window.choices, before.panels[0].id
+    choices.colour_map("safe")
+    choices.band_colours(True)
+    d.shot("safe colours in bands")
+    choices.colour_map("ember")
+    choices.reverse_colours(True)
+    choices.range("shares")
+    d.shot("ember reversed in shares")
+    window.session.show(before)
+    choices.end_at(first, 0.4 * window.session.shown[first].answer.maximum)
+    choices.isoline.bold(True)
+    choices.isoline.pass_through(first, 4000)
+    d.complete()
+    d.shot("a typed end and an isoline through a place")
+    window.grid.panel(first).ask_end()
+    d.shot("the end of a bar is typed")
+    d.pointer("key", "Escape")
+    window.session.show(before)
+    for key in ("w", "x", "o"):
+        d.pointer("key", key)
+    choices.shading("flat")
+    d.complete()
+    d.shot("wireframe flat axes orthographic")
+    for key in ("u", "7"):
+        d.pointer("key", key)
+    d.complete()
+    d.shot("another axis up from the source")
+    window.session.show(before)
+    d.complete()
 
 
 def _panels(d: Driver) -> None:
@@ -313,10 +235,20 @@ def _waiting(d: Driver) -> None:
 
 
 def _dialogs(d: Driver) -> None:
+    from app.qt.files.export_dialog import ExportDialog
     from app.qt.pages.messages import WhichFile, tell
 
     d.window.files.export_figure()
+    (dialog,) = (each for each in d.application.topLevelWidgets() if isinstance(each, ExportDialog))
+    d.until(lambda: dialog.pane.is_true)
     d.shot("export figure")
+    dialog.size.rows.button(1).click()
+    dialog.kinds.choose("EPS")
+    d.until(lambda: dialog.pane.is_true)
+    d.shot("export one column")
+    dialog.size.width_box.setText("wide")
+    dialog.choose_path()
+    d.shot("a width that is none")
     d.close_dialogs()
     d.window.files.export_movie()
     d.shot("export movie")

@@ -1,20 +1,18 @@
 """`python -m tests.qt.random_actions SEED COUNT FOLDER`: the real window under random hands. Prints JSON.
 
-Pointer and keys are real (xdotool).  A process of its own, whose memory is the window's.
+A process of its own, whose memory is the window's.
 """
 
 import json
 import os
-import random
-import subprocess
 import sys
 import time
 import traceback
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
+from .faults import faults
+from .hands import Hands, rss
 
 QUANTITIES = (
     "biharmonic",
@@ -27,122 +25,11 @@ QUANTITIES = (
     "raw diffusion - commute-time",
 )
 DIALOGS_OF_FILES = {"open", "save", "save as", "screenshot", "quit"}
-SYMS = {
-    "+": "plus",
-    "=": "equal",
-    "-": "minus",
-    "[": "bracketleft",
-    "]": "bracketright",
-    ",": "comma",
-    "Esc": "Escape",
-}
-SLACK = 0.002
-"""Share of pixels that may differ from those of a window that was never touched: its numbers come in another order."""
-
-STUCK = 2.0
-"""Seconds after which whatever has a loop of its own is told Escape."""
 
 
-class Hands:
-    """The window, a pointer and keys."""
+class RandomHands(Hands):
+    """Each of its actions is one of CHOICES."""
 
-    def __init__(self, seed: int, folder: Path) -> None:
-        from app.document.document import COMPARISON, comparison
-        from app.qt.application import application
-        from app.qt.main_window import MainWindow
-        from tests.shapes import bumpy, torus, two_pieces
-
-        self.chance = random.Random(seed)
-        self.errors: list[str] = []
-        sys.excepthook = lambda *error: self.errors.append("".join(traceback.format_exception(*error)))
-        self.application = application()
-        self.window = self.new_window(MainWindow, comparison("", COMPARISON))
-        self.window.move(20, 20)
-        self.screen = self.application.primaryScreen().geometry()
-        self.meshes = [_written(mesh, folder) for mesh in (bumpy(800), torus(40, 20), two_pieces(), bumpy(1500, 1))]
-        self.widest = 0
-        self.rss: list[float] = []
-        self.done: list[str] = []
-        self.freed: list[str] = []
-        self.times: dict[str, float] = {}
-        self._alive = time.monotonic()
-        from qtpy import QtCore
-
-        self._watch = QtCore.QTimer(interval=200)
-        self._watch.timeout.connect(self._free)
-        self._watch.start()
-
-    @staticmethod
-    def new_window(kind: type, document: object) -> object:
-        window = kind(document)
-        window.quiet, window.remembers = True, False
-        window.show()
-        window.build_panels()
-        return window
-
-    # ------------------------------------------------------------------ time
-    def spin(self, seconds: float = 0.0) -> None:
-        end = time.monotonic() + seconds
-        while True:
-            self._alive = time.monotonic()
-            self.application.processEvents()
-            if time.monotonic() >= end:
-                break
-            time.sleep(0.002)
-
-    def until(self, condition: Callable[[], bool], seconds: float = 60) -> bool:
-        end = time.monotonic() + seconds
-        while not condition():
-            if time.monotonic() > end:
-                return False
-            self.spin(0.01)
-        return True
-
-    def settle(self) -> bool:
-        """Until all is answered and painted."""
-        session = self.window.session
-        is_there = self.until(lambda: not session.is_opening and session.is_complete and not session.progress)
-        self.spin(0.5)
-        return is_there
-
-    def _free(self) -> None:
-        """Out of loops that Qt runs by itself (a modal dialog), which no step of ours can end."""
-        if time.monotonic() - self._alive > STUCK:
-            self._alive = time.monotonic()
-            for widget in (self.application.activePopupWidget(), self.application.activeModalWidget()):
-                if widget is not None:
-                    self.freed.append(f"{type(widget).__name__} after {self.done[-3:]}")
-                    widget.close()
-
-    # ------------------------------------------------------------------ hands
-    def tool(self, *words: object) -> None:
-        """xdotool, while the window goes on working."""
-        process = subprocess.Popen(["xdotool", *map(str, words)])
-        while process.poll() is None:
-            self.spin(0.002)
-        self.spin(0.01)
-
-    def key(self, keys: str) -> None:
-        self.window.activateWindow()
-        *modifiers, key = keys.replace("++", "+plus").split("+") if keys != "+" else ["plus"]
-        words = [*(modifier.lower() for modifier in modifiers), SYMS.get(key, key.lower() if len(key) == 1 else key)]
-        self.tool("key", "--clearmodifiers", "+".join(words))
-
-    def place(self, widget: object | None = None) -> tuple[int, int]:
-        """Somewhere in a widget, in a view if None."""
-        from qtpy import QtCore
-
-        widget = widget or self.chance.choice(self.window.grid.panels).view
-        x, y = self.chance.random(), self.chance.random()
-        if self.chance.random() < 0.6:  # more often near the middle, where the surface is
-            x, y = 0.25 + x / 2, 0.25 + y / 2
-        at = widget.mapToGlobal(QtCore.QPoint(int(x * widget.width()), int(y * widget.height())))
-        return at.x(), at.y()
-
-    def panel(self) -> int:
-        return self.chance.choice(self.window.session.document.panels).id
-
-    # ------------------------------------------------------------------ actions
     def move(self) -> None:
         self.tool("mousemove", *self.place(self.window if self.chance.random() < 0.3 else None))
 
@@ -169,6 +56,8 @@ class Hands:
         if panel.view.source is None:
             return
         at = panel.view.place_of(panel.view.source)
+        if not panel.view.rect().contains(at.toPoint()):
+            return  # the camera looks past it
         at = panel.view.mapToGlobal(QtCore.QPoint(round(at.x() - 0.5), round(at.y() - 0.5)))
         x, y = at.x(), at.y()
         to_x, to_y = self.place(panel.view)
@@ -193,25 +82,6 @@ class Hands:
                 self.tool("key", digit)
             self.tool("key", self.chance.choice(["Return", "Escape", "Tab"]))
         self.shut()
-
-    def shut(self) -> None:
-        """What is open over the window."""
-        for _ in range(6):
-            if self.open_windows():
-                self.tool("key", "Escape")
-                self.spin(0.03)
-        for widget in self.open_windows():
-            # Without a window manager a dialog that is not modal may have no keys.
-            widget.close()
-
-    def open_windows(self) -> list:
-        from qtpy import QtCore, QtWidgets
-
-        def is_over(widget: QtWidgets.QWidget) -> bool:
-            is_pop_up = widget.windowType() == QtCore.Qt.WindowType.Popup
-            return widget.isVisible() and (is_pop_up or isinstance(widget, QtWidgets.QDialog))
-
-        return [widget for widget in self.application.topLevelWidgets() if is_over(widget)]
 
     def menu(self) -> None:
         """By the right button; sometimes something is chosen."""
@@ -239,11 +109,96 @@ class Hands:
 
         self.window.gestures.choose(self.panel(), quantity(self.chance.choice(QUANTITIES)))
 
+    # ------------------------------------------------------------------ how it looks
     def isolines(self) -> None:
-        self.window.menus.isolines.actions()[self.chance.randrange(5)].trigger()
+        choices, document = self.window.choices.isoline, self.window.session.document
+        maxima = [shown.answer.maximum for shown in self.window.session.shown.values() if shown.answer.maximum]
+        least, most = (min(maxima), max(maxima)) if maxima else (1.0, 1.0)
+        way = self.chance.choice(["steps", "spacing", "values", "bold", "labels", "through", "none", "other"])
+        if way == "steps":
+            self.window.menus.isolines.actions()[self.chance.randrange(5)].trigger()
+        elif way == "spacing":
+            choices.spacing(f"{most / self.chance.randint(2, 40):.6g}")
+        elif way == "values":
+            choices.values(" ".join(f"{least * self.chance.random():.6g}" for _ in range(self.chance.randint(1, 5))))
+        elif way == "bold":
+            self.window.menus.isolines.bold.trigger()
+        elif way == "labels":
+            self.window.menus.isolines.labels.trigger()
+        elif way == "through" and self.window.session.surface is not None:
+            vertex = self.chance.choice(self.window.session.surface.faces.ravel().tolist())
+            choices.pass_through(self.panel(), vertex)
+        elif way == "none":
+            choices.pass_through_none()
+        else:
+            choices.steps((document.isolines.count * 7 + 1) % 100)
 
     def range(self) -> None:
-        self.window.choices.range(self.chance.choice(["own", "shared"]))
+        from app.document.looks import RANGES
+
+        choices, session = self.window.choices, self.window.session
+        way = self.chance.choice([*RANGES, "typed", "taken"])
+        panel = self.panel()
+        if way == "typed":
+            own = session.shown[panel].answer.maximum if panel in session.shown else 0.0
+            choices.end_at(panel, self.chance.choice([None, (own or 1.0) * self.chance.uniform(0.2, 1.5)]))
+        elif way == "taken":
+            path = self.folder / "ends.json"
+            if not path.exists() and session.surface is not None:
+                self.window.session_file.save(str(path))
+            choices.ends.take(str(path))
+        else:
+            choices.range(way)
+
+    def colours(self) -> None:
+        from app.drawing.colour_maps import MAPS
+
+        choices, menu = self.window.choices, self.window.menus.colours
+        way = self.chance.choice(["map", "map", "file", "reversed", "bands"])
+        if way == "map":
+            choices.colour_map(self.chance.choice(["", *MAPS]))
+        elif way == "file":
+            path = self.folder / "own.txt"
+            path.write_text("0.1 0.1 0.4\n0.9 0.4 0.2\n1 1 0.8\n")
+            choices.take_colours(str(path))
+        else:
+            (menu.reversed if way == "reversed" else menu.bands).trigger()
+
+    def shading(self) -> None:
+        from app.document.looks import NORMALS
+
+        if self.chance.random() < 0.4:
+            self.window.actions_by_word["wireframe"].trigger()
+        else:
+            self.window.choices.shading(self.chance.choice(NORMALS))
+
+    def camera(self) -> None:
+        from bihdist_core.analysis.upright import DIRECTIONS
+
+        views, words = self.window.views, ["orthographic", "axes", "turntable", "view source", "copy camera"]
+        way = self.chance.choice([*words, "paste camera", "up", "up"])
+        if way == "up":
+            if self.window.session.surface is not None:
+                views.stand(self.chance.choice(DIRECTIONS))
+        else:
+            if way == "paste camera":  # of what was copied before, or no camera at all
+                self.window.actions_by_word["copy camera"].trigger()
+                self.drag()
+            self.window.actions_by_word[way].trigger()
+
+    def export_dialog(self) -> None:
+        """Opened, changed here and there, and closed; what is drawn meanwhile nobody waits for."""
+        from app.qt.files.export_dialog import ExportDialog
+
+        self.window.actions_by_word["figure"].trigger()
+        self.spin(0.02)
+        for dialog in [each for each in self.open_windows() if isinstance(each, ExportDialog)]:
+            dialog.size.rows.buttons()[self.chance.randrange(5)].click()
+            dialog.kinds.choose(self.chance.choice(["PNG", "PDF", "EPS"]))
+            self.chance.choice([dialog.hints, dialog.shared, dialog.both, dialog.transparent, dialog.crop]).click()
+            self.spin(self.chance.choice([0, 0.2, 0.5]))
+            dialog.copying.emit(self.chance.choice(["command", "python"]), dialog.chosen())
+        self.shut()
 
     def style(self) -> None:
         self.window.choices.style(self.chance.choice(["paper", "uniform", "lines", "dark"]))
@@ -267,8 +222,8 @@ class Hands:
 
     CHOICES = (
         (move, 14), (click, 12), (double_click, 2), (drag, 10), (drag_mark, 5), (wheel, 7), (press_key, 24),
-        (menu, 6), (head_menu, 6), (resize, 5), (choose, 6), (isolines, 3), (range, 3), (style, 3), (theme, 3),
-        (edit_panels, 6), (undo, 6), (open, 2),
+        (menu, 6), (head_menu, 6), (resize, 5), (choose, 6), (isolines, 6), (range, 5), (colours, 5), (shading, 4),
+        (camera, 5), (export_dialog, 2), (style, 3), (theme, 3), (edit_panels, 6), (undo, 6), (open, 2),
     )  # fmt: skip
 
     def act(self) -> None:
@@ -279,7 +234,7 @@ class Hands:
         self.times[action.__name__] = self.times.get(action.__name__, 0) + time.monotonic() - begin
         self.spin(self.chance.choice([0, 0, 0.02, 0.1]))
         self.widest = max(self.widest, self.window.width())
-        self.rss.append(_rss())
+        self.rss.append(rss())
 
     def warm_up(self) -> None:
         """What is made once and kept: as many panels as there can be, and the largest pictures."""
@@ -297,119 +252,6 @@ class Hands:
         self.window.resize(size)
         self.spin(0.1)
 
-    # ------------------------------------------------------------------ what is there in the end
-    def faults(self) -> list[str]:
-        """What the panels show and should not."""
-        if self.window.isFullScreen():
-            self.window.toggle_full_screen()
-        self.window.actions_by_word["live"].setChecked(False)
-        self.window.gestures.set_live(False)
-        self.window.guide.end_tour()
-        self.shut()
-        self.tool("mousemove", self.screen.width() - 2, self.screen.height() - 2)
-        self.window.session.show(self.window.session.document)  # what was stopped is asked again
-        if not self.settle():
-            return [f"never complete: {self.window.session.progress}, {self.done[-10:]}"]
-        return [*self._untrue(), *self._stale()]
-
-    def _untrue(self) -> list[str]:
-        from app.qt.look.canvas import canvas_style
-        from app.qt.look.look import LOOK
-        from app.qt.panels.quantity_menu import quantity_name
-        from app.session.questions import questions, vertex_at
-
-        window, found = self.window, []
-        session, document = window.session, window.session.document
-        asked = questions(document)
-        if [panel.id for panel in window.grid.panels] != [panel.id for panel in document.panels]:
-            found.append("other panels than the document's")
-        for panel in document.panels:
-            widget, shown = window.grid.panel(panel.id), session.shown[panel.id]
-            answer, reading = widget.answer, widget.bar._reading
-            top = window.grid._maximum(panel.id) or answer.maximum
-            facts = {
-                "answer": answer is shown.answer and shown.asked == asked[panel.id] and not shown.is_preview,
-                "head": widget.head.shows == panel.shows and widget.head.name.text() == quantity_name(panel.shows),
-                "style": widget.view.scene.style == canvas_style(window.page.style, LOOK.theme),
-                "source": widget.source == _start(panel, document, session, vertex_at),
-                "not dimmed": not widget.view._is_dimmed and widget.waiting.isHidden(),
-                "maximum": answer.field is None or (reading.maximum == answer.maximum and reading.high == top),
-                "unit": answer.field is None or reading.unit == answer.unit,
-                "isolines": answer.field is None or len(reading.lines) == len(widget.view.scene.isolines),
-            }
-            found += [f"panel {panel.id} {panel.shows}: {fact}" for fact, holds in facts.items() if not holds]
-        sources = document.sources
-        known = vertex_at(sources[0], session.surface) if sources else None
-        if window.source_box.text() != ("" if known is None else str(known)):
-            found.append(f"the box says {window.source_box.text()!r}, the document {known}")
-        if window.windowTitle() != f"{session.surface.name} - Biharmonic distance":
-            found.append(f"title {window.windowTitle()}")
-        if window.status.counts.text.split()[0].replace(",", "") != str(len(session.surface.vertices)):
-            found.append(f"counts {window.status.counts.text}")
-        if window.status.vertex.text:
-            found.append(f"still pointed at {window.status.vertex.text}")
-        return found
-
-    def _stale(self) -> list[str]:
-        """Pictures that are others when all is drawn again, shown again, or shown in a new window."""
-        window, found = self.window, []
-        before = self.pictures(window)
-        window.grid.redraw()
-        found += _differing("drawn again", before, self.pictures(window))
-        window._show_all_again()
-        self.spin(0.3)
-        found += _differing("shown again", before, self.pictures(window))
-        other = self.new_window(type(window), window.session.document)
-        other.page = window.page
-        other.wear()
-        other.resize(window.size())
-        other.show_document(window.session.document)
-        self.until(lambda: other.session.is_complete)
-        self.spin(0.5)
-        found += _differing("in a new window", before, self.pictures(other), SLACK)
-        if self.kept:
-            from PIL import Image
-
-            for name, pictures in (("old", before), ("new", self.pictures(other))):
-                for k, picture in enumerate(pictures):
-                    Image.fromarray(picture).save(self.kept / f"{name}{k}.png")
-            window.grab().save(str(self.kept / "window.png"))
-            other.grab().save(str(self.kept / "other.png"))
-        other.close()
-        return found
-
-    kept: Path | None = Path(os.environ["BIHDIST_KEPT"]) if os.environ.get("BIHDIST_KEPT") else None
-
-    def pictures(self, window: object) -> list[np.ndarray]:
-        return [panel.view.shot() for panel in window.grid.panels]
-
-
-def _start(panel, document, session, vertex_at) -> int | None:
-    names = panel.shows.points
-    return vertex_at(document.point(names[0]).at, session.surface) if names else None
-
-
-def _differing(when: str, before: list, after: list, slack: float = 0.0) -> list[str]:
-    if [picture.shape for picture in before] != [picture.shape for picture in after]:
-        return [f"{when}: sizes {[p.shape for p in before]}, {[p.shape for p in after]}"]
-    parts = [float((a != b).any(axis=2).mean()) for a, b in zip(before, after, strict=True)]
-    return [f"{when}: panel at {k} differs in {part:.4%}" for k, part in enumerate(parts) if part > slack]
-
-
-def _rss() -> float:
-    """In MB."""
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
-
-
-def _written(surface, folder: Path) -> str:
-    path = folder / f"{surface.name}_{len(surface.vertices)}.off"
-    with path.open("w") as out:
-        out.write(f"OFF\n{len(surface.vertices)} {len(surface.faces)} 0\n")
-        np.savetxt(out, surface.vertices, fmt="%.17g")
-        np.savetxt(out, np.column_stack([np.full(len(surface.faces), 3), surface.faces]), fmt="%d")
-    return str(path)
-
 
 def main() -> None:
     seed, count, folder = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
@@ -417,7 +259,7 @@ def main() -> None:
 
     begin = time.monotonic()
     share_arenas()
-    hands = Hands(seed, folder)
+    hands = RandomHands(seed, folder)
     for path in (*hands.meshes[1:], hands.meshes[0]):  # what is kept of each is there from the beginning
         hands.window.open(path)
         hands.until(lambda: not hands.window.session.is_opening and hands.window.session.is_complete)
@@ -428,14 +270,14 @@ def main() -> None:
             break
     seconds = time.monotonic() - begin
     try:
-        faults = hands.faults()
+        found_there = faults(hands)
     except Exception:
-        faults = [traceback.format_exc()]
+        found_there = [traceback.format_exc()]
     found = {
         "errors": hands.errors,
         "freed": hands.freed,
         "times": hands.times,
-        "faults": faults,
+        "faults": found_there,
         "widest": hands.widest,
         "screen": hands.screen.width(),
         "rss": hands.rss,

@@ -177,7 +177,7 @@ def saved(shown, tmp_path, **more):
 def test_ends_are_taken_from_a_session(shown, tmp_path):
     path = saved(shown, tmp_path)
     own = [answer.maximum for answer in shown.answers]
-    shown.window.choose_source(7)
+    shown.window.typed_source.choose(7)
     shown.until(lambda: shown.session.is_complete)
     said = []
     shown.window.choices.ends.taken.connect(said.append)

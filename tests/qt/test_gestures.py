@@ -136,7 +136,7 @@ def test_tab_goes_from_panel_to_panel_and_shows_where_the_keys_are(opened):
 def test_the_source_goes_along_edges_where_the_keys_point(opened):
     s = opened
     begun = front(s)
-    s.window.choose_source(begun)
+    s.window.typed_source.choose(begun)
     s.until(lambda: s.session.is_complete)
     s.panels[0].view.setFocus()
     for name, (right, up) in {"Ctrl+Left": (-1, 0), "Ctrl+Up": (0, 1), "Ctrl+Right": (1, 0)}.items():

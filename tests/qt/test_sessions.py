@@ -293,7 +293,7 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
             s.panels[0].view.released.emit()
     last, document = pictures(), s.document
     s.window.activateWindow()
-    s.window.type_source()
+    s.window.typed_source.ask()
     s.settle()
 
     def press(modifiers, is_there):

@@ -114,14 +114,14 @@ def test_the_ups_chosen_longest_ago_are_forgotten(home, application, monkeypatch
 def test_the_view_from_the_source_is_from_outside(hare):
     s = hare
     vertex = 3000
-    s.window.choose_source(vertex)
+    s.window.typed_source.choose(vertex)
     s.until(lambda: s.session.is_complete)
     press(s, "7")
     view, camera = s.panels[0].view, s.document.camera
     assert isinstance(camera, Camera)
     assert view.sees(s.session.surface.vertices[vertex])
     # Another source is no reason to look from elsewhere.
-    s.window.choose_source(4000)
+    s.window.typed_source.choose(4000)
     s.until(lambda: s.session.is_complete)
     assert s.document.camera == camera
 
@@ -130,7 +130,7 @@ def test_a_document_that_is_seen_from_its_source_follows_it(hare):
     s = hare
     s.session.show(replace(s.document, camera="source"))
     before = s.window.grid.seen
-    s.window.choose_source(3000)
+    s.window.typed_source.choose(3000)
     s.until(lambda: s.session.is_complete)
     assert s.document.camera == "source"
     assert s.window.grid.seen != before

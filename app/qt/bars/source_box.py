@@ -47,6 +47,11 @@ class SourceBox(TextBox):
         """The source that is shown; -1 if there is none."""
         return -1 if self._vertex is None else self._vertex
 
+    def ask(self) -> None:
+        """Have the keys, for another vertex."""
+        self.setFocus(QtCore.Qt.FocusReason.ShortcutFocusReason)
+        self.selectAll()
+
     def refuse(self, sentence: str) -> None:
         """Say under the box what is wrong."""
         mark_wrong(self, True)

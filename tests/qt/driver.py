@@ -1,0 +1,124 @@
+"""The real window in the hands of a script, with a pointer (xdotool); it makes pictures of the screen."""
+
+import subprocess
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+PATIENCE = 120.0
+STILL = 0.3
+
+
+@dataclass(frozen=True)
+class Look:
+    """A theme in a window of a size in logical pixels, each of them `scale` device pixels."""
+
+    theme: str
+    width: int
+    height: int
+    scale: int = 1
+
+    @property
+    def word(self) -> str:
+        return f"{self.theme}-{self.width}x{self.height}" + (f"@{self.scale}" if self.scale > 1 else "")
+
+
+class Driver:
+    """A window in the hands of a script, with a pointer."""
+
+    def __init__(self, look: Look, out: Path) -> None:
+        from app.document.document import COMPARISON, comparison
+        from app.qt.application import application
+        from app.qt.look.look import LOOK
+        from app.qt.main_window import MainWindow
+
+        self.look, self._out, self._count = look, out / look.word, 0
+        self._out.mkdir(exist_ok=True)
+        self.application = application()
+        LOOK.choose(look.theme)
+        self.window = MainWindow(comparison("", COMPARISON))
+        self.window.move(0, 0)
+        self.window.resize(look.width, look.height)
+        self.window.show()
+        self.spin(0.1)
+        self.window.build_panels()
+
+    def spin(self, seconds: float = STILL) -> None:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.application.processEvents()
+            time.sleep(0.005)
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            if time.monotonic() > end:
+                raise RuntimeError("The window did not get ready.")
+            self.spin(0.02)
+
+    def complete(self) -> None:
+        self.until(lambda: self.window.session.is_complete and not self.window.session.progress)
+        self.spin()
+
+    def open(self, path: object) -> None:
+        self.window.open(str(path))
+        self.until(lambda: not self.window.session.is_opening)
+        self.complete()
+
+    def shot(self, name: str) -> None:
+        """What is on the screen now."""
+        self.spin()
+        self._count += 1
+        screen = self.application.primaryScreen()
+        screen.grabWindow(0).save(str(self._out / f"{self._count:02}_{name.replace(' ', '_')}.png"))
+
+    def pointer(self, *words: object) -> None:
+        subprocess.run(["xdotool", *map(str, words)], check=True)
+        self.spin(0.2)
+
+    def point(self, panel: int, x: float, y: float) -> None:
+        """To a place of a view, as shares of its width and height."""
+        from qtpy import QtCore
+
+        view, scale = self.window.grid.panels[panel].view, self.look.scale
+        at = view.mapToGlobal(QtCore.QPoint(round(x * view.width()), round(y * view.height())))
+        self.pointer("mousemove", at.x() * scale, at.y() * scale)
+
+    def point_at_surface(self, panel: int = 0) -> None:
+        """To the surface, where it is met first on the way from the middle."""
+        from qtpy import QtCore
+
+        view = self.window.grid.panels[panel].view
+        for step in range(40):
+            x, y = 0.5 + 0.011 * step * (-1) ** step, 0.5 + 0.007 * step
+            if view.met_at(QtCore.QPoint(round(x * view.width()), round(y * view.height()))) is not None:
+                self.point(panel, x, y)
+                return
+
+    def close_dialogs(self) -> None:
+        from qtpy import QtWidgets
+
+        for each in self.application.topLevelWidgets():
+            if isinstance(each, QtWidgets.QDialog | QtWidgets.QMenu) and each.isVisible():
+                each.close()
+        self.spin(0.1)
+
+    def shot_while(self, act: Callable[[], object], name: str) -> None:
+        """Of what stays open until it is answered."""
+        from qtpy import QtCore
+
+        def look() -> None:
+            self.shot(name)
+            self.close_dialogs()
+
+        QtCore.QTimer.singleShot(400, look)
+        act()
+
+    def with_menu(self, button: str, name: str) -> None:
+        menu = self.window.tools[button].menu()
+        from qtpy import QtCore
+
+        menu.popup(self.window.tools[button].mapToGlobal(QtCore.QPoint(0, self.window.tools[button].height())))
+        self.shot(name)
+        menu.hide()

@@ -1,0 +1,113 @@
+"""What the panels of a window show and should not, once all has come to rest."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from .hands import Hands
+
+SLACK = 0.002
+"""Share of pixels that may differ from those of a window that was never touched: its numbers come in another order."""
+
+KEPT = Path(os.environ["BIHDIST_KEPT"]) if os.environ.get("BIHDIST_KEPT") else None
+"""Where the pictures that were compared are left."""
+
+
+def faults(hands: Hands) -> list[str]:
+    """In words; what was stopped is asked again before."""
+    if hands.window.choices.is_full_screen:
+        hands.window.choices.toggle_full_screen()
+    hands.window.actions_by_word["live"].setChecked(False)
+    hands.window.gestures.set_live(False)
+    hands.window.guide.end_tour()
+    hands.shut()
+    hands.tool("mousemove", hands.screen.width() - 2, hands.screen.height() - 2)
+    hands.window.session.show(hands.window.session.document)  # what was stopped is asked again
+    if not hands.settle():
+        return [f"never complete: {hands.window.session.progress}, {hands.done[-10:]}"]
+    return [*_untrue(hands), *_stale(hands)]
+
+
+def _untrue(hands: Hands) -> list[str]:
+    from app.qt.look.canvas import canvas_style
+    from app.qt.look.look import LOOK
+    from app.qt.panels.quantity_menu import quantity_name
+    from app.session.questions import questions, vertex_at
+
+    window, found = hands.window, []
+    session, document = window.session, window.session.document
+    asked = questions(document)
+    if [panel.id for panel in window.grid.panels] != [panel.id for panel in document.panels]:
+        found.append("other panels than the document's")
+    for panel in document.panels:
+        widget, shown = window.grid.panel(panel.id), session.shown[panel.id]
+        answer, reading = widget.answer, widget.bar._reading
+        top = window.grid._maximum(panel.id) or answer.maximum
+        facts = {
+            "answer": answer is shown.answer and shown.asked == asked[panel.id] and not shown.is_preview,
+            "head": widget.head.shows == panel.shows and widget.head.name.text() == quantity_name(panel.shows),
+            "style": widget.view.scene.style == canvas_style(window.page.style, LOOK.theme, document.colours),
+            "source": widget.source == _start(panel, document, session, vertex_at),
+            "not dimmed": not widget.view._is_dimmed and widget.waiting.isHidden(),
+            "maximum": answer.field is None or (reading.maximum == answer.maximum and reading.high == top),
+            "unit": answer.field is None or reading.unit == answer.unit,
+            "isolines": answer.field is None or len(reading.lines) == len(widget.view.scene.isolines),
+        }
+        found += [f"panel {panel.id} {panel.shows}: {fact}" for fact, holds in facts.items() if not holds]
+    sources = document.sources
+    known = vertex_at(sources[0], session.surface) if sources else None
+    if window.source_box.text() != ("" if known is None else str(known)):
+        found.append(f"the box says {window.source_box.text()!r}, the document {known}")
+    if window.windowTitle() != f"{session.surface.name} - Biharmonic distance":
+        found.append(f"title {window.windowTitle()}")
+    if window.status.counts.text.split()[0].replace(",", "") != str(len(session.surface.vertices)):
+        found.append(f"counts {window.status.counts.text}")
+    if window.status.vertex.text:
+        found.append(f"still pointed at {window.status.vertex.text}")
+    return found
+
+
+def _stale(hands: Hands) -> list[str]:
+    """Pictures that are others when all is drawn again, shown again, or shown in a new window."""
+    window, found = hands.window, []
+    before = _pictures(window)
+    window.grid.redraw()
+    found += _differing("drawn again", before, _pictures(window))
+    window._show_all_again()
+    hands.spin(0.3)
+    found += _differing("shown again", before, _pictures(window))
+    other = hands.new_window(type(window), window.session.document)
+    other.page = window.page
+    other.wear()
+    other.resize(window.size())
+    other.show_document(window.session.document)
+    hands.until(lambda: other.session.is_complete)
+    hands.spin(0.5)
+    found += _differing("in a new window", before, _pictures(other), SLACK)
+    if KEPT:
+        from PIL import Image
+
+        for name, pictures in (("old", before), ("new", _pictures(other))):
+            for k, picture in enumerate(pictures):
+                Image.fromarray(picture).save(KEPT / f"{name}{k}.png")
+        window.grab().save(str(KEPT / "window.png"))
+        other.grab().save(str(KEPT / "other.png"))
+    other.close()
+    return found
+
+
+def _pictures(window: object) -> list[np.ndarray]:
+    return [panel.view.shot() for panel in window.grid.panels]
+
+
+def _start(panel, document, session, vertex_at) -> int | None:
+    names = panel.shows.points
+    return vertex_at(document.point(names[0]).at, session.surface) if names else None
+
+
+def _differing(when: str, before: list, after: list, slack: float = 0.0) -> list[str]:
+    if [picture.shape for picture in before] != [picture.shape for picture in after]:
+        return [f"{when}: sizes {[p.shape for p in before]}, {[p.shape for p in after]}"]
+    parts = [float((a != b).any(axis=2).mean()) for a, b in zip(before, after, strict=True)]
+    return [f"{when}: panel at {k} differs in {part:.4%}" for k, part in enumerate(parts) if part > slack]
