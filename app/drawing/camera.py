@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from bihdist_core import Surface
@@ -188,6 +189,26 @@ def _area_normals(corners: np.ndarray) -> np.ndarray:
 def is_flat(points: np.ndarray) -> bool:
     """Whether points (n, 3) lie in a plane of constant z."""
     return bool(np.ptp(points[:, 2]) <= 1e-6 * np.ptp(points, axis=0).max())
+
+
+class SeenNow:
+    """What the window's camera, as it stands now, makes of points in a picture of this aspect; else as `Projection`."""
+
+    def __init__(self, camera: vtkCamera, aspect: float) -> None:
+        self.view = array_of(camera.GetViewTransformMatrix())
+        self.matrix = array_of(camera.GetProjectionTransformMatrix(aspect, -1, 1))
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """(n, 3) points to (n, 3), see `Projection`; x and y are NaN behind the camera."""
+        local = np.column_stack([points, np.ones(len(points))]) @ self.view.T
+        flat = local @ self.matrix.T
+        ahead = np.where(flat[:, 3] > 0, flat[:, 3], np.nan)
+        return np.column_stack([flat[:, :2] / ahead[:, None], -local[:, 2]])
+
+
+def array_of(matrix: vtkMatrix4x4) -> np.ndarray:
+    """(4, 4)."""
+    return np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
 
 
 def camera_seen(camera: vtkCamera, aspect: float, margins: Margins | None = None) -> Camera:

@@ -78,6 +78,7 @@ class FieldActor:
         self.is_signed = False
         self.actor = vtkActor()
         self.maximum = 1.0
+        self.mesh = vtkPolyData()
         self._mapper = vtkPolyDataMapper()
         self._isolines, self._through = TWENTY_STEPS, ()
         self._edges = np.empty(0)
@@ -100,6 +101,7 @@ class FieldActor:
 
     def _put_mesh(self, mesh: vtkPolyData, values: np.ndarray) -> None:
         self.stand_in.take(None)
+        self.mesh = mesh
         own = vtkPolyData()
         own.ShallowCopy(mesh)
         self._copies = copies_of(mesh)

@@ -1,6 +1,7 @@
 """Insets of a panel in the window: places enlarged in its corners, seen by the panel's camera."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -9,21 +10,34 @@ from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkActor, vtkActor2D, vtkCamera, vtkCoordinate, vtkPolyDataMapper2D, vtkRenderer
 
 from ..document.document import Zoom
+from .camera import array_of
 from .corners import SIDE, Rectangle, chosen_corners, corner_boxes, joins, source_box, taken_by
-from .field_actor import light
+from .field_actor import FieldActor, light
+from .levels import Levels
 from .style import Style
 
 GAP = 4.0
 """Pixels (of which `scale` says how many the device has) between an inset and the sides of its view."""
 
 
+@dataclass(frozen=True, eq=False)
+class InsetPart:
+    """Where an inset stands, and what it enlarges, in device pixels with y up; its isolines."""
+
+    box: Rectangle
+    source: Rectangle
+    levels: Levels
+
+
 class Insets:
-    """Shows `actors` of a panel's renderer once more for each zoom.
+    """Shows `actors` of a panel's renderer and its field once more for each zoom.
 
     scale: device pixels per pixel.
     """
 
-    def __init__(self, renderer: vtkRenderer, actors: Sequence[vtkActor], style: Style, scale: float):
+    def __init__(
+        self, renderer: vtkRenderer, actors: Sequence[vtkActor], field: FieldActor, style: Style, scale: float
+    ) -> None:
         self._main, self._actors, self._style, self._scale = renderer, actors, style, scale
         self._zooms: tuple[Zoom, ...] = ()
         self._positions = np.empty((0, 3))
@@ -32,6 +46,7 @@ class Insets:
         self._is_settled = True
         self.renderers: list[vtkRenderer] = []
         self._in_sight: list[bool] = []
+        self._field = field
         self._frames = self._lines()
         renderer.AddActor(self._frames)
         self._observer = renderer.AddObserver("StartEvent", lambda *_: self._place())
@@ -54,6 +69,13 @@ class Insets:
     def corners(self) -> tuple[str, ...]:
         """Where they stand."""
         return tuple(self._corners)
+
+    @property
+    def parts(self) -> list[InsetPart]:
+        """Those that are in sight, as in the last picture."""
+        boxes = self._boxes()
+        found = zip(self._corners, self._sources(), self._in_sight, strict=False) if self._zooms else ()
+        return [InsetPart(boxes[corner], source, self._field.levels) for corner, source, is_seen in found if is_seen]
 
     def remove(self) -> None:
         """They are gone for good."""
@@ -99,11 +121,11 @@ class Insets:
     def _matrix(self) -> np.ndarray:
         """(4, 4) from the world to -1 … 1 in the view."""
         camera = self._main.GetActiveCamera()
-        return self._projection() @ _array(camera.GetViewTransformMatrix())
+        return self._projection() @ array_of(camera.GetViewTransformMatrix())
 
     def _projection(self) -> np.ndarray:
         width, height = self._main.GetSize()
-        return _array(self._main.GetActiveCamera().GetProjectionTransformMatrix(width / max(height, 1), -1, 1))
+        return array_of(self._main.GetActiveCamera().GetProjectionTransformMatrix(width / max(height, 1), -1, 1))
 
     # ------------------------------------------------------------------ drawing
     def _place(self) -> None:
@@ -196,7 +218,3 @@ def _draw(actor: vtkActor2D, lines: Sequence[np.ndarray]) -> None:
     drawn.SetPoints(points)
     drawn.SetLines(cells)
     actor.GetMapper().SetInputData(drawn)
-
-
-def _array(matrix: vtkMatrix4x4) -> np.ndarray:
-    return np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])

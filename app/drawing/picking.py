@@ -1,6 +1,7 @@
 """From a point of the screen to a vertex: a ray, the first face it meets, that face's nearest corner."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
@@ -62,6 +63,26 @@ class Picker:
                 return None
             ends.append(np.array(point) / weight)
         return self._blocks.first_met(*ends)
+
+
+class LatePicker:
+    """A picker that is made when it is needed."""
+
+    def __init__(self, surface: Surface) -> None:
+        self._surface = surface
+        self._made: Picker | None = None
+
+    @property
+    def _picker(self) -> Picker:
+        if self._made is None:
+            self._made = Picker(self._surface)
+        return self._made
+
+    def met_at(self, *where: Any) -> Met | None:
+        return self._picker.met_at(*where)
+
+    def sees(self, *where: Any) -> bool:
+        return self._picker.sees(*where)
 
 
 def pixel_of(renderer: vtkRenderer, point: np.ndarray) -> tuple[float, float]:

@@ -33,7 +33,7 @@ class PanelScene:
         self._anchored = Marks(style.marker_size * scale, style.mark_edge)
         solid = [self._field.actor, *(marks.actor for marks in (self._source, self._largest, self._anchored))]
         solid.append(self._field.stand_in.actor)
-        self.insets = Insets(renderer, solid, style, scale)
+        self.insets = Insets(renderer, solid, self._field, style, scale)
         renderer.SetBackground(*style.background)
         # To find out what is out of sight VTK would go over all vertices, and here nothing ever is.
         renderer.GetCullers().RemoveAllItems()
@@ -120,6 +120,11 @@ class PanelScene:
     def too_many(self) -> str:
         """See `FieldActor.too_many`."""
         return self._field.too_many
+
+    @property
+    def mesh(self) -> vtkPolyData:
+        """What is drawn."""
+        return self._field.mesh
 
     @property
     def maximum(self) -> float:

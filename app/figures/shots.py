@@ -10,7 +10,6 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from bihdist_core import ParameterError, Surface
-from bihdist_core.analysis.isoline_tracing import isolines
 from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
@@ -18,6 +17,7 @@ from ..document.looks import Isolines, Shading
 from ..drawing.bands import band_edges
 from ..drawing.drawable import drawable, normals_shading, outward_faces
 from ..drawing.levels import levels, too_many
+from ..drawing.line_labels import Contour, Line
 from ..drawing.style import Style
 from .description import Figure
 from .framing import Framed, shown_surface
@@ -25,23 +25,10 @@ from .inset_places import source_of
 from .layout import Box, Layout
 from .outlines import outlines
 from .raster import FINER, SAMPLES, Rectangle, Studio
-from .sight import Curve, Sight
-
-Line = tuple[np.ndarray, bool]
-"""Points (k, 2) on the page, and whether the last joins the first."""
+from .sight import Sight, contours_seen
 
 PlacedMark = tuple[int, float, float]
 """The index of a mark in its panel, and its x and y on the page."""
-
-
-@dataclass(frozen=True, eq=False)
-class Contour:
-    """An isoline: its value, its visible parts, and how it stands out."""
-
-    value: float
-    parts: list[Line]
-    is_bold: bool = False
-    is_through: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,14 +210,7 @@ class _Taker:
         found = levels(wanted, self._top, own, panel.signed, panel.through)
         if said := too_many(found, wanted, own):
             raise ParameterError(said)
-        lines = isolines(self._surface, panel.field, found.values)
-        parts = self._sight.visible(Curve(line.points, line.edges, line.closed) for line in lines)
-        of = np.searchsorted(found.values, [line.value for line in lines])
-        return [
-            Contour(line.value, seen, bool(found.is_bold[k]), bool(found.is_through[k]))
-            for line, seen, k in zip(lines, parts, of, strict=True)
-            if seen
-        ]
+        return contours_seen(self._sight, panel.field, found)
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Those that are seen, and those that the shape hides."""

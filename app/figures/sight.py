@@ -6,8 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.analysis.isoline_tracing import isolines
 
-from ..drawing.camera import Projection
+from ..drawing.camera import Projection, SeenNow
+from ..drawing.levels import Levels
+from ..drawing.line_labels import Contour
 from .hiding import Hiding
 
 SHORTEST = 0.25
@@ -42,7 +45,7 @@ class Sight:
     def __init__(
         self,
         surface: Surface,
-        projection: Projection,
+        projection: Projection | SeenNow,
         size: tuple[float, float],
         outward: np.ndarray | None = None,
     ) -> None:
@@ -65,6 +68,10 @@ class Sight:
         """Whether nothing stands before a point (3,) of the surface."""
         at = self.lifted(self.pixels(point[None]))[0]
         return bool(self.hiding.nearest(at[None, :2])[0] <= at[2])
+
+    def covers(self, points: np.ndarray) -> np.ndarray:
+        """(k,) whether points (k, 2) of the picture are on the shape."""
+        return np.isfinite(self.hiding.nearest(points))
 
     def visible(self, curves: Iterable[Curve]) -> list[list[Part]]:
         """For each curve its visible parts."""
@@ -170,6 +177,18 @@ class Sight:
             return [curve]
         ends = np.flatnonzero(np.diff(np.concatenate([[0], before.astype(int), [0]])))
         return [Curve(curve.points[a:b], curve.edges[a:b]) for a, b in ends.reshape(-1, 2) if b - a >= 2]
+
+
+def contours_seen(sight: Sight, field: np.ndarray, levels: Levels) -> list[Contour]:
+    """The visible parts of a field's isolines, in the order of their values; field: (n,) on the surface in sight."""
+    lines = isolines(sight.surface, field, levels.values)
+    parts = sight.visible(Curve(line.points, line.edges, line.closed) for line in lines)
+    of = np.searchsorted(levels.values, [line.value for line in lines])
+    return [
+        Contour(line.value, seen, bool(levels.is_bold[k]), bool(levels.is_through[k]))
+        for line, seen, k in zip(lines, parts, of, strict=True)
+        if seen
+    ]
 
 
 def _parts(at: np.ndarray, length: np.ndarray, hidden: np.ndarray, closed: bool) -> list[Part]:

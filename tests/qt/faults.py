@@ -33,6 +33,7 @@ def _untrue(hands: Hands) -> list[str]:
     from app.qt.look.canvas import canvas_style
     from app.qt.look.look import LOOK
     from app.qt.panels.quantity_menu import quantity_name
+    from app.session.bar_ends import bar_end
     from app.session.questions import questions, vertex_at
 
     window, found = hands.window, []
@@ -43,7 +44,7 @@ def _untrue(hands: Hands) -> list[str]:
     for panel in document.panels:
         widget, shown = window.grid.panel(panel.id), session.shown[panel.id]
         answer, reading = widget.answer, widget.bar._reading
-        top = window.grid._maximum(panel.id) or answer.maximum
+        top = bar_end(document, session.shown, panel.id) or answer.maximum
         facts = {
             "answer": answer is shown.answer and shown.asked == asked[panel.id] and not shown.is_preview,
             "head": widget.head.shows == panel.shows and widget.head.name.text() == quantity_name(panel.shows),

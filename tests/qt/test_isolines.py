@@ -7,8 +7,15 @@ import pytest
 
 from app.document.edits import move_source
 from app.document.looks import Isolines
+from app.drawing.line_labels import value_text
 from bihdist_core import ParameterError
 from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+
+from qtpy import QtCore
+
+from app.qt.panels.line_labels import Finder, asked_of
 
 
 @pytest.fixture
@@ -36,7 +43,7 @@ def test_the_menu_and_the_button_say_where_they_are(s):
     menu.labels.trigger()
     assert s.document.isolines == Isolines(7, values=(0.1, 0.5), bold=5, labels=True)
     choices.steps(10)
-    assert words(menu) == ["10 steps", "Every fifth bolder", "Labels in figures"]
+    assert words(menu) == ["10 steps", "Every fifth bolder", "Labels"]
     choices.steps(0)
     assert (words(menu)[0], button.accessibleDescription()) == ("None", "None")
     for _ in range(6):
@@ -152,3 +159,49 @@ def test_a_spacing_that_is_too_small_for_a_field_is_said(s):
     s.session.undo()
     s.settle()
     assert (panel.bar._reading.note, panel.head.warning.toolTip()) == ("", "")
+
+
+def written_on(panel):
+    """(h, w) where something is written on a panel's picture; None before anything is."""
+    view = panel.view
+    return None if view._written is None else (view._written != view._drawing).any(axis=2)
+
+
+def test_labels_come_once_the_camera_rests_and_go_when_it_moves(s):
+    s.window.menus.isolines.labels.trigger()
+    s.until(lambda: all(written_on(panel) is not None for panel in s.panels))
+    panel = s.panels[0]
+    assert panel.view.picture.shape[:2] == written_on(panel).shape
+    assert 300 < written_on(panel).sum() < 0.1 * written_on(panel).size
+    assert (panel.view.shot() == panel.view._written[..., :3]).all()
+    # Nothing is written over the source.
+    source = panel.view.place_of(s.session.surface.vertices[s.source])
+    rows, columns = np.nonzero(written_on(panel))
+    ratio = panel.view.devicePixelRatioF()
+    off = np.hypot(columns / ratio - source.x(), rows / ratio - source.y())
+    assert off.min() > panel.view.scene.style.marker_size / 2
+    panel.view.turn_by(1, 0)
+    panel.view.repaint()
+    assert written_on(panel) is None
+    s.until(lambda: written_on(panel) is not None)
+    s.window.menus.isolines.labels.trigger()
+    s.settle()
+    assert written_on(panel) is None
+    s.session.undo()
+    s.settle(0.05)
+    # A picture that is wanted now has them at once.
+    assert (panel.view.shot() != panel.view._drawing[..., :3]).any()
+
+
+def test_labels_say_the_values_of_the_lines_they_stand_on(s):
+    s.window.menus.isolines.labels.trigger()
+    s.settle()
+    panel, field = s.panels[0], s.answers[0].field
+    found = Finder().find(asked_of(panel))
+    assert len(found) >= 4
+    for label in found:
+        assert label.text == value_text(label.value)
+        met = panel.view.met_at(QtCore.QPoint(round(label.middle[0] - 0.5), round(label.middle[1] - 0.5)))
+        there = field[s.session.surface.faces[met.face]] @ met.weights
+        # A label may stand a few pixels beside its line, which is one of twenty steps.
+        assert abs(there - label.value) < 0.3 * field.max() / 20

@@ -85,7 +85,7 @@ class Files(QtCore.QObject):
         """The window as a PNG; OutputError if it cannot be written, and then what was there stays."""
         check_output(path, (".png",))
         if self._window.grid is not None:
-            self._window.grid.moving.rest()
+            self._window.grid.draw_in_full()
         with whole_file(path) as temporary:
             if not self._window.grab().toImage().save(str(temporary), "PNG"):
                 raise OutputError(f"{path} could not be written.")

@@ -17,10 +17,12 @@ from ...drawing.camera import camera_seen, outwards_at, show_camera, standard_ca
 from ...drawing.relief import rise
 from ...drawing.style import PAPER, Style
 from ...session.anchors import anchors_on
+from ...session.bar_ends import bar_end
 from ...session.passed import values_through
 from ...session.questions import vertex_at
 from ...session.session import Session
 from ..look.look import LOOK
+from .line_labels import LineLabels
 from .moving import Moving
 from .panel import DistancePanel
 from .shades import Shades
@@ -55,6 +57,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._session = session
         self.board = Board()
         self.moving = Moving(lambda: [panel.view for panel in self.panels], self)
+        self.labels = LineLabels(lambda: self.panels, self)
         self._shades = Shades(self)
         self._shades.made.connect(self.show_shading)
         self.camera = vtkCamera()
@@ -157,6 +160,7 @@ class PanelGrid(QtWidgets.QWidget):
         view.menu_wanted.connect(lambda met, where: self.menu_wanted.emit(panel.id, met, where))
         view.centred.connect(lambda met: view.centre(met.position))
         view.installEventFilter(self)
+        self.labels.watch(panel)
         panel.head.clicked.connect(lambda: self.activate(panel.id))
         panel.head.changed.connect(lambda chosen: self.chosen.emit(panel.id, chosen))
         panel.head.asked.connect(lambda word: self.asked.emit(panel.id, word))
@@ -254,28 +258,13 @@ class PanelGrid(QtWidgets.QWidget):
             if other in self._panels:
                 in_shares = document.range == "shares"
                 widget = self._panels[other]
-                widget.show_answer(shown[other], self._maximum(other), document.height, in_shares)
+                widget.show_answer(shown[other], bar_end(document, shown, other), document.height, in_shares)
                 if document.isolines.through:
                     widget.show_isolines(document.isolines, self._through(document, document.panel(other)))
         self._point_again()
 
     def show_certificate(self, id: int) -> None:
         self._panels[id].show_certificate(self._session.shown[id])
-
-    def _maximum(self, id: int) -> float | None:
-        """The end of a panel's colour bar; None for the field's own maximum."""
-        document, shown = self._session.document, self._session.shown
-        if document.range == "shares":
-            return None
-        if document.range == "own":
-            return document.panel(id).maximum
-        unit = shown[id].answer.unit
-        ends = [
-            document.panel(other).maximum or shown[other].answer.maximum
-            for other in shown
-            if shown[other].answer.unit == unit
-        ]
-        return max(ends)
 
     # ------------------------------------------------------------------ the camera
     def look(self, view: View) -> None:
@@ -340,6 +329,12 @@ class PanelGrid(QtWidgets.QWidget):
             panel.view.redraw()
         self._point_again()
 
+    def draw_in_full(self) -> None:
+        """With all that comes only once the camera rests."""
+        self.moving.rest()
+        for panel in self.panels:
+            panel.view.shot()
+
     # ------------------------------------------------------------------ the pointer
     def point_at(self, id: int, vertex: int | None) -> None:
         """Mark a vertex in every panel, and show its values; id: the panel under the pointer."""
@@ -401,4 +396,5 @@ class PanelGrid(QtWidgets.QWidget):
     def close_views(self) -> None:
         """For good: nothing is drawn from now on."""
         self._is_closed = True
+        self.labels.close()
         self.board.close()

@@ -2,7 +2,9 @@
 axes, and sentences."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
+import numpy as np
 from qtpy import QtCore, QtGui
 
 from ...drawing.axes import ARM, Arm
@@ -20,6 +22,20 @@ BRIGHT, DARK = QtGui.QColor("#FFFFFF"), QtGui.QColor("#14161A")
 LABEL_HEIGHT, LABEL_PADDING, LABEL_GAP = 24.0, 8.0, 7.0
 LABEL_OFFSET = QtCore.QPointF(16, -38)
 """From the place to the label's left top corner."""
+
+
+@dataclass(frozen=True)
+class Pointed:
+    """The place that is pointed at, in this panel or in another.
+
+    position: (3,); is_hidden: whether the surface is before it; value, share: what the label at the pointer says.
+    """
+
+    position: np.ndarray
+    is_own: bool
+    is_hidden: bool = False
+    value: str = ""
+    share: str = ""
 
 
 def paint_ring(painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hidden: bool) -> None:

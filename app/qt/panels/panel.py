@@ -16,7 +16,7 @@ from ...document.quantities import Difference, DistanceFrom
 from ...drawing.bands import band_edges, beyond
 from ...drawing.board import Board
 from ...drawing.drawable import drawable
-from ...drawing.picking import Met, Picker
+from ...drawing.picking import LatePicker
 from ...drawing.prepared import Drawn
 from ...drawing.relief import relief, rise
 from ...drawing.style import Style
@@ -28,7 +28,8 @@ from ..look.numbers import number, share
 from .colour_bar import ColourBar
 from .end_box import EndPopUp
 from .head import PanelHead
-from .view import Pointed, View
+from .overlay import Pointed
+from .view import View
 from .waiting import Waiting
 
 COMPACT_BELOW = 360
@@ -177,6 +178,22 @@ class DistancePanel(QtWidgets.QWidget):
         """(k,) shares of the maximum at which bands end."""
         is_signed = self.answer is not None and self.answer.is_signed
         return band_edges(self._isolines, self.view.scene.maximum, is_signed)
+
+    @property
+    def shape(self) -> Surface | None:
+        """The surface as it is drawn, perhaps as a relief; None if there is none."""
+        return self._opened.surface if self._opened is not None and self._raised is None else self._shape
+
+    @property
+    def isolines(self) -> Isolines:
+        return self._isolines
+
+    @property
+    def marked(self) -> np.ndarray:
+        """(k, 3) where marks are."""
+        largest = None if self.answer is None else self.answer.largest
+        ids = [vertex for vertex in (self._source, largest) if vertex is not None]
+        return self._positions[ids + [vertex for vertex, _ in self._anchors]]
 
     def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
         """Vertices with a value each; without one it is the field's own."""
@@ -357,23 +374,3 @@ class DistancePanel(QtWidgets.QWidget):
         name = self.answer.label if self.answer is not None else ""
         is_difference = isinstance(self.head.shows, Difference)
         return f"{name}: {value} {unit}{f' ({part})' if part and not is_difference else ''}".strip()
-
-
-class LatePicker:
-    """A picker that is made when it is needed."""
-
-    def __init__(self, surface: Surface) -> None:
-        self._surface = surface
-        self._made: Picker | None = None
-
-    @property
-    def _picker(self) -> Picker:
-        if self._made is None:
-            self._made = Picker(self._surface)
-        return self._made
-
-    def met_at(self, *where: object) -> Met | None:
-        return self._picker.met_at(*where)
-
-    def sees(self, *where: object) -> bool:
-        return self._picker.sees(*where)

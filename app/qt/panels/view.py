@@ -3,8 +3,6 @@
 The surface is drawn off the screen, once for each change; what lies over it is painted by Qt, and costs no drawing.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
@@ -17,6 +15,7 @@ from ...drawing.picking import Met, Picker, pixel_of
 from ...drawing.style import Style
 from ..look.look import LOOK
 from . import overlay
+from .overlay import Pointed
 
 MARK_SLACK = 4.0
 """Pixels beside the mark of the source at which it can still be taken hold of."""
@@ -29,20 +28,6 @@ DIMMED = 0.28
 
 KEY_TURN, KEY_SHIFT = 15.0, 0.05
 """Degrees, and shares of the view's height, for a key."""
-
-
-@dataclass(frozen=True)
-class Pointed:
-    """The place that is pointed at, in this panel or in another.
-
-    position: (3,); is_hidden: whether the surface is before it; value, share: what the label at the pointer says.
-    """
-
-    position: np.ndarray
-    is_own: bool
-    is_hidden: bool = False
-    value: str = ""
-    share: str = ""
 
 
 class View(QtWidgets.QWidget):
@@ -58,6 +43,8 @@ class View(QtWidgets.QWidget):
     resized = QtCore.Signal()
     menu_wanted = QtCore.Signal(object, object)  # a `Met` or None, and where on the screen
     centred = QtCore.Signal(object)  # double click on a `Met`
+    drawn = QtCore.Signal()  # another picture
+    shot_wanted = QtCore.Signal()  # what is written on the picture is needed now
 
     def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -69,6 +56,8 @@ class View(QtWidgets.QWidget):
         self.upright: np.ndarray | None = None  # what stays upright while the surface turns
         self._picture: QtGui.QImage | None = None
         self._drawing = np.empty((0, 0, 4), np.uint8)
+        self._written: np.ndarray | None = None
+        self.pictures = 0  # how many have been drawn
         self._is_stale = True
         self._is_empty = True
         self._is_dimmed = False
@@ -185,14 +174,30 @@ class View(QtWidgets.QWidget):
         width, height = self.pixels
         size = QtCore.QSize(width, height)
         if self._is_stale or self._picture is None or self._picture.size() != size:
-            pixels = self._board.picture(self.scene, (width, height))
-            image = QtGui.QImage(pixels.data, width, height, 4 * width, QtGui.QImage.Format.Format_RGBX8888)
-            self._drawing = pixels  # the image's memory
-            self._picture = image
-            self._picture.setDevicePixelRatio(self.devicePixelRatioF())
+            self._drawing, self._written = self._board.picture(self.scene, (width, height)), None
+            self._picture = self._image(self._drawing)
             self._is_stale = False
             self._covered = self._cover()
+            self.pictures += 1
+            self.drawn.emit()
         return self._picture
+
+    def _image(self, pixels: np.ndarray) -> QtGui.QImage:
+        """In the memory of pixels (h, w, 4), which have to be kept."""
+        height, width, _ = pixels.shape
+        image = QtGui.QImage(pixels.data, width, height, 4 * width, QtGui.QImage.Format.Format_RGBX8888)
+        image.setDevicePixelRatio(self.devicePixelRatioF())
+        return image
+
+    @property
+    def picture(self) -> np.ndarray | None:
+        """(h, w, 4) uint8: the surface as it is seen now; None before it is drawn again."""
+        return None if self._is_stale or self._is_empty or self._picture is None else self._drawing
+
+    def write(self, pixels: np.ndarray) -> None:
+        """The picture (h, w, 4) with what is written on it, until the next one is drawn."""
+        self._written, self._picture = pixels, self._image(pixels)
+        self.update()
 
     def draw_in_full(self) -> None:
         """Draw the surface again where something has stood in for it."""
@@ -201,10 +206,11 @@ class View(QtWidgets.QWidget):
             self.redraw()
 
     def shot(self) -> np.ndarray:
-        """(height, width, 3) uint8: the surface as it is drawn now, without what lies over it."""
+        """(height, width, 3) uint8: the surface and what is written on it, without what lies over it."""
         self.draw_in_full()
         self._drawn()
-        return self._drawing[..., :3].copy()
+        self.shot_wanted.emit()
+        return (self._drawing if self._written is None else self._written)[..., :3].copy()
 
     def _cover(self) -> QtCore.QRect:
         """What the ring and its label take."""

@@ -1,0 +1,267 @@
+"""The values of isolines on the panels' pictures: found on a thread once the camera rests, and gone when it moves."""
+
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from threading import Lock, Thread
+
+import numpy as np
+from qtpy import QtCore, QtGui
+
+from bihdist_core import Surface
+
+from ...drawing.camera import SeenNow
+from ...drawing.corners import Rectangle
+from ...drawing.drawable import outward_faces
+from ...drawing.levels import Levels
+from ...drawing.line_labels import Contour, Label, Line, labelled, value_text
+from ..look.look import LOOK
+from .label_painting import FONT_SIZE, Written, label_font, painted
+from .moving import REST_MS
+from .panel import DistancePanel
+
+GRID = 4.0
+"""Logical pixels between the places of which it is known whether they are on the shape."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A part of a picture with isolines of its own: where it stands, what of the picture it shows; y down."""
+
+    box: Rectangle
+    source: Rectangle
+    levels: Levels
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """All that the labels of a panel's picture depend on, in logical pixels.
+
+    outward: see `Sight`; field: (n,); parts: the whole picture first, then insets; marked: (k, 3); apart: how far words
+    keep from these; size: of the letters; widths: of texts in them.
+    """
+
+    surface: Surface
+    outward: np.ndarray | None
+    field: np.ndarray
+    projection: SeenNow
+    picture: tuple[float, float]
+    parts: tuple[Part, ...]
+    marked: np.ndarray
+    apart: float
+    size: float
+    widths: dict[str, float]
+
+    @property
+    def sight_key(self) -> tuple:
+        """Equal for what is seen alike."""
+        projection = self.projection
+        return id(self.surface), self.picture, projection.view.tobytes(), projection.matrix.tobytes()
+
+
+class LineLabels(QtCore.QObject):
+    """See the module.  panels: asks for those that are shown."""
+
+    _found = QtCore.Signal(object, int, object)  # panel, of which of its pictures, what is written there
+
+    def __init__(self, panels: Callable[[], Sequence[DistancePanel]], parent: QtCore.QObject | None = None) -> None:
+        super().__init__(parent)
+        self._panels = panels
+        self._timer = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
+        self._timer.timeout.connect(self._ask)
+        self._found.connect(self._write)
+        self._lock = Lock()
+        self._pending: dict[DistancePanel, tuple[int, Asked]] = {}
+        self._is_working = False
+        self._finder = Finder()
+        self._done: dict[DistancePanel, int] = {}
+
+    def watch(self, panel: DistancePanel) -> None:
+        """Write on this panel's pictures, too."""
+        panel.view.drawn.connect(self._wait)
+        panel.view.shot_wanted.connect(lambda: self.write_now([panel]))
+
+    def close(self) -> None:
+        """For good."""
+        self._timer.stop()
+        self._panels = tuple
+        self._pending = {}
+
+    def _wait(self) -> None:
+        self._timer.start()
+
+    def write_now(self, panels: Sequence[DistancePanel] | None = None) -> None:
+        """Without waiting, on all panels or on these."""
+        for panel, number, asked in self._open(self._panels() if panels is None else panels):
+            self._write(panel, number, self._finder.find(asked))
+
+    def _open(self, panels: Sequence[DistancePanel]) -> list[tuple[DistancePanel, int, Asked]]:
+        """Pictures on which nothing has been written yet."""
+        found = []
+        for panel in panels:
+            number = panel.view.pictures
+            if self._done.get(panel) != number and (asked := asked_of(panel)) is not None:
+                found.append((panel, number, asked))
+        return found
+
+    def _ask(self) -> None:
+        with self._lock:
+            self._pending = {panel: (number, asked) for panel, number, asked in self._open(self._panels())}
+            if not self._pending or self._is_working:
+                return
+            self._is_working = True
+        Thread(target=self._work, name="labels of isolines", daemon=True).start()
+
+    def _work(self) -> None:
+        finder = Finder()
+        while True:
+            with self._lock:
+                if not self._pending:
+                    self._is_working = False
+                    return
+                panel = next(iter(self._pending))
+                number, asked = self._pending.pop(panel)
+            written = finder.find(asked)
+            with suppress(RuntimeError):  # the window may have been closed meanwhile
+                self._found.emit(panel, number, written)
+
+    def _write(self, panel: DistancePanel, number: int, written: Sequence[Written]) -> None:
+        view = panel.view
+        if view.picture is None or view.pictures != number:
+            return  # of a picture that is gone
+        self._done[panel] = number
+        if written:
+            scene = view.scene
+            signed, top = panel.answer.is_signed, scene.maximum
+            view.write(painted(view.picture, written, scene.style, signed, top, view.devicePixelRatioF()))
+
+
+def asked_of(panel: DistancePanel) -> Asked | None:
+    """What a panel's picture needs; None where it has no labels, or there is no picture."""
+    view, answer = panel.view, panel.answer
+    scene = view.scene
+    if view.picture is None or scene.is_stand_in or not panel.isolines.labels:
+        return None
+    if answer is None or answer.field is None or panel.shape is None:
+        return None
+    width, height = view.width(), view.height()
+    whole = (0.0, float(width), 0.0, float(height))
+    ratio = view.devicePixelRatioF()
+    parts = [Part(whole, whole, scene.levels)]
+    for inset in scene.insets.parts:
+        # From device pixels, y up.
+        box, source = (
+            (left / ratio, right / ratio, height - top / ratio, height - bottom / ratio)
+            for left, right, bottom, top in (inset.box, inset.source)
+        )
+        parts.append(Part(box, source, inset.levels))
+    texts = {value_text(value) for part in parts for value in part.levels.values}
+    metrics = QtGui.QFontMetricsF(label_font(1.0))
+    return Asked(
+        panel.shape,
+        outward_faces(scene.mesh),
+        answer.field,
+        SeenNow(view.camera, width / max(height, 1)),
+        (width, height),
+        tuple(parts),
+        panel.marked,
+        scene.style.marker_size / 2 + 3,
+        FONT_SIZE * LOOK.scale,
+        {text: metrics.horizontalAdvance(text) for text in texts},
+    )
+
+
+class Finder:
+    """Finds labels; keeps what is hidden from one panel to the next, which sees the same surface alike."""
+
+    def __init__(self) -> None:
+        self._kept: tuple = (None,)
+
+    def find(self, asked: Asked) -> list[Written]:
+        """On any thread."""
+        from ...figures.sight import Sight, contours_seen
+
+        if self._kept[0] != asked.sight_key:
+            sight = Sight(asked.surface, asked.projection, asked.picture, asked.outward)
+            self._kept = (asked.sight_key, sight, asked.surface, {})  # the surface, so that its id stays its own
+        _, sight, _, covers = self._kept
+        marked = sight.pixels(asked.marked)[:, :2]
+        marked = marked[np.isfinite(marked).all(axis=1)]
+        found: list[Written] = []
+        seen: dict[int, list[Contour]] = {}
+        for part in asked.parts:
+            if id(part.levels) not in seen:
+                seen[id(part.levels)] = contours_seen(sight, asked.field, part.levels)
+            contours = [replace(line, parts=_moved(line.parts, part)) for line in seen[id(part.levels)]]
+            others = [other.box for other in asked.parts[1:]] if part is asked.parts[0] else []
+            key = (part.box, part.source, *others)
+            if key not in covers:
+                covers[key] = _cover(sight.covers, part, others)
+            is_on = partial(_is_on, covers[key], part.box)
+            place = _shares(marked, part.source) * _size(part.box) + _corner(part.box)
+            lines, labels = labelled(
+                contours,
+                (*_corner(part.box), *_size(part.box)),
+                asked.size,
+                asked.widths.__getitem__,
+                is_on,
+                place,
+                asked.apart,
+            )
+            found += [_written(label, lines[label.contour], asked.widths[label.text]) for label in labels]
+        return found
+
+
+def _written(label: Label, line: Contour, width: float) -> Written:
+    return Written(label.text, (label.x, label.y), label.angle, width, line.value, line.is_bold, line.is_through)
+
+
+def _cover(covers: Callable[[np.ndarray], np.ndarray], part: Part, others: Sequence[Rectangle]) -> np.ndarray:
+    """(k, l) whether places all over a part, row by row, are on the shape, and on none of other boxes."""
+    across, down = np.maximum(np.ceil(_size(part.box) / GRID), 1).astype(int)
+    x, y = ((np.arange(count) + 0.5) / count for count in (across, down))
+    shares = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
+    is_on = covers(shares * _size(part.source) + _corner(part.source))
+    at = shares * _size(part.box) + _corner(part.box)
+    for left, right, top, bottom in others:
+        inside = (at[:, 0] > left - GRID) & (at[:, 0] < right + GRID)
+        is_on &= ~(inside & (at[:, 1] > top - GRID) & (at[:, 1] < bottom + GRID))
+    return is_on.reshape(down, across)
+
+
+def _is_on(cover: np.ndarray, box: Rectangle, places: np.ndarray) -> np.ndarray:
+    """The same of places (k, 2) of the part in this box."""
+    rows, columns = cover.shape
+    shares = _shares(places, box)
+    is_inside = ((shares >= 0) & (shares < 1)).all(axis=1)
+    column, row = np.floor(np.clip(shares, 0, 1 - 1e-9) * (columns, rows)).astype(int).T
+    return is_inside & cover[row, column]
+
+
+def _moved(lines: Sequence[Line], part: Part) -> list[Line]:
+    """From the picture into a part of it, as far as that shows them."""
+    if part.box == part.source:
+        return list(lines)
+    found: list[Line] = []
+    for points, closed in lines:
+        ring = np.concatenate([points, points[:1]]) if closed else points
+        shares = _shares(ring, part.source)
+        inside = ((shares >= 0) & (shares <= 1)).all(axis=1)
+        kept = inside | np.append(inside[1:], False) | np.append(False, inside[:-1])
+        ends = np.flatnonzero(np.diff(np.concatenate([[0], kept.astype(int), [0]]))).reshape(-1, 2)
+        found += [(shares[a:b] * _size(part.box) + _corner(part.box), False) for a, b in ends if b - a > 1]
+    return found
+
+
+def _shares(points: np.ndarray, box: Rectangle) -> np.ndarray:
+    """Points (…, 2) as shares of a box with y down."""
+    return (points - _corner(box)) / _size(box)
+
+
+def _corner(box: Rectangle) -> np.ndarray:
+    return np.array([box[0], box[2]])
+
+
+def _size(box: Rectangle) -> np.ndarray:
+    return np.array([box[1] - box[0], box[3] - box[2]])
