@@ -36,17 +36,18 @@ class Choices:
     def show(self) -> None:
         """Let menus and buttons say what is chosen."""
         window, document, style = self._window, self._window.session.document, self._window.page.style
+        shown_range = "typed" if document.range == "own" and has_ends(document) else document.range
         window.views.show()
         for name, value in {
             "isolines": isolines_in_words(document.isolines),
             "colours": colours_in_words(style, document.colours),
-            "range": "Typed" if document.range == "own" and has_ends(document) else document.range.capitalize(),
+            "range": shown_range.capitalize(),
         }.items():
             window.tools[name].show_value(value)
         menus = window.menus
         menus.isolines.show_choice(document.isolines)
         menus.colours.show_choice(style, document.colours)
-        menus.show_choice(menus.range, "" if document.range == "own" and has_ends(document) else document.range)
+        menus.show_choice(menus.range, shown_range)
         menus.show_choice(menus.theme, LOOK.choice)
         menus.show_choice(menus.shading, document.shading.normals)
         window.actions_by_word["wireframe"].setChecked(document.shading.wireframe)
@@ -153,6 +154,7 @@ class Choices:
         grid = self._window.grid
         if grid is not None and grid.active >= 0:
             grid.panel(grid.active).ask_end()
+        self.show()  # nothing has been chosen yet
 
     def ask_ends(self) -> None:
         """Those of a session or recipe."""

@@ -146,6 +146,9 @@ def test_an_end_is_typed_at_the_bar(shown):
     assert bar_of(shown)._beyond == (False, True)
     assert shown.document.panels[1].maximum is None
     assert shown.window.tools["range"].accessibleDescription() == "Typed"
+    assert [action.text() for action in shown.window.menus.range.actions() if action.isChecked()] == [
+        "This panel ends at …"
+    ]
     panel.ask_end()
     box.own.click()
     shown.settle()

@@ -89,3 +89,24 @@ def test_the_full_screen_of_a_talk_has_panels_only_and_one_comes_back(screen, me
         s.settle()
         assert ([bar.isVisible() for bar in bars], LOOK.scale) == ([True] * 3, usual)
         assert not s.window.actions_by_word["full screen"].isChecked()
+
+
+def test_beside_values_the_buttons_that_are_meant_keep_their_words(screen, mesh_file):
+    from app.qt.bars.tool_button import FULL, ICONS, VALUES
+
+    s = screen()
+    s.open(mesh_file(bumpy(100)))
+    bar, window = s.window.tool_bar, s.window
+
+    def written(width):
+        window.resize(width, 700)
+        s.settle(0)
+        assert sum(button.width() for button in bar.buttons.values() if button.isVisible()) < width
+        return {name: button._detail for name, button in bar.buttons.items()}
+
+    assert set(written(1590).values()) == {FULL}
+    just_fits = bar._width_with(VALUES, set())
+    assert set(written(just_fits + 2).values()) == {VALUES}
+    room = just_fits + bar.buttons["export"].width_with(FULL) - bar.buttons["export"].width_with(VALUES) + 2
+    assert {name for name, detail in written(room).items() if detail == FULL} == {"export"}
+    assert set(written(just_fits - 20).values()) == {ICONS}

@@ -14,6 +14,10 @@ LAST_TO_GO = ("up", "views", "colours", "range", "isolines", "live", "tools", "r
 """Where even the icons have no room: which buttons are left out, the first of these first; all are in the menus."""
 
 
+LAST_IN_WORDS = ("export", "open", "live", "add panel")
+"""Beside values that have room these keep their words as long as there is any, the last of these the shortest."""
+
+
 class ToolBar(QtWidgets.QToolBar):
     """buttons: by name.  `window` is the main window."""
 
@@ -73,9 +77,16 @@ class ToolBar(QtWidgets.QToolBar):
             if self._width_with(detail, left_out) <= room:
                 break
             left_out.add(name)
+        spare = room - self._width_with(detail, left_out)
+        in_words = set()
+        for name in LAST_IN_WORDS if detail == VALUES else ():
+            button = self.buttons[name]
+            spare -= button.width_with(FULL) - button.width_with(detail)
+            if spare < 0:
+                break
+            in_words.add(name)
         for name, button in self.buttons.items():
-            # The one that is meant, and how to begin, keep their words longer.
-            button.show_detail(detail)
+            button.show_detail(FULL if name in in_words else detail)
             self._shown_as[name].setVisible(name not in left_out)
         self._shown_as["source label"].setVisible(detail != ICONS)
 

@@ -13,6 +13,7 @@ def style_sheet(theme: Theme, scale: float = 1.0) -> str:
     return f"""
 QMainWindow, QDialog, QMessageBox {{ background: {theme.window}; color: {theme.text}; }}
 QWidget {{ color: {theme.text}; }}
+QDialogButtonBox {{ dialogbuttonbox-buttons-have-icons: 0; }}
 QWidget:disabled {{ color: {theme.disabled}; }}
 QToolTip {{ background: {theme.raised}; color: {theme.text}; border: 1px solid {theme.strong}; padding: 3px 6px; }}
 

@@ -20,6 +20,7 @@ GESTURES: Group = (
         ("Zoom to the pointer", "wheel"),
         ("Centre the view here", "double click"),
         ("Nearer and farther", "drag with the right button"),
+        ("Type where the colours end", "double click on a colour bar"),
         ("Menu of what can be done here", "right click"),
     ),
 )
