@@ -83,6 +83,8 @@ class FieldActor:
         self._isolines, self._through = TWENTY_STEPS, ()
         self._edges = np.empty(0)
         self._own_maximum = 1.0
+        self._own = vtkPolyData()
+        self._has_edges, self._followed = False, None
         self._make()
         self.stand_in = StandInActor(self.actor)
         self.show_isolines(self._isolines, self._through)
@@ -110,11 +112,38 @@ class FieldActor:
         self._array = numpy_to_vtk(self._values)
         self._array.SetName("distance")
         own.GetPointData().AddArray(self._array)
+        self._draw(own)
+        self.actor.VisibilityOn()
+
+    def _draw(self, own: vtkPolyData) -> None:
+        self._own = own
         self._mapper.SetInputData(own)
         self._mapper.MapDataArrayToVertexAttribute(
             "isolineAttribute", "distance", vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
         )
-        self.actor.VisibilityOn()
+
+    def follow(self, other: "FieldActor", isolines: Isolines) -> None:
+        """Show what another one shows now, from the same memory, with isolines of its own."""
+        if self._own is not other._own:
+            self._draw(other._own)
+            self._uniforms.SetUniformf("hasBacks", float(has_backs(other._own)))
+        self._values, self._array = other._values, other._array
+        if self.table is not other.table:
+            self.table, self.is_signed = other.table, other.is_signed
+            self._take_table()
+        look = other.actor.GetProperty()
+        if self.actor.GetProperty() is not look or self._has_edges != bool(look.GetEdgeVisibility()):
+            self.actor.SetProperty(look)
+            self.stand_in.actor.SetProperty(look)
+            self._put_shaders(bool(look.GetEdgeVisibility()))
+        if self.stand_in.stand_in is not other.stand_in.stand_in:
+            self.stand_in.take(other.stand_in.stand_in)
+        self.show_stand_in(bool(other.stand_in.actor.GetVisibility()))
+        self.actor.SetVisibility(other.actor.GetVisibility())
+        shown = (isolines, other._through, other.maximum, other._own_maximum, other.is_signed)
+        if shown != self._followed:
+            self._followed, self.maximum, self._own_maximum = shown, other.maximum, other._own_maximum
+            self.show_isolines(isolines, other._through)
 
     def show_field(self, field: np.ndarray, maximum: float | None = None, signed: bool = False) -> None:
         """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey.
@@ -166,12 +195,20 @@ class FieldActor:
     def _set_colours(self) -> None:
         """The field has another sign, or other bands."""
         self.table = lookup_table(self.style, self.is_signed, self._edges)
+        self._take_table()
+
+    def _take_table(self) -> None:
         self._mapper.SetLookupTable(self.table)
         self._uniforms.SetUniform3f("isolineColour", self.style.line(self.is_signed))
         self._uniforms.SetUniform3f("isolineFarColour", self.style.line(self.is_signed, 1.0))
         self._uniforms.SetUniform3f("isolineThroughColour", self.style.source)
         self._uniforms.SetUniform3f("isolineCasingColour", self.style.mark_edge)
         self._uniforms.SetUniformf("isolineTurn", self.style.turn if self.is_signed else 1e9)
+
+    @property
+    def isolines(self) -> Isolines:
+        """What says where they are."""
+        return self._isolines
 
     @property
     def levels(self) -> Levels:
@@ -235,6 +272,7 @@ class FieldActor:
         self._put_shaders(False)
 
     def _put_shaders(self, has_edges: bool) -> None:
+        self._has_edges = has_edges
         shader = self.actor.GetShaderProperty()
         shader.ClearAllShaderReplacements()
         pass_on(shader, "isolineAttribute", "isolineValue")

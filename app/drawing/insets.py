@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkActor, vtkActor2D, vtkCamera, vtkCoordinate, vtkPolyDataMapper2D, vtkRenderer
 
-from ..document.document import Zoom
+from ..document.document import Zoom, isolines_in
 from .camera import array_of
 from .corners import SIDE, Rectangle, chosen_corners, corner_boxes, joins, source_box, taken_by
 from .field_actor import FieldActor, light
@@ -47,6 +47,7 @@ class Insets:
         self.renderers: list[vtkRenderer] = []
         self._in_sight: list[bool] = []
         self._field = field
+        self._own: list[FieldActor | None] = []  # for those with isolines of their own
         self._frames = self._lines()
         renderer.AddActor(self._frames)
         self._observer = renderer.AddObserver("StartEvent", lambda *_: self._place())
@@ -63,7 +64,24 @@ class Insets:
         while len(self.renderers) < len(zooms):
             self.renderers.append(self._new_renderer())
             window.AddRenderer(self.renderers[-1])
+        self._own += [None] * (len(zooms) - len(self._own))
+        del self._own[len(zooms) :]
+        for number, zoom in enumerate(zooms):
+            self._let_own(number, zoom.isolines is not None)
         self._frames.SetVisibility(bool(zooms))
+
+    def _let_own(self, number: int, is_own: bool) -> None:
+        """Let an inset draw the panel's field, or one that follows it with isolines of its own."""
+        renderer, before = self.renderers[number], self._own[number]
+        if is_own == (before is not None):
+            return
+        self._own[number] = FieldActor(self._style, self._scale) if is_own else None
+        for each, is_drawn in ((self._field, not is_own), (before or self._own[number], is_own)):
+            for actor in (each.actor, each.stand_in.actor):
+                renderer.AddActor(actor) if is_drawn else renderer.RemoveActor(actor)
+
+    def _levels(self, number: int) -> Levels:
+        return (self._own[number] or self._field).levels
 
     @property
     def corners(self) -> tuple[str, ...]:
@@ -74,8 +92,12 @@ class Insets:
     def parts(self) -> list[InsetPart]:
         """Those that are in sight, as in the last picture."""
         boxes = self._boxes()
-        found = zip(self._corners, self._sources(), self._in_sight, strict=False) if self._zooms else ()
-        return [InsetPart(boxes[corner], source, self._field.levels) for corner, source, is_seen in found if is_seen]
+        found = enumerate(zip(self._corners, self._sources(), self._in_sight, strict=False)) if self._zooms else ()
+        return [
+            InsetPart(boxes[corner], source, self._levels(number))
+            for number, (corner, source, is_seen) in found
+            if is_seen
+        ]
 
     def remove(self) -> None:
         """They are gone for good."""
@@ -140,6 +162,9 @@ class Insets:
         projection, loops = self._projection(), []
         is_taken = taken_by(surface, (width, height), [boxes[corner] for corner in self._corners])
         self._in_sight = []
+        for zoom, own in zip(self._zooms, self._own, strict=True):
+            if own is not None:
+                own.follow(self._field, isolines_in(zoom, self._field.isolines))
         for renderer, corner, source in zip(self.renderers, self._corners, sources, strict=True):
             left, right, bottom, top = source
             is_seen = bool(left < width and right > 0 and bottom < height and top > 0)

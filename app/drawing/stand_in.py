@@ -159,6 +159,11 @@ class StandInActor:
         self._mapper.SetInputData(own)
 
     @property
+    def stand_in(self) -> StandIn | None:
+        """What has been taken."""
+        return self._stand_in
+
+    @property
     def can_stand_in(self) -> bool:
         return self._stand_in is not None
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.document.document import Zoom
 from app.document.edits import move_source
 from app.document.looks import Isolines
 from app.drawing.line_labels import value_text
@@ -205,3 +206,34 @@ def test_labels_say_the_values_of_the_lines_they_stand_on(s):
         there = field[s.session.surface.faces[met.face]] @ met.weights
         # A label may stand a few pixels beside its line, which is one of twenty steps.
         assert abs(there - label.value) < 0.3 * field.max() / 20
+
+
+def test_an_inset_has_a_number_of_its_own(s):
+    panel = s.panels[0]
+    vertex = panel.view.met_at(panel.view.rect().center()).vertex
+    s.session.show(replace(s.document, zooms=(Zoom(vertex, 3.0, "top left"),)))
+    s.settle()
+    view, same = panel.view, panel.view.shot()
+    s.session.show(replace(s.document, zooms=(Zoom(vertex, 3.0, "top left", 100),)))
+    s.settle()
+    (part,) = view.scene.insets.parts
+    assert (len(part.levels.values), len(view.scene.levels.values)) == (99, 19)
+    left, right, bottom, top = (round(side) for side in part.box)
+    box = np.s_[view.pixels[1] - top : view.pixels[1] - bottom, left:right]
+    own, inside = view.shot(), np.zeros(same.shape[:2], bool)
+    inside[box] = True
+    differs = np.abs(own.astype(int) - same).max(axis=2) > 30
+    assert differs[inside].mean() > 0.05
+    assert not differs[~inside].any()
+    # What the panel shows later is followed: another source, no lines, the surface alone.
+    s.session.show(move_source(s.document, 0, 100))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    moved = view.shot()
+    assert (np.abs(moved.astype(int) - own).max(axis=2) > 30)[inside].mean() > 0.05
+    s.session.show(replace(s.document, zooms=(Zoom(vertex, 3.0, "top left"),)))
+    s.settle()
+    assert (np.abs(view.shot().astype(int) - moved).max(axis=2) > 30)[inside].mean() > 0.05
+    s.session.undo()
+    s.settle()
+    assert (view.shot() == moved).all()

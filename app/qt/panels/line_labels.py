@@ -195,9 +195,10 @@ class Finder:
                 seen[id(part.levels)] = contours_seen(sight, asked.field, part.levels)
             contours = [replace(line, parts=_moved(line.parts, part)) for line in seen[id(part.levels)]]
             others = [other.box for other in asked.parts[1:]] if part is asked.parts[0] else []
-            key = (part.box, part.source, *others)
+            frames = [other.source for other in asked.parts[1:]] if others else []
+            key = (part.box, part.source, *others, *frames)
             if key not in covers:
-                covers[key] = _cover(sight.covers, part, others)
+                covers[key] = _cover(sight.covers, part, others, frames)
             is_on = partial(_is_on, covers[key], part.box)
             place = _shares(marked, part.source) * _size(part.box) + _corner(part.box)
             lines, labels = labelled(
@@ -217,17 +218,30 @@ def _written(label: Label, line: Contour, width: float) -> Written:
     return Written(label.text, (label.x, label.y), label.angle, width, line.value, line.is_bold, line.is_through)
 
 
-def _cover(covers: Callable[[np.ndarray], np.ndarray], part: Part, others: Sequence[Rectangle]) -> np.ndarray:
-    """(k, l) whether places all over a part, row by row, are on the shape, and on none of other boxes."""
+def _cover(
+    covers: Callable[[np.ndarray], np.ndarray], part: Part, others: Sequence[Rectangle], frames: Sequence[Rectangle]
+) -> np.ndarray:
+    """(k, l) whether places all over a part, row by row, are on the shape, and in none of other boxes.
+
+    frames: these boxes' sides keep free, too, but not what is in them.
+    """
     across, down = np.maximum(np.ceil(_size(part.box) / GRID), 1).astype(int)
     x, y = ((np.arange(count) + 0.5) / count for count in (across, down))
     shares = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
     is_on = covers(shares * _size(part.source) + _corner(part.source))
     at = shares * _size(part.box) + _corner(part.box)
-    for left, right, top, bottom in others:
-        inside = (at[:, 0] > left - GRID) & (at[:, 0] < right + GRID)
-        is_on &= ~(inside & (at[:, 1] > top - GRID) & (at[:, 1] < bottom + GRID))
+    for box in others:
+        is_on &= ~_within(at, box, GRID)
+    for box in frames:
+        is_on &= ~_within(at, box, GRID) | _within(at, box, -GRID)
     return is_on.reshape(down, across)
+
+
+def _within(places: np.ndarray, box: Rectangle, beyond: float) -> np.ndarray:
+    """Which of places (k, 2) are in a box that is larger by so much at each side."""
+    left, right, top, bottom = box
+    x, y = places.T
+    return (x > left - beyond) & (x < right + beyond) & (y > top - beyond) & (y < bottom + beyond)
 
 
 def _is_on(cover: np.ndarray, box: Rectangle, places: np.ndarray) -> np.ndarray:
