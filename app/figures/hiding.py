@@ -131,6 +131,8 @@ class Hiding:
         first, last = np.searchsorted(there, where, "left"), np.searchsorted(there, where, "right")
         count = last - first
         total = np.cumsum(count)
+        if not total[-1]:
+            return
         bounds = np.searchsorted(total, np.arange(AT_ONCE, total[-1] + AT_ONCE, AT_ONCE), "right")
         for a, b in zip([0, *bounds[:-1]], bounds, strict=True):
             # A part holds one box at least.

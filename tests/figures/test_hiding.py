@@ -150,3 +150,13 @@ def test_edges_of_three_faces_hide_and_are_seen():
     points = 0.6 * surface.vertices[surface.faces[:, 0]] + 0.2 * surface.vertices[surface.faces[:, 1:]].sum(axis=1)
     expected = seen_by_rays(surface, np.array(camera.position), points)
     assert [sight.sees(point) for point in points] == expected.tolist()
+
+
+def test_beside_the_shape_nothing_is_hidden():
+    # Two triangles far apart: between them are cells of the grid without any.
+    one = np.array([[0.0, 0, 1], [10, 0, 1], [0, 10, 1]])
+    hiding = Hiding(np.stack([one, one + [400, 400, 0]]), np.arange(6).reshape(2, 3))
+    assert hiding.nearest(np.array([[200.0, 200.0]])).tolist() == [-np.inf]
+    assert hiding.nearest(np.array([[200.0, 200.0], [2.0, 2.0]])).tolist() == [-np.inf, 1.0]
+    ends = np.array([[[200.0, 200, 0.5], [220, 200, 0.5]]])
+    assert [len(each) for each in hiding.intervals(ends, np.full((1, 4), -1))] == [0, 0, 0]
