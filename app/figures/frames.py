@@ -6,24 +6,31 @@ import os
 from collections.abc import Generator, Iterator
 from queue import Empty, SimpleQueue
 from threading import Thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bihdist_core import BihdistError
 from bihdist_core.progress import Progress
 
+from ..drawing.style import Style
 from .composition import KeptWords
 from .description import Figure
 from .draw import draw_figure
 from .shots import Stage
 from .worker import Worker
 
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
 EACH = 6
 """A process is worth its start for so many frames."""
 
 AHEAD = 2
 """How many frames for each process may wait to be drawn, or for those before them."""
+
+ALIKE = 4.0
+"""Steps of 255 by which a colour differs from another that is taken for it, at most."""
 
 NOTICED = 0.1
 """Seconds within which it is noticed that the movie is not wanted any more."""
@@ -62,9 +69,27 @@ class _Drawing:
         picture = np.pad(picture, [(0, picture.shape[0] % 2), (0, picture.shape[1] % 2), (0, 0)], mode="edge")
         if mode == "RGB":
             return picture
-        from PIL import Image
+        return _with_256_colours(picture, figure.style)
 
-        return Image.fromarray(picture).quantize(256)
+
+def _with_256_colours(picture: np.ndarray, style: Style) -> Image:
+    """An image with a palette of what there is most of, and of the ground and the marks, though these be small."""
+    from PIL import Image as images
+
+    own = [np.round(255 * np.array(c)) for c in (style.background, style.source, style.largest, style.mark_edge)]
+    first = 256 - len(own)
+    found = images.fromarray(picture).quantize(first)
+    index = np.array(found)
+    for k, colour in enumerate(own, first):
+        low, high = (np.clip(colour + way * ALIKE, 0, 255).astype(np.uint8) for way in (-1, 1))
+        is_alike = [(low[c] <= picture[..., c]) & (picture[..., c] <= high[c]) for c in range(3)]
+        index[is_alike[0] & is_alike[1] & is_alike[2]] = k
+    image = images.fromarray(index)
+    palette = np.zeros((256, 3), np.uint8)
+    palette[:first].flat[: len(found.getpalette() or [])] = found.getpalette()
+    palette[first:] = own
+    image.putpalette(palette.tobytes())
+    return image
 
 
 def _drawn_here(figures: Iterator[Figure], count: int, mode: str, progress: Progress) -> Iterator[Any]:

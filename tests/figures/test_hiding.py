@@ -155,7 +155,7 @@ def test_edges_of_three_faces_hide_and_are_seen():
 def test_beside_the_shape_nothing_is_hidden():
     # Two triangles far apart: between them are cells of the grid without any.
     one = np.array([[0.0, 0, 1], [10, 0, 1], [0, 10, 1]])
-    hiding = Hiding(np.stack([one, one + [400, 400, 0]]), np.arange(6).reshape(2, 3))
+    hiding = Hiding(np.stack([one, one + np.array([400, 400, 0])]), np.arange(6).reshape(2, 3))
     assert hiding.nearest(np.array([[200.0, 200.0]])).tolist() == [-np.inf]
     assert hiding.nearest(np.array([[200.0, 200.0], [2.0, 2.0]])).tolist() == [-np.inf, 1.0]
     ends = np.array([[[200.0, 200, 0.5], [220, 200, 0.5]]])

@@ -12,6 +12,7 @@ from PIL import Image
 from app.document.document import comparison
 from app.document.page import Page, Recipe
 from app.drawing.camera import Projection, turned
+from app.drawing.style import STYLES
 from app.figures import canvas
 from app.figures.description import Figure, FigurePanel
 from app.figures.frames import drawn_frames
@@ -52,6 +53,16 @@ def test_a_turntable_turns_once_round(recipe, tmp_path):
     assert duration == 100
     for a, b in zip(frames, frames[1:] + frames[:1], strict=True):
         assert (np.abs(a - b).max(axis=2) > 40).mean() > 0.02
+
+
+def test_few_colours_hold_those_of_marks_and_of_the_ground(recipe, tmp_path):
+    document = replace(recipe.document, camera="source")
+    large = Recipe(document, replace(recipe.page, size="400x300"))
+    write_movie(Movie(large, turn=10, frames=2), tmp_path / "turn.gif")
+    for frame in gif_frames(tmp_path / "turn.gif")[0]:
+        assert frame[0, 0].tolist() == [255, 255, 255]
+        yellow = np.round(255 * np.array(STYLES["paper"].source))
+        assert (np.abs(frame - yellow).max(axis=2) <= 1).sum() > 4
 
 
 def test_the_source_wanders_along_edges(recipe, tmp_path):
