@@ -10,6 +10,9 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from .style import Colour
 
+DOT = 0.6
+"""Of a mark's size: that of a point which an isoline passes through."""
+
 _LIT = "//VTK::Light::Impl"
 _RIM = """//VTK::Light::Impl
   fragOutput0.rgb = mix(rimColour, fragOutput0.rgb, smoothstep(0.45, 0.65, normalVCVSOutput.z));

@@ -10,7 +10,7 @@ from ..document.looks import Isolines, Shading
 from .field_actor import FieldActor, light
 from .insets import Insets
 from .levels import Levels
-from .marks import Marks
+from .marks import DOT, Marks
 from .stand_in import StandIn
 from .style import PAPER, Style
 
@@ -31,7 +31,9 @@ class PanelScene:
         self._source = Marks(style.marker_size * scale, style.mark_edge)
         self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
         self._anchored = Marks(style.marker_size * scale, style.mark_edge)
-        solid = [self._field.actor, *(marks.actor for marks in (self._source, self._largest, self._anchored))]
+        self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
+        marks = (self._source, self._largest, self._anchored, self._passed)
+        solid = [self._field.actor, *(each.actor for each in marks)]
         solid.append(self._field.stand_in.actor)
         self.insets = Insets(renderer, solid, self._field, style, scale)
         renderer.SetBackground(*style.background)
@@ -58,6 +60,7 @@ class PanelScene:
         self.mark_source(None)
         self.mark_largest(None)
         self.mark_anchors(np.empty((0, 3)), [])
+        self.mark_passed(np.empty((0, 3)))
         self.insets.show((), np.empty((0, 3)))
 
     def show_shape(self, mesh: vtkPolyData, bounds: Sequence[float]) -> None:
@@ -138,6 +141,10 @@ class PanelScene:
     def mark_largest(self, position: np.ndarray | None) -> None:
         """Where a signed field is largest."""
         self._largest.show_one(position, self.style.largest)
+
+    def mark_passed(self, positions: np.ndarray) -> None:
+        """Positions (k, 3) of points that isolines pass through."""
+        self._passed.show(positions, [self.style.source] * len(positions))
 
     def mark_anchors(self, positions: np.ndarray, values: Sequence[float]) -> None:
         """Positions (k, 3), each filled with the colour of a value, grey where that is NaN."""

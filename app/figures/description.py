@@ -20,13 +20,21 @@ from .size import Size
 class Mark:
     """A marked vertex: a source, or an anchor, which has a value and is filled with that value's colour.
 
-    is_largest: where a signed field is largest, in a colour of its own.
+    is_largest: where a signed field is largest, in a colour of its own.  is_passed: an isoline passes through it, and
+    has a dot there; corners, weights: a place in a face, of which the vertex is a corner.
     """
 
     vertex: int
     value: float | None = None
     text: str = ""
     is_largest: bool = False
+    is_passed: bool = False
+    corners: tuple[int, ...] = ()
+    weights: tuple[float, ...] = ()
+
+    def on(self, vertices: np.ndarray) -> np.ndarray:
+        """(3,) where it is on a surface with these vertices (n, 3)."""
+        return np.array(self.weights) @ vertices[list(self.corners)] if self.corners else vertices[self.vertex]
 
 
 @dataclass(frozen=True, eq=False)

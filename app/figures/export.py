@@ -17,7 +17,7 @@ from ..drawing.style import style_of
 from ..session.anchors import anchor_value, anchors_on
 from ..session.given import Given
 from ..session.opened import Opened, open_mesh
-from ..session.passed import values_through
+from ..session.passed import Passed, passed
 from ..session.questions import questions, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from .description import Figure, FigurePanel, Mark
@@ -165,6 +165,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
     heading = answer.label
     if starts and len(document.sources) > 1:
         heading += f", from {', '.join(map(str, starts))}"
+    through = passed(document, panel.surface, opened, answer)
     return FigurePanel(
         surface,
         answer.field,
@@ -175,9 +176,14 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         failure=answer.failure,
         maximum=panel.maximum,
         isolines=document.isolines,
-        through=values_through(document, panel.surface, opened, answer),
+        through=tuple(point.value for point in through),
         views=recipe.views,
-        marks=(*map(Mark, starts), *_anchor_marks(document, panel, opened, answer), *_largest(answer)),
+        marks=(
+            *_dots(through, answer),
+            *map(Mark, starts),
+            *_anchor_marks(document, panel, opened, answer),
+            *_largest(answer),
+        ),
         zooms=document.zooms,
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
@@ -187,6 +193,13 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         is_parallel=document.projection == "orthographic",
         axes=document.axes,
     )
+
+
+def _dots(through: Sequence[Passed], answer: Answer) -> list[Mark]:
+    """On isolines through points; see `drawing.levels` on the values that have one."""
+    low = -answer.maximum if answer.is_signed else 0.0
+    on_lines = [point for point in through if low < point.value < answer.maximum]
+    return [Mark(p.vertices[0], is_passed=True, corners=p.vertices, weights=p.weights) for p in on_lines]
 
 
 def _largest(answer: Answer) -> list[Mark]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..drawing.corners import Rectangle, inside, joins
+from ..drawing.marks import DOT
 from .boxes import Box, Words
 from .shots import Shot
 
@@ -24,6 +25,9 @@ RING = 6.0
 
 RIM = 0.075
 """The width of a mark's rims, as a share of what it is across."""
+
+LEAST_DOT = 4.0
+"""Units across."""
 
 OPEN = 0.46
 """The same of the hole of a ring."""
@@ -51,6 +55,12 @@ def draw_marks(
         if any(box.holds(x, y, across / 2) for box in insets):
             continue
         mark = panel.marks[k]
+        if mark.is_passed:
+            dot = _ring(x, y, max(DOT * across, LEAST_DOT), style.source, style.mark_edge, False, order)[0]
+            axes.add_artist(dot)
+            if shot.source is not None:
+                dot.set_clip_path(frame)
+            continue
         colour = style.largest if mark.is_largest else style.source
         if mark.value is not None:
             colour = style.colour_of(mark.value, top, panel.signed)

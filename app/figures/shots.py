@@ -216,7 +216,7 @@ class _Taker:
         """Those that are seen, and those that the shape hides."""
         seen, hidden = [], []
         for k, mark in enumerate(self._panel.marks):
-            point = self._surface.vertices[mark.vertex]
+            point = mark.on(self._surface.vertices)
             x, y, depth = self._sight.pixels(point[None])[0]
             if not np.isfinite(depth) or not np.isfinite(x):
                 continue
@@ -224,7 +224,8 @@ class _Taker:
             per_unit = self._projection.pixel_at(depth, self._box.width)
             nearer = point + self._normal(mark.vertex) * per_unit * 0.67 * self._lift
             is_seen = self._sight.sees(point) or self._sight.sees(nearer)
-            (seen if is_seen else hidden).append((k, float(x), float(y)))
+            if is_seen or not mark.is_passed:
+                (seen if is_seen else hidden).append((k, float(x), float(y)))
         return seen, hidden
 
     def _normal(self, vertex: int) -> np.ndarray:

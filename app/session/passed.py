@@ -1,4 +1,6 @@
-"""The values of fields at the points that have an isoline through them."""
+"""The points that have an isoline through them, and the values of fields there."""
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,17 +11,30 @@ from .opened import Opened
 from .questions import vertex_at
 
 
-def values_through(document: Document, surface: str, opened: Opened, answer: Answer | None) -> tuple[float, ...]:
-    """Of an answer's field, at the points of its surface; NaN where it is undefined, nothing where there is none."""
+@dataclass(frozen=True)
+class Passed:
+    """Where a line passes: vertices of one face with weights that add up to 1; value: the field's, NaN for none."""
+
+    vertices: tuple[int, ...]
+    weights: tuple[float, ...]
+    value: float
+
+    def of(self, field: np.ndarray) -> np.ndarray:
+        """A field (n,) or positions (n, 3) there, linear in the face."""
+        return np.array(self.weights) @ field[list(self.vertices)]
+
+
+def passed(document: Document, surface: str, opened: Opened, answer: Answer | None) -> tuple[Passed, ...]:
+    """The points of a surface, with the values of an answer's field; none where that has none."""
     if answer is None or answer.field is None:
         return ()
     points = [document.point(name) for name in document.isolines.through]
-    return tuple(value_at(point, opened, answer.field) for point in points if point.surface == surface)
+    return tuple(_passed(point, opened, answer.field) for point in points if point.surface == surface)
 
 
-def value_at(point: Point, opened: Opened, field: np.ndarray) -> float:
-    """Of a field (n,) at a point, linear in a face."""
+def _passed(point: Point, opened: Opened, field: np.ndarray) -> Passed:
     vertex = vertex_at(point.at, opened.surface)  # also refuses a face that is not there
     if isinstance(point.at, Place):
-        return float(field[opened.surface.faces[point.at.face]] @ point.at.weights)
-    return float(field[vertex])
+        corners = opened.surface.faces[point.at.face]
+        return Passed(tuple(corners.tolist()), point.at.weights, float(field[corners] @ point.at.weights))
+    return Passed((vertex,), (1.0,), float(field[vertex]))

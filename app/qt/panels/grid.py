@@ -18,7 +18,7 @@ from ...drawing.relief import rise
 from ...drawing.style import PAPER, Style
 from ...session.anchors import anchors_on
 from ...session.bar_ends import bar_end
-from ...session.passed import values_through
+from ...session.passed import Passed, passed
 from ...session.questions import vertex_at
 from ...session.session import Session
 from ..look.look import LOOK
@@ -244,11 +244,11 @@ class PanelGrid(QtWidgets.QWidget):
             if panel.id in self._panels:
                 self._panels[panel.id].show_isolines(document.isolines, self._through(document, panel))
 
-    def _through(self, document: Document, panel: Panel) -> tuple[float, ...]:
+    def _through(self, document: Document, panel: Panel) -> tuple[Passed, ...]:
         opened, shown = self._session.opened(panel.surface), self._session.shown.get(panel.id)
         if opened is None or shown is None:
             return ()
-        return values_through(document, panel.surface, opened, shown.answer)
+        return passed(document, panel.surface, opened, shown.answer)
 
     # ------------------------------------------------------------------ answers
     def show_answer(self, id: int) -> None:

@@ -23,6 +23,7 @@ from ...drawing.style import Style
 from ...session.anchors import anchor_value
 from ...session.answering import Shown
 from ...session.opened import Opened
+from ...session.passed import Passed
 from ..look.look import LOOK
 from ..look.numbers import number, share
 from .colour_bar import ColourBar
@@ -77,6 +78,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._zooms: tuple[Zoom, ...] = ()
         self._anchors: Sequence[tuple[int, float | None]] = ()
         self._isolines = TWENTY_STEPS
+        self._dots = np.empty((0, 3))  # on isolines through points
         self.answer: Answer | None = None
         self._is_preview = self._is_waiting = self._in_shares = False
         self._paint_accent(False)
@@ -106,7 +108,7 @@ class DistancePanel(QtWidgets.QWidget):
         """Show nothing, and keep nothing of what was shown."""
         self._opened = self.answer = self._source = self._shape = self._raised = self._drawn = None
         self._positions = np.empty((0, 3))
-        self._anchors, self._zooms = (), ()
+        self._anchors, self._zooms, self._dots = (), (), np.empty((0, 3))
         self.view.picker = self.view.source = None
         self.view.scene.show_surface(vtkPolyData(), (0, 1, 0, 1, 0, 1))
         self.view.show_empty(True)
@@ -161,10 +163,14 @@ class DistancePanel(QtWidgets.QWidget):
             marked = [vertex for vertex, _ in self._anchors] + ([] if self._source is None else [self._source])
             self.view.scene.insets.settle(samples, self._positions[marked])
 
-    def show_isolines(self, isolines: Isolines, through: tuple[float, ...] = ()) -> None:
-        """These, and one of each value `through`."""
+    def show_isolines(self, isolines: Isolines, through: tuple[Passed, ...] = ()) -> None:
+        """These, and one through each of the points, which have dots."""
         self._isolines = isolines
-        self.view.scene.show_isolines(isolines, through)
+        scene = self.view.scene
+        scene.show_isolines(isolines, tuple(point.value for point in through))
+        lines = scene.levels.values[scene.levels.is_through]
+        self._dots = np.array([point.of(self._positions) for point in through if point.value in lines]).reshape(-1, 3)
+        scene.mark_passed(self._dots)
         self._show_bands()
         self._show_bar()
         self._warn()
@@ -193,7 +199,7 @@ class DistancePanel(QtWidgets.QWidget):
         """(k, 3) where marks are."""
         largest = None if self.answer is None else self.answer.largest
         ids = [vertex for vertex in (self._source, largest) if vertex is not None]
-        return self._positions[ids + [vertex for vertex, _ in self._anchors]]
+        return np.concatenate([self._positions[ids + [vertex for vertex, _ in self._anchors]], self._dots])
 
     def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
         """Vertices with a value each; without one it is the field's own."""
