@@ -246,6 +246,7 @@ def _dialogs(d: Driver) -> None:
     dialog.kinds.choose("EPS")
     d.until(lambda: dialog.pane.is_true)
     d.shot("export one column")
+    dialog.size.rows.button(5).click()
     dialog.size.width_box.setText("wide")
     dialog.choose_path()
     d.shot("a width that is none")

@@ -81,8 +81,9 @@ def test_each_change_is_seen_and_the_last_one_stays(screen, mesh_file):
     dialog.size.write("8px")
     s.until(lambda: "16 to 32000 pixels" in dialog.pane.caption)
     assert dialog.pane.is_warning
-    assert not dialog.pane.is_true
+    assert (dialog.pane.is_true, dialog.pane.is_waiting) == (False, False)
     dialog.size.write("400x300")
+    assert dialog.pane.is_waiting
     s.until(lambda: dialog.pane.is_true)
     dialog.close()
 
@@ -97,7 +98,8 @@ def test_a_picture_that_comes_late_is_shown_dimmed_until_the_right_one_is_there(
     s.until(lambda: not s.window.exports.previews._asked)  # it is being drawn
     dialog.size.write("500x300")
     s.until(lambda: not dialog.pane.image.isNull())
-    assert (dialog.pane.is_true, dialog.pane.caption) == (False, "")
+    pane = dialog.pane
+    assert (pane.is_true, pane.is_waiting, pane.caption) == (False, True, "")
     s.until(lambda: dialog.pane.is_true)
     assert dialog.pane.caption.startswith("Own size, 500 × 300 pixels")
     dialog.close()

@@ -12,16 +12,10 @@ from ...document.page import Recipe
 from ...drawing.style import STYLES
 from ...figures.export import Surfaces, figure_of
 from ...figures.layout import lay_out
+from ..look.canvas import STYLE_NAMES
 from .exports import Exports
 from .job_dialog import Choice, Count, FileKind, JobDialog, blamed_on, stem
 from .size_boxes import SizeBoxes, SizeNames
-
-STYLE_NAMES = {
-    "paper": "The paper's colours",
-    "uniform": "Perceptually uniform",
-    "lines": "Isolines only, black and white",
-    "dark": "Dark, for slides",
-}
 
 
 class LooksDialog(JobDialog):

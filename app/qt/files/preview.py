@@ -117,7 +117,8 @@ class PreviewPane(QtWidgets.QWidget):
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Expanding)
         self.setAccessibleName("Preview of the figure")
         self.image = self._small = QtGui.QImage()
-        self.caption, self.is_warning, self.is_true = "", False, False
+        self.caption, self.is_warning = "", False
+        self.is_true = self.is_waiting = False  # the picture; whether another one is on its way
         LOOK.follow(self, self.update)
 
     def room(self) -> tuple[int, int]:
@@ -128,13 +129,14 @@ class PreviewPane(QtWidgets.QWidget):
 
     def wait(self) -> None:
         """What is shown is not true any more."""
-        self.is_true = False
+        self.is_true, self.is_waiting = False, True
         self.update()
 
     def show_late(self, pixels: np.ndarray) -> None:
         """A picture of what was chosen before, while another one is drawn."""
         self.image, self._small = image_of(pixels), QtGui.QImage()
         self.say("", False)
+        self.is_waiting = True
 
     def show_picture(self, pixels: np.ndarray, caption: str, is_warning: bool) -> None:
         self.image, self.is_true = image_of(pixels), True
@@ -142,7 +144,7 @@ class PreviewPane(QtWidgets.QWidget):
         self.say(caption, is_warning)
 
     def say(self, caption: str, is_warning: bool) -> None:
-        self.caption, self.is_warning = caption, is_warning
+        self.caption, self.is_warning, self.is_waiting = caption, is_warning, False
         self.setAccessibleDescription(caption)
         self.update()
 
@@ -164,10 +166,10 @@ class PreviewPane(QtWidgets.QWidget):
         painter.setPen(QtGui.QColor(theme.warning if self.is_warning else theme.quiet))
         painter.setFont(LOOK.font(12.5))
         line = QtCore.QRect(self.MARGIN, box.bottom() + 10, self.width() - 2 * self.MARGIN, self.LINE + 12)
-        words = self.caption if self.caption or self.is_true else "Drawing …"
+        words = self.caption or ("Drawing …" if self.is_waiting else "")
         flags = QtCore.Qt.AlignmentFlag.AlignHCenter | QtCore.Qt.AlignmentFlag.AlignTop
         painter.drawText(line, int(flags) | int(QtCore.Qt.TextFlag.TextWordWrap), words)
-        if not self.is_true:
+        if self.is_waiting:
             painter.fillRect(QtCore.QRect(0, 0, self.width(), 2), QtGui.QColor(theme.accent))
 
     def _smaller(self, size: QtCore.QSize) -> QtGui.QImage:
