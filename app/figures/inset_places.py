@@ -35,12 +35,15 @@ def insets_of(
 
 
 def source_of(framed: Framed, surface: Surface, vertex: int, side: float, factor: float, view: Box) -> Box:
-    """What an inset of this side shows of the page; ParameterError if its vertex is not in the picture."""
+    """What an inset of this side shows of the page, inside its view; ParameterError if its vertex is not there."""
     x, y = framed.places(surface.vertices[[vertex]])[0]
     if not view.holds(x, y):
         raise ParameterError(f"Vertex {vertex} is outside the picture, so it cannot be enlarged.")
     shown = side / factor
-    return Box(x - shown / 2, y - shown / 2, shown, shown)
+    # At the edge of a view the vertex is not in the middle, and no frame stands on a colour bar.
+    left = min(max(x - shown / 2, view.x), max(view.right - shown, view.x))
+    top = min(max(y - shown / 2, view.y), max(view.bottom - shown, view.y))
+    return Box(left, top, shown, shown)
 
 
 class _View:

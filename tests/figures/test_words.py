@@ -230,3 +230,17 @@ def test_words_stay_with_shapes_on_pages_that_are_higher(ball):
         if layout.shared_bar:
             bar = layout.shared_bar.box
             assert bar.y - last.box.bottom < 20 or abs(bar.middle[1] - view.middle[1]) < 20
+
+
+def test_what_an_inset_enlarges_is_inside_the_view():
+    surface = sphere(600)
+    low, right = int(np.argmin(surface.vertices[:, 1])), int(np.argmax(surface.vertices[:, 0]))
+    panel = FigurePanel(surface, surface.vertices[:, 1] + 1, zooms=(Zoom(low, 4.0), Zoom(right, 3.0)), views=("front",))
+    figure = Figure((panel,), size=Size.parse("300px"), crop=True)
+    layout = lay_out(figure)
+    view = layout.cells[0].views[0]
+    for shot in take_shots(figure, layout, silent)[1:]:
+        frame = shot.source
+        assert view.holds(frame.x, frame.y, 1e-9)
+        assert view.holds(frame.right, frame.bottom, 1e-9)
+        assert frame.width == pytest.approx(frame.height)
