@@ -39,12 +39,12 @@ class Prepared:
 class Meshes:
     """What is drawn of a surface for each shading, with what stands in for it.  Two are kept: the usual and the last.
 
-    Asked on the view's thread, made on any.
+    Asked and kept on the view's thread, made on any.
     """
 
     def __init__(self, surface: Surface) -> None:
         self.surface = surface
-        self.usual = self._made(AS_IT_IS)
+        self.usual = self.made(AS_IT_IS)
         self._last = self.usual
 
     def ready(self, shading: Shading) -> "Drawn | None":
@@ -54,12 +54,15 @@ class Meshes:
 
     def make(self, shading: Shading) -> "Drawn":
         """Now, if it is not ready."""
-        made = self.ready(shading)
-        if made is None:
-            self._last = made = self._made(shading)
-        return made
+        return self.ready(shading) or self.keep(self.made(shading))
 
-    def _made(self, shading: Shading) -> "Drawn":
+    def keep(self, drawn: "Drawn") -> "Drawn":
+        """What was made elsewhere is ready from now on."""
+        self._last = drawn
+        return drawn
+
+    def made(self, shading: Shading) -> "Drawn":
+        """Without keeping it."""
         from .drawable import drawable
         from .stand_in import stand_in
 

@@ -16,11 +16,13 @@ class Shades(QtCore.QObject):
     """See the module."""
 
     made = QtCore.Signal()  # what was asked for last
+    _done = QtCore.Signal(object, object, object)  # meshes, shading, drawn: from a thread
 
     def __init__(self, parent: QtCore.QObject | None = None) -> None:
         super().__init__(parent)
         self._making: tuple[Meshes, Shading] | None = None
         self._last: tuple[Meshes, Drawn] | None = None
+        self._done.connect(self._take)
 
     def drawn(self, meshes: Meshes, shading: Shading) -> Drawn:
         """The mesh for a shading, or for now another one of the same surface."""
@@ -38,7 +40,12 @@ class Shades(QtCore.QObject):
         return meshes.usual
 
     def _make(self, meshes: Meshes, shading: Shading) -> None:
-        meshes.make(shading)
+        drawn = meshes.made(shading)
+        with suppress(RuntimeError):  # the window may have been closed meanwhile
+            self._done.emit(meshes, shading, drawn)
+
+    def _take(self, meshes: Meshes, shading: Shading, drawn: Drawn) -> None:
+        """One that is overtaken, and comes later, must not take the place of what is wanted."""
         if self._making == (meshes, shading):
-            with suppress(RuntimeError):  # the window may have been closed meanwhile
-                self.made.emit()
+            meshes.keep(drawn)
+            self.made.emit()
