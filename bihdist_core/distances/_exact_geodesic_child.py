@@ -1,8 +1,8 @@
 """The program `exact_geodesic` runs in a process of its own; it imports numpy and pygeodesic, nothing of ours.
 
 Started as a script with the parent's import path as arguments.  On standard input it reads int64 n and m, float64
-(n, 3) vertices, int32 (m, 3) faces, then int64 sources until the end.  For each source it answers int64 0 and
-float64 (n,) distances, or int64 k > 0 and k bytes of UTF-8 that say what is wrong.
+(n, 3) vertices, int32 (m, 3) faces, then until the end questions: int64 k and int64 (k,) sources.  It answers each as
+`child_process` says, with float64 (n,) distances.
 """
 
 import os
@@ -29,17 +29,18 @@ def main() -> None:
         faces = np.frombuffer(requests.read(12 * m), np.int32).reshape(m, 3)
         algorithm = PyGeodesicAlgorithmExact(vertices, faces)
         while len(request := requests.read(8)) == 8:
-            distances, _ = algorithm.geodesicDistances(np.frombuffer(request, np.int64))
+            count = int.from_bytes(request, sys.byteorder)
+            distances, _ = algorithm.geodesicDistances(np.frombuffer(requests.read(8 * count), np.int64))
             if distances is None or distances.shape != (n,):
                 raise RuntimeError("pygeodesic refused the mesh")
             answer(answers, 0, np.ascontiguousarray(distances, np.float64).tobytes())
     except Exception as error:
         text = f"{type(error).__name__}: {error}".encode()
-        answer(answers, len(text), text)
+        answer(answers, 1, text)
 
 
-def answer(answers: BinaryIO, code: int, content: bytes) -> None:
-    answers.write(code.to_bytes(8, sys.byteorder) + content)
+def answer(answers: BinaryIO, status: int, content: bytes) -> None:
+    answers.write(status.to_bytes(8, sys.byteorder) + len(content).to_bytes(8, sys.byteorder) + content)
     answers.flush()
 
 

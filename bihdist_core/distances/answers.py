@@ -14,9 +14,11 @@ import numpy as np
 from ..errors import BihdistError, Cancelled, ParameterError, VertexError
 from ..laplacian import Laplacian
 from ..progress import Progress, part, silent
+from ..sources.pieces import Pieces, pieces_of
+from ..sources.source import Source
 from .accuracy import Certificate
 from .difference import check_units, difference
-from .distance import Distance
+from .distance import ELSEWHERE, Distance
 from .kinds import Spec
 
 REPORT_EVERY = 0.1
@@ -107,7 +109,7 @@ class Distances:
         self.laplacian = laplacian
         self._known: dict[Spec, Distance] = {}
         self._unbuilt: dict[Spec, BihdistError] = {}
-        self._failures: dict[tuple[Spec, int], str] = {}
+        self._failures: dict[tuple[Spec, tuple[int, ...], str], str] = {}
         self._turns: dict[Spec, threading.Lock] = {}
         self._lock = threading.Lock()
 
@@ -151,36 +153,48 @@ class Distances:
     def answer(
         self,
         spec: Spec,
-        source: int,
+        source: Source,
         progress: Progress | None = None,
         at_once: Callable[[Answer], None] | None = None,
     ) -> Answer:
-        """The field from a vertex, with its certificate on the component of that vertex.
+        """The field from a source, with its certificate on the components that this has a part in.
 
-        What cannot be done becomes an answer that says so; Cancelled and VertexError are raised.  at_once: gets the
-        answer without its certificate where that has still to be made.
+        What cannot be done becomes an answer that says so; Cancelled is raised, and VertexError or ParameterError for a
+        source that is not on this surface.  at_once: gets the answer without its certificate where that has still to be
+        made.
         """
-        component = self.laplacian.component_of(source)
-        known_failure = self._failures.get((spec, component.index))
-        if known_failure:
+        pieces: Pieces | None = None
+        components, what = [], "vertices"
+        if isinstance(source, ELSEWHERE):
+            pieces = pieces_of(source, self.laplacian.surface)
+            components = np.unique(self.laplacian.surface.component_of_vertex[pieces.corners[:, 0]]).tolist()
+            what = "vertices" if pieces.vertices is not None else "lines" if pieces.along.any() else "places"
+        else:
+            components = [self.laplacian.component_of(source).index]
+        asked = (spec, tuple(components), what)
+        if known_failure := self._failures.get(asked):
             return Answer(label=str(spec), failure=known_failure)
         try:
             distance = self.get(spec, part(progress, 0, 0.8))
             with self._turn(spec, progress):
-                distance.prepare(component, part(progress, 0.8, 0.9))
-            field = distance.from_source(source, part(progress, 0.9, 1))
+                for index in components:
+                    distance.prepare(self.laplacian.components[index], part(progress, 0.8, 0.9))
+            if pieces is None:
+                field, label = distance.from_source(source, part(progress, 0.9, 1)), distance.label
+            else:
+                field, label = distance.from_pieces(pieces, part(progress, 0.9, 1)), distance.label_from(pieces)
             field.flags.writeable = False
-            answer = Answer(label=distance.label, unit=distance.unit, field=field)
-            if at_once is not None and not distance.is_judged(component.index):
+            answer = Answer(label=label, unit=distance.unit, field=field)
+            if at_once is not None and not all(map(distance.is_judged, components)):
                 at_once(answer)
                 # Whoever has a newer question need not wait for the certificate of this one.
                 (progress or silent)(1.0, distance.label)
-            return replace(answer, certificate=distance.certificate([component.index]))
+            return replace(answer, certificate=distance.certificate(components))
         except (Cancelled, VertexError):
             raise
         except BihdistError as error:
-            # The same for every source of the component: what fails is the distance.
-            self._failures[spec, component.index] = str(error)
+            # The same for every such source of the components: what fails is the distance.
+            self._failures[asked] = str(error)
             return failed(str(spec), error)
         except MemoryError as error:
             return failed(str(spec), error)

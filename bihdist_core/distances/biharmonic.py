@@ -24,6 +24,7 @@ class BiharmonicDistance(Distance):
 
     label = "biharmonic, exact"
     length_power = 1.0
+    is_quadratic = True
 
     def __init__(self, laplacian: Laplacian | Surface, progress: Progress | None = None) -> None:
         super().__init__(laplacian)
@@ -53,7 +54,7 @@ class BiharmonicDistance(Distance):
                 field[near] = self._pairwise(component, np.append(source, near))[0, 1:]
         return distances
 
-    def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
+    def _pairwise(self, component: Component, index: np.ndarray, progress: Progress | None = None) -> np.ndarray:
         b = np.zeros((len(component.vertices), len(index)))
         b[index, np.arange(len(index))] = 1
         half = _half_order(component, component.solve(b))

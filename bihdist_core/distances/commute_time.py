@@ -19,6 +19,7 @@ class CommuteTimeDistance(Distance):
 
     label = "commute-time, exact"
     length_power = 0.0
+    is_quadratic = True
 
     def __init__(self, laplacian: Laplacian | Surface, progress: Progress | None = None) -> None:
         super().__init__(laplacian)

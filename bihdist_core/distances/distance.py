@@ -8,15 +8,23 @@ import numpy.typing as npt
 
 from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian, as_laplacian
-from ..progress import Progress
+from ..progress import Progress, part, silent
+from ..sources.pieces import Pieces, pieces_of
+from ..sources.source import BoundaryLoop, Curve, Place, Source, SourceSet, checked_source
+from ..sources.words import short_words_of
 from ..surface import Surface
 from .accuracy import REFUSE, Certificate, rounded_up
+from .in_faces import blocks, form, squares_from
 
 ROUNDING = 1e-7
 """Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""
 
 SOURCES = 32
 """From so many sources at a time pairs are computed, which bounds the memory."""
+
+
+ELSEWHERE = Place | BoundaryLoop | Curve | SourceSet
+"""Sources that are no vertex."""
 
 
 class Distance(ABC):
@@ -34,6 +42,8 @@ class Distance(ABC):
     length_power: float
     identity = ""
     is_symmetric = True
+    is_quadratic = False
+    """Whether squares are a quadratic form of differences of unit vectors, which is defined anywhere in a face."""
 
     def __init__(self, laplacian: Laplacian | Surface) -> None:
         self.laplacian = as_laplacian(laplacian)
@@ -104,21 +114,82 @@ class Distance(ABC):
         """`accuracy` on one component."""
         return None
 
-    def from_source(self, vertex: int, progress: Progress | None = None) -> np.ndarray:
-        """(n,) distance of every vertex from one; 0 at the source."""
+    def from_source(self, source: Source | str, progress: Progress | None = None) -> np.ndarray:
+        """(n,) distance of every vertex from a source; 0 at vertices that belong to it, NaN where it does not reach.
+
+        A vertex or any other source, or its words (`sources`).  From several the distance is that from the nearest;
+        along a boundary loop or a curve, from its nearest point where the distance can be had anywhere in a face.
+        Raises VertexError or ParameterError for a source that is not on this surface, and ParameterError for one that
+        this distance cannot start from.
+        """
+        if isinstance(source, str):
+            source = checked_source(source)
+        if not isinstance(source, ELSEWHERE):
+            return self._from_vertex(source, progress)
+        return self.from_pieces(pieces_of(source, self.surface), progress)
+
+    def _from_vertex(self, vertex: int, progress: Progress | None) -> np.ndarray:
         component = self.laplacian.component_of(vertex)
         self._asked.add(component.index)
         self.prepare(component, progress)
         field = self._columns(component, component.local(np.array([vertex])), progress)[:, 0]
         if len(field) < len(self.surface.vertices):
-            part, field = field, np.full(len(self.surface.vertices), np.nan)
-            field[component.vertices] = part
+            inside, field = field, np.full(len(self.surface.vertices), np.nan)
+            field[component.vertices] = inside
         field[vertex] = 0
         return field
 
-    def from_sources(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> np.ndarray:
-        """(n, k) distances of every vertex from each of k."""
-        ids, n = self.surface.check_vertices(vertices), len(self.surface.vertices)
+    def label_from(self, pieces: Pieces) -> str:
+        """`label`, with what there is to say of fields from such a source."""
+        return self.label
+
+    def from_pieces(self, pieces: Pieces, progress: Progress | None = None) -> np.ndarray:
+        """(n,) the same from pieces of this surface."""
+        field = np.full(len(self.surface.vertices), np.nan)
+        for component, mine in self._by_component(pieces.corners[:, 0]):
+            self.prepare(component, progress)
+            some = pieces.some(mine)
+            field[component.vertices] = self._from_pieces(component, some, progress)
+        for weights in (pieces.start, pieces.stop):
+            field[pieces.corners[weights == 1]] = 0
+        return field
+
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> np.ndarray:
+        """(m,) distances within a component, from pieces in the whole surface's numbers."""
+        vertices = pieces.vertices
+        if vertices is None and not self.is_quadratic:
+            raise ParameterError(
+                f"{self.label} is known between vertices only; let it start from some, such as 12 or 12+40+7."
+            )
+        least = np.full(len(component.vertices), np.inf)
+        if vertices is not None:
+            starts = range(0, len(vertices), SOURCES)
+            for number, start in enumerate(starts):
+                step = part(progress, number / len(starts), (number + 1) / len(starts))
+                index = component.local(vertices[start : start + SOURCES])
+                np.minimum(least, self._columns(component, index, step).min(axis=1), out=least)
+            return least
+        groups = blocks(pieces, SOURCES)
+        for number, group in enumerate(groups):
+            (progress or silent)(number / len(groups), self.label)
+            some = pieces.some(group)
+            index, local = np.unique(component.local(some.touched), return_inverse=True)
+            squares = self._columns(component, index, None) ** 2
+            among = self._pairwise(component, index) ** 2
+            each = squares_from(squares, (among + among.T) / 2, index, local.reshape(-1, 3), some)
+            for one in each:
+                np.minimum(least, one, out=least)
+        return root(least, least.max())
+
+    def from_sources(
+        self, sources: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
+    ) -> np.ndarray:
+        """(n, k) distances of every vertex from each of k vertices, or sources of any kind."""
+        if isinstance(sources, Sequence) and any(isinstance(each, str | ELSEWHERE) for each in sources):
+            steps = [part(progress, k / len(sources), (k + 1) / len(sources)) for k in range(len(sources))]
+            fields_of_each = [self.from_source(each, step) for each, step in zip(sources, steps, strict=True)]
+            return np.stack(fields_of_each, axis=1)
+        ids, n = self.surface.check_vertices(np.asarray(sources)), len(self.surface.vertices)
         fields = np.empty((n, 0))
         for component, mine in self._by_component(ids):
             self.prepare(component, progress)
@@ -132,16 +203,34 @@ class Distance(ABC):
         fields[ids, np.arange(len(ids))] = 0
         return fields
 
-    def between(self, u: int, v: int) -> float:
-        """The distance of two vertices; NaN between components."""
-        return float(self.pairwise([u, v])[0, 1])
+    def between(self, u: Source | str, v: Source | str) -> float:
+        """The distance of two vertices, or places in faces; NaN between components.
 
-    def pairwise(self, vertices: npt.ArrayLike) -> np.ndarray:
+        One of them may be any source if the other is a vertex.  ParameterError for what this distance does not know.
+        """
+        u, v = (checked_source(each) if isinstance(each, str) else each for each in (u, v))
+        if not isinstance(u, ELSEWHERE) and not isinstance(v, ELSEWHERE):
+            return float(self.pairwise([u, v])[0, 1])
+        if not isinstance(v, ELSEWHERE):
+            return float(self.from_source(u)[self.surface.check_vertex(v)])
+        if not isinstance(u, ELSEWHERE):
+            return float(self.from_source(v)[self.surface.check_vertex(u)])
+        if not (self.is_quadratic and isinstance(u, Place) and isinstance(v, Place)):
+            raise ParameterError(
+                f"{self.label} is not known between {short_words_of(u)} and {short_words_of(v)}; let one be a vertex."
+            )
+        start, stop = pieces_of(u, self.surface), pieces_of(v, self.surface)
+        corners, weights = np.append(start.corners, stop.corners), np.append(start.start, -stop.start)
+        used = weights != 0
+        ids, place = np.unique(corners[used], return_inverse=True)
+        return float(np.sqrt(max(form(np.bincount(place, weights[used]), self.pairwise(ids) ** 2), 0)))
+
+    def pairwise(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> np.ndarray:
         """(k, k) distances among k vertices: symmetric, zero diagonal."""
         ids = self.surface.check_vertices(vertices)
         distances = np.full((len(ids), len(ids)), np.nan)
         for component, mine in self._by_component(ids):
-            block = self._pairwise(component, component.local(ids[mine]))
+            block = self._pairwise(component, component.local(ids[mine]), progress)
             distances[np.ix_(mine, mine)] = (block + block.T) / 2
         distances[ids[:, None] == ids] = 0
         return distances
@@ -189,10 +278,10 @@ class Distance(ABC):
     def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
         """(m, k) distances within a component from its local vertices `index` (k,)."""
 
-    def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
+    def _pairwise(self, component: Component, index: np.ndarray, progress: Progress | None = None) -> np.ndarray:
         """(k, k) distances among local vertices `index` (k,)."""
-        self.prepare(component)
-        return self._columns(component, index, None)[index]
+        self.prepare(component, progress)
+        return self._columns(component, index, progress)[index]
 
     def _by_component(self, ids: np.ndarray) -> Iterable[tuple[Component, np.ndarray]]:
         """Each component with the positions of its vertices among ids (k,)."""

@@ -38,6 +38,25 @@ class EdgeGeodesic:
         ids = self.surface.check_vertices(sources)
         return np.ascontiguousarray(dijkstra(self._graph, indices=ids).T)
 
+    def distances_with(self, vertices: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+        """(n,) least length from any of (k,) vertices, each with an offset (k,) to be added; inf out of reach."""
+        from scipy.sparse.csgraph import dijkstra
+
+        n = len(self.surface.vertices)
+        graph = self._graph
+        # One vertex more, from which the offsets lead to theirs; the least where there are several.
+        order = np.lexsort((offsets, vertices))
+        ids, first = np.unique(vertices[order], return_index=True)
+        more = sp.csr_array(
+            (
+                np.append(graph.data, offsets[order][first]),
+                np.append(graph.indices, ids.astype(graph.indices.dtype)),
+                np.append(graph.indptr, graph.indptr[-1] + len(ids)),
+            ),
+            shape=(n + 1, n + 1),
+        )
+        return dijkstra(more, indices=n)[:n]
+
     def path(self, start: int, stop: int) -> np.ndarray:
         """(k,) vertices of a shortest path, both ends included; ParameterError where there is none."""
         from scipy.sparse.csgraph import dijkstra

@@ -1,11 +1,15 @@
 """Geodesic distance: exact (MMP), by the heat method, or along edges (Dijkstra).  The label says which."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
 from ..solver.factor import Factor
+from ..sources.pieces import Pieces
+from ..sources.splitting import along, split_at
 from ..surface import Surface
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
@@ -15,6 +19,13 @@ from .heat_geodesic import HeatGeodesic, heat_matrix, heat_time
 METHODS = ("auto", "exact", "heat", "dijkstra")
 EXACT_UP_TO = 20_000
 """Vertices up to which `auto` takes the exact method, which is then below a second."""
+
+FINENESS = 4
+"""Along a line, the exact method starts from points a quarter of an edge length apart: no farther from the line than an
+eighth of an edge, and at a distance of d edges 1 / 128 d of one too long."""
+
+TINY = 1e-9
+"""The share of an edge length that a part of a line counts as at least, where all of it is in one place."""
 
 TIME_FACTORS = (1.0, 4.0, 16.0, 64.0)
 PROBES = 4
@@ -57,6 +68,10 @@ class GeodesicDistance(Distance):
             else:
                 self._solvers[component.index] = EdgeGeodesic(component.surface)
 
+    def label_from(self, pieces: Pieces) -> str:
+        points = ", from points along the line" if self.method == "exact" and pieces.along.any() else ""
+        return self.label + points
+
     def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
         solver = self._solvers[component.index]
         if isinstance(solver, EdgeGeodesic):
@@ -65,6 +80,53 @@ class GeodesicDistance(Distance):
         return np.stack(
             [solver.distances(int(i), part(progress, k * share, (k + 1) * share)) for k, i in enumerate(index)], 1
         )
+
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> np.ndarray:
+        solver, surface, vertices = self._solvers[component.index], component.surface, pieces.vertices
+        if isinstance(solver, ExactGeodesic):
+            if vertices is not None:
+                return solver.distances(component.local(vertices), progress)
+            own = np.flatnonzero(self.surface.component_of_vertex[self.surface.faces[:, 0]] == component.index)
+            mine = np.searchsorted(own, pieces.faces)
+            local = replace(pieces, faces=mine, corners=component.local(pieces.corners))
+            divided, ids = split_at(surface, along(local, surface.mean_edge_length / FINENESS, surface))
+            divider = ExactGeodesic(divided)
+            try:
+                return divider.distances(np.unique(ids), progress)[: len(component.vertices)]
+            finally:
+                divider.close()
+        loads, offsets = _spread(pieces, self.surface)
+        corners = component.local(pieces.corners)
+        if isinstance(solver, EdgeGeodesic):
+            touched = (pieces.start > 0) | (pieces.stop > 0)
+            return solver.distances_with(corners[touched], offsets[touched])
+        # A set is the nearest of its points also where a flow from all of them would be a little different.
+        rows = [*np.flatnonzero(~pieces.along)[:, None]]
+        if pieces.along.any():
+            rows.append(np.flatnonzero(pieces.along))
+        least = np.full(len(component.vertices), np.inf)
+        for number, row in enumerate(rows):
+            step = part(progress, number / len(rows), (number + 1) / len(rows))
+            some = loads[row] > 0
+            found = solver.distances_with(corners[row][some], loads[row][some], offsets[row][some], step)
+            np.minimum(least, found, out=least)
+        return least
+
+
+def _spread(pieces: Pieces, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
+    """(k, 3) what the corners have of each piece, as a length, and (k, 3) how far they are from it.
+
+    A point counts as much as an edge.
+    """
+    start, stop = pieces.positions(surface.vertices)
+    way = stop - start
+    length = np.linalg.norm(way, axis=1)
+    edge = surface.mean_edge_length
+    load = np.where(pieces.along, np.maximum(length, TINY * edge), edge)
+    loads = load[:, None] * (pieces.start + pieces.stop) / 2
+    to = surface.vertices[pieces.corners] - start[:, None]
+    share = np.einsum("kcx,kx->kc", to, way) / np.where(length > 0, length, 1)[:, None] ** 2
+    return loads, np.linalg.norm(to - np.clip(share, 0, 1)[..., None] * way[:, None], axis=2)
 
 
 def _heat(component: Component, progress: Progress | None) -> HeatGeodesic:

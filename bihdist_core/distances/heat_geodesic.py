@@ -70,21 +70,31 @@ class HeatGeodesic:
         Raises VertexError for a bad id, SolverError if a solve gives values that are not finite.
         """
         source = self.surface.check_vertex(source)
+        return self.distances_with(np.array([source]), np.ones(1), np.zeros(1), progress)
+
+    def distances_with(
+        self, vertices: np.ndarray, loads: np.ndarray, offsets: np.ndarray, progress: Progress | None = None
+    ) -> np.ndarray:
+        """(n,) the same from a source that is spread over vertices (k,), with repeats, by positive loads (k,).
+
+        offsets (k,): how far these are from the source itself; phi is right up to a constant, which is such that it
+        agrees with them in the mean by the loads.
+        """
         report = progress or silent
-        divergence = self._divergence(source, report)
+        load = np.bincount(vertices, loads, len(self.surface.vertices))
+        divergence = self._divergence(load / load.max(), report)
         report(0.8, "heat method, distances")
         phi = self._solve_poisson(divergence)
-        distances = np.maximum(phi - phi[source], 0.0)
+        distances = np.maximum(phi - loads @ (phi[vertices] - offsets) / loads.sum(), 0.0)
         if not np.isfinite(distances).all():
             raise SolverError(f"The heat method on {self.surface.name} gave values that are not finite numbers.")
         return distances
 
-    def _divergence(self, source: int, report: Progress) -> np.ndarray:
-        """(n,) div X of the flow from one vertex: steps I and II, in as many stages as u needs."""
-        n = len(self.surface.vertices)
+    def _divergence(self, load: np.ndarray, report: Progress) -> np.ndarray:
+        """(n,) div X of the flow from vertices with a load (n,): steps I and II, in as many stages as u needs."""
         report(0.0, "heat method, flow")
-        b = np.zeros(n)
-        b[source] = TOP * self._matrix[source, source]
+        peak = int(load.argmax())
+        b = load * (TOP * self._matrix[peak, peak])
         u = self._solve_heat(b)
         if not np.isfinite(u).all():
             raise SolverError(f"The heat flow on {self.surface.name} gave values that are not finite numbers.")
@@ -93,7 +103,7 @@ class HeatGeodesic:
         divergence = self._flow.divergence(u, None if pending is None else np.flatnonzero(~pending))
         while pending is not None and pending.any():
             report(0.8 * float(known.mean()), "heat method, flow")
-            u, b = self._enlarged(np.where(known, u, 0.0), known, source)
+            u, b = self._enlarged(np.where(known, u, 0.0), known, load)
             v = self._solve_heat(b)
             new = ~known & (np.abs(v) >= FLOOR)
             if not new.any():
@@ -105,11 +115,11 @@ class HeatGeodesic:
             pending = still
         return divergence
 
-    def _enlarged(self, u1: np.ndarray, known: np.ndarray, source: int) -> tuple[np.ndarray, np.ndarray]:
+    def _enlarged(self, u1: np.ndarray, known: np.ndarray, load: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The known part of u and its residual b = delta - (A + t L) u1, both (n,), scaled up for the next stage."""
         # Away from the rim the residual is 0 but for rounding, which would drown the rim's tiny values.
         rim = self._pattern @ ~known
-        rim[source] = False
+        rim[load > 0] = False
         b = np.where(rim, -(self._matrix @ u1), 0.0)
         peak = int(np.argmax(np.abs(b)))
         smallest_normal = float(np.finfo(float).tiny)

@@ -21,6 +21,8 @@ CLEAR = 1e-3
 class SpectralDistance(Distance):
     """Vertices become points with the coordinates sqrt(w_k) phi_k; the distance is that of the points."""
 
+    is_quadratic = True
+
     def __init__(self, laplacian: Laplacian | Surface) -> None:
         super().__init__(laplacian)
         self._points: dict[int, np.ndarray] = {}
@@ -54,7 +56,7 @@ class SpectralDistance(Distance):
         points = self.points(component)
         return point_distances(points, points[index])
 
-    def _pairwise(self, component: Component, index: np.ndarray) -> np.ndarray:
+    def _pairwise(self, component: Component, index: np.ndarray, progress: Progress | None = None) -> np.ndarray:
         points = self.points(component)[index]
         return point_distances(points, points)
 

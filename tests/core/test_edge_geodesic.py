@@ -73,3 +73,10 @@ def test_reference_values(name):
     sources = np.loadtxt(ORACLE / f"{name}_sources0.txt", dtype=int)
     got = EdgeGeodesic(Surface(vertices, faces)).distances(sources)
     np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12 * expected.max())
+
+
+def test_from_vertices_with_offsets():
+    edges = EdgeGeodesic(strip(20))
+    expected = np.minimum(edges.distances(3) + 1, edges.distances(30) + 2)
+    found = edges.distances_with(np.array([3, 30, 3, 30]), np.array([5.0, 2, 1, 7]))
+    np.testing.assert_allclose(found, expected, rtol=ROUNDING)

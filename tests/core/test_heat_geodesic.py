@@ -193,3 +193,15 @@ def test_refusals_and_cancelling():
     solver._solve_heat = lambda b: np.full_like(b, np.nan)
     with pytest.raises(SolverError, match="heat flow"):
         solver.distances(0)
+
+
+def test_a_spread_source_is_shifted_by_how_far_its_vertices_are():
+    method = heat_method(grid(12))
+    vertices, loads = np.array([70, 71, 84, 70]), np.array([0.3, 0.2, 0.1, 0.2])
+    near = method.distances_with(vertices, loads, np.zeros(4))
+    farther = method.distances_with(vertices, loads, np.full(4, 0.25))
+    away = near > 0
+    assert farther[away] - near[away] == pytest.approx(0.25, rel=1e-9)
+    # The load at 70 counts once, however it is told.
+    once = method.distances_with(np.array([70, 71, 84]), np.array([0.5, 0.2, 0.1]), np.zeros(3))
+    assert once == pytest.approx(near, rel=1e-9, abs=1e-12)

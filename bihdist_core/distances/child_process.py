@@ -1,0 +1,96 @@
+"""A script that works in a process of its own: what it imports may hold the interpreter lock, or crash.
+
+It is a plain script with pipes: unlike multiprocessing's "spawn" it never imports the user's main program again, so
+scripts need no `if __name__ == "__main__"`.  It can be killed at any time.
+"""
+
+import io
+import os
+import subprocess
+import sys
+import threading
+import weakref
+from pathlib import Path
+from queue import SimpleQueue
+from typing import cast
+
+import numpy as np
+
+
+def mesh_message(vertices: np.ndarray, faces: np.ndarray) -> bytes:
+    """int64 n and m, float64 (n, 3) vertices, int32 (m, 3) faces."""
+    arrays = (np.array([len(vertices), len(faces)], np.int64), vertices.astype(np.float64), faces.astype(np.int32))
+    return b"".join(array.tobytes() for array in arrays)
+
+
+class ChildProcess:
+    """A script in a process of its own, and the pipes to and from it.
+
+    The script is started with the parent's import path as arguments, reads `first` and then requests, and answers each
+    with two int64, 0 (or 1 where something is wrong) and a number of bytes, and as many bytes: the answer, or a text in
+    UTF-8 that says what is wrong.  Nobody asks before the last answer has come; the process ends with this object.
+    """
+
+    def __init__(self, script: Path, first: bytes) -> None:
+        # Sent with the first request, by its thread: a pipe holds 64 kB and the process reads once it has started.
+        self._unsent = first
+        self.process = subprocess.Popen(
+            [sys.executable, str(script), *(p for p in sys.path if isinstance(p, str))],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            # Unbuffered files have no lock that a thread could still hold when the interpreter exits.
+            bufsize=0,
+            # Its numpy needs no BLAS threads, which cost start-up time and memory.
+            env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"},
+            # No console window flashes up on Windows.
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        )
+        self._readers: list[threading.Thread] = []
+        self.end = weakref.finalize(self, _end, self.process, self._readers)
+
+    def ask(self, request: bytes) -> "SimpleQueue[bytes | str]":
+        """A queue that will hold the answer, or a text that says why there is none."""
+        answers: SimpleQueue[bytes | str] = SimpleQueue()
+        message, self._unsent = self._unsent + request, b""
+        # A thread per request, as pipes cannot be waited for with a time limit on Windows; a daemon, as it must not
+        # keep the interpreter alive.  It holds the process, not this object, which may be collected meanwhile.
+        reader = threading.Thread(target=_converse, args=(self.process, message, answers), daemon=True)
+        self._readers[:] = [reader]
+        reader.start()
+        return answers
+
+
+def _converse(process: subprocess.Popen, message: bytes, answers: "SimpleQueue[bytes | str]") -> None:
+    requests, replies = cast(io.FileIO, process.stdin), cast(io.FileIO, process.stdout)
+    try:
+        rest = memoryview(message)
+        while len(rest):
+            rest = rest[requests.write(rest) :]
+        status, count = (int.from_bytes(_read(replies, 8), sys.byteorder) for _ in range(2))
+        content = _read(replies, count)
+        answers.put(content.decode() if status else content)
+    except (OSError, ValueError, EOFError):
+        answers.put("the process that computes it died")
+
+
+def _read(pipe: io.FileIO, count: int) -> bytes:
+    content = bytearray(count)
+    rest = memoryview(content)
+    while len(rest):
+        got = pipe.readinto(rest)
+        if not got:
+            raise EOFError
+        rest = rest[got:]
+    return bytes(content)
+
+
+def _end(process: subprocess.Popen, readers: list[threading.Thread]) -> None:
+    """Kill, and wait so that no zombie is left; a killed process takes no time to end, nor does its reader."""
+    process.kill()
+    process.wait()
+    for reader in readers:
+        reader.join(timeout=1)
+    for pipe in (process.stdin, process.stdout):
+        if pipe is not None:
+            pipe.close()

@@ -1,0 +1,144 @@
+"""What a distance may start from, as frozen values that know no surface; no numpy is imported here.
+
+A source is a vertex id, a `Place` in a face, a `BoundaryLoop`, a `Curve`, or a `SourceSet` of these, whose distance is
+the least of its members'.
+"""
+
+import math
+import operator
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..errors import ParameterError
+
+ROUNDING = 1e-9
+"""Weights may miss their sum, or be below 0, by this much."""
+MOST_PARTS = 100_000
+"""Points of a curve and members of a set: more are a mistake."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place in a face: its corners' weights, which are at least 0 and add up to 1."""
+
+    face: int
+    weights: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "face", whole_number(self.face, "A face"))
+        try:
+            weights = tuple(float(w) for w in self.weights)
+        except (TypeError, ValueError):
+            weights = ()
+        if self.face < 0:
+            raise ParameterError(f"Faces are numbered from 0; {self.face} is none.")
+        # isclose is false for what is no number.
+        if len(weights) != 3 or not all(w >= 0 for w in weights) or not math.isclose(sum(weights), 1):
+            raise ParameterError(
+                f"A place in a face has three weights of at least 0 that add up to 1, not {self.weights}."
+            )
+        object.__setattr__(self, "weights", weights)
+
+    @staticmethod
+    def of(face: int, first: float, second: float) -> "Place":
+        """From the weights of the first two corners; the third's is the rest.  ParameterError if none is left."""
+        # 0.2 and 0.2 leave 0.6, not 0.6000000000000001.
+        rest = round(1 - first - second, 15)
+        if not (first >= 0 and second >= 0 and rest >= -ROUNDING):
+            raise ParameterError(
+                f"The weights of a place in a face are at least 0 and add up to 1; {first:g} and {second:g} leave "
+                f"{rest:g} for the third corner."
+            )
+        return Place(face, (first, second, max(rest, 0.0)))
+
+
+@dataclass(frozen=True)
+class BoundaryLoop:
+    """A connected piece of the boundary, all along its edges.
+
+    Numbered by length, the longest first, those of equal length (to nine digits) by their least vertex.
+    """
+
+    number: int
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "number", whole_number(self.number, "The number of a boundary loop"))
+        if self.number < 0:
+            raise ParameterError(f"Boundary loops are numbered from 0, the longest; {self.number} is none.")
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve on the surface, all along it, through places; closed: from the last back to the first.
+
+    Places in one face are joined straight, others where a plane through both cuts the surface: upright on it, or turned
+    where that does not lead from one to the other.
+    """
+
+    places: tuple[Place, ...]
+    closed: bool = False
+
+    def __post_init__(self) -> None:
+        for place in self.places:
+            if not isinstance(place, Place):
+                raise ParameterError(f"A curve goes through places in faces, not through {place!r}.")
+        # The third weight is the rest to the last bit, as in what is written.
+        object.__setattr__(self, "places", tuple(Place.of(place.face, *place.weights[:2]) for place in self.places))
+        if not 2 <= len(self.places) <= MOST_PARTS:
+            raise ParameterError(f"A curve has from 2 to {MOST_PARTS:,} points, not {len(self.places)}.")
+
+
+Member = int | Place | BoundaryLoop | Curve
+
+
+@dataclass(frozen=True)
+class SourceSet:
+    """Several of the others, each once; the distance is that of the nearest."""
+
+    members: tuple[Member, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        members = dict.fromkeys(_member(each) for each in self.members)
+        object.__setattr__(self, "members", tuple(members))
+        if not 1 <= len(members) <= MOST_PARTS:
+            raise ParameterError(f"A set of sources has from 1 to {MOST_PARTS:,} members, not {len(members)}.")
+
+
+Source = int | Place | BoundaryLoop | Curve | SourceSet
+"""Where a distance starts; an int is a vertex id."""
+
+
+def checked_source(value: Any) -> Source:
+    """A source as it is, or from a whole number or words (see `words`); ParameterError for anything else."""
+    if isinstance(value, str):
+        from .words import source_from_words
+
+        return source_from_words(value)
+    return value if isinstance(value, SourceSet) else _member(value)
+
+
+def whole_number(value: Any, what: str) -> int:
+    """A whole number as Python's, also from NumPy; ParameterError for anything else."""
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        return operator.index(value)
+    except TypeError:
+        raise ParameterError(f"{what} is a whole number, not {value!r}.") from None
+
+
+def _member(value: Any) -> Member:
+    if isinstance(value, Place | BoundaryLoop | Curve):
+        return value
+    if isinstance(value, SourceSet):
+        raise ParameterError("A set of sources has no sets among its members; name all of them in one.")
+    try:
+        vertex = whole_number(value, "A vertex id")
+    except ParameterError:
+        raise ParameterError(
+            f"A source is a vertex id, a Place, a BoundaryLoop, a Curve, a SourceSet, or words such as '12+40', not "
+            f"{value!r}."
+        ) from None
+    if vertex < 0:
+        raise ParameterError(f"Vertex ids start at 0; {vertex} is none.")
+    return vertex

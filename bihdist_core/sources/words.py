@@ -1,0 +1,162 @@
+"""Sources as words: `12`, `f311:0.2,0.5`, `loop:0`, `curve.json`, and several of them, `12+40+7`.
+
+`f311:0.2,0.5` is in face 311, with the weights of its first two corners; the third's is the rest.  A curve is a file,
+`{"points": [[face, b0, b1], ...]}`, with `"closed": true` for one that comes back to its first point.
+"""
+
+import json
+import math
+import os
+import re
+from difflib import get_close_matches
+from typing import Any
+
+from ..errors import ParameterError
+from .source import BoundaryLoop, Curve, Place, Source, SourceSet
+
+HOW = "write a vertex (12), several (12+40+7), a place in a face (f311:0.2,0.5), a boundary loop (loop:0) or a curve's "
+HOW += "file (curve.json)"
+SHORTEST, LONGEST = 3, 60
+"""Members that are named of a set, and letters that are repeated."""
+
+_VERTEX = re.compile(r"[0-9]{1,18}")
+_FACE = re.compile(r"f([0-9]{1,18}):([^,]*),([^,]*)")
+_LOOP = re.compile(r"loop:([0-9]{1,18})")
+
+
+def source_from_words(text: str) -> Source:
+    """The source that words mean; ParameterError, with what could have been written, for what means none.
+
+    A curve's file is read.
+    """
+    words = text.strip()
+    # A file may have a plus in its name.
+    parts = [words] if _is_file(words) and os.path.exists(words) else [part.strip() for part in words.split("+")]
+    members = [_member(part, words) for part in parts]
+    return members[0] if len(members) == 1 else SourceSet(tuple(members))
+
+
+def _member(word: str, whole: str) -> int | Place | BoundaryLoop | Curve:
+    if _VERTEX.fullmatch(word):
+        return int(word)
+    if found := _LOOP.fullmatch(word):
+        return BoundaryLoop(int(found[1]))
+    if found := _FACE.fullmatch(word):
+        try:
+            first, second = float(found[2]), float(found[3])
+        except ValueError:
+            first = second = math.nan
+        if not (math.isfinite(first) and math.isfinite(second)):
+            raise ParameterError(f"{_shown(word)} has weights that are no numbers; write f311:0.2,0.5.")
+        return Place.of(int(found[1]), first, second)
+    if _is_file(word):
+        return read_curve(word)
+    meant = _meant(word)
+    among = "" if word == whole else f" in {_shown(whole)}"
+    raise ParameterError(f"{_shown(word)}{among} is no source{meant}; {HOW}.")
+
+
+def _meant(word: str) -> str:
+    """What may have been meant, as part of a sentence."""
+    head, colon, rest = word.lower().partition(":")
+    if colon and rest.isdigit() and get_close_matches(head, ["loop"], 1, 0.5):
+        return f", did you mean loop:{rest}?"
+    if re.fullmatch(r"f?[0-9]+[:,][^,]*,[^,]*,[^,]*", word):
+        return " (a place has the weights of the face's first two corners; the third's is the rest)"
+    if re.fullmatch(r"f[0-9]+(:[^,]*)?", word):
+        return " (a place in a face has two weights)"
+    if re.fullmatch(r"[0-9]+([,; ]+[0-9]+)+", word):
+        return f", did you mean {'+'.join(re.findall('[0-9]+', word))[:LONGEST]}?"
+    if re.fullmatch(r"-[0-9]+", word):
+        return " (vertex ids start at 0)"
+    return ""
+
+
+def words_of(source: Source) -> str:
+    """The words that mean a source, which give it back; of a curve, which has a file of its own, what it is."""
+    if isinstance(source, SourceSet):
+        return "+".join(words_of(member) for member in source.members)
+    if isinstance(source, Place):
+        return f"f{source.face}:{source.weights[0]!r},{source.weights[1]!r}"
+    if isinstance(source, BoundaryLoop):
+        return f"loop:{source.number}"
+    if isinstance(source, Curve):
+        return f"a {'closed ' if source.closed else ''}curve of {len(source.places)} points"
+    return str(source)
+
+
+def short_words_of(source: Source) -> str:
+    """The same for a heading: weights with three digits, and of a large set how many it has."""
+    if isinstance(source, Place):
+        return f"f{source.face}:{source.weights[0]:.3g},{source.weights[1]:.3g}"
+    if isinstance(source, SourceSet):
+        named = "+".join(short_words_of(member) for member in source.members[:SHORTEST])
+        more = len(source.members) - SHORTEST
+        return f"{named} and {more} more" if more > 0 else named
+    return words_of(source)
+
+
+# ---------------------------------------------------------------------- curves
+def read_curve(path: str | os.PathLike[str]) -> Curve:
+    """The curve in a file; ParameterError, with the file, the element and its value, for what is none."""
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            data = json.load(file)
+    except OSError as error:
+        raise ParameterError(f"The curve {path} cannot be read: {error.strerror or error}.") from None
+    except (ValueError, RecursionError):
+        raise ParameterError(f"{path} is not a curve: it is not JSON.") from None
+    if not isinstance(data, dict) or "points" not in data:
+        raise ParameterError(f'{path} is not a curve, which is {{"points": [[face, b0, b1], ...]}}.')
+    for name in data.keys() - {"points", "closed"}:
+        raise ParameterError(f"{path} has the unknown key {name!r}; a curve has points, and perhaps closed.")
+    closed = data.get("closed", False)
+    if not isinstance(closed, bool):
+        raise ParameterError(f"{path}: closed is true or false, not {_shown(closed)}.")
+    try:
+        return Curve(places_from(data["points"], "points"), closed)
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {error}") from None
+
+
+def places_from(rows: Any, where: str) -> tuple[Place, ...]:
+    """Places from a list of [face, b0, b1]; ParameterError that begins with the row's place for what is none."""
+    if not isinstance(rows, list):
+        raise ParameterError(f"{where} must be a list of [face, b0, b1], not {_shown(rows)}.")
+    return tuple(_row(row, f"{where}[{k}]") for k, row in enumerate(rows))
+
+
+def _row(row: Any, where: str) -> Place:
+    if not isinstance(row, list) or len(row) != 3 or not _is_whole(row[0]) or not all(map(_is_number, row[1:])):
+        raise ParameterError(f"{where} must be a face and two weights, [face, b0, b1], not {_shown(row)}.")
+    try:
+        return Place.of(row[0], float(row[1]), float(row[2]))
+    except ParameterError as error:
+        raise ParameterError(f"{where}: {error}") from None
+
+
+def curve_rows(curve: Curve) -> list[list[int | float]]:
+    """The points of a curve as they are written."""
+    return [[place.face, *place.weights[:2]] for place in curve.places]
+
+
+def curve_text(curve: Curve) -> str:
+    """A curve as the text of its file."""
+    return json.dumps({"points": curve_rows(curve), **({"closed": True} if curve.closed else {})}) + "\n"
+
+
+def _is_file(word: str) -> bool:
+    return word.lower().endswith(".json")
+
+
+def _is_whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**63
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300
+
+
+def _shown(value: Any) -> str:
+    words = repr(value) if isinstance(value, str) else json.dumps(value, default=repr)
+    return words if len(words) <= LONGEST else f"{words[: LONGEST - 3]}..."
