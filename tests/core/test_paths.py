@@ -1,0 +1,303 @@
+"""Paths on a surface: on it, as long as geodesic distance says, and fields read along them exactly."""
+
+import importlib.util
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from bihdist_core import (
+    GeodesicDistance,
+    OutputError,
+    ParameterError,
+    SolverError,
+    Surface,
+    VertexError,
+    isolines,
+    read_surface,
+)
+from bihdist_core.analysis import geodesic_paths
+from bihdist_core.analysis.geodesic_paths import GeodesicPaths
+from bihdist_core.analysis.places import Places, split_at
+from bihdist_core.analysis.plane_sections import plane_section
+from bihdist_core.analysis.profile_output import write_profile
+from bihdist_core.errors import Cancelled
+from tests.shapes import (
+    MESHES,
+    bumpy,
+    caps,
+    fin,
+    grid,
+    needles,
+    needs_meshes,
+    slivers,
+    sphere,
+    torus,
+    two_pieces,
+)
+
+ROUNDING = 1e-9
+"""Of lengths: pygeodesic's own tolerance is about 1e-10 of an edge."""
+
+
+def check(surface, path):
+    """Each piece lies in its face, the pieces join, and lengths and points are those of the weights."""
+    x = surface.vertices
+    assert np.array_equal(surface.faces[path.faces], path.corners)
+    for weights, points in ((path.begins, path.points[:-1]), (path.ends, path.points[1:])):
+        assert weights.min() >= 0
+        assert np.allclose(weights.sum(axis=1), 1, 0, 1e-12)
+        assert np.allclose(np.einsum("kc,kcx->kx", weights, x[path.corners]), points, 0, 1e-12)
+    assert path.arcs[0] == 0
+    assert path.length == pytest.approx(np.linalg.norm(np.diff(path.points, axis=0), axis=1).sum(), rel=1e-12)
+    assert np.allclose(path.along(x), path.points, 0, 1e-12)
+
+
+@pytest.fixture(scope="module")
+def rough():
+    return bumpy(400)
+
+
+@pytest.fixture(scope="module")
+def paths(rough):
+    return GeodesicPaths(rough)
+
+
+@pytest.mark.parametrize("method", ["exact", "straightened", "edges"])
+def test_is_as_long_as_geodesic_distance(rough, paths, method):
+    distance = GeodesicDistance(rough, "dijkstra" if method == "edges" else "exact")
+    found = [paths.path([3, v], method) for v in range(20, 400, 40)]
+    lengths = distance.from_source(3)[20::40]
+    for path, length in zip(found, lengths, strict=True):
+        check(rough, path)
+        assert (path.method, path.knots.tolist()) == (method, [0, len(path.points) - 1])
+        # A path that is only locally the shortest is longer.
+        assert path.length >= length * (1 - ROUNDING)
+    if method == "straightened":
+        assert np.median([p.length for p in found] / lengths) < 1 + ROUNDING
+    else:
+        assert np.allclose([p.length for p in found], lengths, ROUNDING, 0)
+
+
+@pytest.mark.parametrize("method", ["exact", "straightened", "edges"])
+def test_leads_through_places_in_faces_and_on_edges(rough, paths, method):
+    places = [5, (10, 0.2, 0.5), (300, 0.5, 0.5), (300, 0.2, 0.2, 0.6), 77]
+    path = paths.path(places, method)
+    check(rough, path)
+    assert np.allclose(path.points[path.knots], Places.of(rough, places).values(rough.vertices), 0, 1e-12)
+    # No more points than crossings: those on the auxiliary edges around a place are left out.
+    inner = np.delete(np.arange(len(path.points)), path.knots)
+    assert (np.sort(path.places.weights[inner], axis=1)[:, 0] == 0).all()
+
+
+def test_on_a_plane_the_path_is_the_segment():
+    plane = grid(5, 4)
+    path = GeodesicPaths(plane).path([(0, 0.3, 0.3), 29], "exact")
+    a = Places.of(plane, [(0, 0.3, 0.3)]).values(plane.vertices)[0]
+    assert path.length == pytest.approx(np.linalg.norm(plane.vertices[29] - a), rel=ROUNDING)
+    # A linear field is linear in arc length.
+    assert np.allclose(path.along(plane.vertices[:, 0]), a[0] + path.arcs / path.length * (5 - a[0]), 0, 1e-6)
+
+
+def test_fields_are_read_exactly_between_the_points_too(rough, paths):
+    field = np.sin(7 * rough.vertices @ [1.0, 2.0, 3.0])
+    path = paths.path([3, 200], "exact")
+    s = np.linspace(0, path.length, 500)
+    places = path.at(s)
+    assert np.allclose(places.values(field), np.interp(s, path.arcs, path.along(field)), 0, 1e-12)
+    gone = np.linalg.norm(np.diff(places.values(rough.vertices), axis=0), axis=1).sum()
+    assert gone <= path.length
+    assert np.allclose(path.at([-1, 9 * path.length]).values(rough.vertices), path.points[[0, -1]], 0, 1e-12)
+
+
+def test_values_that_are_missing_beside_the_path_do_not_count():
+    plane = grid(4, 1)
+    field = np.append(np.arange(5.0), np.full(5, np.nan))
+    path = GeodesicPaths(plane).path([0, 4], "edges")
+    assert path.along(field).tolist() == [0, 1, 2, 3, 4]
+
+
+def test_a_split_surface_is_the_same_shape(rough):
+    places = Places.of(rough, [4, (7, 0.2, 0.3), (7, 0.5, 0.5), (7, 0.1, 0.1), (7, 0.2, 0.3), (9, 0, 0.25)])
+    split = split_at(rough, places)
+    assert split.vertices.tolist() == [4, 400, 401, 402, 400, 403]
+    assert split.surface.is_manifold
+    assert split.surface.genus == 0
+    # A place on an edge splits the faces on both sides.
+    assert split.surface.boundary_loop_count == 0
+    assert split.surface.face_areas.sum() == pytest.approx(rough.face_areas.sum(), rel=1e-12)
+    areas = np.bincount(split.parents, split.surface.face_areas)
+    assert np.allclose(areas, rough.face_areas, 1e-9, 0)
+    assert np.allclose(split.surface.vertices[split.vertices], places.values(rough.vertices), 0, 1e-14)
+
+
+def test_profiles_are_written_and_read_back(rough, paths, tmp_path):
+    path, field = paths.path([3, (10, 0.2, 0.5), 200], "straightened"), rough.vertices[:, 0]
+    for name in ("a.csv", "a.npy", "a.json", "a.vtp"):
+        write_profile(tmp_path / name, path, {"x of it": field})
+    table = np.loadtxt(tmp_path / "a.csv", delimiter=",", skiprows=1)
+    assert (tmp_path / "a.csv").read_text().startswith("arc,x,y,z,face,b0,b1,b2,x of it\n")
+    assert np.array_equal(table, np.load(tmp_path / "a.npy"))
+    assert np.array_equal(table[:, 0], path.arcs)
+    assert np.array_equal(table[:, 8], path.along(field))
+    said = json.loads((tmp_path / "a.json").read_text())
+    again = Places.of(rough, said["points"])
+    assert np.allclose(again.values(rough.vertices), path.points, 0, 1e-12)
+    assert said["fields"]["x of it"] == path.along(field).tolist()
+    io = pytest.importorskip("vtkmodules.vtkIOXML", reason="VTK is not installed")
+    reader = io.vtkXMLPolyDataReader()
+    reader.SetFileName(str(tmp_path / "a.vtp"))
+    reader.Update()
+    assert reader.GetOutput().GetCell(0).GetNumberOfPoints() == len(path.points)
+    with pytest.raises(ParameterError, match="a profile needs one"):
+        write_profile(tmp_path / "b.csv", path, {"all": rough.vertices})
+    with pytest.raises(OutputError, match=r"\.csv, \.npy, \.vtp, \.json"):
+        write_profile(tmp_path / "b.txt", path)
+
+
+def test_auto_says_what_it_took(monkeypatch, rough):
+    assert GeodesicPaths(rough).path([0, 9]).method == "exact"
+    assert GeodesicPaths(fin()).path([5, 4]).method == "edges"
+    monkeypatch.setattr(geodesic_paths, "EXACT_UP_TO", 100)
+    large = GeodesicPaths(rough)
+    assert large.path([0, 9]).label == "geodesic, straightened (locally shortest)"
+    # Faces that are turned over: potpourri3d refuses them.
+    faces = rough.faces.copy()
+    faces[::3] = faces[::3, ::-1]
+    turned = GeodesicPaths(Surface(rough.vertices, faces))
+    assert turned.path([0, 9]).method == "edges"
+    with pytest.raises(SolverError, match="could not be computed: RuntimeError"):
+        turned.path([0, 9], "straightened")
+    # The process is there for the next.
+    assert turned.path([0, 9], "exact").length == pytest.approx(large.path([0, 9], "exact").length, rel=1e-9)
+
+
+def test_without_the_libraries_paths_are_along_edges(monkeypatch, rough):
+    with monkeypatch.context() as patch:
+        patch.setattr(sys, "frozen", True, raising=False)
+        assert GeodesicPaths(rough).path([0, 9]).method == "edges"
+        with pytest.raises(SolverError, match="no Python interpreter"):
+            GeodesicPaths(rough).path([0, 9], "straightened")
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    assert GeodesicPaths(rough).path([0, 9]).method == "edges"
+    with pytest.raises(SolverError, match="need the package potpourri3d; take another method"):
+        GeodesicPaths(rough).path([0, 9], "straightened")
+
+
+def test_stays_on_its_component_and_keeps_the_ids():
+    both = two_pieces()
+    path = GeodesicPaths(both).path([61, 63], "exact")
+    check(both, path)
+    assert set(path.corners.ravel()) <= {61, 62, 63, 64}
+    with pytest.raises(ParameterError, match="different components"):
+        GeodesicPaths(both).path([0, 63])
+    with pytest.raises(VertexError, match="vertex 60"):
+        GeodesicPaths(both).path([0, 60])
+
+
+def test_bad_requests_are_refused(paths):
+    for places, match in [
+        ([3], "two places or more; 1"),
+        ([], "two places or more; 0"),
+        ([3, 5, 5], "places 1 and 2 of a path are the same, 5"),
+        ([3, (1, 0.5)], "is no place"),
+        ([3, (99999, 0.2, 0.2)], "no face 99999"),
+        ([3, (0, 0.7, 0.7)], "0.7, 0.7, -0.4"),
+    ]:
+        with pytest.raises(ParameterError, match=match):
+            paths.path(places)
+    with pytest.raises(ParameterError, match="no path method 'best'"):
+        paths.path([3, 4], "best")
+    with pytest.raises(ParameterError, match="not manifold"):
+        GeodesicPaths(fin()).path([0, 4], "exact")
+
+
+def test_is_cancelled_and_goes_on(monkeypatch):
+    monkeypatch.setattr(geodesic_paths, "REPORT_EVERY", 0.001)
+    surface = sphere(3000)
+    paths = GeodesicPaths(surface)
+
+    def cancel(_fraction, _text):
+        raise Cancelled
+
+    with pytest.raises(Cancelled):
+        paths.path([0, 1], "exact", cancel)
+    assert paths.path([0, 1], "straightened").length > 0
+    paths.close()
+
+
+@pytest.mark.parametrize("shape", [slivers(), caps(bumpy(100), 1e-9, 7), needles(bumpy(100), 1e-4, 9)])
+def test_flat_faces_are_no_obstacle(shape):
+    paths, x = GeodesicPaths(shape), shape.vertices
+    for a, b in np.random.default_rng(0).choice(len(x), (12, 2)):
+        if a != b:
+            path, edges = paths.path([int(a), int(b)]), paths.path([int(a), int(b)], "edges")
+            check(shape, path)
+            assert np.linalg.norm(x[a] - x[b]) * (1 - ROUNDING) <= path.length <= edges.length * (1 + ROUNDING)
+
+
+def test_a_vertex_of_a_flat_face_is_reached_through_its_side():
+    shape = slivers()
+    path = GeodesicPaths(shape).path([11, 16], "straightened")
+    check(shape, path)
+    apart = shape.vertices[11] - shape.vertices[16]
+    assert path.length == pytest.approx(np.linalg.norm(apart), rel=ROUNDING)
+
+
+def test_what_takes_for_ever_is_given_up(monkeypatch, rough):
+    monkeypatch.setattr(geodesic_paths, "LEAST_LIMIT", -1.0)
+    monkeypatch.setattr(geodesic_paths, "REPORT_EVERY", 1e-4)
+    with pytest.raises(SolverError, match="given up after 0 s"):
+        GeodesicPaths(rough).path([0, 9], "exact")
+
+
+def test_a_section_lies_in_its_plane_and_ends_in_its_places(rough):
+    places = [(8, 0.2, 0.3), 250]
+    path = plane_section(rough, places, [0.3, 0.2, 1])
+    check(rough, path)
+    ends = Places.of(rough, places).values(rough.vertices)
+    assert np.allclose(path.points[[0, -1]], ends, 0, 1e-12)
+    normal = np.cross(ends[1] - ends[0], [0.3, 0.2, 1])
+    normal /= np.linalg.norm(normal)
+    assert np.abs((path.points - ends[0]) @ normal).max() < 1e-12
+    # It is part of the whole section, and not longer than the rest of it.
+    whole = sum(line.length for line in isolines(rough, (rough.vertices - ends[0]) @ normal, [0.0]))
+    assert path.length <= whole / 2 * (1 + 1e-12)
+
+
+def test_a_section_through_vertices_of_a_plane():
+    plane = grid(4, 4)
+    path = plane_section(plane, [0, 24], [0, 0, 1])
+    check(plane, path)
+    assert path.length == pytest.approx(np.sqrt(32), rel=1e-12)
+    # Along the rim all other vertices are above the plane, from one of its sides.
+    for places in ([0, 4], [4, 0]):
+        assert plane_section(plane, places, [0, 0, 1]).length == pytest.approx(4, rel=1e-12)
+
+
+def test_sections_that_do_not_join_are_refused(rough):
+    with pytest.raises(ParameterError, match="make no plane"):
+        plane_section(rough, [0, 9], rough.vertices[9] - rough.vertices[0])
+    with pytest.raises(ParameterError, match="three finite numbers"):
+        plane_section(rough, [0, 9], [0, 0, np.nan])
+    with pytest.raises(ParameterError, match="joins two places; 3"):
+        plane_section(rough, [0, 9, 7], [0, 0, 1])
+    ring = torus()
+    across = [0, int(ring.vertices[:, 0].argmin())]
+    with pytest.raises(ParameterError, match="does not join"):
+        plane_section(ring, across, [0, 1e-3, 1])
+
+
+@needs_meshes
+@pytest.mark.parametrize("name", ["camelhead.off", "bunny_raw.obj", "fertility.off"])
+def test_real_meshes(name):
+    surface = read_surface(MESHES / name)
+    paths = GeodesicPaths(surface)
+    used = np.flatnonzero(surface.component_of_vertex == 0)
+    a, b = np.random.default_rng(1).choice(used, 2).tolist()
+    shortest, straight, edges = (paths.path([a, b], m) for m in ("exact", "straightened", "edges"))
+    for path in (shortest, straight, edges):
+        check(surface, path)
+    assert shortest.length <= straight.length * (1 + ROUNDING) <= edges.length
+    assert shortest.length == pytest.approx(straight.length, rel=0.01)
