@@ -1,0 +1,291 @@
+"""Files of pins, named vertices of a surface: CSV, JSON, and MeshLab's picked points (.pp)."""
+
+import csv
+import io
+import json
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError, VertexError
+from ..surface import Surface
+from ..whole_file import check_output, whole_file
+
+COLUMNS = ("id", "vertex", "x", "y", "z", "name")
+
+
+@dataclass(frozen=True, eq=False)
+class Pins:
+    """k vertices of a surface, in order: ids (k,), all different, vertices (k,), and names, which may be empty.
+
+    moved: (k,) how far the vertex is from the place that the file named, in the mesh's unit; 0 where it named none.
+    """
+
+    ids: np.ndarray
+    vertices: np.ndarray
+    names: tuple[str, ...]
+    moved: np.ndarray
+
+    @classmethod
+    def of(
+        cls, surface: Surface, vertices: npt.ArrayLike, names: Sequence[str] = (), ids: npt.ArrayLike | None = None
+    ) -> "Pins":
+        """Pins at vertices (k,), with ids from 1 unless others are given.
+
+        Raises VertexError for a bad vertex; ParameterError for no vertices, another number of names (none is fine) or
+        ids, or ids that are not whole numbers or not different.
+        """
+        places = surface.check_vertices(vertices)
+        numbers = np.arange(1, len(places) + 1) if ids is None else np.asarray(ids)
+        if not len(places):
+            raise ParameterError("There are no pins.")
+        if names and len(names) != len(places):
+            raise ParameterError(f"{len(places)} pins need as many names, not {len(names)}.")
+        if numbers.shape != places.shape or numbers.dtype.kind not in "iu" or len(np.unique(numbers)) < len(numbers):
+            raise ParameterError(f"{len(places)} pins need as many different whole numbers as ids, not {ids!r}.")
+        return cls(numbers, places, tuple(names) or ("",) * len(places), np.zeros(len(places)))
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+
+def read_pins(path: str | os.PathLike[str], surface: Surface) -> Pins:
+    """The pins in a file, at vertices of a surface; the extension names the format.
+
+    .csv: a header of some of `id,vertex,x,y,z,name`, in any order, then a line for each pin.
+    .json: {"pins": [{"id", "vertex", "position": [x, y, z], "name"}, ...]}.
+    .pp: the active points of MeshLab's PickPoints.
+    A pin is at its vertex or, where the file names none, at the one nearest to its position; `Pins.moved` tells how far
+    off that is.  Ids count from 1 where there are none.
+
+    Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
+    """
+    path = Path(path)
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise ParameterError(f"{path} is no file of pins; these are {', '.join(PIN_FORMATS)}.")
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not a text file"
+        raise ParameterError(f"The pins in {path} cannot be read: {reason}.") from None
+    found = reader(text, path.name)
+    if not found:
+        raise ParameterError(f"{path.name} holds no pins.")
+    return _placed(found, surface)
+
+
+def write_pins(path: str | os.PathLike[str], surface: Surface, pins: Pins) -> None:
+    """Write pins in a form that `read_pins` reads, with the positions of their vertices, exactly.
+
+    MeshLab's .pp has no place for ids.  Raises OutputError if the file cannot be written; what was there then stays.
+    """
+    extension = check_output(path, PIN_FORMATS)
+    points = surface.vertices[pins.vertices].tolist()
+    rows = list(zip(pins.ids.tolist(), pins.vertices.tolist(), points, pins.names, strict=True))
+    with whole_file(path) as temporary:
+        temporary.write_bytes(_WRITERS[extension](rows, surface.name).encode())
+
+
+@dataclass(frozen=True)
+class _Pin:
+    """One as a file says it; where: the place in the file, in words."""
+
+    where: str
+    id: int | None
+    vertex: int | None
+    position: tuple[float, ...] | None
+    name: str
+
+
+def _placed(found: list[_Pin], surface: Surface) -> Pins:
+    from scipy.spatial import cKDTree
+
+    ids: dict[int, str] = {}
+    used = np.flatnonzero(surface.component_of_vertex >= 0)
+    tree = None
+    vertices, moved = [], []
+    for k, pin in enumerate(found):
+        number = k + 1 if pin.id is None else pin.id
+        if number in ids:
+            raise ParameterError(f"{pin.where}: the id {number} is that of {ids[number]} already.")
+        ids[number] = pin.where.rpartition(", ")[2]
+        if pin.vertex is None:
+            tree = tree or cKDTree(surface.vertices[used])
+            vertices.append(int(used[tree.query(pin.position)[1]]))
+        else:
+            try:
+                vertices.append(surface.check_vertex(pin.vertex))
+            except VertexError as error:
+                raise ParameterError(f"{pin.where}: {error}") from None
+        at = surface.vertices[vertices[-1]]
+        moved.append(0.0 if pin.position is None else float(np.linalg.norm(at - pin.position)))
+    return Pins(np.array(list(ids)), np.array(vertices), tuple(pin.name for pin in found), np.array(moved))
+
+
+# ---------------------------------------------------------------------- CSV
+def _read_csv(text: str, name: str) -> list[_Pin]:
+    first = text.partition("\n")[0]
+    rows = csv.reader(
+        io.StringIO(text, newline=""), delimiter=";" if ";" in first and "," not in first else ",", strict=True
+    )
+    found: list[_Pin] = []
+    header: list[str] = []
+    try:
+        for row in rows:
+            where = f"{name}, line {rows.line_num}"
+            if not any(word.strip() for word in row):
+                continue
+            if not header:
+                header = _header(row, where)
+                continue
+            if len(row) != len(header):
+                raise ParameterError(f"{where} has {len(row)} values under {len(header)} columns.")
+            found.append(_of_words(dict(zip(header, row, strict=True)), where))
+    except csv.Error as error:
+        raise ParameterError(f"{name}, line {rows.line_num}: {error}.") from None
+    return found
+
+
+def _header(words: list[str], where: str) -> list[str]:
+    header = [word.strip().lower() for word in words]
+    for word in header:
+        if word not in COLUMNS:
+            raise ParameterError(f"{where}: {word!r} is no column of pins; the first line has {', '.join(COLUMNS)}.")
+        if header.count(word) > 1:
+            raise ParameterError(f"{where}: the column {word} is there twice.")
+    if "vertex" not in header and not {"x", "y", "z"} <= set(header):
+        raise ParameterError(f"{where}: pins need the column vertex, or x, y and z.")
+    return header
+
+
+def _of_words(row: dict[str, str], where: str) -> _Pin:
+    words = {column: word.strip() for column, word in row.items()}
+    position = [words.get(axis, "") for axis in "xyz"]
+    return _Pin(
+        where,
+        _whole(words.get("id", ""), "id", where),
+        _whole(words.get("vertex", ""), "vertex", where),
+        _position(position, where) if any(position) or not words.get("vertex") else None,
+        row.get("name", ""),
+    )
+
+
+def _whole(text: str, what: str, where: str) -> int | None:
+    if not text:
+        return None
+    if not text.isascii() or not text.removeprefix("-").isdigit() or len(text) > 18:
+        raise ParameterError(f"{where}: the {what} {text!r} is not a whole number.")
+    return int(text)
+
+
+def _position(words: Sequence[Any], where: str) -> tuple[float, ...]:
+    try:
+        numbers = tuple(float(word) for word in words)
+    except (TypeError, ValueError):
+        numbers = ()
+    if len(numbers) != 3 or not np.isfinite(numbers).all():
+        shown = ", ".join(str(word) or "nothing" for word in words)
+        raise ParameterError(f"{where}: the position ({shown}) is not three finite numbers.")
+    return numbers
+
+
+def _written_csv(rows: list[tuple], surface: str) -> str:
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    writer.writerows([number, vertex, *map(repr, point), name] for number, vertex, point, name in rows)
+    return file.getvalue()
+
+
+# ---------------------------------------------------------------------- JSON
+def _read_json(text: str, name: str) -> list[_Pin]:
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        line = f", line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
+        raise ParameterError(f"{name}{line}: this is not JSON ({getattr(error, 'msg', error)}).") from None
+    if not isinstance(content, dict) or not isinstance(content.get("pins"), list):
+        raise ParameterError(f'{name} holds no list of pins; it should be {{"pins": [...]}}.')
+    return [_of_entry(entry, f"{name}, pin {k}") for k, entry in enumerate(content["pins"], 1)]
+
+
+def _of_entry(entry: Any, where: str) -> _Pin:
+    known = ("id", "vertex", "position", "name")
+    if not isinstance(entry, dict) or not set(entry) <= set(known):
+        raise ParameterError(f"{where}: {_cut(entry)} is no pin; it has {', '.join(known)}.")
+    for key in ("id", "vertex"):
+        if not isinstance(entry.get(key), (int, type(None))) or isinstance(entry.get(key), bool):
+            raise ParameterError(f"{where}: the {key} {_cut(entry[key])} is not a whole number.")
+    position, name = entry.get("position"), entry.get("name", "")
+    if not isinstance(name, str):
+        raise ParameterError(f"{where}: the name {_cut(name)} is not a text.")
+    if position is None and entry.get("vertex") is None:
+        raise ParameterError(f"{where} has neither a vertex nor a position.")
+    if position is not None and not (isinstance(position, list) and all(type(x) in (int, float) for x in position)):
+        raise ParameterError(f"{where}: the position {_cut(position)} is not three finite numbers.")
+    at = None if position is None else _position(position, where)
+    return _Pin(where, entry.get("id"), entry.get("vertex"), at, name)
+
+
+def _cut(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _written_json(rows: list[tuple], surface: str) -> str:
+    # A line of the file for each pin.
+    pins = [
+        json.dumps({"id": number, "vertex": vertex, "position": point, "name": name}, ensure_ascii=False)
+        for number, vertex, point, name in rows
+    ]
+    return '{"pins": [\n' + ",\n".join(pins) + "\n]}\n"
+
+
+# ---------------------------------------------------------------------- MeshLab
+def _read_pp(text: str, name: str) -> list[_Pin]:
+    if "<!ENTITY" in text:
+        raise ParameterError(f"{name} defines XML entities, which files of picked points do not.")
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        raise ParameterError(f"{name}, line {error.position[0]}: this is not XML ({error}).") from None
+    if root.tag != "PickedPoints":
+        raise ParameterError(f"{name} holds {root.tag!r}, not MeshLab's PickedPoints.")
+    found = []
+    for k, point in enumerate(root.iter("point"), 1):
+        # Points of a template that have not been picked yet.
+        if point.get("active", "1") != "0":
+            where = f"{name}, point {k}"
+            words = [point.get(axis, "") for axis in "xyz"]
+            found.append(_Pin(where, None, None, _position(words, where), point.get("name", "")))
+    return found
+
+
+def _written_pp(rows: list[tuple], surface: str) -> str:
+    points = [
+        f'    <point x="{x!r}" y="{y!r}" z="{z!r}" name={quoteattr(name or str(number))} active="1"/>\n'
+        for number, _, (x, y, z), name in rows
+    ]
+    return (
+        "<!DOCTYPE PickedPoints>\n<PickedPoints>\n    <DocumentData>\n"
+        f"        <DataFileName name={quoteattr(surface)}/>\n"
+        f'        <templateName name=""/>\n    </DocumentData>\n{"".join(points)}</PickedPoints>\n'
+    )
+
+
+_READERS: dict[str, Callable[[str, str], list[_Pin]]] = {".csv": _read_csv, ".json": _read_json, ".pp": _read_pp}
+_WRITERS: dict[str, Callable[[list[tuple], str], str]] = {
+    ".csv": _written_csv,
+    ".json": _written_json,
+    ".pp": _written_pp,
+}
+PIN_FORMATS = tuple(_READERS)
+"""The extensions that `read_pins` and `write_pins` know."""
