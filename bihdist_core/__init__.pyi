@@ -1,4 +1,10 @@
 # The public names and where they live; each is imported when it is first asked for.
+from .analysis.bands import (
+    Band as Band,
+)
+from .analysis.bands import (
+    band as band,
+)
 from .analysis.correspondence import correspondence_prediction as correspondence_prediction
 from .analysis.diagnostics import (
     FieldChange as FieldChange,
@@ -24,6 +30,30 @@ from .analysis.diagnostics import (
 from .analysis.diagnostics import (
     triangle_violations as triangle_violations,
 )
+from .analysis.field_scatter import (
+    FieldScatter as FieldScatter,
+)
+from .analysis.field_scatter import (
+    field_scatter as field_scatter,
+)
+from .analysis.field_statistics import (
+    Agreement as Agreement,
+)
+from .analysis.field_statistics import (
+    FieldStatistics as FieldStatistics,
+)
+from .analysis.field_statistics import (
+    field_agreement as field_agreement,
+)
+from .analysis.field_statistics import (
+    field_statistics as field_statistics,
+)
+from .analysis.field_statistics import (
+    rank_correlation as rank_correlation,
+)
+from .analysis.geodesic_paths import (
+    GeodesicPaths as GeodesicPaths,
+)
 from .analysis.interpolation import ShepardInterpolant as ShepardInterpolant
 from .analysis.isoline_output import write_isolines as write_isolines
 from .analysis.isoline_tracing import (
@@ -38,7 +68,83 @@ from .analysis.persistence import (
 from .analysis.persistence import (
     extrema as extrema,
 )
-from .analysis.sampling import farthest_points as farthest_points
+from .analysis.places import (
+    Places as Places,
+)
+from .analysis.plane_sections import (
+    plane_section as plane_section,
+)
+from .analysis.profile_output import (
+    write_profile as write_profile,
+)
+from .analysis.quality import (
+    Circle as Circle,
+)
+from .analysis.quality import (
+    FieldQuality as FieldQuality,
+)
+from .analysis.quality import (
+    OtherExtrema as OtherExtrema,
+)
+from .analysis.quality import (
+    field_quality as field_quality,
+)
+from .analysis.quality import (
+    geodesic_circles as geodesic_circles,
+)
+from .analysis.quality import (
+    other_extrema as other_extrema,
+)
+from .analysis.quality import (
+    triangle_sample as triangle_sample,
+)
+from .analysis.region_boundaries import (
+    Boundary as Boundary,
+)
+from .analysis.region_boundaries import (
+    region_boundaries as region_boundaries,
+)
+from .analysis.region_boundaries import (
+    write_boundaries as write_boundaries,
+)
+from .analysis.region_mesh import RegionMesh as RegionMesh
+from .analysis.region_mesh import region_mesh as region_mesh
+from .analysis.region_output import (
+    write_labels as write_labels,
+)
+from .analysis.region_output import (
+    write_region_mesh as write_region_mesh,
+)
+from .analysis.regions import (
+    Regions as Regions,
+)
+from .analysis.regions import (
+    voronoi_regions as voronoi_regions,
+)
+from .analysis.sampling import (
+    farthest_points as farthest_points,
+)
+from .analysis.sampling import (
+    write_samples as write_samples,
+)
+from .analysis.selecting import (
+    Brush as Brush,
+)
+from .analysis.selecting import (
+    cut_out as cut_out,
+)
+from .analysis.selecting import (
+    write_selection as write_selection,
+)
+from .analysis.surface_paths import (
+    SurfacePath as SurfacePath,
+)
+from .analysis.truncation import (
+    TruncationLoss as TruncationLoss,
+)
+from .analysis.truncation import (
+    truncation_loss as truncation_loss,
+)
 from .distances.biharmonic import BiharmonicDistance as BiharmonicDistance
 from .distances.commute_time import CommuteTimeDistance as CommuteTimeDistance
 from .distances.difference import difference as difference
@@ -73,6 +179,15 @@ from .errors import (
     VertexError as VertexError,
 )
 from .formats.mesh_io import read_surface as read_surface
+from .formats.pins import (
+    Pins as Pins,
+)
+from .formats.pins import (
+    read_pins as read_pins,
+)
+from .formats.pins import (
+    write_pins as write_pins,
+)
 from .laplacian import (
     Laplacian as Laplacian,
 )
@@ -80,4 +195,17 @@ from .laplacian import (
     eigenpairs as eigenpairs,
 )
 from .solver.spectrum import Spectrum as Spectrum
+from .sources.source import (
+    BoundaryLoop as BoundaryLoop,
+)
+from .sources.source import (
+    Curve as Curve,
+)
+from .sources.source import (
+    Place as Place,
+)
+from .sources.source import (
+    SourceSet as SourceSet,
+)
+from .sources.words import source_from_words as source_from_words
 from .surface import Surface as Surface

@@ -1,1 +1,1 @@
-"""What is made of distances: samples, interpolation, correspondence, isolines, extrema, diagnostics, all pairs."""
+"""What is made of distances: samples, regions, paths, isolines, statistics, quality, interpolation, all pairs."""

@@ -1,24 +1,80 @@
 """Farthest-point sampling with any distance."""
 
+import os
+
 import numpy as np
+import numpy.typing as npt
 
 from ..distances.distance import Distance
 from ..errors import ParameterError
+from ..formats.field_output import write_array
+from ..formats.pins import PIN_FORMATS, Pins, write_pins
+from ..progress import Progress, part, silent
+from ..sources.pieces import pieces_of
+from ..sources.source import Source
+from ..sources.words import short_words_of
+from ..surface import Surface
+from ..whole_file import check_output, whole_file
+
+SAMPLE_FORMATS = (".txt", ".npy", *PIN_FORMATS)
 
 
-def farthest_points(distance: Distance, start: int = 0, count: int = 10) -> np.ndarray:
+def farthest_points(
+    distance: Distance, start: npt.ArrayLike = 0, count: int = 10, progress: Progress | None = None
+) -> np.ndarray:
     """(count,) vertex ids: `start`, then each time the vertex farthest from those so far (the smallest id on ties).
 
-    Stays on the component of `start`.  Raises ParameterError if that has fewer different points than `count`.
+    start: a vertex, or (s,) different vertices of one component, which come first.  Costs a field for each point but
+    the last.  Stays on the component of the start.  Raises VertexError for a bad start; ParameterError for starts on
+    different components, the same twice, or more of them than `count`; and if the component has fewer different points
+    than `count`.
     """
     if count < 1:
         raise ParameterError(f"count is {count}; at least one point is needed.")
-    points = [distance.surface.check_vertex(start)]
-    nearest = distance.from_source(start)
-    while len(points) < count:
-        farthest = int(np.nanargmax(nearest))
-        if not nearest[farthest] > 0:
-            raise ParameterError(f"{count} points asked for; the component of vertex {start} has {len(points)}.")
-        points.append(farthest)
-        nearest = np.fmin(nearest, distance.from_source(farthest))
+    points = distance.surface.check_vertices(start).tolist()
+    if not 1 <= len(points) <= count:
+        raise ParameterError(
+            f"{len(points)} starts were given for {count} points; one is needed, and no more than that."
+        )
+    if len(set(points)) < len(points) or len(np.unique(distance.surface.component_of_vertex[points])) > 1:
+        raise ParameterError(f"The starts {points} are not different vertices of one component.")
+    report, given = progress or silent, len(points)
+    nearest = np.full(len(distance.surface.vertices), np.nan)
+    for k in range(count):
+        if k >= given:
+            farthest = int(np.nanargmax(nearest))
+            if not nearest[farthest] > 0:
+                raise ParameterError(f"{count} points asked for; the component of vertex {points[0]} has {k}.")
+            points.append(farthest)
+        if k + 1 < count:
+            report(k / count, f"{k + 1} of {count} points")
+            nearest = np.fmin(nearest, distance.from_source(points[k], part(progress, k / count, (k + 1) / count)))
+    report(1.0, f"{count} points")
     return np.array(points)
+
+
+def starts_of(source: Source, surface: Surface) -> np.ndarray:
+    """(s,) the vertices of a source, for samples to start from.
+
+    Raises VertexError or ParameterError for a source that is not on the surface, or that is no vertices.
+    """
+    vertices = pieces_of(source, surface).vertices
+    if vertices is None:
+        raise ParameterError(f"Samples start from vertices, and {short_words_of(source)} is none; choose a vertex.")
+    return vertices
+
+
+def write_samples(path: str | os.PathLike[str], surface: Surface, vertices: npt.ArrayLike) -> None:
+    """Write vertices (k,) of a surface, in order: .txt, an id on each line; .npy; or as pins (`write_pins`).
+
+    Raises OutputError if the file cannot be written; what was there then stays.
+    """
+    ids = surface.check_vertices(vertices)
+    extension = check_output(path, SAMPLE_FORMATS)
+    if extension in PIN_FORMATS:
+        write_pins(path, surface, Pins.of(surface, ids))
+    elif extension == ".npy":
+        write_array(path, ids)
+    else:
+        with whole_file(path) as temporary:
+            temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")

@@ -6,13 +6,14 @@ geodesic field has a kink and isolines that are not aware of the shape far away;
 
 import numpy as np
 
+from ..analysis.quality import small_radius
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import ELONGATED, FIELD_COLUMNS, ISOTROPIC, KINK, field_row, inner_jumps, isotropy_chart, marks, span
 from .resizing import refined
 from .result import Claim, Mark, Panel, Result, Table
-from .shapes import SEEDS, Shapes, distance, small_radius, start_vertex, vertex_at
+from .shapes import SEEDS, Shapes, distance, start_vertex, vertex_at
 
 TITLE = "Distances over a flat domain"
 KINDS = ("diffusion t = 1", "diffusion t = 1/5", "diffusion t = 1/15", "geodesic", "biharmonic")

@@ -7,10 +7,11 @@ t = 0.25 and 1 it fails near the source (isolines nearly parallel in the zoomed 
 
 import numpy as np
 
+from ..analysis.quality import small_radius
 from ..progress import Progress, part
 from .measures import ELONGATED, FIELD_COLUMNS, ISOTROPIC, field_row, isotropy_chart, shrinking
 from .result import Claim, Mark, Panel, Result, Table
-from .shapes import SEEDS, Shapes, distance, small_radius, start_vertex, vertex_at
+from .shapes import SEEDS, Shapes, distance, start_vertex, vertex_at
 
 TITLE = "Diffusion times and biharmonic distance on a hand"
 KINDS = ("diffusion t = 0.125", "diffusion t = 0.25", "diffusion t = 1", "biharmonic")

@@ -3,15 +3,16 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from ..analysis.diagnostics import FieldChange, field_change, gradient_jumps, isotropy_ratio
+from ..analysis import quality
+from ..analysis.diagnostics import FieldChange, field_change, isotropy_ratio
 from ..analysis.persistence import Extrema, extrema
+from ..analysis.quality import small_radius
 from ..laplacian import Laplacian
 from ..surface import Surface
 from .resizing import refined
 from .result import Cell, Chart, Mark, Series
-from .shapes import distance, small_radius
+from .shapes import distance
 
 INSENSITIVE = 0.05
 """A field is insensitive to a change if, divided by its maximum, it moves by at most this much in the mean."""
@@ -70,18 +71,8 @@ def field_row(
 
 
 def inner_jumps(surface: Surface, field: np.ndarray, near: np.ndarray, radius: float | None = None) -> np.ndarray:
-    """(k,) relative jumps of the gradient where `near` (n,), a distance, exceeds a radius, the small one by default.
-
-    Every distance has a kink at its source, and at corners of the boundary the gradient of smooth fields is singular:
-    so also a band along the boundary is left out.
-    """
-    jumps = gradient_jumps(surface, field)
-    radius = small_radius(surface) if radius is None else radius
-    away = near > radius
-    rim = np.unique(surface.boundary_edges)
-    if len(rim):
-        away &= cKDTree(surface.vertices[rim]).query(surface.vertices)[0] > radius
-    return jumps.relative[away[jumps.edges].all(axis=1) & np.isfinite(jumps.jumps)]
+    """(k,) relative jumps of the gradient away from the source and the boundary (see `quality.inner_jumps`)."""
+    return quality.inner_jumps(surface, field, near, radius).relative
 
 
 def isotropy_chart(surface: Surface, source: int, kinds: Sequence[str], heading: str, quick: bool) -> Chart:

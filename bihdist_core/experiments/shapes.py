@@ -121,8 +121,3 @@ def vertex_at(surface: Surface, x: float, y: float, side: str = "front") -> int:
     near = ids[off <= max(1.5 * surface.mean_edge_length, float(off.min()))]
     depth = vertices[near, 2]
     return int(near[np.argmin(depth) if side == "back" else np.argmax(depth)])
-
-
-def small_radius(surface: Surface) -> float:
-    """The radius at which isotropy is measured: 4 % of the root of the area, but at least four mean edges."""
-    return max(0.04 * float(np.sqrt(surface.face_areas.sum())), 4 * surface.mean_edge_length)

@@ -1,6 +1,7 @@
 """Isolines: exact positions, whole curves, and what happens where the field is exactly their value."""
 
 import csv
+import json
 import re
 import time
 from itertools import pairwise
@@ -195,8 +196,19 @@ def test_vtp_is_read_by_vtk(lines, tmp_path):
         assert list(cell.GetPoints().GetPoint(1)) == line.points[1].tolist()
 
 
+def test_json_has_the_edges_too(lines, tmp_path):
+    write_isolines(tmp_path / "a.json", lines)
+    curves = json.loads((tmp_path / "a.json").read_text())["isolines"]
+    assert len(curves) == len(lines)
+    for line, curve in zip(lines, curves, strict=True):
+        assert (curve["value"], curve["closed"]) == (line.value, line.closed)
+        assert curve["points"] == line.points.tolist()
+        assert curve["edges"] == line.edges.tolist()
+        assert curve["parameters"] == line.parameters.tolist()
+
+
 def test_no_curves_are_a_file_too(tmp_path):
-    for name in ("a.csv", "a.obj", "a.vtp"):
+    for name in ("a.csv", "a.obj", "a.vtp", "a.json"):
         write_isolines(tmp_path / name, [])
         assert (tmp_path / name).exists()
 

@@ -1,0 +1,121 @@
+"""The part of a surface where a field lies between two values, cut out exactly."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+from ..surface import Surface
+from .clipping import clipped
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """The part of a surface where low <= field <= high, the field linear on each face.
+
+    surface: the part, as a mesh of its own.  Its vertices (v, 3) lie on edges of the whole surface: ends (v, 2) and
+    parameters t (v,) of (1 - t) x_a + t x_b; a vertex of the whole surface has itself twice and t 0.  parents: (m,) the
+    face of the whole surface that each face is part of.
+    vertices, faces: ids of the vertices of the whole surface in the band, and of its faces that are in it entirely.
+    area: of the part, exact.
+    """
+
+    surface: Surface
+    ends: np.ndarray
+    parameters: np.ndarray
+    parents: np.ndarray
+    vertices: np.ndarray
+    faces: np.ndarray
+
+    @property
+    def area(self) -> float:
+        return float(self.surface.face_areas.sum())
+
+    def along(self, field: npt.ArrayLike) -> np.ndarray:
+        """(v,) or (v, d): values (n,) or (n, d) at the vertices of the whole surface, linear on its faces, at the
+        vertices of the part, on whose faces they are linear too."""
+        at = np.asarray(field)
+        t = self.parameters.reshape(-1, *(1,) * (at.ndim - 1))
+        return np.where(t == 0, at[self.ends[:, 0]], (1 - t) * at[self.ends[:, 0]] + t * at[self.ends[:, 1]])
+
+
+def band(surface: Surface, field: npt.ArrayLike, low: float = -np.inf, high: float = np.inf) -> Band:
+    """The part of a surface where a field (n,) is between two values, either of which may be infinite.
+
+    Faces with a corner that is not finite are left out.  Raises ParameterError for a field that is not (n,) numbers,
+    for values that are NaN or not in order, and where nothing lies between them.
+    """
+    f = np.asarray(field)
+    if f.shape != (len(surface.vertices),) or f.dtype.kind not in "biuf":
+        raise ParameterError(f"A field is a real number for each of {len(surface.vertices)} vertices, not {f.shape}.")
+    f = f.astype(np.float64)
+    if not low < high:
+        raise ParameterError(f"A region lies between two values, the smaller first, not {low:g} and {high:g}.")
+    finite = np.isfinite(f[surface.faces]).all(axis=1)
+    inside = finite & ((f >= low) & (f <= high))[surface.faces].all(axis=1)
+    corner = f[surface.faces]
+    touched = finite & ~inside & (corner.max(axis=1) > low) & (corner.min(axis=1) < high)
+    cut = np.flatnonzero(touched)
+    whole = surface.faces[inside]
+    ends, parameters, pieces, parents = _pieces(surface.faces[cut], f, low, high, cut)
+    # Vertices of the whole surface first, then the crossings, each once.
+    n = len(surface.vertices)
+    key, index = np.unique(np.concatenate([whole.ravel(), pieces]), return_inverse=True)
+    if not len(key):
+        raise ParameterError(f"Nowhere on {surface.name} is the field between {low:g} and {high:g}.")
+    old, crossed = key[key < n], key[key >= n] - n
+    ends = np.concatenate([np.stack([old, old], 1), ends[crossed]])
+    t = np.concatenate([np.zeros(len(old)), parameters[crossed]])
+    x = surface.vertices
+    points = (1 - t)[:, None] * x[ends[:, 0]] + t[:, None] * x[ends[:, 1]]
+    faces = index.reshape(-1, 3)
+    vertices = np.flatnonzero((f >= low) & (f <= high) & (surface.component_of_vertex >= 0))
+    return Band(
+        Surface(points, faces, surface.name),
+        ends,
+        t,
+        np.concatenate([np.flatnonzero(inside), parents]),
+        vertices,
+        np.flatnonzero(inside),
+    )
+
+
+def _pieces(
+    corners: np.ndarray, f: np.ndarray, low: float, high: float, cut: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """The faces that are cut: ends (c, 2) and parameters (c,) of the crossings; (3 m,) corners of the pieces, of which
+    those from n on are crossings; (m,) the face each is part of."""
+    n, at = len(f), f[corners]
+    polygons, sizes = np.broadcast_to(np.eye(3), (len(cut), 3, 3)), np.full(len(cut), 3)
+    for values in (at - low, high - at):
+        if np.isfinite(values).all():
+            polygons, sizes = clipped(polygons, sizes, values)
+    present = np.arange(polygons.shape[1]) < sizes[:, None]
+    face, slot = np.nonzero(present)
+    weights, of_face = polygons[face, slot], corners[face]
+    is_corner = (weights > 0).sum(axis=1) == 1
+    # A crossing is known by its edge and its value: the level lines of a linear function do not meet.
+    out = weights.argmin(axis=1)
+    a, b = (of_face[np.arange(len(face)), (out + s) % 3] for s in (1, 2))
+    i, j = np.minimum(a, b), np.maximum(a, b)
+    value = np.einsum("kc,kc->k", weights, at[face])
+    upper = (np.abs(value - high) < np.abs(value - low)) if np.isfinite([low, high]).all() else np.isfinite(high)
+    code = (i * n + j) * 2 + upper
+    key, index = np.unique(np.where(is_corner, -1, code), return_inverse=True)
+    edges, top = np.divmod(key, 2)
+    ends = np.stack(np.divmod(np.maximum(edges, 0), n), 1)
+    level = np.where(top == 1, high, low)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = np.clip((level - f[ends[:, 0]]) / (f[ends[:, 1]] - f[ends[:, 0]]), 0, 1)
+    number = np.full(polygons.shape[:2], -1)
+    number[face, slot] = np.where(is_corner, of_face[np.arange(len(face)), weights.argmax(axis=1)], n + index)
+    fans = []
+    parents = []
+    for k in range(1, polygons.shape[1] - 1):
+        there = np.flatnonzero(k + 1 < sizes)
+        fans.append(number[there][:, [0, k, k + 1]])
+        parents.append(cut[there])
+    if not fans:
+        return ends, t, np.empty(0, np.int64), np.empty(0, np.int64)
+    return ends, t, np.concatenate(fans).ravel(), np.concatenate(parents)

@@ -1,0 +1,38 @@
+"""Triangles cut by linear functions: convex polygons in weights of the corners, many at a time."""
+
+import numpy as np
+
+
+def clipped(polygons: np.ndarray, sizes: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The parts of convex polygons where linear functions are at least 0 (Sutherland and Hodgman 1974).
+
+    polygons: (p, s, 3) weights of up to s vertices at the corners of their triangles, sizes: (p,) how many each has,
+    values: (p, 3) the functions at these corners.  Returns polygons (p, t, 3) and sizes (p,), 0 for nothing.
+    """
+    count, most = polygons.shape[:2]
+    rows = np.arange(count)
+    at = np.einsum("psc,pc->ps", polygons, values)
+    # One vertex more than before, but for rounding where values are nearly 0.
+    cut, cut_sizes = np.zeros((count, 2 * most, 3)), np.zeros(count, np.int64)
+    for s in range(most):
+        there = s < sizes
+        following = np.where(s + 1 < sizes, s + 1, 0)
+        u, v = at[:, s], at[rows, following]
+        kept = rows[there & (u >= 0)]
+        cut[kept, cut_sizes[kept]] = polygons[kept, s]
+        cut_sizes[kept] += 1
+        crossed = rows[there & (((u > 0) & (v < 0)) | ((u < 0) & (v > 0)))]
+        t = (u[crossed] / (u[crossed] - v[crossed]))[:, None]
+        cut[crossed, cut_sizes[crossed]] = (1 - t) * polygons[crossed, s] + t * polygons[crossed, following[crossed]]
+        cut_sizes[crossed] += 1
+    cut_sizes[cut_sizes < 3] = 0
+    return cut[:, : max(3, int(cut_sizes.max(initial=0)))], cut_sizes
+
+
+def polygon_shares(polygons: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """(p,) areas of polygons as shares of their triangles'."""
+    a, b = polygons[:, 1:-1] - polygons[:, :1], polygons[:, 2:] - polygons[:, :1]
+    # In weights, a triangle's area over the whole one's is the determinant of two of its sides without a coordinate.
+    determinants = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    present = np.arange(2, polygons.shape[1]) < sizes[:, None]
+    return np.where(present, np.abs(determinants), 0).sum(axis=1)

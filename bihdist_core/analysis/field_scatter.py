@@ -1,0 +1,102 @@
+"""One field against another, a point for each vertex: how many lie where, and which lie inside a polygon."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+from ..surface import Surface
+
+
+@dataclass(frozen=True, eq=False)
+class FieldScatter:
+    """Two fields over the k vertices of faces at which both are finite.
+
+    ids: (k,) these vertices, ascending.  x, y: (k,) the values of the first and the second field there, in their units,
+    or as shares of each field's largest size over all these vertices.
+    """
+
+    ids: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+
+    @property
+    def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The least and the greatest value across and up, and 0 always."""
+        across, up = ((min(float(v.min()), 0.0), max(float(v.max()), 0.0)) for v in (self.x, self.y))
+        return across, up
+
+    def density(self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]) -> np.ndarray:
+        """(rows, columns) how many points are in each cell of a grid; the first row is the lowest.
+
+        across, up: where the grid begins and ends; what lies on its ends is in it, what lies beyond is not counted.
+        """
+        if min(columns, rows) < 1 or not (across[0] < across[1] and up[0] < up[1]):
+            raise ParameterError(f"{columns} by {rows} cells from {across} to {up} are no grid.")
+        cell, _ = self.cells(columns, rows, across, up)
+        return np.bincount(cell, minlength=columns * rows).reshape(rows, columns)
+
+    def cells(
+        self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The number of the cell, row by row, of each point in the grid of `density`, and which of the points these
+        are."""
+        places = []
+        for values, count, (low, high) in ((self.x, columns, across), (self.y, rows, up)):
+            place = np.floor((values - low) * (count / (high - low)))
+            places.append(np.where(values == high, count - 1, place))
+        inside = np.flatnonzero((places[0] >= 0) & (places[0] < columns) & (places[1] >= 0) & (places[1] < rows))
+        return (places[1][inside] * columns + places[0][inside]).astype(np.intp), inside
+
+    def inside(self, polygon: npt.ArrayLike) -> np.ndarray:
+        """The vertices whose points lie inside a closed polygon (m, 2), which they do where it goes round an odd number
+        of times.
+
+        Raises ParameterError for anything else than three or more finite corners.
+        """
+        corner = np.asarray(polygon, np.float64)
+        if corner.ndim != 2 or corner.shape[1] != 2 or len(corner) < 3 or not np.isfinite(corner).all():
+            raise ParameterError(f"A polygon has at least three corners (m, 2), not {corner.shape}.")
+        order, y = self._upwards
+        x = self.x[order]
+        is_in = np.zeros(len(y), bool)
+        for (x0, y0), (x1, y1) in zip(corner, np.roll(corner, -1, axis=0), strict=True):
+            if y0 == y1:
+                continue
+            # Only points at the height of an edge can lie to the left of it.
+            some = slice(*np.searchsorted(y, sorted((y0, y1))))
+            is_in[some] ^= x[some] < x0 + (y[some] - y0) * ((x1 - x0) / (y1 - y0))
+        return np.sort(self.ids[order[is_in]])
+
+    def sort(self) -> None:
+        """What `inside` does when it is asked first, for a thread that may wait."""
+        _ = self._upwards
+
+    @cached_property
+    def _upwards(self) -> tuple[np.ndarray, np.ndarray]:
+        order = np.argsort(self.y, kind="stable")
+        return order, self.y[order]
+
+
+def field_scatter(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> FieldScatter:
+    """The second field (n,) against the first; shares: each divided by its largest size.
+
+    Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
+    """
+    n = len(surface.vertices)
+    f, g = np.asarray(a), np.asarray(b)
+    for field in (f, g):
+        if field.shape != (n,) or field.dtype.kind not in "biuf":
+            raise ParameterError(f"A field is a real number for each of {n} vertices, not {field.shape}.")
+    ids = np.flatnonzero(np.isfinite(f) & np.isfinite(g) & (surface.component_of_vertex >= 0))
+    if not len(ids):
+        raise ParameterError("To compare two fields, both need finite values at common vertices.")
+    x, y = (field[ids].astype(np.float64) for field in (f, g))
+    if shares:
+        sizes = np.abs(x).max(), np.abs(y).max()
+        if not min(sizes) > 0:
+            raise ParameterError("A field that is 0 throughout has no shares of its maximum.")
+        x, y = x / sizes[0], y / sizes[1]
+    return FieldScatter(ids, x, y)

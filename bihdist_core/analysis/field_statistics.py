@@ -1,0 +1,200 @@
+"""Fields in numbers: means, quantiles and histograms by area, extremes and where, and how two fields go together."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+from ..surface import Surface
+
+
+@dataclass(frozen=True, eq=False)
+class FieldStatistics:
+    """A field (n,) over the area of its surface; in the field's unit, NaN left out.
+
+    mean, deviation: mean and standard deviation of the values at the vertices by their areas, a third of those of their
+    faces; so the mean is that of the field, linear on each face, exactly.  mean_size: the same of |field|, of a
+    difference its mean deviation.
+    least, greatest, largest: of field and of |field|; least_at, greatest_at, largest_at: vertices where (the smallest
+    id).  shares, quantiles: (q,) the field is at most quantiles[i] on shares[i] of the area.
+    bins: (b + 1,) ends, ascending, and areas: (b,) of each; their sum is the area of the vertices that have a value.
+    """
+
+    count: int
+    mean: float
+    mean_size: float
+    deviation: float
+    least: float
+    least_at: int
+    greatest: float
+    greatest_at: int
+    largest: float
+    largest_at: int
+    shares: np.ndarray
+    quantiles: np.ndarray
+    bins: np.ndarray
+    areas: np.ndarray
+
+
+def corner_areas(surface: Surface) -> np.ndarray:
+    """(n,) a third of the area of each vertex' faces: the weights of the exact integral of a field linear on faces."""
+    thirds = np.repeat(surface.face_areas / 3, 3)
+    return np.bincount(surface.faces.ravel(), thirds, minlength=len(surface.vertices))
+
+
+def field_statistics(
+    surface: Surface,
+    field: npt.ArrayLike,
+    bins: int | npt.ArrayLike = 50,
+    shares: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95),
+) -> FieldStatistics:
+    """The statistics of a field (n,), such as a distance or the difference of two.
+
+    bins: how many, of equal width from the least to the greatest value, or (b + 1,) their ends, ascending; values on an
+    end count above it, those on the last end below it.  shares: (q,) from 0 to 1.
+    Raises ParameterError for a field of another shape or with no finite value at a vertex of a face, and bad bins or
+    shares.
+    """
+    f, ids, weights = _chosen(surface, field)
+    share = np.asarray(shares, np.float64)
+    if share.ndim != 1 or not ((share >= 0) & (share <= 1)).all():
+        raise ParameterError(f"Shares of the area are numbers from 0 to 1, not {shares!r}.")
+    total = weights.sum()
+    mean = float(weights @ f / total)
+    edges = _edges(bins, float(f.min()), float(f.max()))
+    order = np.argsort(f, kind="stable")
+    reached = np.cumsum(weights[order])
+    at = np.searchsorted(reached, share * reached[-1])
+    low, high, largest = int(f.argmin()), int(f.argmax()), int(np.abs(f).argmax())
+    return FieldStatistics(
+        count=len(f),
+        mean=mean,
+        mean_size=float(weights @ np.abs(f) / total),
+        deviation=float(np.sqrt(weights @ (f - mean) ** 2 / total)),
+        least=float(f[low]),
+        least_at=int(ids[low]),
+        greatest=float(f[high]),
+        greatest_at=int(ids[high]),
+        largest=float(abs(f[largest])),
+        largest_at=int(ids[largest]),
+        shares=share,
+        quantiles=f[order][at],
+        bins=edges,
+        areas=np.histogram(f, edges, weights=weights)[0],
+    )
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How two fields go together over the vertices at which both are finite, `count` of them; no unit but `largest`'s.
+
+    spearman: rank correlation, from -1 to 1; by_area: the same with vertices weighted by area.  NaN where a field is
+    constant.  mean, largest: of |a - b| by area, or, where each was divided by its maximum, of that; largest_at: where.
+    """
+
+    count: int
+    spearman: float
+    by_area: float
+    mean: float
+    largest: float
+    largest_at: int
+
+
+def field_agreement(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> Agreement:
+    """The agreement of two fields (n,); shares: each divided by its largest size first, for fields of different unit.
+
+    Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
+    """
+    f, _, _ = _chosen(surface, a)
+    f, g = np.asarray(a, np.float64), np.asarray(b, np.float64)
+    if g.shape != f.shape:
+        raise ParameterError(f"Fields of shape {f.shape} and {g.shape} cannot be compared.")
+    ids = np.flatnonzero(np.isfinite(f) & np.isfinite(g) & (surface.component_of_vertex >= 0))
+    if not len(ids):
+        raise ParameterError("To compare two fields, both need finite values at common vertices.")
+    f, g, weights = f[ids], g[ids], corner_areas(surface)[ids]
+    if shares:
+        sizes = np.abs(f).max(), np.abs(g).max()
+        if not min(sizes) > 0:
+            raise ParameterError("A field that is 0 throughout has no shares of its maximum.")
+        f, g = f / sizes[0], g / sizes[1]
+    apart = np.abs(f - g)
+    worst = int(apart.argmax())
+    orders, total = (_order(f), _order(g)), weights.sum()
+    return Agreement(
+        count=len(ids),
+        spearman=_correlation(*orders, np.ones(len(ids))),
+        by_area=_correlation(*orders, weights) if total > 0 else float("nan"),
+        mean=float(weights @ apart / total) if total > 0 else float("nan"),
+        largest=float(apart[worst]),
+        largest_at=int(ids[worst]),
+    )
+
+
+def rank_correlation(a: npt.ArrayLike, b: npt.ArrayLike, weights: npt.ArrayLike | None = None) -> float:
+    """Spearman's rank correlation of values (k,) and (k,), with weights (k,), at least 0, or 1 each; NaN if one is
+    constant.
+
+    Equal values have the mean of their ranks.  A weight is as so many points in one place.
+    Raises ParameterError for arrays of different shape, values that are not finite, or bad weights.
+    """
+    f, g = np.asarray(a, np.float64), np.asarray(b, np.float64)
+    w = np.ones(f.shape) if weights is None else np.asarray(weights, np.float64)
+    if f.ndim != 1 or f.shape != g.shape or f.shape != w.shape or not len(f):
+        raise ParameterError(f"Ranks of shape {f.shape} and {g.shape}, weights {w.shape}, cannot be correlated.")
+    if not (np.isfinite(f).all() and np.isfinite(g).all() and np.isfinite(w).all() and (w >= 0).all() and w.sum() > 0):
+        raise ParameterError("Rank correlation needs finite values, and weights of at least 0 that are not all 0.")
+    return _correlation(_order(f), _order(g), w)
+
+
+Order = tuple[np.ndarray, np.ndarray]
+"""(k,) the order of values, and (g + 1,) the bounds in it of each group of equal ones."""
+
+
+def _order(f: np.ndarray) -> Order:
+    order = np.argsort(f, kind="stable")
+    value = f[order]
+    return order, np.append(np.flatnonzero(np.append(True, value[1:] != value[:-1])), len(f))
+
+
+def _correlation(one: Order, other: Order, w: np.ndarray) -> float:
+    # SciPy's has no weights.
+    x, y = _ranks(one, w), _ranks(other, w)
+    x, y = x - w @ x / w.sum(), y - w @ y / w.sum()
+    spread = np.sqrt((w @ x**2) * (w @ y**2))
+    return float(np.clip(w @ (x * y) / spread, -1, 1)) if spread > 0 else float("nan")
+
+
+def _ranks(of: Order, w: np.ndarray) -> np.ndarray:
+    """(k,) the weight of what is less, and half of that of what is equal."""
+    order, groups = of
+    bounds = np.append(0, np.cumsum(w[order]))[groups]
+    ranks = np.empty(len(order))
+    ranks[order] = np.repeat((bounds[:-1] + bounds[1:]) / 2, np.diff(groups))
+    return ranks
+
+
+def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Values, ids and areas of the vertices that have a value."""
+    f = np.asarray(field)
+    n = len(surface.vertices)
+    if f.shape != (n,) or f.dtype.kind not in "biuf":
+        raise ParameterError(f"A field is a real number for each of {n} vertices, not {f.shape}.")
+    ids = np.flatnonzero(np.isfinite(f) & (surface.component_of_vertex >= 0))
+    weights = corner_areas(surface)[ids]
+    if not weights.sum() > 0:
+        raise ParameterError(f"The field has no finite value on {surface.name}.")
+    return f[ids].astype(np.float64), ids, weights
+
+
+def _edges(bins: int | npt.ArrayLike, least: float, greatest: float) -> np.ndarray:
+    if np.ndim(bins) == 0:
+        if isinstance(bins, (bool, np.bool_)) or not isinstance(bins, (int, np.integer)) or bins < 1:
+            raise ParameterError(f"bins is {bins!r}; a histogram has a whole number of them, at least 1.")
+        return np.histogram_bin_edges([], int(bins), (least, greatest))
+    edges = np.asarray(bins, np.float64)
+    if edges.ndim != 1 or len(edges) < 2 or not (np.diff(edges) > 0).all() or not np.isfinite(edges).all():
+        raise ParameterError(f"The ends of bins are at least two finite numbers, ascending, not {bins!r}.")
+    return edges

@@ -1,0 +1,42 @@
+"""Files of regions: the label of each vertex, and the mesh cut along their boundaries."""
+
+import os
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..formats.field_output import FIELD_FORMATS, write_fields
+from ..surface import Surface
+from ..whole_file import check_output
+from .region_mesh import RegionMesh
+from .regions import Regions
+
+LABEL_FORMATS = FIELD_FORMATS
+REGION_MESH_FORMATS = (".ply", ".vtp")
+
+
+def write_labels(
+    path: str | os.PathLike[str], surface: Surface, regions: Regions, labels: Sequence[int] | None = None
+) -> None:
+    """Write the region of each vertex as the field `region` (`write_fields`); NaN where there is none.
+
+    labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError as there.
+    """
+    write_fields(path, surface, {"region": _labelled(regions.labels, labels)})
+
+
+def write_region_mesh(path: str | os.PathLike[str], mesh: RegionMesh, labels: Sequence[int] | None = None) -> None:
+    """Write the cut mesh as .ply or .vtp, with the field `region` at its vertices, each of which is in one region.
+
+    labels: see `write_labels`.  Raises OutputError as there.
+    """
+    check_output(path, REGION_MESH_FORMATS)
+    write_fields(path, mesh.surface, {"region": _labelled(mesh.regions, labels)})
+
+
+def _labelled(regions: np.ndarray, labels: Sequence[int] | None) -> np.ndarray:
+    """(n,) the labels of regions (n,)."""
+    if not (regions >= 0).any():
+        return np.full(len(regions), np.nan)
+    named = np.arange(int(regions.max()) + 1) if labels is None else np.asarray(labels)
+    return np.where(regions >= 0, named[np.maximum(regions, 0)], np.nan)

@@ -1,0 +1,98 @@
+"""Vertices chosen on a surface: by a brush of some radius, cut out as a mesh, written to files."""
+
+import os
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+from scipy import sparse
+from scipy.sparse import csgraph
+from scipy.spatial import cKDTree
+
+from ..errors import ParameterError
+from ..formats.field_output import write_array, write_fields
+from ..surface import Surface
+from ..whole_file import check_output, whole_file
+
+SELECTION_WAYS = {"ids": (".txt", ".npy", ".csv"), "field": (".csv", ".npy", ".ply", ".vtp"), "mesh": (".ply", ".vtp")}
+"""As what a selection is written, and the extensions there are for it."""
+
+
+class Brush:
+    """Finds what is near a place and hangs together with it; made once for a surface."""
+
+    def __init__(self, surface: Surface) -> None:
+        self._surface = surface
+        self._tree = cKDTree(surface.vertices)
+
+    @cached_property
+    def _edges(self) -> sparse.csr_matrix:
+        i, j = self._surface.edges.T
+        n = len(self._surface.vertices)
+        return sparse.csr_matrix((np.ones(len(i), np.int8), (i, j)), (n, n))
+
+    def near(self, face: int, position: npt.ArrayLike, radius: float) -> np.ndarray:
+        """(k,) ids, ascending: the vertices within a radius, straight, of a position (3,) in a face, as far as edges
+        between such vertices join them to the face, so none of another sheet behind it.
+
+        Where the face has no corner within the radius, the corner nearest to the position.
+        """
+        place = np.asarray(position, np.float64)
+        if not (radius > 0 and place.shape == (3,) and np.isfinite(place).all()):
+            raise ParameterError(f"A brush has a place (3,) and a radius above 0, not {position!r} and {radius!r}.")
+        corners = self._surface.faces[face]
+        apart = np.linalg.norm(self._surface.vertices[corners] - place, axis=1)
+        within = np.array(sorted(self._tree.query_ball_point(place, radius)), np.int64)
+        begins = corners[apart <= radius]
+        if not len(begins):
+            return corners[[apart.argmin()]].astype(np.int64)
+        _, piece = csgraph.connected_components(self._edges[within][:, within], directed=False)
+        wanted = np.unique(piece[np.searchsorted(within, begins)])
+        return within[np.isin(piece, wanted)]
+
+
+def cut_out(surface: Surface, vertices: npt.ArrayLike) -> tuple[Surface, np.ndarray]:
+    """The faces all of whose corners are among vertices (k,), as a mesh of its own; and the vertex of the whole that
+    each of its vertices is.  ParameterError if there is no such face."""
+    chosen = np.zeros(len(surface.vertices), bool)
+    chosen[surface.check_vertices(vertices)] = True
+    faces = surface.faces[chosen[surface.faces].all(axis=1)]
+    if not len(faces):
+        raise ParameterError(f"No face of {surface.name} has all its corners among the {int(chosen.sum()):,} vertices.")
+    ids, index = np.unique(faces, return_inverse=True)
+    return Surface(surface.vertices[ids], index.reshape(-1, 3), surface.name), ids
+
+
+def write_ids(path: str | os.PathLike[str], vertices: npt.ArrayLike) -> None:
+    """Vertex ids (k,): .txt has one on each line, .npy an int64 array, .csv a column `vertex`."""
+    ids = np.asarray(vertices, np.int64).ravel()
+    if check_output(path, SELECTION_WAYS["ids"]) != ".txt":
+        write_array(path, ids, ["vertex"])
+        return
+    with whole_file(path) as temporary:
+        temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")
+
+
+def write_selection(
+    path: str | os.PathLike[str], surface: Surface, vertices: npt.ArrayLike, way: str = "ids", name: str = "selection"
+) -> None:
+    """Write vertices (k,) of a surface; way: "ids" (`write_ids`), "field", 1 at them and 0 elsewhere under a name
+    (`write_fields`), or "mesh", the faces all of whose corners they are, with the field `vertex` of their ids (.ply or
+    .vtp).
+
+    Raises OutputError if the file cannot be written, ParameterError for another way or where no face is cut out,
+    VertexError for vertices that are not there.
+    """
+    if way not in SELECTION_WAYS:
+        raise ParameterError(f"A selection is written as {', '.join(SELECTION_WAYS)}, not as {way!r}.")
+    check_output(path, SELECTION_WAYS[way])
+    ids = surface.check_vertices(vertices)
+    if way == "ids":
+        write_ids(path, ids)
+    elif way == "field":
+        field = np.zeros(len(surface.vertices))
+        field[ids] = 1
+        write_fields(path, surface, {name: field})
+    else:
+        part, of = cut_out(surface, ids)
+        write_fields(path, part, {"vertex": of})

@@ -1,0 +1,154 @@
+"""Fields in numbers: against sums over a subdivided mesh, SciPy, and what is known."""
+
+import numpy as np
+import pytest
+from scipy.stats import spearmanr
+
+from bihdist_core import (
+    BiharmonicDistance,
+    GeodesicDistance,
+    Laplacian,
+    ParameterError,
+    TruncatedBiharmonicDistance,
+    VertexError,
+)
+from bihdist_core.analysis.field_statistics import corner_areas, field_agreement, field_statistics, rank_correlation
+from bihdist_core.analysis.truncation import truncation_loss
+from bihdist_core.experiments.resizing import refined
+from tests.shapes import bumpy, grid, two_pieces
+
+
+@pytest.fixture(scope="module")
+def rough():
+    return bumpy(300)
+
+
+@pytest.fixture(scope="module")
+def field(rough):
+    return BiharmonicDistance(rough).from_source(7)
+
+
+def test_known_numbers_on_a_plane():
+    plane = grid(10, 10)
+    x = plane.vertices[:, 0]
+    found = field_statistics(plane, x - 2, bins=[-2, 0, 4.5, 8])
+    assert found.mean == pytest.approx(3, rel=1e-12)
+    assert (found.least, found.greatest, found.largest) == (-2, 8, 8)
+    assert (found.least_at, found.greatest_at) == (0, 10)
+    assert found.quantiles[2] == pytest.approx(3, abs=1)
+    # Columns of vertices have the area 10 each, the outermost half.
+    assert found.areas.tolist() == pytest.approx([15, 50, 35], rel=1e-12)
+    assert found.mean_size == pytest.approx(np.average(np.abs(x - 2), weights=corner_areas(plane)), rel=1e-12)
+
+
+def test_the_mean_is_that_of_the_linear_field(rough, field):
+    fine = refined(refined(rough))
+    middle = np.concatenate([field, field[rough.edges].mean(axis=1)])
+    values = np.concatenate([middle, middle[refined(rough).edges].mean(axis=1)])
+    one, other = field_statistics(rough, field), field_statistics(fine, values)
+    assert one.mean == pytest.approx(other.mean, rel=1e-12)
+    assert one.areas.sum() == pytest.approx(rough.face_areas.sum(), rel=1e-12)
+    assert one.quantiles == pytest.approx(other.quantiles, abs=0.03 * one.greatest)
+
+
+def test_quantiles_reach_their_share_of_the_area(rough, field):
+    shares = np.linspace(0, 1, 21)
+    found = field_statistics(rough, field, shares=shares)
+    areas, total = corner_areas(rough), rough.face_areas.sum()
+    for share, value in zip(shares, found.quantiles, strict=True):
+        assert areas[field <= value].sum() >= share * total * (1 - 1e-9)
+        assert areas[field < value].sum() <= share * total * (1 + 1e-9)
+    assert (found.quantiles[0], found.quantiles[-1]) == (field.min(), field.max())
+
+
+def test_vertices_without_a_value_are_left_out():
+    both = two_pieces()
+    field = BiharmonicDistance(both).from_source(0)
+    part = both.component(0)[0]
+    one, other = field_statistics(both, field), field_statistics(part, field[:60])
+    assert one.count == 60
+    assert one.mean == pytest.approx(other.mean, rel=1e-12)
+    with pytest.raises(ParameterError, match="no finite value"):
+        field_statistics(both, np.full(len(both.vertices), np.nan))
+
+
+def test_a_constant_field_is_a_histogram_too(rough):
+    found = field_statistics(rough, np.full(300, 2.0), bins=4)
+    assert (found.mean, found.deviation) == pytest.approx((2, 0), abs=1e-12)
+    assert found.areas.sum() == pytest.approx(rough.face_areas.sum(), rel=1e-12)
+
+
+def test_rank_correlation_is_scipys():
+    rng = np.random.default_rng(0)
+    a = rng.random(500)
+    for b in (a**3, -np.exp(a), a + rng.random(500), rng.integers(5, size=500).astype(float)):
+        assert rank_correlation(a, b) == pytest.approx(spearmanr(a, b).statistic, abs=1e-12)
+    # A weight is as so many points.
+    times = rng.integers(1, 6, size=500)
+    b = np.round(a + rng.random(500), 1)
+    repeated = spearmanr(np.repeat(a, times), np.repeat(b, times)).statistic
+    assert rank_correlation(a, b, times) == pytest.approx(repeated, abs=1e-12)
+    assert np.isnan(rank_correlation(a, np.ones(500)))
+
+
+def test_agreement_of_distances(rough, field):
+    geodesic = GeodesicDistance(rough, "exact").from_source(7)
+    found = field_agreement(rough, field, geodesic, shares=True)
+    apart = np.abs(field / field.max() - geodesic / geodesic.max())
+    assert found.largest == apart.max()
+    assert found.largest_at == apart.argmax()
+    assert found.spearman == pytest.approx(spearmanr(field, geodesic).statistic, abs=1e-12)
+    assert 0.9 < found.by_area < 1
+    same = field_agreement(rough, field, 2 * field, shares=True)
+    assert (same.spearman, same.mean, same.largest) == pytest.approx((1, 0, 0), abs=1e-12)
+    assert field_agreement(rough, field, 2 * field).largest == field.max()
+
+
+def test_bad_input_is_refused(rough, field):
+    for bins in (0, 2.5, [1, 1], [3, 2, 1], [1]):
+        with pytest.raises(ParameterError, match="bins"):
+            field_statistics(rough, field, bins)
+    with pytest.raises(ParameterError, match="Shares of the area"):
+        field_statistics(rough, field, shares=[1.5])
+    with pytest.raises(ParameterError, match="each of 300 vertices"):
+        field_statistics(rough, field[:-1])
+    with pytest.raises(ParameterError, match="cannot be compared"):
+        field_agreement(rough, field, field[:-1])
+    with pytest.raises(ParameterError, match="0 throughout"):
+        field_agreement(rough, field, 0 * field, shares=True)
+    with pytest.raises(ParameterError, match="common vertices"):
+        field_agreement(rough, field, field * np.nan)
+    with pytest.raises(ParameterError, match="cannot be correlated"):
+        rank_correlation([1, 2], [1, 2, 3])
+    with pytest.raises(ParameterError, match="finite values"):
+        rank_correlation([1, 2], [1, np.inf])
+
+
+def test_what_truncation_loses_is_that_of_the_truncated_distance(rough, field):
+    laplacian = Laplacian(rough)
+    loss = truncation_loss(laplacian, 7, most=40)
+    assert loss.counts.tolist() == list(range(1, 41))
+    for k in (1, 5, 17, 40):
+        apart = np.abs(TruncatedBiharmonicDistance(laplacian, k).from_source(7) - field) / field.max()
+        assert loss.largest[k - 1] == pytest.approx(apart.max(), rel=1e-6)
+        assert loss.at[k - 1] == apart.argmax()
+        assert loss.means[k - 1] == pytest.approx(np.average(apart, weights=laplacian.areas), rel=1e-6)
+    # More terms are never further from the exact sum.
+    assert (np.diff(loss.largest) <= 1e-9).all()
+    some = truncation_loss(laplacian, 7, counts=[5, 17])
+    assert some.means == pytest.approx(loss.means[[4, 16]], rel=1e-12)
+
+
+def test_truncation_on_small_and_other_components():
+    both = two_pieces()
+    loss = truncation_loss(both, 62, most=100)
+    assert loss.counts.tolist() == [1, 2, 3]
+    assert loss.largest[-1] < 1e-9
+    assert set(loss.at) <= {61, 62, 63, 64}
+    with pytest.raises(VertexError, match="vertex 60"):
+        truncation_loss(both, 60)
+    for counts in ([], [2, 1], [0, 1], [1.5]):
+        with pytest.raises(ParameterError, match="ascending"):
+            truncation_loss(both, 0, counts=counts)
+    with pytest.raises(ParameterError, match="3 eigenpairs at vertex 62"):
+        truncation_loss(both, 62, counts=[7])
