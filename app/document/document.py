@@ -4,15 +4,15 @@ A document says what is wanted and holds nothing that is computed.  It is hashab
 (`file`); the functions in `edits` lead from one to the next.
 """
 
-import math
-import operator
 from dataclasses import dataclass, replace
 from typing import Any
 
 from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import Source, checked_source, whole_number
 
 from .camera import View, checked_view
+from .instruments import ALONG_ALL_PINS, DOCKS, FIRST_TWO, Pin, Profile, Scatter, Selection
 from .looks import (
     AS_IT_IS,
     LARGEST,
@@ -40,14 +40,6 @@ MOST_PANELS = 1000
 LONGEST_NAME = 60
 
 
-def whole_number(value: Any, what: str) -> int:
-    """A whole number as Python's, also from NumPy; ParameterError for anything else."""
-    try:
-        return operator.index(value)
-    except TypeError:
-        raise ParameterError(f"{what} is a whole number, not {value!r}.") from None
-
-
 @dataclass(frozen=True)
 class MeshFile:
     """A surface by where it comes from, under a name of its own in the document.
@@ -62,33 +54,19 @@ class MeshFile:
 
 
 @dataclass(frozen=True)
-class Place:
-    """A place in a face: its corners' weights, which are at least 0 and add up to 1."""
-
-    face: int
-    weights: tuple[float, float, float]
-
-    def __post_init__(self) -> None:
-        if self.face < 0 or not all(w >= 0 for w in self.weights) or not math.isclose(sum(self.weights), 1):
-            raise ParameterError(f"A place in a face has weights that add up to 1, not {self.weights}.")
-
-
-@dataclass(frozen=True)
 class Point:
-    """A named point: a vertex, a place in a face, or None for the highest vertex of the largest component.
+    """A named source: a vertex, a place in a face, a set, a boundary loop or a curve (`bihdist_core.sources`).
 
-    None becomes that vertex once the surface is there.
+    None, for the highest vertex of the largest component, becomes that vertex once the surface is there.
     """
 
     name: str
-    at: int | Place | None
+    at: Source | None
     surface: str = "A"
 
     def __post_init__(self) -> None:
-        if self.at is not None and not isinstance(self.at, Place):
-            object.__setattr__(self, "at", whole_number(self.at, "A vertex id"))
-        if isinstance(self.at, int) and self.at < 0:
-            raise ParameterError(f"Vertex ids start at 0; {self.at} is none.")
+        if self.at is not None:
+            object.__setattr__(self, "at", checked_source(self.at))
 
 
 @dataclass(frozen=True)
@@ -178,7 +156,8 @@ class Document:
     areas: which vertex areas the operators have.  range: where colour bars end, one of RANGES.  height: a flat surface
     becomes a relief whose highest point is this share of its extent.  next_id: of the panel that is added next.
     fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
-    projection: one of PROJECTIONS.  axes: whether their directions are shown.
+    projection: one of PROJECTIONS.  axes: whether their directions are shown.  regions: the panels, by id, that show
+    the regions of the pins by their distance.  docks: those of DOCKS that are open.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
@@ -199,6 +178,12 @@ class Document:
     up: str = "auto"
     projection: str = "perspective"
     axes: bool = False
+    pins: tuple[Pin, ...] = ()
+    profile: Profile = ALONG_ALL_PINS
+    scatter: Scatter = FIRST_TWO
+    selections: tuple[Selection, ...] = ()
+    regions: tuple[int, ...] = ()
+    docks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -214,6 +199,17 @@ class Document:
         _known([part.name for panel in self.panels for part in own_fields(panel.shows)], fields, "field")
         _known([anchor.point for anchor in self.anchors], points, "point")
         _known(list(self.isolines.through), points, "point")
+        _unlike([pin.point for pin in self.pins], "pin at")
+        _known([pin.point for pin in self.pins], points, "point")
+        _known(list(self.profile.points), points, "point")
+        _unlike([selection.name for selection in self.selections], "selection")
+        _known([selection.surface for selection in self.selections], surfaces, "surface")
+        # Of panels that are gone nothing more is shown.
+        object.__setattr__(self, "regions", tuple(id for id in self.regions if id in ids))
+        across, up = (id if id in ids else None for id in (self.scatter.across, self.scatter.up))
+        object.__setattr__(self, "scatter", replace(self.scatter, across=across, up=up))
+        for dock in _unlike(list(self.docks), "dock"):
+            one_of(dock, DOCKS, "dock")
         if ids and max(ids) >= self.next_id:
             raise ParameterError(f"next_id is {self.next_id}, and there is a panel {max(ids)}.")
         if len(self.panels) > MOST_PANELS:
@@ -244,7 +240,7 @@ class Document:
         raise ParameterError(f"There is no panel {id}.")
 
     @property
-    def sources(self) -> tuple[int | Place | None, ...]:
+    def sources(self) -> tuple[Source | None, ...]:
         """Where the panels' fields start, each place once, in order."""
         return tuple(dict.fromkeys(self.point(name).at for panel in self.panels for name in panel.shows.points))
 
@@ -252,7 +248,7 @@ class Document:
 def comparison(
     path: str,
     shows: "tuple[Spec | Quantity, ...]" = COMPARISON,
-    sources: tuple[int | None, ...] = (None,),
+    sources: tuple[Source | str | None, ...] = (None,),
     areas: str = "voronoi",
     fields: tuple[FieldArray, ...] = (),
 ) -> Document:
@@ -268,12 +264,18 @@ def comparison(
     shown += [OwnField(field.name) for field in fields if field.name not in named]
     return Document(
         surfaces=(MeshFile("A", path),),
-        points=tuple(Point(name, at) for name, at in zip(names, sources, strict=True)),
+        points=tuple(Point(name, at) for name, at in zip(names, sources, strict=True)),  # type: ignore[arg-type]
         panels=tuple(Panel(k, each) for k, each in enumerate(shown)),
         areas=areas,
         next_id=len(shown),
         fields=fields,
     )
+
+
+def starting_points(document: Document) -> tuple[Point, ...]:
+    """Those that fields start from, in the document's order."""
+    shown = {name for panel in document.panels for name in panel.shows.points}
+    return tuple(point for point in document.points if point.name in shown)
 
 
 def free_names(base: str, count: int, taken: list[str]) -> list[str]:
@@ -282,9 +284,9 @@ def free_names(base: str, count: int, taken: list[str]) -> list[str]:
     return [name for name in numbered if name not in taken][:count]
 
 
-def without_camera(document: Document) -> Document:
-    """What two documents have in common that differ in nothing but where they are seen from."""
-    return replace(document, camera="home")
+def content(document: Document) -> Document:
+    """What two documents have in common that differ in nothing but where they are seen from, and in open docks."""
+    return replace(document, camera="home", docks=())
 
 
 def _unlike(names: list, what: str) -> set:

@@ -4,8 +4,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec, kinds
+from bihdist_core.sources.source import Source
 
-from .document import COMPARISON, Document, MeshFile, Panel, Place, Point, free_names
+from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
+from .instruments import ALONG_ALL_PINS
+from .measuring import show_regions
 from .quantities import DistanceFrom, Quantity, own_fields
 
 MOST_ADDED = 6
@@ -37,6 +40,10 @@ def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> 
         isolines=replace(
             document.isolines, through=tuple(name for name in document.isolines.through if name not in gone)
         ),
+        pins=tuple(pin for pin in document.pins if pin.point not in gone),
+        profile=ALONG_ALL_PINS if set(document.profile.points) & gone else document.profile,
+        selections=tuple(each for each in document.selections if each.surface != mesh.name),
+        regions=(),
         zooms=(),
         height=0.0,
         camera="home",
@@ -50,7 +57,7 @@ def stand(document: Document, up: str) -> Document:
     return document if up == document.up else replace(document, up=up, camera=camera)
 
 
-def put_point(document: Document, name: str, at: int | Place | None, surface: str = "A") -> Document:
+def put_point(document: Document, name: str, at: Source | None, surface: str = "A") -> Document:
     """Move a named point, or add it."""
     point = Point(name, at, surface)
     if all(other.name != name for other in document.points):
@@ -58,15 +65,20 @@ def put_point(document: Document, name: str, at: int | Place | None, surface: st
     return replace(document, points=tuple(point if other.name == name else other for other in document.points))
 
 
-def move_source(document: Document, panel: int, at: int | Place) -> Document:
-    """What a click in a panel does: the point that its quantity starts from goes there.
+def source_name(document: Document, panel: int) -> str:
+    """The point that a panel's quantity starts from.
 
-    In a panel whose quantity starts nowhere, it is that of the first panel of the same surface that has one.
+    Of a quantity that starts nowhere, it is that of the first panel of the same surface that has one; "" for none.
     """
     shown = document.panel(panel)
     alike = [shown, *(other for other in document.panels if other.surface == shown.surface)]
-    names = [name for each in alike for name in each.shows.points]
-    return put_point(document, names[0], at, shown.surface) if names else document
+    return next((name for each in alike for name in each.shows.points), "")
+
+
+def move_source(document: Document, panel: int, at: Source) -> Document:
+    """What a click in a panel does: the point that its quantity starts from (`source_name`) goes there."""
+    name = source_name(document, panel)
+    return put_point(document, name, at, document.panel(panel).surface) if name else document
 
 
 def show_in(document: Document, panel: int, shows: Quantity) -> Document:
@@ -143,6 +155,14 @@ def duplicate_panel(document: Document, panel: int) -> Document:
     return move_panel(more, document.next_id, place_of(document, panel) + 1)
 
 
+def can_divide(document: Document, panel: int) -> bool:
+    """Whether there are pins for a panel's distance to divide its surface among."""
+    shown = document.panel(panel)
+    return isinstance(shown.shows, DistanceFrom) and any(
+        document.point(pin.point).surface == shown.surface for pin in document.pins
+    )
+
+
 def place_of(document: Document, panel: int) -> int:
     """The place of a panel among the others."""
     return document.panels.index(document.panel(panel))
@@ -153,6 +173,7 @@ PANEL_EDITS: dict[str, Callable[[Document, int], Document]] = {
     "Duplicate this panel": duplicate_panel,
     "Move it back": lambda document, panel: move_panel(document, panel, max(place_of(document, panel) - 1, 0)),
     "Move it on": lambda document, panel: move_panel(document, panel, place_of(document, panel) + 1),
+    "Regions of the pins": lambda document, panel: show_regions(document, panel, panel not in document.regions),
     "Remove it": remove_panel,
 }
 """What the menu over a panel offers."""
@@ -164,4 +185,6 @@ def possible_edits(document: Document, panel: int, most: int) -> set[str]:
     possible = {"Add a panel", "Duplicate this panel"} if count < most else set()
     possible |= {"Move it back"} if place > 0 else set()
     possible |= {"Move it on"} if place < count - 1 else set()
+    if panel in document.regions or can_divide(document, panel):
+        possible |= {"Regions of the pins"}
     return possible | ({"Remove it"} if count > 1 else set())

@@ -5,9 +5,12 @@ from typing import Any
 
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import BoundaryLoop, Curve, Place, Source, SourceSet
+from bihdist_core.sources.words import curve_rows, places_from
 
 from .camera import Camera, View
-from .document import Anchor, Document, FieldArray, MeshFile, Panel, Place, Point, Zoom
+from .document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom
+from .instruments import ALONG_ALL_PINS, FIRST_TWO, Pin, Profile, Scatter, Selection
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
 from .quantities import Difference, DistanceFrom, OwnField, Part, Quantity
@@ -20,6 +23,12 @@ LATER: dict[str, Any] = {
     "up": "y",
     "projection": "perspective",
     "axes": False,
+    "pins": [],
+    "profile": {},
+    "scatter": {},
+    "selections": [],
+    "regions": [],
+    "docks": [],
 }
 """Parts of a document that it need not have, and what then holds: as it was before there were any."""
 
@@ -28,7 +37,7 @@ def document_data(document: Document) -> dict[str, Any]:
     """The document as records, lists, texts and numbers; `document_from` reads it back, equal."""
     own: dict[str, Any] = {
         "surfaces": [plain(mesh) for mesh in document.surfaces],
-        "points": [{**plain(point), "at": _place_data(point.at)} for point in document.points],
+        "points": [{**plain(point), "at": _source_data(point.at)} for point in document.points],
         "panels": [{**plain(panel), "shows": _quantity_data(panel.shows)} for panel in document.panels],
         "camera": view_data(document.camera),
         "zooms": [plain(zoom) for zoom in document.zooms],
@@ -37,6 +46,12 @@ def document_data(document: Document) -> dict[str, Any]:
         "shading": _unlike(document.shading, AS_IT_IS),
         "anchors": [plain(anchor) for anchor in document.anchors],
         "fields": [plain(field) for field in document.fields],
+        "pins": [plain(pin) for pin in document.pins],
+        "profile": _unlike(document.profile, ALONG_ALL_PINS),
+        "scatter": _unlike(document.scatter, FIRST_TWO),
+        "selections": [plain(selection) for selection in document.selections],
+        "regions": list(document.regions),
+        "docks": list(document.docks),
     }
     data = {f.name: own.get(f.name, getattr(document, f.name)) for f in fields(document)}
     # What came later is written where it differs from what was before.
@@ -64,8 +79,16 @@ def view_data(view: View) -> str | dict[str, Any]:
     return {name: list(values) for name, values in plain(view).items()}
 
 
-def _place_data(at: int | Place | None) -> int | dict[str, Any] | None:
-    return {"face": at.face, "weights": list(at.weights)} if isinstance(at, Place) else at
+def _source_data(at: Source | None) -> int | dict[str, Any] | None:
+    if isinstance(at, SourceSet):
+        return {"set": [_source_data(member) for member in at.members]}
+    if isinstance(at, Place):
+        return {"face": at.face, "weights": list(at.weights)}
+    if isinstance(at, BoundaryLoop):
+        return {"loop": at.number}
+    if isinstance(at, Curve):
+        return {"curve": curve_rows(at), "closed": at.closed}
+    return at
 
 
 def _quantity_data(shows: Quantity) -> dict[str, Any]:
@@ -98,6 +121,12 @@ def document_from(data: Any, where: str = "document") -> Document:
         "up": text,
         "projection": text,
         "axes": flag,
+        "pins": listed(_pin),
+        "profile": _profile,
+        "scatter": _scatter,
+        "selections": listed(_selection),
+        "regions": listed(whole),
+        "docks": listed(text),
     }
     values = record(data, where, readers, readers.keys() - LATER.keys() - {"shared_range"})
     return placed(Document, where, **with_range({"up": LATER["up"], **values}))
@@ -118,10 +147,18 @@ def _field_array(data: Any, where: str) -> FieldArray:
 
 
 def _point(data: Any, where: str) -> Point:
-    return placed(Point, where, **record(data, where, {"name": text, "at": or_none(_place), "surface": text}))
+    return placed(Point, where, **record(data, where, {"name": text, "at": or_none(_source), "surface": text}))
 
 
-def _place(data: Any, where: str) -> int | Place:
+def _source(data: Any, where: str) -> Source:
+    if isinstance(data, dict) and "set" in data:
+        members = record(data, where, {"set": listed(_source)})["set"]
+        return placed(SourceSet, where, members=members)
+    if isinstance(data, dict) and "loop" in data:
+        return placed(BoundaryLoop, where, number=record(data, where, {"loop": whole})["loop"])
+    if isinstance(data, dict) and "curve" in data:
+        values = record(data, where, {"curve": places_from, "closed": flag}, {"curve"})
+        return placed(Curve, where, places=values["curve"], closed=values.get("closed", False))
     if isinstance(data, dict):
         return placed(Place, where, **record(data, where, {"face": whole, "weights": numbers(3)}))
     return whole(data, where)
@@ -184,6 +221,32 @@ def _stop(data: Any, where: str) -> tuple[float, tuple[float, ...]]:
 def _shading(data: Any, where: str) -> Shading:
     readers = {"normals": text, "crease": number, "wireframe": flag}
     return placed(Shading, where, **record(data, where, readers, set()))
+
+
+def _pin(data: Any, where: str) -> Pin:
+    return placed(Pin, where, **record(data, where, {"point": text, "name": text, "colour": whole}, {"point"}))
+
+
+def _profile(data: Any, where: str) -> Profile:
+    readers = {"points": listed(text), "way": text, "across": or_none(numbers(3)), "shares": flag}
+    return placed(Profile, where, **record(data, where, readers, set()))
+
+
+def _scatter(data: Any, where: str) -> Scatter:
+    readers = {"across": or_none(whole), "up": or_none(whole), "shares": flag}
+    return placed(Scatter, where, **record(data, where, readers, set()))
+
+
+def _selection(data: Any, where: str) -> Selection:
+    readers = {"name": text, "runs": listed(_run), "colour": whole, "surface": text}
+    return placed(Selection, where, **record(data, where, readers, {"name", "runs"}))
+
+
+def _run(data: Any, where: str) -> tuple[int, int]:
+    ends = listed(whole)(data, where)
+    if len(ends) != 2:
+        raise ParameterError(f"{where} must be a first and a last vertex id, not {len(ends)} numbers.")
+    return ends
 
 
 def read_view(data: Any, where: str) -> View:

@@ -4,7 +4,7 @@ from collections import deque
 from dataclasses import replace
 from typing import Generic, TypeVar
 
-from .document import Document, Point, without_camera
+from .document import Document, Point, content, starting_points
 
 LONGEST = 10_000
 """Steps that are kept; a document takes some kilobytes."""
@@ -14,7 +14,8 @@ class History:
     """Steps from one document to the next.
 
     Steps with the same key in a row are one: a drag, a slider.  The camera belongs to the document, but its moves are
-    no steps: undo and redo leave it where it is, except that another mesh is seen as it was seen last.
+    no steps: undo and redo leave it where it is, except that another mesh is seen as it was seen last.  Nor are docks
+    that are opened and closed.
     """
 
     def __init__(self, document: Document) -> None:
@@ -32,13 +33,15 @@ class History:
         return bool(self._future)
 
     def change(self, document: Document, key: str = "") -> Document:
-        """Make this the present: a step, unless only the camera differs.  Without a key a row of equal ones ends."""
-        if without_camera(document) != without_camera(self.present):
+        """Make this the present: a step, unless only camera or docks differ.  Without a key a row of equal ones
+        ends.
+        """
+        if content(document) != content(self.present):
             self._future.clear()
             if not key or key != self._key:
                 self._past.append(self.present)
                 self._key = key
-            elif self._past and without_camera(document) == without_camera(self._past[-1]):
+            elif self._past and content(document) == content(self._past[-1]):
                 # Back where the row of changes began: nothing is left of the step.
                 self._past.pop()
                 self._key = ""
@@ -57,11 +60,11 @@ class History:
         return found
 
     def trail_of_points(self) -> "Trail[tuple[Point, ...]]":
-        """Where the points of the present surfaces have been, step by step, up to where they are."""
+        """Where the points that fields start from have been, step by step, on the present surfaces."""
         trail: Trail[tuple[Point, ...]] = Trail()
         for document in (*self._past, self.present):
             if document.surfaces == self.present.surfaces:
-                trail.visit(document.points)
+                trail.visit(starting_points(document))
         return trail
 
     def undo(self) -> Document:
@@ -123,4 +126,5 @@ class Trail(Generic[Place]):
 
 
 def _seen_from(document: Document, present: Document) -> Document:
+    document = replace(document, docks=present.docks)
     return replace(document, camera=present.camera) if document.surfaces == present.surfaces else document

@@ -13,10 +13,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import Curve, SourceSet
+from bihdist_core.sources.words import words_of
 
 from ..samples import mesh_path
 from .camera import Camera
-from .document import COMPARISON, Document, Place, Point
+from .document import COMPARISON, Document, Point
+from .instruments import PIN_COLOURS
 from .page import Page, Recipe
 from .quantities import Quantity, from_point, own_fields
 
@@ -114,22 +117,30 @@ def _panels(recipe: Recipe) -> Said:
     ]
     if [panel.shows for panel in document.panels] != [from_point(each, name) for name in names for each in shows]:
         raise _Unsaid("The panels start from different points, and not each distance from each.")
-    at = [_vertex(document.point(name)) for name in names]
+    at = [_source(document.point(name)) for name in names]
     if None in at and len(at) > 1:
         raise _Unsaid("One of several sources is where nobody has put it.")
     words = [str(each) for each in shows]
     is_usual = words == [str(spec) for spec in COMPARISON]
     options = [*([] if is_usual else [("--distance", word) for word in words])]
-    options += [("--source", str(vertex)) for vertex in at if vertex is not None]
+    options += [("--source", str(source)) for source in at if source is not None]
     arguments: dict[str, Any] = {} if is_usual else {"distances": words}
     if at != [None]:
         arguments["source"] = at if len(at) > 1 else at[0]
     return Said(tuple(options), arguments)
 
 
+def _source(point: Point) -> int | str | None:
+    """A vertex, or words for what else there is."""
+    members = point.at.members if isinstance(point.at, SourceSet) else (point.at,)
+    if any(isinstance(member, Curve) for member in members):
+        raise _Unsaid("A source is a curve, which no line can hold.")
+    return point.at if point.at is None or isinstance(point.at, int) else words_of(point.at)
+
+
 def _vertex(point: Point) -> int | None:
-    if isinstance(point.at, Place):
-        raise _Unsaid("A point lies within a face, where no vertex is.")
+    if point.at is not None and not isinstance(point.at, int):
+        raise _Unsaid("An anchor is at no vertex.")
     return point.at
 
 
@@ -184,6 +195,21 @@ def _anchors(recipe: Recipe) -> Said:
         raise _Unsaid("Two marks are at one vertex, or one is where nobody has put it.")
     words = ",".join(f"{vertex}" if value is None else f"{vertex}={_number(value)}" for vertex, value in marks)
     return Said((("--anchors", words),), {"anchors": dict(marks)})
+
+
+def _pins(recipe: Recipe) -> Said:
+    """In the colours that they get by themselves."""
+    document = recipe.document
+    vertices = [document.point(pin.point).at for pin in document.pins]
+    if not vertices:
+        return NOTHING
+    if any(document.point(pin.point).surface != document.surfaces[0].name for pin in document.pins):
+        raise _Unsaid("A pin is on another mesh.")
+    if not all(isinstance(vertex, int) for vertex in vertices) or len(set(vertices)) < len(vertices):
+        raise _Unsaid("A pin is at no vertex of its own.")
+    if [pin.colour for pin in document.pins] != [k % PIN_COLOURS for k in range(len(vertices))]:
+        raise _Unsaid("Pins have other colours than usual.")
+    return Said(tuple(("--pin", str(vertex)) for vertex in vertices), {"pins": vertices})
 
 
 # ---------------------------------------------------------------------- how it looks
@@ -342,6 +368,9 @@ ROWS = (
     Row(("Document.projection",), _of_document("projection", "--projection", "projection")),
     Row(("Document.axes",), _of_document("axes", "--axes", "axes")),
     Row(("Document.height",), _of_document("height", "--height", "height")),
+    Row(("Document.pins", "Pin.point", "Pin.colour"), _pins),
+    Row(("Document.selections",), _only_usual(lambda recipe: recipe.document.selections, "Vertices are selected.")),
+    Row(("Document.regions",), _only_usual(lambda recipe: recipe.document.regions, "Regions of pins are shown.")),
     Row(("Page.columns",), _columns),
     Row(("Page.hints",), _of_page("hints", "--hints", "hints")),
     Row(("Page.size",), _of_page("size", "--size", "size")),
@@ -356,6 +385,10 @@ ROWS = (
 UNSEEN = {
     "Document.tool": "what a click does in the window",
     "Document.next_id": "for panels that are still to come",
+    "Document.docks": "instruments of the window",
+    "Document.profile": "for the window's chart",
+    "Document.scatter": "for the window's chart",
+    "Pin.name": "figures show numbers",
     "Panel.id": "for the window and the history",
     "Panel.surface": "with one mesh all panels are of it",
     "Page.format": "the file's name says it",

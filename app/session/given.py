@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.sources.source import Source
 
 from ..document.document import Document, FieldArray, MeshFile, comparison
 from ..document.page import Recipe
@@ -140,7 +141,7 @@ def given_comparison(
     mesh: Mesh,
     distances: Sequence[str | Quantity],
     fields: Mapping[str, npt.ArrayLike],
-    sources: tuple[int | None, ...],
+    sources: tuple[Source | str | None, ...],
     areas: str = "voronoi",
 ) -> tuple[Document, Given]:
     """A mesh with a panel for each distance from each source, and one for each field that none of them names."""

@@ -20,7 +20,7 @@ from ..document.document import Document, MeshFile
 from ..document.file import checksum
 from ..samples import mesh_path
 from .given import Given
-from .questions import DifferenceQuestion, FieldQuestion, Question, vertex_at
+from .questions import DifferenceQuestion, FieldQuestion, Question, source_at
 
 
 class Opened:
@@ -61,11 +61,11 @@ class Opened:
             field = self._given.field(question.field.sha256, question.field.name)
             is_signed = bool(np.nanmin(field, initial=0.0) < 0)
             return Answer(label=question.field.name, field=field, certificate=Certificate(), is_signed=is_signed)
-        vertex = vertex_at(question.at, self.surface)
-        return self.distances(question.areas).answer(question.spec, vertex, progress, at_once)
+        source = source_at(question.at, self.surface)
+        return self.distances(question.areas).answer(question.spec, source, progress, at_once)
 
     def settled(self, document: Document) -> Document:
-        """The document with this surface's checksum, and its points where there is a vertex.
+        """The document with this surface's checksum, and its points on it.
 
         Which way is up is that of the first surface, where it was left to be guessed.
 
@@ -87,8 +87,8 @@ class Opened:
         meshes = (replace(m, sha256=self.mesh.sha256) if m.name in mine else m for m in document.surfaces)
         points = []
         for point in document.points:
-            vertex = vertex_at(point.at, self.surface, self._up_in(document)) if point.surface in mine else None
-            points.append(replace(point, at=vertex) if point.at is None else point)
+            source = source_at(point.at, self.surface, self._up_in(document)) if point.surface in mine else None
+            points.append(replace(point, at=source) if point.at is None else point)
         return replace(document, surfaces=tuple(meshes), points=tuple(points))
 
     def _up_in(self, document: Document) -> str:

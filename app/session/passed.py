@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core.distances.answers import Answer
+from bihdist_core.sources.source import Place
 
-from ..document.document import Document, Place, Point
+from ..document.document import Document, Point
 from .opened import Opened
 from .questions import vertex_at
 

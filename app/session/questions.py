@@ -5,17 +5,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bihdist_core import ParameterError, Surface
+from bihdist_core import Surface
 from bihdist_core.analysis.upright import axis_of
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.sources.pieces import Pieces, pieces_of
+from bihdist_core.sources.source import Source
 
-from ..document.document import Document, FieldArray, MeshFile, Place
+from ..document.document import Document, FieldArray, MeshFile
 from ..document.quantities import Difference, OwnField, Part, Quantity
 
 
 @dataclass(frozen=True)
 class DistanceQuestion:
-    """The distance of every vertex from a place; equal questions have equal answers.
+    """The distance of every vertex from a source; equal questions have equal answers.
 
     mesh: the surface, by path and checksum; areas: of its operators.
     """
@@ -23,7 +25,7 @@ class DistanceQuestion:
     mesh: MeshFile
     areas: str
     spec: Spec
-    at: int | Place | None
+    at: Source | None
 
     @property
     def specs(self) -> tuple[Spec, ...]:
@@ -124,18 +126,34 @@ def _question(document: Document, surface: str, shows: Quantity) -> Question:
     return asked(shows)
 
 
-def vertex_at(at: int | Place | None, surface: Surface, up: str = "y") -> int:
-    """The vertex a point stands for: itself, the nearest corner by weight, or the first source.
+def source_at(at: Source | None, surface: Surface, up: str = "y") -> Source:
+    """Where a point is: None is the first source, with `up` up.
 
-    VertexError if there is none, or it belongs to no face; ParameterError for a face that does not exist.
+    VertexError or ParameterError if that is not on this surface.
     """
     if at is None:
         return first_source(surface, up)
-    if isinstance(at, Place):
-        if at.face >= len(surface.faces):
-            raise ParameterError(f"{surface.name} has no face {at.face}; it has {len(surface.faces)}.")
-        return surface.check_vertex(int(surface.faces[at.face][int(np.argmax(at.weights))]))
-    return surface.check_vertex(at)
+    if isinstance(at, int):
+        return surface.check_vertex(at)
+    pieces_of(at, surface)
+    return at
+
+
+def pieces_at(at: Source | None, surface: Surface) -> Pieces:
+    """What a point is made of on a surface; the same errors."""
+    return pieces_of(source_at(at, surface), surface)
+
+
+def vertex_at(at: Source | None, surface: Surface) -> int:
+    """A vertex that stands for a point: itself, the nearest corner by weight, that of the first of several places.
+
+    The same errors.
+    """
+    at = source_at(at, surface)
+    if isinstance(at, int):
+        return at
+    pieces = pieces_of(at, surface)
+    return surface.check_vertex(int(pieces.corners[0][int(np.argmax(pieces.start[0]))]))
 
 
 def first_source(surface: Surface, up: str = "y") -> int:

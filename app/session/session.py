@@ -14,7 +14,7 @@ from bihdist_core import BihdistError, Surface
 from bihdist_core.distances.answers import failure_in_words
 
 from ..document.camera import View as CameraView
-from ..document.document import Document, MeshFile, Point
+from ..document.document import Document, MeshFile, Point, starting_points
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
 from .answering import Answering, AnswerView, Shown
@@ -138,6 +138,11 @@ class Session:
         if self._is_begun:
             self.history.change(replace(self.document, camera=camera))
 
+    def keep_open(self, docks: tuple[str, ...]) -> None:
+        """Which docks are open, which is no step of the history."""
+        if self._is_begun:
+            self.history.change(replace(self.document, docks=docks))
+
     def undo(self) -> None:
         """One step back."""
         self._step(-1)
@@ -148,13 +153,16 @@ class Session:
 
     def walk_sources(self, step: int) -> None:
         """To the points before (-1) or after (1) in the history's walk; the walk as a whole is one step."""
-        if self._walk is None or self._walk_end != self.document.points:
+        starting = starting_points(self.document)
+        if self._walk is None or self._walk_end != starting:
             self._walk = self.history.trail_of_points()
-        points = self._walk.back() if step < 0 else self._walk.on()
-        shown = {name for panel in self.document.panels for name in panel.shows.points}
-        if points is not None and shown <= {point.name for point in points}:
+        walked = self._walk.back() if step < 0 else self._walk.on()
+        moved = {point.name: point for point in walked or ()}
+        if walked is not None and {point.name for point in starting} <= moved.keys():
+            # Pins and other marks stay where they are.
+            points = tuple(moved[p.name] if p in starting else p for p in self.document.points)
             self.show(replace(self.document, points=points), key="walk")
-            self._walk_end = points
+            self._walk_end = starting_points(self.document)
 
     def cancel(self, panel: int | None = None) -> None:
         """Stop what is going on, for one panel or everything; the next click or change asks again."""

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from app.document.camera import Camera
-from app.document.document import Document, comparison, without_camera
+from app.document.document import Document, comparison, content
 from app.document.edits import add_panel, move_panel, move_source, put_point, remove_panel, show_in
 from app.document.form import document_data, document_from
 from app.document.history import History
@@ -73,12 +73,12 @@ class AnySession(RuleBasedStateMachine):
 
     def show(self, document, key="", live=False):
         self.session.show(document, key, live)
-        if without_camera(document) == without_camera(self.steps[self.place]):
+        if content(document) == content(self.steps[self.place]):
             self.key = key and self.key
             self.steps[self.place] = document
             return
         if key and key == self.key:
-            back = self.place and without_camera(document) == without_camera(self.steps[self.place - 1])
+            back = self.place and content(document) == content(self.steps[self.place - 1])
             self.place -= bool(back)
             self.key = "" if back else key
         else:
@@ -185,7 +185,7 @@ class AnySession(RuleBasedStateMachine):
         for _ in range(place):
             self.session.undo()
         assert not self.session.history.can_undo
-        assert without_camera(self.document) == without_camera(self.steps[0])
+        assert content(self.document) == content(self.steps[0])
         for _ in range(place):
             self.session.redo()
         assert self.document == here

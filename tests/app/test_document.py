@@ -7,12 +7,12 @@ from dataclasses import replace
 import pytest
 
 from app.document.camera import Camera
-from app.document.document import COMPARISON, Anchor, Document, MeshFile, Panel, Place, Point, Zoom, comparison
+from app.document.document import COMPARISON, Anchor, Document, MeshFile, Panel, Point, Zoom, comparison
 from app.document.edits import add_panel, move_panel, move_source, open_mesh, put_point, remove_panel, show_in
 from app.document.form import document_data, document_from
 from app.document.history import LONGEST, History
 from app.document.quantities import DistanceFrom, quantity
-from bihdist_core import ParameterError
+from bihdist_core import ParameterError, Place
 from bihdist_core.distances.kinds import Spec
 
 FRONT = Camera((0.0, 0.0, 5.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.5, 0.5))

@@ -1,0 +1,99 @@
+"""What a document says of measuring: pins, the profile, the scatter, selections, regions, and which docks are open."""
+
+from dataclasses import dataclass
+
+from bihdist_core.errors import ParameterError
+
+from .looks import one_of
+
+DOCKS = ("pins", "profile", "scatter", "statistics", "quality", "regions", "sources")
+"""The instruments, each in a dock of the window."""
+
+WAYS = ("auto", "exact", "straightened", "edges", "section")
+"""How a profile goes from point to point: `GeodesicPaths`' methods, or by a plane through both and the view."""
+
+PIN_COLOURS = 10
+"""How many colours there are for pins and selections."""
+
+LONGEST_NAME = 60
+
+Runs = tuple[tuple[int, int], ...]
+"""Vertex ids as runs: from the first to the last, both included, in order, apart."""
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A pinned point.
+
+    point: its name among the document's points.  name: for the user, its number if empty.  colour: one of PIN_COLOURS.
+    """
+
+    point: str
+    name: str = ""
+    colour: int = 0
+
+    def __post_init__(self) -> None:
+        _check_name(self.name, "pin")
+        _check_colour(self.colour)
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Fields along a path.
+
+    points: names of the points that it goes through, all pins in their order if empty.  way: one of WAYS.  across: for
+    a section, the direction (3,) that lies in its plane with the two points.  shares: of the maxima instead of values.
+    """
+
+    points: tuple[str, ...] = ()
+    way: str = "auto"
+    across: tuple[float, float, float] | None = None
+    shares: bool = True
+
+    def __post_init__(self) -> None:
+        one_of(self.way, WAYS, "way")
+        if len(self.points) == 1:
+            raise ParameterError("A profile goes through two points or more.")
+        if self.across is not None and not any(self.across):
+            raise ParameterError("A section needs a direction across, not 0, 0, 0.")
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """One panel's field against another's, by the panels' ids; the first two panels' if None."""
+
+    across: int | None = None
+    up: int | None = None
+    shares: bool = True
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Vertices of a surface under a name, in one of PIN_COLOURS."""
+
+    name: str
+    runs: Runs
+    colour: int = 0
+    surface: str = "A"
+
+    def __post_init__(self) -> None:
+        _check_name(self.name, "selection")
+        _check_colour(self.colour)
+        ends = [end for run in self.runs for end in run]
+        apart = all(a[1] + 1 < b[0] for a, b in zip(self.runs[:-1], self.runs[1:], strict=True))
+        if ends != sorted(ends) or (ends and ends[0] < 0) or not apart:
+            raise ParameterError("A selection is runs of vertex ids that go up and do not touch.")
+
+
+def _check_name(name: str, what: str) -> None:
+    if name and (not name.isprintable() or len(name) > LONGEST_NAME or name != name.strip()):
+        raise ParameterError(f"The name of a {what} has up to {LONGEST_NAME} printable letters, not {name[:80]!r}.")
+
+
+def _check_colour(colour: int) -> None:
+    if not 0 <= colour < PIN_COLOURS:
+        raise ParameterError(f"There are {PIN_COLOURS} colours, numbered from 0, and none is {colour}.")
+
+
+ALONG_ALL_PINS, FIRST_TWO = Profile(), Scatter()
+"""What holds where nothing is said."""

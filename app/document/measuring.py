@@ -1,0 +1,133 @@
+"""Edits of what a document says of measuring: pins, selections, regions, docks; pure functions, as in `edits`."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import Source
+
+from .document import Document, Point, free_names
+from .instruments import DOCKS, PIN_COLOURS, Pin, Runs, Selection
+from .looks import one_of
+
+MOST_PINS = 200
+"""Their distances among each other are a matrix that somebody reads."""
+
+
+def add_pins(document: Document, places: Iterable[Source], surface: str = "A") -> Document:
+    """A pin at each place that has none, each in the colour that fewest have; ParameterError beyond MOST_PINS."""
+    taken = {document.point(pin.point).at for pin in document.pins if document.point(pin.point).surface == surface}
+    new = [at for at in dict.fromkeys(places) if at not in taken]
+    if len(document.pins) + len(new) > MOST_PINS:
+        raise ParameterError(f"There are at most {MOST_PINS} pins, not {len(document.pins) + len(new)}.")
+    names = free_names("pin", len(new), [point.name for point in document.points])
+    for name, at in zip(names, new, strict=True):
+        document = replace(
+            document,
+            points=(*document.points, Point(name, at, surface)),
+            pins=(*document.pins, Pin(name, colour=_next_colour(document))),
+        )
+    return document
+
+
+def remove_pins(document: Document, points: Iterable[str]) -> Document:
+    """Without the pins at these points; a profile through them goes through all that are left."""
+    gone = set(points) & {pin.point for pin in document.pins}
+    profile = document.profile
+    if gone & set(profile.points):
+        profile = replace(profile, points=())
+    document = replace(document, pins=tuple(pin for pin in document.pins if pin.point not in gone), profile=profile)
+    kept = {name for panel in document.panels for name in panel.shows.points}
+    kept |= {anchor.point for anchor in document.anchors} | set(document.isolines.through)
+    return replace(
+        document, points=tuple(point for point in document.points if point.name not in gone or point.name in kept)
+    )
+
+
+def pinned_at(document: Document, place: Source, surface: str = "A") -> tuple[Document, str]:
+    """With a pin at a place, and the name of its point."""
+    document = add_pins(document, [place], surface)
+    points = [document.point(pin.point) for pin in document.pins]
+    return document, next(point.name for point in points if (point.at, point.surface) == (place, surface))
+
+
+def pin_instead(document: Document, places: Iterable[Source], surface: str = "A") -> Document:
+    """Pins at these places, and no others."""
+    return add_pins(remove_pins(document, [pin.point for pin in document.pins]), places, surface)
+
+
+def change_pin(document: Document, pin: Pin) -> Document:
+    """Another name or colour of the pin at a point."""
+    return replace(document, pins=tuple(pin if old.point == pin.point else old for old in document.pins))
+
+
+def move_pin(document: Document, point: str, place: int) -> Document:
+    """Put a pin at a place among the others, 0 for the first."""
+    others = [pin for pin in document.pins if pin.point != point]
+    moved = [pin for pin in document.pins if pin.point == point]
+    return replace(document, pins=(*others[:place], *moved, *others[place:]))
+
+
+def select(document: Document, name: str, vertices: np.ndarray, surface: str = "A") -> Document:
+    """Vertices (k,) as the selection of a name, instead of the old one of that name; none at all remove it."""
+    before = document.selections
+    if not len(vertices):
+        return replace(document, selections=tuple(each for each in before if each.name != name))
+    old = next((each for each in before if each.name == name), None)
+    if old is None:
+        counts = [sum(each.colour == colour for each in before) for colour in range(PIN_COLOURS)]
+        new = Selection(name, runs_of(vertices), counts.index(min(counts)), surface)
+        return replace(document, selections=(*before, new))
+    new = Selection(name, runs_of(vertices), old.colour, surface)
+    return replace(document, selections=tuple(new if each is old else each for each in before))
+
+
+def change_selection(document: Document, name: str, new_name: str | None = None, colour: int | None = None) -> Document:
+    """Another name or colour for a selection; ParameterError for a name that is empty or that another has."""
+    if name not in [each.name for each in document.selections]:
+        raise ParameterError(f"There is no selection {name!r}.")
+    wanted = name if new_name is None else new_name.strip()
+    if not wanted:
+        raise ParameterError("A selection needs a name.")
+    return replace(
+        document,
+        selections=tuple(
+            replace(each, name=wanted, colour=each.colour if colour is None else colour) if each.name == name else each
+            for each in document.selections
+        ),
+    )
+
+
+def runs_of(vertices: np.ndarray) -> Runs:
+    """Vertex ids (k,) as runs."""
+    ids = np.unique(np.asarray(vertices, np.int64))
+    if not len(ids):
+        return ()
+    breaks = np.flatnonzero(np.diff(ids) > 1)
+    firsts, lasts = ids[np.append(0, breaks + 1)], ids[np.append(breaks, len(ids) - 1)]
+    return tuple((int(first), int(last)) for first, last in zip(firsts, lasts, strict=True))
+
+
+def vertices_of(runs: Runs) -> np.ndarray:
+    """(k,) the vertex ids of runs."""
+    return np.concatenate([np.empty(0, np.int64), *(np.arange(first, last + 1) for first, last in runs)])
+
+
+def show_dock(document: Document, dock: str, is_open: bool = True) -> Document:
+    """Open or close one of DOCKS."""
+    one_of(dock, DOCKS, "dock")
+    others = tuple(each for each in document.docks if each != dock)
+    return replace(document, docks=(*others, dock) if is_open else others)
+
+
+def show_regions(document: Document, panel: int, is_shown: bool = True) -> Document:
+    """Whether a panel shows the regions of the pins by its distance."""
+    others = tuple(id for id in document.regions if id != panel)
+    return replace(document, regions=(*others, panel) if is_shown else others)
+
+
+def _next_colour(document: Document) -> int:
+    counts = [sum(pin.colour == colour for pin in document.pins) for colour in range(PIN_COLOURS)]
+    return counts.index(min(counts))

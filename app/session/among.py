@@ -1,0 +1,166 @@
+"""Distances among a few vertices, by any of the distances, computed in the background and kept.
+
+Asked on one thread, that of `post`; what was known before is not computed again when vertices come or go.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from bihdist_core import BihdistError, Cancelled
+from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.distances.distance import Distance
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.progress import Progress, part
+
+from .lane import Lane
+from .opened import Opened
+
+AT_ONCE = 8
+"""Sources between two places where the work can be given up."""
+
+Wanted = tuple[Opened, str, Spec]
+"""A surface, the areas of its operators, and a distance."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Known:
+    """vertices: (k,) ids; matrix: (k, k) the distances among them."""
+
+    vertices: np.ndarray
+    matrix: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class _Request:
+    opened: Opened
+    areas: str
+    specs: tuple[Spec, ...]
+    vertices: tuple[int, ...]
+
+
+class Among:
+    """`changed()` is called, by `post`, when `matrix`, `unit`, `failure` or `progress` say something new."""
+
+    def __init__(self, post: Callable[[Callable[[], None]], None], changed: Callable[[], None]) -> None:
+        self._post, self._changed = post, changed
+        self._known: dict[Wanted, _Known] = {}
+        self._units: dict[Wanted, str] = {}
+        self._failures: dict[Wanted, str] = {}
+        self._asked: _Request | None = None
+        self.progress: tuple[float, str] | None = None
+        self._lane: Lane[_Request] = Lane("among", self._work, self._report, self._fail)
+
+    def ask(self, opened: Opened, areas: str, specs: Sequence[Spec], vertices: Sequence[int]) -> None:
+        """The distances among these vertices are wanted, those of the first of the specs first; nothing else is."""
+        asked = _Request(opened, areas, tuple(dict.fromkeys(specs)), tuple(vertices))
+        wanted = {(opened, areas, spec) for spec in asked.specs}
+        # What nobody asks for any more is forgotten, but for the same pins' other distances.
+        self._known = {key: known for key, known in self._known.items() if key[:2] == (opened, areas)}
+        self._failures = {key: said for key, said in self._failures.items() if key[:2] == (opened, areas)}
+        self._units = {key: unit for key, unit in self._units.items() if key[:2] == (opened, areas)}
+        missing = [key for key in wanted if key not in self._failures and self.matrix(*key, vertices) is None]
+        old, self._asked = self._asked, asked
+        if not missing or len(vertices) < 2:
+            self._lane.submit(None)
+        elif old is None or not _is_same(old, asked) or self.progress is None:
+            self._lane.submit(asked)
+
+    def matrix(self, opened: Opened, areas: str, spec: Spec, vertices: Sequence[int]) -> np.ndarray | None:
+        """(k, k) the distances among k vertices, NaN between components; None as long as they are not known."""
+        known = self._known.get((opened, areas, spec))
+        if known is None:
+            return None
+        rows = _rows_in(known.vertices, vertices)
+        return None if (rows < 0).any() else known.matrix[np.ix_(rows, rows)]
+
+    def unit(self, opened: Opened, areas: str, spec: Spec) -> str:
+        return self._units.get((opened, areas, spec), "")
+
+    def failure(self, opened: Opened, areas: str, spec: Spec) -> str:
+        """Why there is none, in a sentence."""
+        return self._failures.get((opened, areas, spec), "")
+
+    def close(self) -> None:
+        """Stop the work, and the thread."""
+        self._lane.close()
+
+    # ------------------------------------------------------------------ in the background
+    def _work(self, request: _Request, lane: Lane[_Request]) -> None:
+        progress = lane.progress(lambda latest: _is_same(latest, request))
+        for k, spec in enumerate(request.specs):
+            key = (request.opened, request.areas, spec)
+            known = self._known.get(key)
+            share = part(progress, k / len(request.specs), (k + 1) / len(request.specs))
+            try:
+                distance = request.opened.distances(request.areas).get(spec, part(share, 0, 0.5))
+                matrix = distances_among(distance, request.vertices, known, part(share, 0.5, 1))
+            except Cancelled:
+                raise
+            except (BihdistError, MemoryError) as error:
+                self._post(partial(self._failed, key, error))
+            else:
+                found = _Known(np.array(request.vertices), matrix)
+                self._post(partial(self._found, key, found, distance.unit))
+
+    def _found(self, key: Wanted, found: _Known, unit: str) -> None:
+        if self._asked is None or self._asked.opened is not key[0]:
+            return  # of a surface that has gone
+        self._known[key], self._units[key] = found, unit
+        self._changed()
+
+    def _failed(self, key: Wanted, error: Exception) -> None:
+        self._failures[key] = failure_in_words(error)
+        self._changed()
+
+    def _fail(self, request: _Request, error: Exception) -> None:
+        for spec in request.specs:
+            self._post(partial(self._failed, (request.opened, request.areas, spec), error))
+
+    def _report(self, fraction: float | None, text: str) -> None:
+        def note() -> None:
+            self.progress = None if fraction is None else (fraction, text)
+            self._changed()
+
+        self._post(note)
+
+
+def distances_among(
+    distance: Distance, vertices: Sequence[int], known: _Known | None, progress: Progress
+) -> np.ndarray:
+    """(k, k) those among vertices; of what is known, none is computed again."""
+    ids = distance.surface.check_vertices(vertices)
+    count = len(ids)
+    matrix, rows = np.full((count, count), np.nan), np.full(count, -1)
+    if known is not None:
+        rows = _rows_in(known.vertices, vertices)
+        old = np.flatnonzero(rows >= 0)
+        matrix[np.ix_(old, old)] = known.matrix[np.ix_(rows[old], rows[old])]
+    new = np.flatnonzero(rows < 0)
+    for start in range(0, len(new), AT_ONCE):
+        progress(start / len(new), f"{distance.label} among pins")
+        some = new[start : start + AT_ONCE]
+        # Each with all that are known, and with the new ones up to itself.
+        pairs = [(i, j) for i in some for j in range(count) if rows[j] >= 0 or j < i]
+        if pairs:
+            i, j = np.array(pairs).T
+            matrix[i, j] = matrix[j, i] = distance.of_pairs(np.column_stack([ids[i], ids[j]]))
+    np.fill_diagonal(matrix, 0.0)
+    return matrix
+
+
+def _rows_in(known: np.ndarray, vertices: Sequence[int]) -> np.ndarray:
+    """(k,) where vertices stand among those that are known, -1 for those that are not there."""
+    rows = {int(vertex): row for row, vertex in enumerate(known)}
+    return np.array([rows.get(int(vertex), -1) for vertex in vertices], int)
+
+
+def _is_same(one: _Request, other: _Request) -> bool:
+    return (one.opened, one.areas, one.specs, one.vertices) == (
+        other.opened,
+        other.areas,
+        other.specs,
+        other.vertices,
+    )

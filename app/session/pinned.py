@@ -1,0 +1,117 @@
+"""The pins of a document on a surface: where they are, what the panels have there, and all of it as text."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bihdist_core import Place, Surface
+from bihdist_core.distances.answers import Answer
+from bihdist_core.formats.pins import Pins
+
+from ..document.document import Document
+from ..document.instruments import Pin
+from ..document.measuring import add_pins, change_pin
+from .questions import pieces_at
+
+
+@dataclass(frozen=True, eq=False)
+class PinnedPlace:
+    """A pin on a surface.
+
+    number: from 1, in the order of the document.  vertex: the one that it is at, None for any other place; face,
+    corners (3,), weights (3,): of the face that it then is in.
+    """
+
+    number: int
+    pin: Pin
+    vertex: int | None
+    face: int
+    corners: np.ndarray
+    weights: np.ndarray
+
+    @property
+    def point(self) -> str:
+        """The name of its point in the document."""
+        return self.pin.point
+
+    @property
+    def name(self) -> str:
+        """For the user: its number if nobody has named it."""
+        return self.pin.name or str(self.number)
+
+    def position(self, vertices: np.ndarray) -> np.ndarray:
+        """(3,) where it is, with the vertices (n, 3) there."""
+        return vertices[self.vertex] if self.vertex is not None else self.weights @ vertices[self.corners]
+
+    def value(self, field: np.ndarray) -> float:
+        """That of a field (n,), linear in the face; NaN where it is undefined."""
+        return float(field[self.vertex] if self.vertex is not None else self.weights @ field[self.corners])
+
+
+def pinned_on(document: Document, name: str, surface: Surface) -> tuple[PinnedPlace, ...]:
+    """Those on the surface of a name, which is there; of a source with several places its first."""
+    found = []
+    for number, pin in enumerate(document.pins, 1):
+        point = document.point(pin.point)
+        if point.surface != name:
+            continue
+        if isinstance(point.at, int):
+            vertex, face, corners, weights = point.at, -1, np.array([point.at] * 3), np.array([1.0, 0.0, 0.0])
+        else:
+            pieces = pieces_at(point.at, surface)
+            vertex, face, corners, weights = None, int(pieces.faces[0]), pieces.corners[0], pieces.start[0]
+            if not isinstance(point.at, Place) and weights.max() == 1:
+                vertex = int(corners[weights.argmax()])
+        found.append(PinnedPlace(number, pin, vertex, face, corners, weights))
+    return tuple(found)
+
+
+def pins_to_write(places: Sequence[PinnedPlace], surface: Surface) -> Pins:
+    """Those at vertices, for a file; ids are the numbers that the window shows.
+
+    ParameterError if there are none.
+    """
+    at_vertices = [(place, place.vertex) for place in places if place.vertex is not None]
+    numbers = [place.number for place, _ in at_vertices]
+    names = [place.pin.name for place, _ in at_vertices]
+    return Pins.of(surface, [vertex for _, vertex in at_vertices], names, numbers)
+
+
+def with_pins(document: Document, pins: Pins, surface: str = "A") -> Document:
+    """The document with those of a file as well, under their names; one that is there already gets the name."""
+    document = add_pins(document, [int(vertex) for vertex in pins.vertices], surface)
+    names = dict(zip(pins.vertices.tolist(), pins.names, strict=True))
+    for pin in document.pins:
+        point = document.point(pin.point)
+        name = names.get(point.at, "") if isinstance(point.at, int) and point.surface == surface else ""
+        if name and name != pin.name:
+            document = change_pin(document, replace(pin, name=name))
+    return document
+
+
+def pins_text(places: Sequence[PinnedPlace], surface: Surface, answers: Sequence[tuple[str, Answer]]) -> str:
+    """A table with a tab between columns: number, name, vertex, place, and each answer's value and share.
+
+    answers: with the heads of their columns.  Numbers are written with all their digits.
+    """
+    head = ["pin", "name", "vertex", "x", "y", "z"]
+    head += [text for title, _ in answers for text in (title, f"{title}, share of the maximum")]
+    lines = ["\t".join(head)]
+    for place in places:
+        vertex = "" if place.vertex is None else str(place.vertex)
+        row = [str(place.number), place.pin.name, vertex, *map(repr, place.position(surface.vertices).tolist())]
+        for _, answer in answers:
+            value = np.nan if answer.field is None else place.value(answer.field)
+            share = value / answer.maximum if answer.maximum > 0 else np.nan
+            row += ["" if np.isnan(number) else repr(float(number)) for number in (value, share)]
+        lines.append("\t".join(row))
+    return "\n".join(lines) + "\n"
+
+
+def matrix_text(places: Sequence[PinnedPlace], matrix: np.ndarray) -> str:
+    """The distances (k, k) among k pins, with a tab between columns and the pins' names before rows and columns."""
+    lines = ["\t".join(["", *(place.name for place in places)])]
+    for place, row in zip(places, matrix.tolist(), strict=True):
+        lines.append("\t".join([place.name, *("" if np.isnan(number) else repr(number) for number in row)]))
+    return "\n".join(lines) + "\n"

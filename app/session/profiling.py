@@ -1,0 +1,136 @@
+"""The path of a document's profile: what it is led through, and the path itself, computed in the background."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from bihdist_core.analysis.geodesic_paths import GeodesicPaths
+from bihdist_core.analysis.places import Place as PathPlace
+from bihdist_core.analysis.plane_sections import plane_section
+from bihdist_core.analysis.surface_paths import SurfacePath
+from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.errors import ParameterError
+from bihdist_core.progress import Progress
+from bihdist_core.sources.source import Place, Source
+from bihdist_core.surface import Surface
+
+from ..document.document import Document
+from .lane import Lane
+
+FEW = "A profile goes from point to point: pin two points, or choose its ends above."
+
+
+@dataclass(frozen=True, eq=False)
+class PathWanted:
+    """A path through places (see `places.Place`) of a surface, in one of the document's WAYS.
+
+    across: (3,) in the plane of a section.
+    """
+
+    surface: Surface
+    places: tuple[PathPlace, ...]
+    way: str
+    across: tuple[float, float, float] | None = None
+
+    def is_as(self, other: "PathWanted | None") -> bool:
+        """Whether that is the same path."""
+        mine = self.places, self.way, self.across
+        return other is not None and self.surface is other.surface and mine == (other.places, other.way, other.across)
+
+
+def points_along(document: Document) -> tuple[str, ...]:
+    """The names of the points that the profile goes through; of one pin alone, from the source to it."""
+    if document.profile.points:
+        return document.profile.points
+    pins = tuple(pin.point for pin in document.pins)
+    known = [point.name for point in document.points]
+    return ("source", *pins) if len(pins) == 1 and "source" in known and "source" not in pins else pins
+
+
+def wanted_path(
+    document: Document, surfaces: Callable[[str], Surface], seen: tuple[float, float, float] | None = None
+) -> PathWanted:
+    """The path that a document's profile asks for.
+
+    surfaces: by their names in the document.  seen: (3,) the direction of a section for which the document has none.
+    ParameterError where there are fewer than two points, or points that are no places, or on several surfaces.
+    """
+    points = [document.point(name) for name in points_along(document)]
+    if len(points) < 2:
+        raise ParameterError(FEW)
+    names = {point.surface for point in points}
+    if len(names) > 1:
+        raise ParameterError("A profile lies on one surface; its points are on several.")
+    profile = document.profile
+    places = tuple(_place(point.at, point.name) for point in points)
+    if profile.way == "section" and len(places) > 2:
+        raise ParameterError("A section by a plane goes through two points; choose them above.")
+    across = (profile.across or seen) if profile.way == "section" else None
+    return PathWanted(surfaces(points[0].surface), places, profile.way, across)
+
+
+def _place(at: Source | None, name: str) -> PathPlace:
+    if isinstance(at, int):
+        return at
+    if isinstance(at, Place):
+        return (at.face, *at.weights)
+    raise ParameterError(f"A profile goes through vertices and places in faces; {name!r} is neither.")
+
+
+class PathLane:
+    """Computes the latest path that was asked for, on a thread of its own.
+
+    found: called by way of `post` with what was wanted and a `SurfacePath`, or a sentence that says why there is none;
+    what is no longer wanted is dropped.  going: called the same way with what a path that takes long is at.
+    """
+
+    def __init__(
+        self,
+        post: Callable[[Callable[[], None]], None],
+        found: Callable[[PathWanted, SurfacePath | str], None],
+        going: Callable[[str], None],
+    ) -> None:
+        self._post, self._found, self._going = post, found, going
+        self._wanted: PathWanted | None = None
+        self._paths: GeodesicPaths | None = None
+        self._lane: Lane[PathWanted] | None = None
+
+    def ask(self, wanted: PathWanted | None) -> None:
+        """Compute this path; None for none."""
+        self._wanted = wanted
+        if wanted is not None and self._lane is None:
+            self._lane = Lane("profile", self._work, self._report, self._failed)
+        if self._lane is not None:
+            self._lane.submit(wanted)
+
+    def close(self) -> None:
+        """For good; a path on its way is given up."""
+        self._wanted = None
+        if self._lane is not None:
+            self._lane.end()
+
+    # ------------------------------------------------------------------ on the lane's thread
+    def _work(self, wanted: PathWanted, lane: Lane[PathWanted]) -> None:
+        path = self._path(wanted, lane.progress(lambda latest: latest is wanted))
+        self._post(lambda: self._tell(wanted, path))
+
+    def _path(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
+        if wanted.way == "section":
+            if wanted.across is None:
+                raise ParameterError("A section needs a direction; choose it again in the way's menu.")
+            return plane_section(wanted.surface, wanted.places, wanted.across)
+        if self._paths is None or self._paths.surface is not wanted.surface:
+            if self._paths is not None:
+                self._paths.close()
+            self._paths = GeodesicPaths(wanted.surface)
+        return self._paths.path(wanted.places, wanted.way, progress)
+
+    def _failed(self, wanted: PathWanted, error: Exception) -> None:
+        said = failure_in_words(error)
+        self._post(lambda: self._tell(wanted, said))
+
+    def _report(self, fraction: float | None, text: str) -> None:
+        self._post(lambda: self._going(text))
+
+    def _tell(self, wanted: PathWanted, found: SurfacePath | str) -> None:
+        if wanted is self._wanted:
+            self._found(wanted, found)

@@ -1,0 +1,184 @@
+"""The regions of the pins by panels' distances, divided in the background; fields are kept, so that a pin that is moved
+costs one.
+
+`ask` and `divided` are called on the view's thread.
+"""
+
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from bihdist_core.analysis.regions import Regions, voronoi_regions
+from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import Cancelled
+from bihdist_core.progress import Progress
+from bihdist_core.sources.source import Source
+
+from ..document.document import Document, MeshFile
+from ..document.quantities import DistanceFrom
+from .lane import Lane
+from .opened import Opened
+
+MEMORY = 512_000_000
+"""Bytes of pins' fields that are kept: 640 of 100,000 vertices."""
+
+
+@dataclass(frozen=True)
+class RegionsQuestion:
+    """Which part of a surface is nearest to each of some places, by a distance; equal questions have equal answers."""
+
+    mesh: MeshFile
+    areas: str
+    spec: Spec
+    places: tuple[Source, ...]
+
+    @property
+    def about(self) -> Hashable:
+        """All but from where."""
+        return (self.mesh, self.areas, self.spec)
+
+
+@dataclass(frozen=True, eq=False)
+class Divided:
+    """The answer: regions, in the order of the places, and the fields (n, k) that they are the regions of; or why
+    there are none."""
+
+    question: RegionsQuestion
+    regions: Regions | None = None
+    columns: np.ndarray | None = None
+    failure: str = ""
+
+
+def regions_questions(document: Document) -> dict[int, RegionsQuestion]:
+    """By panel, of those that show the regions of the pins on their surface."""
+    found = {}
+    for panel in document.panels:
+        places = tuple(at for at in pinned(document, panel.surface) if at is not None)
+        if panel.id in document.regions and places and isinstance(panel.shows, DistanceFrom):
+            mesh = document.mesh(panel.surface)
+            found[panel.id] = RegionsQuestion(mesh, document.areas, panel.shows.spec, places)
+    return found
+
+
+def regions_of(question: RegionsQuestion, opened: Opened) -> Regions:
+    """The answer, waited for; the last of each surface is kept.  BihdistError where there is none."""
+    kept = _last.get(opened)
+    if kept is None or kept[0] != question:
+        distance = opened.distances(question.areas).get(question.spec)
+        kept = question, voronoi_regions(opened.surface, distance.from_sources(list(question.places)))
+        _last[opened] = kept
+    return kept[1]
+
+
+_last: WeakKeyDictionary[Opened, tuple[RegionsQuestion, Regions]] = WeakKeyDictionary()
+
+
+def pinned(document: Document, surface: str) -> list[Source | None]:
+    """Where the pins of a surface are, in their order."""
+    points = [document.point(pin.point) for pin in document.pins]
+    return [point.at for point in points if point.surface == surface]
+
+
+_Request = Mapping[int, tuple[RegionsQuestion, Opened]]
+
+
+class Dividing:
+    """See the module.  `told(panel)` is called on the view's thread when there are other regions for it, or none."""
+
+    def __init__(self, post: Callable[[Callable[[], None]], None], told: Callable[[int], None]) -> None:
+        self._post, self._told = post, told
+        self._asked: dict[int, RegionsQuestion] = {}
+        self._divided: dict[int, Divided] = {}
+        self._fields: OrderedDict[Hashable, np.ndarray] = OrderedDict()
+        self._lane: Lane[_Request] | None = None
+
+    def ask(self, asked: Mapping[int, tuple[RegionsQuestion, Opened]]) -> None:
+        """Of these panels, and no others."""
+        before, self._asked = self._asked, {id: question for id, (question, _) in asked.items()}
+        for id in [id for id in self._divided if not self._is_about(id, self._divided[id].question)]:
+            del self._divided[id]
+            self._told(id)
+        if self._asked == before:
+            return
+        if self._lane is None and asked:
+            self._lane = Lane("regions", self._divide, lambda *_: None, _unheard)
+        if self._lane is not None:
+            self._lane.submit(dict(asked) or None)
+
+    def divided(self, panel: int) -> Divided | None:
+        """What is shown of a panel: the answer to its question, or, while that is on its way, to the one before."""
+        return self._divided.get(panel)
+
+    def is_answered(self, panel: int) -> bool:
+        """Whether that is the answer to its present question."""
+        known = self._divided.get(panel)
+        return known is not None and known.question == self._asked.get(panel)
+
+    @property
+    def is_complete(self) -> bool:
+        return all(self.is_answered(panel) for panel in self._asked)
+
+    def close(self) -> None:
+        """Stop, and wait for it."""
+        if self._lane is not None:
+            self._lane.close()
+
+    def _is_about(self, panel: int, question: RegionsQuestion) -> bool:
+        return panel in self._asked and self._asked[panel].about == question.about
+
+    # ------------------------------------------------------------------ on the lane
+    def _divide(self, request: _Request, lane: Lane[_Request]) -> None:
+        # Panels with the same distance have the same regions.
+        known: dict[RegionsQuestion, Divided] = {}
+        for id, (question, opened) in request.items():
+            if question not in known:
+                # A pin that is dragged is elsewhere before this is done; what is late is shown.
+                known[question] = self._answer(question, opened, _wanted(lane, question.about))
+            self._deliver(id, known[question])
+
+    def _answer(self, question: RegionsQuestion, opened: Opened, progress: Progress) -> Divided:
+        try:
+            columns = self._columns(question, opened, progress)
+            return Divided(question, voronoi_regions(opened.surface, columns), columns)
+        except Cancelled:
+            raise
+        except Exception as error:
+            return Divided(question, failure=failure_in_words(error))
+
+    def _columns(self, question: RegionsQuestion, opened: Opened, progress: Progress) -> np.ndarray:
+        """(n, k) the fields from the places."""
+        keys = [(question.about, at) for at in question.places]
+        missing = [at for key, at in zip(keys, question.places, strict=True) if key not in self._fields]
+        if missing:
+            progress(0.0, "regions")
+            distance = opened.distances(question.areas).get(question.spec, progress)
+            fields = distance.from_sources(missing, progress)
+            for at, field in zip(missing, fields.T, strict=True):
+                self._fields[question.about, at] = np.ascontiguousarray(field)
+        for key in keys:
+            self._fields.move_to_end(key)
+        columns = np.stack([self._fields[key] for key in keys], axis=1)
+        most = max(len(keys), MEMORY // columns[:, 0].nbytes)
+        while len(self._fields) > most:
+            self._fields.popitem(last=False)
+        return columns
+
+    def _deliver(self, panel: int, divided: Divided) -> None:
+        self._post(lambda: self._arrived(panel, divided))
+
+    def _arrived(self, panel: int, divided: Divided) -> None:
+        if self._is_about(panel, divided.question):
+            self._divided[panel] = divided
+            self._told(panel)
+
+
+def _wanted(lane: Lane[_Request], about: Hashable) -> Progress:
+    return lane.progress(lambda latest: any(question.about == about for question, _ in latest.values()))
+
+
+def _unheard(request: _Request, error: Exception) -> None:
+    """What goes wrong is caught where it does, and told."""

@@ -1,0 +1,108 @@
+"""Edits of pins, selections, regions and docks."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.document.document import Anchor, comparison
+from app.document.edits import open_mesh, remove_panel
+from app.document.instruments import Pin, Profile, Selection
+from app.document.measuring import (
+    MOST_PINS,
+    add_pins,
+    change_pin,
+    move_pin,
+    remove_pins,
+    runs_of,
+    select,
+    show_dock,
+    show_regions,
+    vertices_of,
+)
+from bihdist_core import ParameterError
+
+DOCUMENT = comparison("mesh.off", sources=(5,))
+
+
+def test_pins_are_points_with_a_colour_each_once():
+    pinned = add_pins(DOCUMENT, [7, 9, 7, 3])
+    assert [pinned.point(pin.point).at for pin in pinned.pins] == [7, 9, 3]
+    assert [pin.colour for pin in pinned.pins] == [0, 1, 2]
+    assert add_pins(pinned, [9]) == pinned
+    fewer = remove_pins(pinned, [pinned.pins[0].point])
+    again = add_pins(fewer, [11])
+    assert [again.point(pin.point).at for pin in again.pins] == [9, 3, 11]
+    assert again.pins[-1].colour == 0
+
+
+def test_a_pin_that_goes_leaves_nothing_behind_but_what_others_need():
+    pinned = add_pins(DOCUMENT, [7, 9])
+    one, other = (pin.point for pin in pinned.pins)
+    pinned = replace(pinned, profile=Profile((one, other)), anchors=(Anchor(other),))
+    left = remove_pins(pinned, [one, other])
+    assert left.pins == ()
+    assert left.profile == Profile()
+    assert {point.name for point in left.points} == {"source", other}
+
+
+def test_names_colours_and_order_of_pins_change():
+    pinned = add_pins(DOCUMENT, [7, 9, 3])
+    first = pinned.pins[0].point
+    changed = move_pin(change_pin(pinned, Pin(first, "nose", 8)), first, 2)
+    assert changed.pins[2] == Pin(first, "nose", 8)
+    assert [changed.point(pin.point).at for pin in changed.pins] == [9, 3, 7]
+
+
+def test_too_many_pins_are_refused():
+    with pytest.raises(ParameterError, match=f"at most {MOST_PINS} pins, not {MOST_PINS + 1}"):
+        add_pins(DOCUMENT, range(MOST_PINS + 1))
+
+
+def test_selections_are_runs_of_vertices():
+    ids = np.array([9, 3, 4, 5, 9, 20])
+    assert runs_of(ids) == ((3, 5), (9, 9), (20, 20))
+    assert vertices_of(runs_of(ids)).tolist() == [3, 4, 5, 9, 20]
+    assert runs_of(np.empty(0, int)) == ()
+    assert len(vertices_of(())) == 0
+    document = select(select(DOCUMENT, "ear", ids), "tail", np.arange(4))
+    assert [each.colour for each in document.selections] == [0, 1]
+    again = select(document, "ear", np.array([1]))
+    assert next(each for each in again.selections if each.name == "ear") == Selection("ear", ((1, 1),), 0)
+    assert [each.name for each in select(again, "ear", np.empty(0, int)).selections] == ["tail"]
+
+
+def test_what_belongs_to_a_panel_goes_with_it():
+    document = show_regions(replace(DOCUMENT, scatter=replace(DOCUMENT.scatter, across=1, up=2)), 1)
+    left = remove_panel(document, 1)
+    assert left.regions == ()
+    assert (left.scatter.across, left.scatter.up) == (None, 2)
+    assert show_regions(document, 1, False).regions == ()
+
+
+def test_another_mesh_has_no_pins_of_the_old_one():
+    document = show_dock(add_pins(select(DOCUMENT, "ear", np.arange(3)), [7]), "pins")
+    other = open_mesh(document, replace(document.surfaces[0], path="other.off"))
+    assert other.pins == ()
+    assert other.selections == ()
+    assert other.docks == ("pins",)
+    assert [point.name for point in other.points] == ["source"]
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: replace(DOCUMENT, pins=(Pin("nowhere"),)), "no point 'nowhere'"),
+        (lambda: replace(DOCUMENT, docks=("pins", "kitchen")), "no dock 'kitchen'"),
+        (lambda: replace(DOCUMENT, profile=Profile(("source", "tip"))), "no point 'tip'"),
+        (lambda: Pin("a", "x" * 61), "up to 60 printable letters"),
+        (lambda: Pin("a", colour=10), "none is 10"),
+        (lambda: Selection("a", ((3, 5), (6, 7))), "do not touch"),
+        (lambda: Selection("a", ((3, 2),)), "go up"),
+        (lambda: Profile(("a",)), "two points or more"),
+        (lambda: Profile(way="guess"), "no way 'guess'"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(make, said):
+    with pytest.raises(ParameterError, match=said):
+        make()

@@ -1,0 +1,230 @@
+"""What is found out in the background: the same as from Python, each once, and nothing that is stale."""
+
+import queue
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.document.document import comparison
+from app.document.edits import PANEL_EDITS, move_source, possible_edits, put_point
+from app.document.measuring import add_pins, remove_pins, show_regions
+from app.session.quality import Quality
+from app.session.regions import Dividing, regions_questions
+from app.session.sampling import SamplesQuestion, Sampling
+from app.session.session import Session
+from bihdist_core import farthest_points, field_quality, triangle_sample, voronoi_regions
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.sources.source import BoundaryLoop, Place, SourceSet
+
+SHOWN = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
+
+
+class Watching:
+    """A session with nobody behind it, whose posted functions are run here."""
+
+    def __init__(self, path, at=0):
+        self.posted = queue.Queue()
+        self.session = Session(self, self.posted.put)
+        self.session.show(comparison(str(path), SHOWN, (at,)))
+        self.until(lambda: self.session.is_complete)
+
+    def document_changed(self, before): ...
+    def answer_changed(self, panel): ...
+    def certificate_changed(self, panel): ...
+    def progress_changed(self): ...
+
+    def failed(self, message):
+        raise AssertionError(message)
+
+    def until(self, done):
+        while not done():
+            self.posted.get(timeout=60)()
+
+    @property
+    def asked(self):
+        return {s.asked: (self.session.opened(), s.answer) for s in self.session.shown.values()}
+
+    def distance(self, spec):
+        return self.session.opened().distances("voronoi").get(spec)
+
+
+@pytest.fixture
+def watching(ply_path):
+    made = []
+
+    def make(at=0):
+        made.append(Watching(ply_path, at))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.session.close()
+
+
+@pytest.fixture
+def ply_path(tmp_path):
+    from bihdist_core.formats.field_output import write_fields
+    from tests.shapes import bumpy
+
+    surface = bumpy(400)
+    path = tmp_path / "bumpy.ply"
+    write_fields(path, surface, {"zero": np.zeros(len(surface.vertices))})
+    return path
+
+
+def judged(w):
+    told = []
+    quality = Quality(w.posted.put, lambda: told.append(1))
+    quality.ask(w.asked)
+    w.until(lambda: all(quality.found(question).is_complete for question in w.asked))
+    quality.close()
+    return quality, told
+
+
+def test_quality_is_that_of_python(watching):
+    w = watching(7)
+    quality, told = judged(w)
+    surface = w.session.surface
+    near = w.distance(Spec.of("geodesic")).from_source(7)
+    for question, (_, answer) in w.asked.items():
+        found, wanted = quality.found(question), field_quality(surface, answer.field, near, 7)
+        assert found.extrema.minima.tolist() == wanted.minima.tolist()
+        assert found.extrema.maxima_height == pytest.approx(wanted.maxima_height, abs=1e-12)
+        assert found.whole.isotropy == pytest.approx(wanted.isotropy, rel=1e-9)
+        assert (found.whole.kink, found.whole.kink_length) == pytest.approx((wanted.kink, wanted.kink_length), rel=1e-9)
+        assert found.triangles == triangle_sample(w.distance(question.spec))
+    # Two stages for each panel, and the triangles of each distance.
+    assert len(told) == 9
+    quality.ask(w.asked)
+    assert len(told) == 9
+
+
+def test_what_was_found_is_of_its_own_question(watching):
+    w = watching(7)
+    quality, _ = judged(w)
+    before = list(w.asked)
+    w.session.show(move_source(w.session.document, 0, 90))
+    w.until(lambda: w.session.is_complete)
+    after = list(w.asked)
+    assert all(quality.found(question).whole is None for question in after)
+    # Triangles are a distance's, wherever it starts.
+    assert all(quality.found(question).triangles is not None for question in after)
+    assert all(quality.found(question).whole is not None for question in before)
+
+
+@pytest.mark.parametrize("at", [Place(3, (0.2, 0.5, 0.3)), SourceSet((3, 200))], ids=["place", "set"])
+def test_sources_that_are_no_vertex_are_judged_too(watching, at):
+    w = watching(at)
+    quality, _ = judged(w)
+    for question in w.asked:
+        found = quality.found(question)
+        assert not found.failure
+        assert len(found.extrema.minima) == 0 or question.spec.word == "diffusion"
+        # Around several places there are no circles.
+        assert bool(found.whole.circles) == isinstance(at, Place)
+
+
+def test_why_there_is_no_quality_is_said(watching):
+    w = watching(7)
+    (question, (opened, answer)), *_ = w.asked.items()
+    flat = replace(answer, field=np.zeros(len(answer.field)))
+    quality = Quality(w.posted.put, lambda: None)
+    quality.ask({question: (opened, flat)})
+    w.until(lambda: quality.found(question).is_complete)
+    quality.close()
+    assert "positive value" in quality.found(question).failure
+
+
+def divided(w, dividing):
+    document = w.session.document
+    opened = w.session.opened()
+    dividing.ask({id: (question, opened) for id, question in regions_questions(document).items()})
+    w.until(lambda: dividing.is_complete)
+
+
+def test_regions_are_those_of_python_and_follow_a_pin(watching):
+    w = watching(7)
+    told = []
+    dividing = Dividing(w.posted.put, told.append)
+    w.session.show(add_pins(w.session.document, [7, 90, 300]))
+    w.session.show(show_regions(show_regions(w.session.document, 0), 1))
+    divided(w, dividing)
+    for id, spec in ((0, SHOWN[0]), (1, SHOWN[1])):
+        wanted = voronoi_regions(w.session.surface, w.distance(spec).from_sources([7, 90, 300]))
+        assert dividing.divided(id).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
+        assert (dividing.divided(id).regions.labels == wanted.labels).all()
+    assert dividing.divided(2) is None
+    moved = w.session.document.pins[1].point
+    w.session.show(put_point(w.session.document, moved, 91))
+    divided(w, dividing)
+    wanted = voronoi_regions(w.session.surface, w.distance(SHOWN[0]).from_sources([7, 91, 300]))
+    assert dividing.divided(0).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
+    w.session.show(remove_pins(w.session.document, [pin.point for pin in w.session.document.pins]))
+    divided(w, dividing)
+    assert dividing.divided(0) is None
+    assert told[-2:] == [0, 1]
+    dividing.close()
+
+
+def test_regions_that_cannot_be_had_say_why(watching):
+    w = watching(7)
+    dividing = Dividing(w.posted.put, lambda panel: None)
+    w.session.show(add_pins(w.session.document, [7]))
+    w.session.show(show_regions(w.session.document, 0))
+    (question,) = regions_questions(w.session.document).values()
+    bad = replace(question, places=(BoundaryLoop(0),))
+    dividing.ask({0: (bad, w.session.opened())})
+    w.until(lambda: dividing.is_complete)
+    assert "boundary" in dividing.divided(0).failure
+    dividing.close()
+
+
+def test_the_panel_offers_regions_while_there_are_pins(watching):
+    document = watching(7).session.document
+    word = "Regions of the pins"
+    assert word not in possible_edits(document, 0, 6)
+    with_pins = add_pins(document, [7, 90])
+    assert word in possible_edits(with_pins, 0, 6)
+    shown = PANEL_EDITS[word](with_pins, 0)
+    assert shown.regions == (0,)
+    assert PANEL_EDITS[word](shown, 0).regions == ()
+
+
+def test_samples_are_those_of_python(watching):
+    w = watching(7)
+    told = []
+    sampling = Sampling(w.posted.put, told.append, lambda *_: None)
+    document, opened = w.session.document, w.session.opened()
+    question = SamplesQuestion(document.mesh(), "voronoi", SHOWN[0], 7, 9)
+    sampling.ask(question, opened)
+    w.until(lambda: not sampling.is_going)
+    assert told[0].vertices.tolist() == farthest_points(w.distance(SHOWN[0]), 7, 9).tolist()
+    sampling.ask(replace(question, at=Place(3, (0.2, 0.5, 0.3))), opened)
+    w.until(lambda: not sampling.is_going)
+    assert "choose a vertex" in told[1].failure
+    sampling.ask(question, opened)
+    sampling.cancel()
+    sampling.close()
+    while not w.posted.empty():
+        w.posted.get()()
+    assert len(told) == 2
+
+
+def test_figures_draw_the_boundaries_that_the_window_draws(watching):
+    from app.document.page import Page, Recipe
+    from app.figures.export import figure_of
+
+    w = watching(7)
+    w.session.show(add_pins(w.session.document, [7, 90, 300]))
+    w.session.show(show_regions(w.session.document, 1))
+    opened, document = w.session.opened(), w.session.document
+    figure = figure_of(Recipe(document, Page()), {"A": opened}, [w.session.shown[k].answer for k in range(3)])
+    assert [bool(panel.regions) for panel in figure.panels] == [False, True, False]
+    found = voronoi_regions(opened.surface, w.distance(SHOWN[1]).from_sources([7, 90, 300]))
+    length = 0.0
+    for line in figure.panels[1].regions:
+        points = line.positions(opened.surface.vertices)
+        points = np.vstack([points, points[:1]]) if line.is_closed else points
+        length += np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+    assert length == pytest.approx(found.lengths.sum(), rel=1e-9)
