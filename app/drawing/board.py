@@ -11,7 +11,7 @@ from time import perf_counter
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the classes below are abstract without it)
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkFloatArray, vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from .camera import stand_back
@@ -74,6 +74,13 @@ class Board:
         picture = np.ascontiguousarray(vtk_to_numpy(self._read).reshape(height, width, 4)[::-1])
         picture[..., 3] = 255  # what smoothing leaves there means nothing
         return picture
+
+    def depths(self) -> np.ndarray:
+        """(height, width) of the picture that was drawn last: 0 nearest to the camera, 1 for nothing; upright."""
+        width, height = self._window.GetSize()
+        read = vtkFloatArray()
+        self._window.GetZbufferData(0, 0, width - 1, height - 1, read)
+        return vtk_to_numpy(read).reshape(height, width)[::-1]
 
     def close(self) -> None:
         """Give back what the graphics have."""

@@ -121,6 +121,12 @@ class Insets:
                 return renderer
         return self._main
 
+    @property
+    def covered(self) -> list[tuple[int, int, int, int]]:
+        """(left, bottom, width, height) in device pixels of those that are seen."""
+        seen = [r for r, is_seen in zip(self.renderers, self._in_sight, strict=False) if is_seen]
+        return [(*renderer.GetOrigin(), *renderer.GetSize()) for renderer in seen]
+
     # ------------------------------------------------------------------ where they are
     def _boxes(self) -> dict[str, Rectangle]:
         """By name: where an inset in a corner stands."""

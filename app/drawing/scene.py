@@ -10,9 +10,14 @@ from ..document.looks import Isolines, Shading
 from .field_actor import FieldActor, light
 from .insets import Insets
 from .levels import Levels
-from .marks import DOT, Marks
+from .line_actors import SourceLineActor
+from .marks import DOT, Dots, Marks
+from .region_lines import RegionLines
 from .stand_in import StandIn
 from .style import PAPER, Style
+
+SELECTED = 4.0
+"""Pixels across of a selected vertex."""
 
 
 class PanelScene:
@@ -29,12 +34,15 @@ class PanelScene:
         self.seconds = 0.0  # that the last picture of all of it took
         self._field = FieldActor(style, scale)
         self._source = Marks(style.marker_size * scale, style.mark_edge)
+        self._lines = SourceLineActor(style, scale)
         self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
         self._anchored = Marks(style.marker_size * scale, style.mark_edge)
         self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
+        self._regions = RegionLines(scale, style.mark_edge, (1.0, 1.0, 1.0))
+        self._selected = Dots(SELECTED * scale)
         marks = (self._source, self._largest, self._anchored, self._passed)
-        solid = [self._field.actor, *(each.actor for each in marks)]
-        solid.append(self._field.stand_in.actor)
+        solid = [self._field.actor, *self._regions.actors, self._lines.actor, *(each.actor for each in marks)]
+        solid += [self._field.stand_in.actor, self._selected.actor]
         self.insets = Insets(renderer, solid, self._field, style, scale)
         renderer.SetBackground(*style.background)
         # To find out what is out of sight VTK would go over all vertices, and here nothing ever is.
@@ -60,6 +68,8 @@ class PanelScene:
         self.mark_source(None)
         self.mark_largest(None)
         self.mark_anchors(np.empty((0, 3)), [])
+        self.show_regions(np.empty((0, 2, 3)))
+        self.mark_selected(np.empty((0, 3)), np.empty((0, 3), np.uint8))
         self.mark_passed(np.empty((0, 3)))
         self.insets.show((), np.empty((0, 3)))
 
@@ -105,6 +115,10 @@ class PanelScene:
         """These, and one of each value `through`."""
         self._field.show_isolines(isolines, through)
 
+    def show_regions(self, segments: np.ndarray) -> None:
+        """Boundaries of regions, as segments (s, 2, 3)."""
+        self._regions.show(segments)
+
     def show_bands(self, edges: np.ndarray) -> None:
         """Where bands end, see `FieldActor.show_bands`."""
         self._field.show_bands(edges)
@@ -135,12 +149,22 @@ class PanelScene:
         return self._field.maximum
 
     # ------------------------------------------------------------------ marks
-    def mark_source(self, position: np.ndarray | None) -> None:
-        self._source.show_one(position, self.style.source)
+    def mark_source(self, positions: np.ndarray | None, lines: Sequence[tuple[np.ndarray, bool]] = ()) -> None:
+        """Where the field starts, one place (3,) or several (k, 3).
+
+        lines: points (k, 3) of each line that it starts from, and whether the last joins the first.
+        """
+        places = np.empty((0, 3)) if positions is None else positions.reshape(-1, 3)
+        self._source.show(places, [self.style.source] * len(places))
+        self._lines.show(lines)
 
     def mark_largest(self, position: np.ndarray | None) -> None:
         """Where a signed field is largest."""
         self._largest.show_one(position, self.style.largest)
+
+    def mark_selected(self, positions: np.ndarray, colours: np.ndarray) -> None:
+        """Vertices of selections at (k, 3), each in a colour (k, 3) uint8."""
+        self._selected.show(positions, colours)
 
     def mark_passed(self, positions: np.ndarray) -> None:
         """Positions (k, 3) of points that isolines pass through."""

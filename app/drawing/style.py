@@ -85,6 +85,20 @@ class Style:
         return self.far_isoline if abs(share) > self.turn else self.signed_isoline
 
 
+PINS = (
+    "#1F7A3D",
+    "#A84A00",
+    "#6B3FC0",
+    "#6B6400",
+    "#8A3A78",
+    "#4A5560",
+    "#7A4B1E",
+    "#00696B",
+    "#3F4FA8",
+    "#99621E",
+)
+"""The colours of pins and selections, `PIN_COLOURS` of them; white numerals on them have a contrast of 5 : 1."""
+
 PAPER = Style(stops=colour_maps.PAPER)
 """The paper's look: dark blue near, through cyan, grey and pink, to dark red far; white isolines."""
 

@@ -27,6 +27,7 @@ from .layout import Cell, Layout
 from .marks import POINT, draw_frames, draw_marks
 from .shots import Line, Shot
 from .simplified import simplified
+from .strokes import strokes_on
 from .words import LINE
 
 if TYPE_CHECKING:
@@ -140,6 +141,10 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         curve = _curve(
             shot.outlines, style.outline_colour, style.outline * stroke, "round", order + 3, f"outline-{number}"
         )
+        axes.add_artist(curve)
+        curve.set_clip_path(frame)
+    for name, lines, colour, width in strokes_on(shot, style):
+        curve = _curve(lines, colour, width * stroke, "round", order + 3, f"{name}-{number}")
         axes.add_artist(curve)
         curve.set_clip_path(frame)
     write = partial(_write, axes, page)

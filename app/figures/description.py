@@ -11,6 +11,7 @@ from ..document.document import Zoom
 from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
 from ..document.page import TITLES
 from ..drawing.camera import is_flat
+from ..drawing.source_lines import SourceLine
 from ..drawing.style import PAPER, Style
 from .fonts import check_font
 from .size import Size
@@ -21,7 +22,8 @@ class Mark:
     """A marked vertex: a source, or an anchor, which has a value and is filled with that value's colour.
 
     is_largest: where a signed field is largest, in a colour of its own.  is_passed: an isoline passes through it, and
-    has a dot there; corners, weights: a place in a face, of which the vertex is a corner.
+    has a dot there.  corners, weights: a place in a face, of which the vertex is a corner.  name: in sentences,
+    its vertex if empty.  number, colour: of a pin, which is a drop with that number in a colour such as "#1F7A3D".
     """
 
     vertex: int
@@ -31,6 +33,9 @@ class Mark:
     is_passed: bool = False
     corners: tuple[int, ...] = ()
     weights: tuple[float, ...] = ()
+    name: str = ""
+    number: int | None = None
+    colour: str = ""
 
     def on(self, vertices: np.ndarray) -> np.ndarray:
         """(3,) where it is on a surface with these vertices (n, 3)."""
@@ -48,6 +53,7 @@ class FigurePanel:
     signed: the field has values on both sides of 0, and its colour bar goes from -maximum to maximum.
     up: which axis is up in standard views.  source: the vertex that the view from the source looks at.  is_parallel:
     nothing gets smaller with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.
+    lines: those that the field starts from; regions: boundaries of the pins' regions.
     """
 
     surface: Surface
@@ -70,6 +76,8 @@ class FigurePanel:
     source: int | None = None
     is_parallel: bool = False
     axes: bool = False
+    lines: tuple[SourceLine, ...] = ()
+    regions: tuple[SourceLine, ...] = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

@@ -6,20 +6,27 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
-from bihdist_core import OutputError, ParameterError, SolverError
+from bihdist_core import OutputError, ParameterError, SolverError, Surface
+from bihdist_core.analysis.region_boundaries import region_boundaries
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
+from bihdist_core.sources.pieces import pieces_of
+from bihdist_core.sources.source import Place, Source
+from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.document import Document, Panel
 from ..document.page import Recipe
-from ..drawing.style import style_of
+from ..drawing.source_lines import SourceLine, source_lines
+from ..drawing.style import PINS, style_of
 from ..session.anchors import anchor_value, anchors_on
 from ..session.given import Given
 from ..session.opened import Opened, open_mesh
 from ..session.passed import Passed, passed
-from ..session.questions import questions, vertex_at
+from ..session.pinned import pinned_on
+from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
+from ..session.regions import regions_of, regions_questions
 from .description import Figure, FigurePanel, Mark
 from .draw import FIGURE_FORMATS, check_offscreen, check_transparency, save_figure
 from .size import Size
@@ -161,10 +168,10 @@ def export(
 
 def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) -> FigurePanel:
     document, surface = recipe.document, opened.surface
-    starts = [vertex_at(document.point(name).at, surface) for name in panel.shows.points]
+    starts = [source_at(document.point(name).at, surface) for name in panel.shows.points]
     heading = answer.label
     if starts and len(document.sources) > 1:
-        heading += f", from {', '.join(map(str, starts))}"
+        heading += f", from {', '.join(map(short_words_of, starts))}"
     through = passed(document, panel.surface, opened, answer)
     return FigurePanel(
         surface,
@@ -180,19 +187,48 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         views=recipe.views,
         marks=(
             *_dots(through, answer),
-            *map(Mark, starts),
+            *_source_marks(starts, surface),
             *_anchor_marks(document, panel, opened, answer),
             *_largest(answer),
+            *_pin_marks(document, panel, surface),
         ),
         zooms=document.zooms,
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
         shading=document.shading,
         up=document.up if document.up != "auto" else opened.up,
-        source=starts[0] if starts else None,
+        source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.projection == "orthographic",
         axes=document.axes,
+        lines=tuple(line for start in starts for line in source_lines(pieces_of(start, surface))),
+        regions=() if answer.field is None else _region_lines(document, panel, opened),
     )
+
+
+def _region_lines(document: Document, panel: Panel, opened: Opened) -> tuple[SourceLine, ...]:
+    """The boundaries of the pins' regions, where the panel shows them."""
+    question = regions_questions(document).get(panel.id)
+    if question is None:
+        return ()
+    curves = region_boundaries(opened.surface, regions_of(question, opened))
+    return tuple(SourceLine(curve.corners, curve.weights, curve.closed) for curve in curves)
+
+
+def _source_marks(starts: Sequence[Source], surface: Surface) -> list[Mark]:
+    """A mark for each vertex and place."""
+    marks: list[Mark] = []
+    for start in starts:
+        points = pieces_of(start, surface).points
+        for face, corners, weights in zip(points.faces.tolist(), points.corners, points.start, strict=True):
+            vertex = int(corners[weights.argmax()])
+            is_vertex = weights.max() == 1
+            if is_vertex:
+                marks.append(Mark(vertex))
+                continue
+            place = Place(face, tuple(weights.tolist()))
+            at = (tuple(corners.tolist()), place.weights)
+            marks.append(Mark(vertex, corners=at[0], weights=at[1], name=f"The place {short_words_of(place)}"))
+    return marks
 
 
 def _dots(through: Sequence[Passed], answer: Answer) -> list[Mark]:
@@ -214,3 +250,14 @@ def _largest(answer: Answer) -> list[Mark]:
 def _anchor_marks(document: Document, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:
     found = anchors_on(document, panel.surface, opened)
     return [Mark(vertex, anchor_value(value, vertex, answer)) for vertex, value in found]
+
+
+def _pin_marks(document: Document, panel: Panel, surface: Surface) -> list[Mark]:
+    marks = []
+    for pinned in pinned_on(document, panel.surface, surface):
+        vertex = pinned.vertex if pinned.vertex is not None else int(pinned.corners[pinned.weights.argmax()])
+        mark = Mark(vertex, number=pinned.number, colour=PINS[pinned.pin.colour])
+        if pinned.vertex is None:
+            mark = replace(mark, corners=tuple(pinned.corners.tolist()), weights=tuple(pinned.weights.tolist()))
+        marks.append(mark)
+    return marks

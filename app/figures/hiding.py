@@ -54,8 +54,8 @@ class Hiding:
     def intervals(self, ends: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden; none touch.
 
-        ends: (m, 2, 3) of x, y and nearness; on: (m, 4) vertices that span the face or edge which a segment lies on: it
-        is not hidden by triangles that have them all.
+        ends: (m, 2, 3) of x, y and nearness; on: (m, 4) or (m, 6) vertices that span the face or edge which a segment
+        lies on: it is not hidden by triangles that have them all.
         """
         found = []
         low, high = ends[..., :2].min(axis=1), ends[..., :2].max(axis=1)

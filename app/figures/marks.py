@@ -10,6 +10,8 @@ import numpy as np
 from ..drawing.corners import Rectangle, inside, joins
 from ..drawing.marks import DOT
 from .boxes import Box, Words
+from .description import Mark
+from .drops import drop_of
 from .shots import Shot
 
 if TYPE_CHECKING:
@@ -19,6 +21,9 @@ if TYPE_CHECKING:
 
 POINT = 0.75
 """Points in a unit."""
+
+MOST_NAMED = 3
+"""So many hidden marks have a sentence each."""
 
 RING = 6.0
 """Units across, from which on a mark is a ring, so that its place is seen in it."""
@@ -48,8 +53,8 @@ def draw_marks(
     insets = [other.box for other in page.shots if other.panel == shot.panel and other.source is not None]
     insets = [box for box in insets if shot.source is None]
     written: list[Box] = []
-    for _, x, y in shot.ghosts:
-        if not any(box.holds(x, y, across / 2) for box in insets):
+    for k, x, y in shot.ghosts:
+        if panel.marks[k].number is None and not any(box.holds(x, y, across / 2) for box in insets):
             _draw_ghost(axes, x, y, across, style, order)
     for k, x, y in shot.marks:
         if any(box.holds(x, y, across / 2) for box in insets):
@@ -60,6 +65,8 @@ def draw_marks(
             axes.add_artist(dot)
             if shot.source is not None:
                 dot.set_clip_path(frame)
+            continue
+        if mark.number is not None:
             continue
         colour = style.largest if mark.is_largest else style.source
         if mark.value is not None:
@@ -75,6 +82,22 @@ def draw_marks(
                 written.append(_box_of(page, words))
                 _draw_ground(axes, page, written[-1], order + 1)
                 write(words, order + 1)
+    _draw_pins(axes, page, shot, order + 1, frame, insets)
+
+
+def _draw_pins(axes: Axes, page: Composition, shot: Shot, order: int, frame, insets: list[Box]) -> None:
+    """Over all else: the hidden ones below the others, and the first on top."""
+    marks = page.figure.panels[shot.panel].marks
+    drops = [(mark[0], True, *mark[1:]) for mark in shot.ghosts] + [(mark[0], False, *mark[1:]) for mark in shot.marks]
+    drops = [drop for drop in drops if marks[drop[0]].number is not None]
+    drops.sort(key=lambda drop: (not drop[1], -(marks[drop[0]].number or 0)))
+    for rank, (k, is_hidden, x, y) in enumerate(drops):
+        if any(box.holds(x, y) for box in insets):
+            continue
+        # Each with its numeral below the next.
+        for part in drop_of(axes, page, marks[k], x, y, is_hidden, order + rank / len(drops)):
+            if shot.source is not None:
+                part.set_clip_path(frame)
 
 
 def _ring(x: float, y: float, across: float, colour, edge, may_be_open: bool, order: int) -> list:
@@ -216,7 +239,18 @@ def hidden_words(page: Composition) -> list[str]:
         hidden = {mark[0] for shot in shots for mark in shot.ghosts} - shown
         names = " and ".join(view if isinstance(view, str) else "of the camera" for view in panel.views)
         views = f"the view {names}" if len(panel.views) == 1 else f"the views {names}"
-        for index in sorted(hidden):
-            vertex = panel.marks[index].vertex
-            found[f"Vertex {vertex} is hidden in {views}: a dashed ring; try --view source or --two-views."] = None
+        marks = [panel.marks[number] for number in sorted(hidden)]
+        for what in ("ring", "drop"):
+            some = [mark for mark in marks if (mark.number is None) == (what == "ring")]
+            rest = f"hidden in {views}: a dashed {what}; try --view source or --two-views."
+            if len(some) > MOST_NAMED:
+                others = "marked places" if what == "ring" else "pins"
+                found[f"{_named(some[0])} and {len(some) - 1} other {others} are {rest}"] = None
+                continue
+            for mark in some:
+                found[f"{_named(mark)} is {rest}"] = None
     return list(found)
+
+
+def _named(mark: Mark) -> str:
+    return mark.name or (f"Pin {mark.number}" if mark.number is not None else f"Vertex {mark.vertex}")

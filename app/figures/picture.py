@@ -13,12 +13,14 @@ import numpy.typing as npt
 from bihdist_core import ParameterError
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
+from bihdist_core.sources.source import Source
 
 from ..document.camera import Camera, View
 from ..document.document import Anchor, Document, Point, Zoom, free_names
 from ..document.file import read_recipe
 from ..document.isoline_edits import pass_through
 from ..document.looks import AS_IT_IS, Colours, Isolines, shaded
+from ..document.measuring import add_pins
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity
 from ..drawing.colour_file import colours_named
@@ -78,7 +80,7 @@ class Picture:
 def figure(
     mesh: Mesh,
     distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
-    source: int | Sequence[int] | None = None,
+    source: Source | str | Sequence[Source | str] | None = None,
     *,
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
@@ -100,6 +102,7 @@ def figure(
     camera: Sequence[float] | None = None,
     zooms: Sequence[int | tuple[int, float] | tuple[int, float, int]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
+    pins: Sequence[int] = (),
     height: float = 0.0,
     shading: str | None = None,
     crease: float | None = None,
@@ -117,14 +120,16 @@ def figure(
 ) -> Picture:
     """What `bihdist figure` draws, with its options.
 
-    distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, or several for a row of
-    panels each; the highest if None.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is
-    named in `distances` like one: "biharmonic - mine".  views: names or cameras, side by side.  camera: the eleven
+    distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, the highest if None, a
+    `Place`, `BoundaryLoop`, `Curve` or `SourceSet`, or words such as "12+40"; or a list of these for a row of panels
+    each.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances` like
+    one: "biharmonic - mine".  views: names or cameras, side by side.  camera: the eleven
     numbers that `--camera` takes, after other views.  up: the axis that points up, "z" or "-z", "auto" for a guess.
     projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
     with a factor, or with that and a number of steps.  isolines: a number of steps; isoline_spacing, isoline_values:
     where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.  anchors:
-    vertices to be marked, perhaps each with a value.  shading: "smooth", "creased" at more than `crease` degrees, or
+    vertices to be marked, perhaps each with a value.  pins: vertices with numbers, in their order.
+    shading: "smooth", "creased" at more than `crease` degrees, or
     "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
     the session or recipe whose ends are taken; shared_range: the same as "shared".  size: "85mm", "1680x640", "column",
@@ -138,8 +143,8 @@ def figure(
     >>> picture.pixels.shape
     (200, 400, 3)
     """
-    several = isinstance(source, Sequence)
-    sources = tuple(source) if isinstance(source, Sequence) else (source,)
+    several = isinstance(source, Sequence) and not isinstance(source, str)
+    sources = tuple(source) if isinstance(source, Sequence) and not isinstance(source, str) else (source,)
     document, given = given_comparison(mesh, distances, {} if fields is None else fields, sources, areas)
     marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
     names = free_names("anchor", len(marked), [point.name for point in document.points])
@@ -161,6 +166,8 @@ def figure(
         shading=shaded(AS_IT_IS, shading, crease, wireframe),
         camera=chosen[0] if chosen else "home",
     )
+    if len(pins):
+        document = add_pins(document, [int(vertex) for vertex in pins])
     if len(isoline_through):
         document = pass_through(document, tuple(isoline_through))
     page = Page(

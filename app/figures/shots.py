@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable, Iterable, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 
@@ -18,14 +18,15 @@ from ..drawing.bands import band_edges
 from ..drawing.drawable import drawable, normals_shading, outward_faces
 from ..drawing.levels import levels, too_many
 from ..drawing.line_labels import Contour, Line
+from ..drawing.source_lines import SourceLine
 from ..drawing.style import Style
-from .description import Figure
+from .description import Figure, Mark
 from .framing import Framed, shown_surface
 from .inset_places import source_of
 from .layout import Box, Layout
 from .outlines import outlines
 from .raster import FINER, SAMPLES, Rectangle, Studio
-from .sight import Sight, contours_seen
+from .sight import Curve, Sight, contours_seen
 
 PlacedMark = tuple[int, float, float]
 """The index of a mark in its panel, and its x and y on the page."""
@@ -37,7 +38,9 @@ class Shot:
 
     image: (h, w, 4) uint8, colours multiplied by alpha; isolines: in the order of their values; marks: their index in
     the panel, and where (x, y) on the page; frame: (3, 3) of the camera, see `drawing.camera.frame`; ghosts: of marks
-    that the shape hides, the same; source: for an inset, what it enlarges.
+    that the shape hides, the same; lines, regions: what is seen of those that the field starts from, and of boundaries
+    of regions; source: for an inset, what
+    it enlarges.
     """
 
     panel: int
@@ -49,6 +52,8 @@ class Shot:
     frame: np.ndarray
     ghosts: list[PlacedMark] = field(default_factory=list)
     source: Box | None = None
+    lines: list[Line] = field(default_factory=list)
+    regions: list[Line] = field(default_factory=list)
 
 
 class Stage:
@@ -151,6 +156,7 @@ class _Taker:
         self._sight, self._curves = sight, curves
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
+        self._lines, self._regions = (self._visible(lines) for lines in (self._panel.lines, self._panel.regions))
         self._marks, self._ghosts = self._placed_marks()
 
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
@@ -183,6 +189,8 @@ class _Taker:
             self._projection.view[:3, :3].T,
             [mark for mark in ghosts if source is None and box.holds(*mark[1:])],
             source,
+            [(move(p + self._corner), c) for p, c in self._lines],
+            [(move(p + self._corner), c) for p, c in self._regions],
         )
 
     # ------------------------------------------------------------------ what is seen
@@ -212,6 +220,12 @@ class _Taker:
             raise ParameterError(said)
         return contours_seen(self._sight, panel.field, found)
 
+    def _visible(self, lines: Sequence[SourceLine]) -> list[Line]:
+        """What is seen of lines on the surface."""
+        x = self._surface.vertices
+        curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
+        return [part for parts in self._sight.visible(curves) for part in parts]
+
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Those that are seen, and those that the shape hides."""
         seen, hidden = [], []
@@ -222,14 +236,16 @@ class _Taker:
                 continue
             # A mark stands out of the surface: at a silhouette it is seen a little longer than its vertex.
             per_unit = self._projection.pixel_at(depth, self._box.width)
-            nearer = point + self._normal(mark.vertex) * per_unit * 0.67 * self._lift
+            nearer = point + self._normal(mark) * per_unit * 0.67 * self._lift
             is_seen = self._sight.sees(point) or self._sight.sees(nearer)
             if is_seen or not mark.is_passed:
                 (seen if is_seen else hidden).append((k, float(x), float(y)))
         return seen, hidden
 
-    def _normal(self, vertex: int) -> np.ndarray:
-        corners = self._surface.vertices[self._surface.faces[(self._surface.faces == vertex).any(axis=1)]]
+    def _normal(self, mark: Mark) -> np.ndarray:
+        faces = self._surface.faces
+        there = np.isin(faces, mark.corners).all(axis=1) if mark.corners else (faces == mark.vertex).any(axis=1)
+        corners = self._surface.vertices[faces[there]]
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
         return normal / max(float(np.linalg.norm(normal)), 1e-300)
 

@@ -25,7 +25,10 @@ NEAREST = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A curve on the surface: points (k, 3) whose neighbours share a face, and the mesh edge (k, 2) each lies on."""
+    """A curve on the surface: points (k, 3) whose neighbours share a face, and the mesh edge (k, 2) each lies on.
+
+    edges: also (k, 3), for points in faces.
+    """
 
     points: np.ndarray
     edges: np.ndarray

@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.document.document import Place, Point
+from app.document.document import Point
 from app.document.isoline_edits import pass_through
 from app.document.page import Recipe
 from app.figures.export import compute, figure_of, open_document
 from app.figures.layout import lay_out
 from app.figures.shots import take_shots
 from app.session.given import given_comparison
+from bihdist_core import Place
 from bihdist_core.progress import silent
 from tests.shapes import sphere
 

@@ -6,11 +6,13 @@ from dataclasses import replace
 import pytest
 
 from app.document.camera import Camera
-from app.document.document import Anchor, MeshFile, Place, Zoom, comparison
+from app.document.document import Anchor, MeshFile, Zoom, comparison
 from app.document.edits import put_point
 from app.document.file import read_recipe, recipe_text
+from app.document.instruments import Pin, Profile, Scatter, Selection
 from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page, Recipe
+from bihdist_core import Place
 from bihdist_core.distances.kinds import Spec
 from tests.figures.recipes import anchors, of_version_0_1, refused
 
@@ -36,6 +38,12 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
         up="-z",
         projection="orthographic",
         axes=True,
+        pins=(Pin("tip", "the tip", 3),),
+        profile=Profile(("source", "tip"), "section", (0.0, 1.0, 0.0), False),
+        scatter=Scatter(2, 0, False),
+        selections=(Selection("ear", ((3, 3), (5, 9)), 4),),
+        regions=(1,),
+        docks=("profile", "pins"),
         camera=Camera((1 / 3, 2.0, 3.0), (0.0, 0.0, 0.1), (0.0, 1.0, 0.0), (0.2, 0.3)),
         zooms=(Zoom(3, 2.5, "top left", 40),),
         anchors=(Anchor("tip", 0.5), Anchor("source", None)),

@@ -1,0 +1,91 @@
+"""Pins in figures: drops with numerals in colours of their own, dashed where the shape hides them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+
+import app
+from app.drawing.style import PINS
+from app.figures.description import FigurePanel, Mark
+from app.figures.draw import Figure, draw_figure
+from app.figures.size import Size
+from bihdist_core import ParameterError
+from tests.shapes import bumpy
+
+
+@pytest.fixture(scope="module")
+def ball():
+    return bumpy(600)
+
+
+def picture(ball, *marks):
+    panel = FigurePanel(ball, ball.vertices[:, 1] + 2, marks=marks)
+    return draw_figure(Figure((panel,), size=Size(400, 400, dpi=96)))
+
+
+def painted(pixels, colour):
+    """Where a picture has a colour, as rows and columns."""
+    near = np.abs(pixels / 255 - to_rgb(colour)).max(axis=2) < 0.03
+    return np.argwhere(near)
+
+
+def pin(vertex, number=1):
+    return Mark(vertex, number=number, colour=PINS[number - 1])
+
+
+def test_a_pin_is_a_drop_over_its_place(ball):
+    place = int((ball.vertices[:, 2] - np.abs(ball.vertices[:, :2]).sum(axis=1)).argmax())
+    ring = np.argwhere(np.any(picture(ball, Mark(place)) != picture(ball), axis=2)).mean(axis=0)
+    drop = painted(picture(ball, pin(place)), PINS[0])
+    assert len(drop) > 60
+    assert drop[:, 0].max() < ring[0] + 2  # all above the place
+    assert abs(drop[:, 1].mean() - ring[1]) < 2
+
+
+def test_a_hidden_pin_is_hollow(ball):
+    front, back = (int(end) for end in (ball.vertices[:, 2].argmax(), ball.vertices[:, 2].argmin()))
+    bare, whole, hollow = picture(ball), picture(ball, pin(front)), picture(ball, pin(back))
+    assert 0 < len(painted(hollow, PINS[0])) < 0.5 * len(painted(whole, PINS[0]))
+    white = [(each[np.any(each != bare, axis=2)].min(axis=1) > 240).sum() for each in (whole, hollow)]
+    assert white[1] > 1.1 * white[0] > 0
+
+
+def test_python_draws_them_and_their_colours_say_the_order(tmp_path):
+    figures = {pins: app.figure("hand", ["biharmonic"], source=12, size="300x300", pins=pins) for pins in ((9, 40), ())}
+    changed = np.any(figures[(9, 40)].pixels != figures[()].pixels, axis=2)
+    assert changed.any()
+    with pytest.raises(ParameterError, match="at most 200 pins"):
+        app.figure("hand", ["biharmonic"], source=12, pins=range(201))
+
+
+def test_a_recipe_keeps_its_pins_and_the_option_puts_others(tmp_path, capsys):
+    from app.document.file import read_recipe
+    from app.main import main
+
+    first, second = str(tmp_path / "a.png"), str(tmp_path / "b.png")
+    small = ["--size", "200x200"]
+    assert main(["figure", "hand", "--distance", "biharmonic", "--pin", "9", "--pin", "40", *small, "-o", first]) == 0
+    recipe = str(tmp_path / "a.json")
+    assert [read_recipe(recipe).document.point(pin.point).at for pin in read_recipe(recipe).document.pins] == [9, 40]
+    # Another distance, and the pins stay; then others.
+    for options, expected in ((["--distance", "diffusion"], [9, 40]), (["--pin", "7"], [7])):
+        assert main(["figure", "--recipe", recipe, *options, "-o", second]) == 0
+        document = read_recipe(str(tmp_path / "b.json")).document
+        assert [document.point(pin.point).at for pin in document.pins] == expected
+    assert main(["figure", "hand", "--pin", "100000", *small, "-o", first]) != 0
+    assert "100000" in capsys.readouterr().err
+
+
+def test_many_hidden_pins_are_said_in_one_sentence(ball):
+    from app.figures.draw import save_figure
+
+    back = np.argsort(ball.vertices[:, 2])[:5]
+    marks = tuple(replace(pin(int(vertex)), number=k + 1) for k, vertex in enumerate(back))
+    figure = Figure((FigurePanel(ball, ball.vertices[:, 1] + 2, marks=marks),), size=Size(200, 200, dpi=96))
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        said = save_figure(figure, f"{folder}/a.png")
+    assert any("Pin 1 and 4 other pins are hidden" in sentence for sentence in said)
