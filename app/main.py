@@ -9,11 +9,14 @@ import re
 import sys
 from collections.abc import Sequence
 
-from .commands import field, figure, info, movie, pairs, paper, view
+from .commands import field, figure, info, movie, pairs, paper, regions, samples, view
 from .commands.mesh import check_mesh
 from .version import version
 
-COMMANDS = {module.__name__.rpartition(".")[2]: module for module in (view, field, pairs, figure, movie, info, paper)}
+COMMANDS = {
+    module.__name__.rpartition(".")[2]: module
+    for module in (view, field, pairs, samples, regions, figure, movie, info, paper)
+}
 """By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`."""
 
 NEGATIVE = re.compile(r"-[xyz]|-[\d.][-+.\deE]*,[-+.,\deE]*")

@@ -1,10 +1,14 @@
 """`bihdist field`: distances of all vertices, into a file."""
 
 import argparse
+import re
+
+from bihdist_core.sources.source import Source
+from bihdist_core.sources.words import short_words_of
 
 from ..document.quantities import Difference
 from .mesh import read_laplacian
-from .options import add_areas, add_distance, quantities, vertex
+from .options import SOURCE, add_areas, add_distance, quantities, source
 from .terminal import accuracy, counted, progress_line
 
 WORDS = "distances of all vertices from one or more sources"
@@ -12,7 +16,9 @@ WORDS = "distances of all vertices from one or more sources"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
-    parser.add_argument("--source", type=vertex, metavar="V", nargs="+", required=True, help="vertex ids")
+    parser.add_argument(
+        "--source", type=source, metavar="V", nargs="+", required=True, help=f"{SOURCE}; several words, several fields"
+    )
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy, .csv, .ply or .vtp file")
     add_distance(parser)
     add_areas(parser)
@@ -22,24 +28,35 @@ def run(options: argparse.Namespace) -> None:
     from bihdist_core.distances.answers import Distances
     from bihdist_core.distances.difference import check_units, difference
     from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
+    from bihdist_core.sources.pieces import pieces_of
     from bihdist_core.whole_file import check_output
 
     check_output(options.output, FIELD_FORMATS)
     (chosen,) = quantities(options, [options.distance])
     with progress_line() as progress:
         laplacian = read_laplacian(options)
-        laplacian.surface.check_vertices(options.source)
+        pieces = [pieces_of(each, laplacian.surface) for each in options.source]
         distances = Distances(laplacian)
         known = [distances.get(spec, progress) for spec in chosen.specs]
         fields = [distance.from_sources(options.source, progress) for distance in known]
         said = "".join(dict.fromkeys(accuracy(distance) for distance in known))
-    columns, label = fields[0], " − ".join(distance.label for distance in known)
+    labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
+    columns, label = fields[0], " − ".join(labels)
     if isinstance(chosen, Difference):
         if chosen.raw:
             check_units(*(distance.unit for distance in known))
         columns = difference(*fields, raw=chosen.raw)
     word = "_minus_".join(spec.word for spec in chosen.specs)
-    names = [f"{word}_from_{v}" for v in options.source]
+    names = [f"{word}_from_{name}" for name in _names(options.source)]
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
     size = f"{columns.shape[0]} vertices, {counted(columns.shape[1], 'source')}"
     print(f"{options.output}: {label}, {size}{said}")
+
+
+def _names(sources: list[Source]) -> list[str]:
+    """A word for each source, of letters, digits and `_`, no two alike."""
+    names: list[str] = []
+    for each in sources:
+        name = re.sub("[^0-9A-Za-z.]+", "_", short_words_of(each))
+        names.append(name if name not in names else f"{name}_{len(names) + 1}")
+    return names

@@ -2,6 +2,8 @@
 
 import argparse
 
+from bihdist_core.sources.words import short_words_of
+
 from ..version import version
 from .figure_options import add_figure_options, chosen_recipe
 from .terminal import judged, progress_line, tell, tell_repairs
@@ -17,7 +19,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from ..figures.draw import described
     from ..figures.export import export
-    from ..session.questions import vertex_at
+    from ..session.questions import source_at
 
     recipe = chosen_recipe(options)
     remarks: list[str] = []
@@ -27,6 +29,7 @@ def run(options: argparse.Namespace) -> int:
         tell(text)
     surface = figure.panels[0].surface
     tell_repairs(surface)
-    sources = ", ".join(str(vertex_at(at, surface)) for at in recipe.document.sources)
-    print(f"{options.output}: {described(figure)}, source vertex {sources}")
+    starts = [source_at(at, surface) for at in recipe.document.sources]
+    what = "source vertex" if all(isinstance(each, int) for each in starts) else "source"
+    print(f"{options.output}: {described(figure)}, {what} {', '.join(map(short_words_of, starts))}")
     return judged(answers, surface.name)

@@ -12,7 +12,19 @@ from typing import TYPE_CHECKING, Any
 from ..document.looks import PROJECTIONS
 from .colour_options import add_colours, add_range, tell_if_unseen, with_colours, with_range
 from .isoline_options import add_isolines, with_isolines
-from .options import PANELS, add_areas, add_distance, add_up, check_parameters, given_parameters, quantities
+from .options import (
+    PANELS,
+    SOURCE,
+    add_areas,
+    add_distance,
+    add_pins,
+    add_up,
+    check_parameters,
+    given_parameters,
+    quantities,
+    source,
+    with_pins,
+)
 from .terminal import tell
 
 if TYPE_CHECKING:
@@ -30,7 +42,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         "--mesh", dest="other_mesh", metavar="OTHER", help="with --recipe: the same of another mesh with these vertices"
     )
     parser.add_argument(
-        "--source", type=int, metavar="V", action="append", help="vertex id; repeat for a row of panels each"
+        "--source", type=source, metavar="V", action="append", help=f"{SOURCE}; repeat for a row of panels each"
     )
     add_isolines(parser)
     parser.add_argument(
@@ -57,6 +69,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         help="enlarge the place of a vertex, perhaps with N steps of isolines",
     )
     parser.add_argument("--anchors", type=_anchors, metavar="V[=VALUE],…", help="mark vertices, coloured by a value")
+    add_pins(parser)
     parser.add_argument(
         "--height", type=float, nargs="?", const=0.35, metavar="SHARE", help="a flat mesh becomes a relief"
     )
@@ -119,6 +132,7 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     document, rows = _with_panels(document, options)
     if options.anchors is not None:
         document = _with_anchors(document, options.anchors)
+    document = with_pins(document, options)
     views = [*(options.view or ()), *(("front", "back") if options.two_views else ())]
     if options.camera is not None:
         views.append(Camera(*options.camera))
@@ -181,6 +195,7 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
             raise ParameterError(f"{what} makes the panels of one mesh, and this recipe has {len(document.surfaces)}.")
         surface, sources = document.surfaces[0].name, tuple(options.source or document.sources)
         used = {*(anchor.point for anchor in document.anchors), *document.isolines.through}
+        used |= {*(pin.point for pin in document.pins), *document.profile.points}
         kept = [point for point in document.points if point.name in used]
         names = free_names("source", len(sources), [point.name for point in kept])
         points = [Point(name, at, surface) for name, at in zip(names, sources, strict=True)]
@@ -223,6 +238,7 @@ def _with_anchors(document: "Document", anchors: tuple[tuple[int, float | None],
     if len(document.surfaces) != 1:
         raise ParameterError(f"--anchors are on one mesh, and this recipe has {len(document.surfaces)}.")
     shown = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
+    shown |= {*(pin.point for pin in document.pins), *document.profile.points}
     gone = {anchor.point for anchor in document.anchors} - shown
     kept = [point for point in document.points if point.name not in gone]
     names = free_names("anchor", len(anchors), [point.name for point in kept])

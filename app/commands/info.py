@@ -1,11 +1,18 @@
 """`bihdist info`: what a mesh file holds."""
 
 import argparse
+from typing import TYPE_CHECKING
 
 from ..document.document import AREAS
 from .mesh import found_mesh
 from .options import add_areas
 from .terminal import accuracy, progress_line
+
+if TYPE_CHECKING:
+    from bihdist_core import Surface
+
+MOST_LOOPS = 4
+"""So many boundary loops are described."""
 
 WORDS = "what a mesh file holds and what would be repaired"
 
@@ -27,7 +34,7 @@ def run(options: argparse.Namespace) -> None:
         ("vertices", len(s.vertices)),
         ("faces", len(s.faces)),
         ("components", s.component_count),
-        ("boundary loops", s.boundary_loop_count),
+        ("boundary loops", _loops(s)),
         ("genus", "not defined (not manifold or not orientable)" if genus is None else genus),
         ("non-manifold edges", s.nonmanifold_edge_count),
         ("non-manifold vertices", s.nonmanifold_vertex_count),
@@ -42,6 +49,22 @@ def run(options: argparse.Namespace) -> None:
     if options.accuracy:
         for label, text in _accuracies(s, options.areas or AREAS[0]):
             print(f"{label:<26}{text}")
+
+
+def _loops(surface: "Surface") -> str:
+    """How many, and the length of the first few, which is what their numbers go by."""
+    import numpy as np
+
+    from bihdist_core import BoundaryLoop
+    from bihdist_core.sources.pieces import pieces_of
+
+    count, said = surface.boundary_loop_count, []
+    for number in range(min(count, MOST_LOOPS)):
+        start, stop = pieces_of(BoundaryLoop(number), surface).positions(surface.vertices)
+        said.append(f"loop:{number} {float(np.linalg.norm(stop - start, axis=1).sum()):.4g} long")
+    if count > MOST_LOOPS:
+        said.append("...")
+    return f"{count} ({', '.join(said)})" if said else "0"
 
 
 def _accuracies(surface, areas: str) -> list[tuple[str, str]]:

@@ -5,12 +5,15 @@ from collections.abc import Sequence
 
 from bihdist_core.distances.kinds import OURS, Spec, Value, kinds
 from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import Source
+from bihdist_core.sources.words import source_from_words
 
-from ..document.document import AREAS, COMPARISON
+from ..document.document import AREAS, COMPARISON, Document
 from ..document.looks import UPS
 from ..document.quantities import Quantity, quantity
 
 PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
+SOURCE = "vertex (12), several (12+40+7), place in a face (f311:0.2,0.5), boundary loop (loop:0) or curve (curve.json)"
 PARAMETERS = {p.name: p for kind in OURS for p in kind.parameters}
 """By name: the parameters of our distances, each of which is an option."""
 
@@ -39,6 +42,20 @@ def add_areas(parser: argparse.ArgumentParser) -> None:
 def add_up(parser: argparse.ArgumentParser, default: str = "guessed") -> None:
     words = f"which axis points up: {', '.join(UPS)} (default: {default}); write --up=-z for those with a sign"
     parser.add_argument("--up", choices=UPS, metavar="AXIS", help=words)
+
+
+def add_pins(parser: argparse.ArgumentParser) -> None:
+    words = "a drop with a number at a vertex; repeat for more, which are numbered in their order"
+    parser.add_argument("--pin", type=vertex, metavar="V", action="append", help=words)
+
+
+def with_pins(document: Document, options: argparse.Namespace) -> Document:
+    """The document with the pins that are named, if any are, and no others."""
+    if options.pin is None:
+        return document
+    from ..document.measuring import pin_instead
+
+    return pin_instead(document, options.pin, document.surfaces[0].name)
 
 
 def spec(options: argparse.Namespace, text: str) -> Spec:
@@ -76,6 +93,14 @@ def check_parameters(options: argparse.Namespace, specs: Sequence[Spec]) -> None
         if name not in known:
             shown = ", ".join(dict.fromkeys(each.word for each in specs))
             raise ParameterError(f"--{name} {getattr(options, name)} is no parameter of {shown}.")
+
+
+def source(text: str) -> Source:
+    """A source from its words."""
+    try:
+        return source_from_words(text)
+    except ParameterError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def vertex(text: str) -> int:

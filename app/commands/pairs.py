@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
     from bihdist_core.analysis.all_pairs import Begun
     from bihdist_core.distances.kinds import Spec
+    from bihdist_core.formats.pins import Pins
+    from bihdist_core.surface import Surface
 
 WORDS = "distances between chosen vertices"
 WHOLE = re.compile("-?[0-9]{1,18}")
@@ -22,6 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--vertices", type=vertices, metavar="I,J,K", help="all distances among these")
+    which.add_argument("--pins", metavar="FILE", help="the same among the pins in a .csv, .json or MeshLab's .pp file")
     which.add_argument("--pairs", type=_pair, nargs="+", metavar="I,J", help="the distances of these pairs")
     which.add_argument("--file", metavar="PAIRS.csv", help="the same from a file, a line `i,j` for each pair")
     which.add_argument(
@@ -57,13 +60,14 @@ def run(options: argparse.Namespace) -> None:
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         distances = Distances(laplacian)
-        if options.vertices:
-            among = laplacian.surface.check_vertices(options.vertices)
+        pins = pins_in(options.pins, laplacian.surface) if options.pins else None
+        if options.vertices or pins:
+            among = pins.vertices if pins else laplacian.surface.check_vertices(options.vertices)
             pairs = np.array([(i, j) for k, i in enumerate(among) for j in among[k + 1 :]]).reshape(-1, 2)
         else:
             pairs = pairs_in(options.file) if options.file else np.array(options.pairs)
             laplacian.surface.check_vertices(np.unique(pairs))
-        is_matrix = bool(options.vertices) and extension == ".npy" and len(chosen) == 1
+        is_matrix = bool(options.vertices or pins) and extension == ".npy" and len(chosen) == 1
         answers, lines = [], []
         for each in chosen:
             distance = distances.get(each, progress)
@@ -73,7 +77,11 @@ def run(options: argparse.Namespace) -> None:
         write_array(options.output, answers[0])
     else:
         names = ["distance"] if len(chosen) == 1 else [str(each) for each in chosen]
-        write_array(options.output, np.column_stack([pairs, *answers]), ["i", "j", *names])
+        columns, header = [pairs, *answers], ["i", "j", *names]
+        if pins:
+            columns = [*(pins.ids[k] for k in np.triu_indices(len(pins), 1)), *columns]
+            header = ["pin_i", "pin_j", *header]
+        write_array(options.output, np.column_stack(columns), header)
     for text in lines:
         print(f"{options.output}: {text}")
 
@@ -113,6 +121,25 @@ def _described(known: "Begun") -> str:
 
 def _size(count: int) -> str:
     return f"{count / 1e9:.2f} GB" if count >= 1e8 else f"{count / 1e6:.2f} MB"
+
+
+def pins_in(path: str, surface: "Surface") -> "Pins":
+    """The pins in a file; how far they had to be moved is said."""
+    import numpy as np
+
+    from bihdist_core.formats.pins import read_pins
+
+    pins = read_pins(path, surface)
+    # Positions are often written with seven digits.
+    size = float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
+    far = np.flatnonzero(pins.moved > 1e-6 * size)
+    if len(far):
+        most = int(pins.moved.argmax())
+        tell(
+            f"{path}: {counted(len(far), 'pin')} moved to a vertex; the farthest, {pins.ids[most]}, by "
+            f"{pins.moved[most]:.3g} ({pins.moved[most] / size:.2%} of the mesh's size)."
+        )
+    return pins
 
 
 def pairs_in(path: str) -> "np.ndarray":

@@ -8,7 +8,18 @@ from typing import NoReturn
 
 from .colour_options import add_colours, with_colours
 from .mesh import found_mesh
-from .options import PANELS, add_areas, add_distance, add_up, given_parameters, quantities, vertex
+from .options import (
+    PANELS,
+    SOURCE,
+    add_areas,
+    add_distance,
+    add_pins,
+    add_up,
+    given_parameters,
+    quantities,
+    source,
+    with_pins,
+)
 
 WORDS = "open the viewer"
 
@@ -19,12 +30,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         help="mesh file, the name of a sample, or a session or recipe (default: choose in the window)",
     )
-    parser.add_argument("--source", type=vertex, metavar="V", help="vertex id the distances start from")
+    parser.add_argument("--source", type=source, metavar="V", help=f"what distances start from: {SOURCE}")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
     add_colours(parser)
     add_distance(parser, PANELS)
+    add_pins(parser)
     add_areas(parser)
     add_up(parser, "as it was chosen for this mesh before, or guessed")
 
@@ -47,7 +59,7 @@ def run(options: argparse.Namespace) -> NoReturn:
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
         shown = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
-        shown = with_colours(replace(shown, up=options.up or "auto"), options)
+        shown = with_pins(with_colours(replace(shown, up=options.up or "auto"), options), options)
     if is_choice and options.source is not None:
         raise ParameterError("A source needs a mesh; name one.")
     from ..qt.screen import check_screen
@@ -68,7 +80,7 @@ def _refuse_options(options: argparse.Namespace) -> None:
     """ParameterError for what a session says itself."""
     from bihdist_core import ParameterError
 
-    own = ("source", "distance", "areas", "colours", "reversed", "bands", "up")
+    own = ("source", "distance", "areas", "colours", "reversed", "bands", "up", "pin")
     given = {name: getattr(options, name) for name in own}
     given |= given_parameters(options)
     for name, value in given.items():

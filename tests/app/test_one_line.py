@@ -12,17 +12,21 @@ import app
 from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document import one_line
 from app.document.camera import VIEWS, Camera
-from app.document.document import Anchor, Document, FieldArray, MeshFile, Panel, Place, Point, Zoom, comparison
+from app.document.document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
+from app.document.instruments import Pin
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
+from app.document.measuring import add_pins
 from app.document.page import Page, Recipe
 from app.document.quantities import Difference, DistanceFrom, OwnField
-from bihdist_core import ParameterError
+from bihdist_core import BoundaryLoop, Curve, ParameterError, Place, SourceSet
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 
 COUNT = 60
 BIHARMONIC, DIFFUSION = Spec.of("biharmonic"), Spec.of("diffusion", t=1 / 15)
 GEODESIC = Spec.of("geodesic", method="heat")
+PLACE = Place.of(3, 0.2, 0.2)
+CURVE = Curve((PLACE, Place.of(9, 0.2, 0.2)))
 CAMERA = Camera((0.1, 2.0, 1 / 3), (0.0, -1e-9, 0.0), (0.0, 1.0, 0.1), (0.4, 0.30000000000000004))
 
 
@@ -61,7 +65,7 @@ def shown(recipe):
     document = recipe.document
     names = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
     renamed = {name: f"source {k}" for k, name in enumerate(names)}
-    marked = [*(anchor.point for anchor in document.anchors), *document.isolines.through]
+    marked = [*(each.point for each in (*document.anchors, *document.pins)), *document.isolines.through]
     at = [document.point(name).at for name in (*names, *marked)]
     marks = [f"mark {k}" for k in range(len(marked))]
 
@@ -74,7 +78,9 @@ def shown(recipe):
     ]
     anchors = tuple(replace(anchor, point=mark) for anchor, mark in zip(document.anchors, marks, strict=False))
     points = tuple(Point(*each) for each in zip([*renamed.values(), *marks], at, strict=True))
-    isolines = replace(document.isolines, through=tuple(marks[len(anchors) :]))
+    numbered = marks[len(anchors) : len(anchors) + len(document.pins)]
+    pins = tuple(Pin(mark, "", pin.colour) for pin, mark in zip(document.pins, numbered, strict=True))
+    isolines = replace(document.isolines, through=tuple(marks[len(anchors) + len(pins) :]))
     drawn = replace(
         document,
         surfaces=(MeshFile("A", document.surfaces[0].path),),
@@ -82,6 +88,7 @@ def shown(recipe):
         panels=tuple(panels),
         next_id=len(panels),
         anchors=anchors,
+        pins=pins,
         isolines=isolines,
         camera=recipe.views[0],
     )
@@ -106,6 +113,9 @@ EXAMPLES = {
         replace(d, points=(*d.points, Point("anchor", 8)), anchors=(Anchor("anchor", -1e-7), Anchor("source"))),
         p,
     ),
+    "Document.pins": lambda d, p: (add_pins(d, [9, 3]), p),
+    "Pin.point": lambda d, p: (replace(d, pins=(Pin("source"),)), p),
+    "Pin.colour": lambda d, p: (replace(d, pins=(Pin("source", colour=4),)), p),
     "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
     "Document.shading": lambda d, p: (replace(d, shading=Shading("flat")), p),
     "Document.up": lambda d, p: (replace(d, up="-x"), p),
@@ -157,9 +167,11 @@ ELSEWHERE = {
     "Document.surfaces": "every line names the mesh",
     "Document.fields": "arrays: see the test of what is said in words",
     "Document.height": "needs a flat mesh: see its test",
+    "Document.selections": "figures do not show selections",
+    "Document.regions": "figures do not show regions",
 }
 
-WORDLESS = {"Zoom.corner"} | {
+WORDLESS = {"Zoom.corner", "Pin.colour"} | {
     name
     for name in EXAMPLES
     if name == "Colours.stops" or name == "Isolines.through"  # the source itself
@@ -168,7 +180,7 @@ WORDLESS = {"Zoom.corner"} | {
 
 PARTS = [
     f"{part.__name__}.{f.name}"
-    for part in (Document, Panel, Zoom, Anchor, Isolines, Colours, Shading, Page)
+    for part in (Document, Panel, Zoom, Anchor, Pin, Isolines, Colours, Shading, Page)
     for f in fields(part)
 ]
 
@@ -229,7 +241,12 @@ def test_what_no_line_can_hold_is_said_in_words(mesh):
         (replace(document, surfaces=(MeshFile("A", "", "00"),)), "arrays"),
         (replace(document, surfaces=(*document.surfaces, MeshFile("B", mesh))), "2 meshes"),
         (replace(document, panels=()), "no panels"),
-        (replace(document, points=(Point("source", Place(3, (0.2, 0.2, 0.6))),)), "within a face"),
+        (replace(document, points=(Point("source", CURVE),)), "a curve"),
+        (replace(document, points=(Point("source", SourceSet((3, CURVE))),)), "a curve"),
+        (
+            replace(document, points=(*document.points, Point("a", Place(3, (0.2, 0.2, 0.6)))), anchors=(Anchor("a"),)),
+            "no vertex",
+        ),
         (
             replace(other, panels=(Panel(0, DistanceFrom(BIHARMONIC)), Panel(1, DistanceFrom(DIFFUSION, "b")))),
             "different points",
@@ -270,6 +287,9 @@ QUANTITIES = st.one_of(
     SPECS.map(DistanceFrom), st.builds(Difference, SPECS.map(DistanceFrom), SPECS.map(DistanceFrom), st.booleans())
 )
 VERTICES = st.integers(0, COUNT - 1)
+PLACES = st.builds(Place.of, VERTICES, st.floats(0, 0.5), st.floats(0, 0.5))
+MEMBERS = st.one_of(VERTICES, PLACES, st.builds(BoundaryLoop, st.integers(0, 9)))
+SOURCES = st.one_of(MEMBERS, st.lists(MEMBERS, min_size=2, max_size=4, unique=True).map(tuple).map(SourceSet))
 CAMERAS = st.builds(
     Camera,
     st.tuples(NUMBERS, NUMBERS, st.floats(1, 9)),
@@ -281,7 +301,7 @@ CAMERAS = st.builds(
 
 @st.composite
 def recipes(draw):
-    sources = tuple(draw(st.lists(VERTICES, min_size=1, max_size=3, unique=True)))
+    sources = tuple(draw(st.lists(SOURCES, min_size=1, max_size=3, unique=True)))
     document = comparison("hand", tuple(draw(st.lists(QUANTITIES, min_size=1, max_size=3, unique=True))), sources)
     marks = draw(st.dictionaries(VERTICES, st.none() | NUMBERS, max_size=3))
     views = [*draw(st.lists(st.sampled_from(VIEWS), max_size=2)), *draw(st.lists(CAMERAS, max_size=1))] or ["home"]
@@ -299,6 +319,7 @@ def recipes(draw):
         projection=draw(st.sampled_from(PROJECTIONS)),
         axes=draw(st.booleans()),
     )
+    document = add_pins(document, draw(st.lists(VERTICES, max_size=3)))
     page = Page(
         views=tuple(views) if len(views) > 1 else (),
         size=draw(st.sampled_from(["", "85mm", "1920x1080", "160mm@600dpi"])),
