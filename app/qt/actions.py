@@ -24,7 +24,7 @@ class Act:
     """word: its name here; do: what it does with the window.
 
     keys: the first is the one that is shown.  of_view: they work where a panel has the keys, and not in a box.
-    needs_mesh: it makes no sense without one.
+    needs_mesh: it makes no sense without one.  is_on: a check is ticked at first.
     """
 
     word: str
@@ -36,6 +36,7 @@ class Act:
     of_view: bool = False
     needs_mesh: bool = False
     is_check: bool = False
+    is_on: bool = False
 
 
 def _turn(right: int, up: int) -> Callable[[Any], object]:
@@ -52,6 +53,11 @@ def _zoom(factor: float) -> Callable[[Any], object]:
 
 def _step(right: int, up: int) -> Callable[[Any], object]:
     return lambda window: window.gestures.step_source(right, up)
+
+
+def _dock(word: str, text: str, key: str, tip: str, icon: str) -> Act:
+    """Opens and closes an instrument."""
+    return Act(f"dock {word}", text, lambda w: w.docks.toggle(word), (key,), tip, icon, needs_mesh=True, is_check=True)
 
 
 FILE = (
@@ -227,7 +233,26 @@ PANELS = (
     Act("panels and bars", "Between panels and tool bar", lambda w: w.change_part(), ("F6",)),
 )
 TOOLS = (
-    Act("source id", "&Type a vertex id", lambda w: w.typed_source.ask(), ("G",), "", "source", needs_mesh=True),
+    Act("source id", "&Type a source", lambda w: w.typed_source.ask(), ("G",), "", "source", needs_mesh=True),
+    Act(
+        "snap",
+        "Snap to &vertices",
+        lambda w: w.gestures.sources.set_snapping(w.actions_by_word["snap"].isChecked()),
+        ("V",),
+        "The source is put on vertices, and not anywhere in faces",
+        needs_mesh=True,
+        is_check=True,
+        is_on=True,
+    ),
+    Act(
+        "draw source",
+        "&Draw a source",
+        lambda w: w.gestures.sources.set_drawing(w.actions_by_word["draw source"].isChecked()),
+        ("D",),
+        "Drag over the surface: distances from a curve",
+        needs_mesh=True,
+        is_check=True,
+    ),
     Act("source before", "The source be&fore", lambda w: w.session.walk_sources(-1), ("Alt+Left",), needs_mesh=True),
     Act("source after", "The source &after", lambda w: w.session.walk_sources(1), ("Alt+Right",), needs_mesh=True),
     Act(
@@ -246,12 +271,34 @@ TOOLS = (
     Act("step down", "Step along an edge down", _step(0, -1), ("Ctrl+Down",), of_view=True, needs_mesh=True),
     Act("stop", "&Stop what is being computed", lambda w: w.cancel(), ("Esc",)),
 )
+INSTRUMENTS: tuple[Act, ...] = (
+    _dock("pins", "&Pins", "P", "Points with a number, what every panel has there, and how far apart they are", "pin"),
+    _dock("profile", "P&rofile", "F", "Values along a path: the chart of all panels' fields", "profile"),
+    _dock("quality", "&Quality", "Q", "Extrema, isotropy, kinks and triangles of every panel's distance", "quality"),
+    _dock(
+        "regions",
+        "Farthest points and re&gions",
+        "N",
+        "Points spread over the surface, and which part of it is nearest to each pin",
+        "regions",
+    ),
+    _dock("scatter", "S&catter", "S", "One panel's field against another's over all vertices; select in it", "scatter"),
+    _dock(
+        "statistics",
+        "Stat&istics",
+        "H",
+        "The active panel in numbers: mean, quantiles, histogram, isolines",
+        "isolines",
+    ),
+)
+"""The docks, in the order of the menu."""
+
 HELP = (
     Act("keys", "&Gestures and keys", lambda w: w.guide.show_keys(), ("F1",), "", "info"),
     Act("tour", "A &tour in five steps", lambda w: w.guide.start_tour()),
     Act("about", "&About", lambda w: w.guide.show_about()),
 )
-ALL = (*FILE, *EDIT, *VIEW, *TURNS, *PANELS, *TOOLS, *HELP)
+ALL = (*FILE, *EDIT, *VIEW, *TURNS, *PANELS, *TOOLS, *INSTRUMENTS, *HELP)
 
 
 class Actions:
@@ -290,6 +337,7 @@ class Actions:
         action = QtWidgets.QAction(act.text, self._window)
         action.setShortcuts([QtGui.QKeySequence(key) for key in act.keys])
         action.setCheckable(act.is_check)
+        action.setChecked(act.is_on)
         shown = action.shortcut().toString(QtGui.QKeySequence.SequenceFormat.NativeText)
         words = act.tip or act.text.replace("&", "").replace(" …", "")
         action.setToolTip(f"{words} ({shown})" if shown else words)

@@ -5,9 +5,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
+from bihdist_core import ParameterError
+from bihdist_core.sources.source import Source
+
 from ..document.edits import move_source, show_in
+from ..document.measuring import add_pins, remove_pins
 from ..document.quantities import Quantity
+from ..session.pinned import PinnedPlace, pinned_on
 from .look.numbers import number
+from .source_gestures import SourceGestures
 
 if TYPE_CHECKING:
     from ..drawing.picking import Met
@@ -23,7 +29,7 @@ LEAST_TOWARDS = 0.3
 
 
 class Gestures:
-    """See the module.  is_live: whether the source follows the pointer."""
+    """See the module.  is_live: whether the source follows the pointer; sources: what else is done to it."""
 
     def __init__(self, window) -> None:
         self._window = window
@@ -31,9 +37,11 @@ class Gestures:
         self._met: Met | None = None  # what is under the pointer
         self._met_in = -1  # in which panel
         self.is_live = self.is_dragging = False
+        self.sources = SourceGestures(window)
         self._rest_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
         self._rest_soon.timeout.connect(self._release)
         grid.clicked.connect(self._click)
+        grid.pinned.connect(self._pin)
         grid.dragged.connect(self._drag)
         grid.released.connect(self._release)
         grid.hovered.connect(self._hover)
@@ -44,6 +52,7 @@ class Gestures:
         self._met = None
         self.is_dragging = False
         self._rest_soon.stop()
+        self.sources.begin()
 
     @property
     def hovered(self) -> int | None:
@@ -53,20 +62,34 @@ class Gestures:
     # ------------------------------------------------------------------ the source
     def _click(self, panel: int, met: "Met") -> None:
         self._window.picked.emit(panel, met)
-        self._move(panel, met.vertex)
+        self._move(panel, self.sources.at(met))
 
-    def _move(self, panel: int, vertex: int, **how: object) -> None:
+    def _move(self, panel: int, at: Source, **how: object) -> None:
         session = self._window.session
-        session.show(move_source(session.document, panel, vertex), **how)
+        session.show(move_source(session.document, panel, at), **how)
 
-    def _drag(self, panel: int, vertex: int) -> None:
+    def _pin(self, panel: int, met: "Met") -> None:
+        """A pin there; one that is there already stays."""
+        session = self._window.session
+        surface = session.document.panel(panel).surface
+        try:
+            session.show(add_pins(session.document, [met.vertex], surface))
+        except ParameterError as error:  # there are too many
+            self._window.failed(str(error))
+
+    def _unpin(self, point: str) -> None:
+        session = self._window.session
+        session.show(remove_pins(session.document, [point]))
+
+    def _drag(self, panel: int, mark: int, met: "Met") -> None:
         self.is_dragging = True
-        self._move(panel, vertex, key=f"drag in {panel}", live=True)
+        self.sources.drag(panel, mark, met)
 
     def _release(self) -> None:
         """The source has arrived: now all is answered, and what is late is said to be."""
         self._rest_soon.stop()
         self.is_dragging = False
+        self.sources.rest()
         self._window.session.show(self._window.session.document)
 
     def set_live(self, is_live: bool) -> None:
@@ -101,15 +124,17 @@ class Gestures:
     # ------------------------------------------------------------------ the pointer
     def _hover(self, panel: int, met: "Met | None") -> None:
         window = self._window
-        before, self._met, self._met_in = self.hovered, met, panel
+        before, last, self._met, self._met_in = self.hovered, self._met, met, panel
         vertex = self.hovered
         if window.session.surface is None or (vertex is None and before is None):
             return
         self._grid.point_at(panel, vertex)
+        window.docks.pointed(vertex)
         window.status.show_place(vertex, None if vertex is None else window.session.surface.vertices[vertex])
-        if self.is_live and vertex is not None and vertex != before:
+        if self.is_live and met is not None and (last is None or self.sources.at(met) != self.sources.at(last)):
             self.is_dragging = True
-            self._move(panel, vertex, key="live", live=True)
+            self.sources.rate.begin()
+            self._move(panel, self.sources.at(met), key="live", live=True)
             self._rest_soon.start()
 
     def centre_here(self) -> None:
@@ -144,6 +169,12 @@ class Gestures:
             view, vertex = self._grid.panel(panel).view, met.vertex
             self._grid.point_at(panel, vertex)
             menu.addAction("Source here\tClick", lambda: self._click(panel, met))
+            self.sources.offer(menu, panel, met)
+            pin = self._pin_at(panel, vertex)
+            if pin is None:
+                menu.addAction("Pin here\tShift+click", lambda: self._pin(panel, met))
+            else:
+                menu.addAction(f"Remove pin {pin.number}", lambda: self._unpin(pin.point))
             menu.addSeparator()
             menu.addAction("Isoline through here", lambda: window.choices.isoline.pass_through(panel, vertex))
             if window.session.document.isolines.through:
@@ -163,6 +194,13 @@ class Gestures:
                 menu.addAction(actions[word])
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(where)
+
+    def _pin_at(self, panel: int, vertex: int) -> "PinnedPlace | None":
+        session = self._window.session
+        document = session.document
+        surface = document.panel(panel).surface
+        pins = pinned_on(document, surface, session.opened(surface).surface)
+        return next((pin for pin in pins if pin.vertex == vertex), None)
 
     def _place(self, vertex: int) -> np.ndarray:
         return self._window.session.surface.vertices[vertex]

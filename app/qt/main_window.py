@@ -69,6 +69,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.exports = Exports(self)
         self.grid: Any = None  # a PanelGrid, once what draws has been imported
         self.gestures: Any = None  # what the mouse means in it
+        self.docks: Any = None  # the instruments
         self._start_page: Any = None
         self._opened: Opened | None = None  # the surface in the panels
         self._waiting: list[Callable[[], None]] = []
@@ -110,6 +111,7 @@ class MainWindow(QtWidgets.QMainWindow):
         """Import what draws and make the panels; called once, after the window is on the screen."""
         if self.grid is not None:
             return
+        from .docks.docks import Docks
         from .gestures import Gestures
         from .panels.grid import PanelGrid
 
@@ -118,6 +120,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.wheel_factor = -1.0 if self.preferences.wheel_reversed else 1.0
         self.grid.is_turntable = self.preferences.turntable
         self.gestures = Gestures(self)
+        self.docks = Docks(self)
         self.grid.chosen.connect(self.gestures.choose)
         self.grid.asked.connect(self.choices.edit_panel)
         self.grid.ended.connect(self.choices.end_at)
@@ -186,6 +189,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.exports.close()
         self.session.close()
         if self.grid is not None:
+            self.docks.close_all()
             self.grid.close_views()
         if self.choices.is_full_screen:
             LOOK.enlarge(1.0)
@@ -223,6 +227,8 @@ class MainWindow(QtWidgets.QMainWindow):
             self.typed_source.show()
         if other_panels or (document.points, document.anchors) != (before.points, before.anchors):
             self.grid.mark_anchors(document)
+        if other_panels or (document.points, document.pins) != (before.points, before.pins):
+            self.grid.show_pins(document)
         if other_panels or document.zooms != before.zooms:
             self.grid.show_insets(document)
         passed = document.isolines.through and document.points != before.points
@@ -236,8 +242,11 @@ class MainWindow(QtWidgets.QMainWindow):
                 if self.session.is_answered(panel.id) or (is_dressed and panel.id in self.session.shown):
                     self.answer_changed(panel.id)
         self.views.document_changed(before, is_other, is_raised)
+        if other_panels or document.selections != before.selections:
+            self.docks.brushing.show(document)
         self._offer_steps()
         self.choices.show()
+        self.docks.document_changed()
         self.waits.expect(before)
         self.session_file.document_changed()
 
@@ -271,18 +280,24 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.expect_sources(document)
         self.grid.show_isolines(document)
         self.grid.mark_anchors(document)
+        self.grid.show_pins(document)
         self.grid.show_insets(document)
+        self.docks.brushing.show(document)
         for id in self.session.shown:
             self.grid.show_answer(id)
+        self.docks.findings.show_again()
         self.waits.show()
 
     def answer_changed(self, panel: int) -> None:
         self.grid.show_answer(panel)
+        self.gestures.sources.rate.note()
+        self.docks.answer_changed(panel)
         self.waits.note(panel)
         self._say_what_is_inexact()
 
     def certificate_changed(self, panel: int) -> None:
         self.grid.show_certificate(panel)
+        self.docks.answer_changed(panel)
         self.waits.note(panel)
         self._say_what_is_inexact()
         self.announce_soon()
@@ -335,6 +350,8 @@ class MainWindow(QtWidgets.QMainWindow):
             self.leave_boxes()
         elif self.guide.end_tour():
             return
+        elif self.gestures is not None and self.gestures.sources.is_drawing:
+            self.actions_by_word["draw source"].trigger()
         elif self.gestures is not None and self.gestures.is_live:
             self.actions_by_word["live"].trigger()
         elif self.session.progress or not self.choices.is_full_screen:

@@ -19,6 +19,7 @@ import qtpy
 from qtpy import QtCore
 
 from bihdist_core import BihdistError, ParameterError
+from bihdist_core.sources.source import Source
 
 from ..document.document import Document
 from ..document.edits import move_source
@@ -237,7 +238,7 @@ def show(
     mesh: Mesh,
     distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
     fields: Mapping[str, npt.ArrayLike] | None = None,
-    source: int | None = None,
+    source: Source | str | None = None,
     *,
     areas: str = "voronoi",
     up: str = "auto",
@@ -249,9 +250,9 @@ def show(
     mesh: a file, a sample, a Surface, or vertices (n, 3) and faces (m, 3).  distances: a panel each, in words:
     "diffusion(t=1/4)", "biharmonic - geodesic".  fields: your own by name, (n,) with NaN where undefined; each has a
     panel, coloured from 0 (from minus its largest absolute value, if it has negative values), or is named in
-    `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None.  up: which
-    axis is, "z" or "-z"; "auto" for what was chosen for the mesh before, or a guess.  on_pick: called with a `Pick`
-    for each click on the surface, once the source is there.  block: wait until the window is closed; if None, in
+    `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None, or what else `figure` takes.  up:
+    which axis is, "z" or "-z"; "auto" for what was chosen for the mesh before, or a guess.  on_pick: called with a
+    `Pick` for each click on the surface, once the source is there.  block: wait until the window is closed; if None, in
     scripts, but not in IPython, notebooks and Python's own prompt, where the window lives while you go on.
 
     Raises BihdistError: for input that cannot be shown, and where there is no display.

@@ -1,31 +1,32 @@
-"""The source by its number: the vertex in the tool bar's box.  `window` is the main window."""
+"""The source in words: what the tool bar's box says.  `window` is the main window."""
 
 from bihdist_core import BihdistError
+from bihdist_core.sources.source import Source
 
 from ..document.edits import move_source
-from ..session.questions import vertex_at
+from ..session.questions import source_at
 
 
 class TypedSource:
-    """Where the first panel's field starts."""
+    """What the first panel's field starts from."""
 
     def __init__(self, window) -> None:
         self._window, self._box = window, window.source_box
         self._box.chosen.connect(self.choose)
         self._box.left.connect(window.leave_boxes)
 
-    def choose(self, vertex: int) -> None:
+    def choose(self, source: Source) -> None:
         """Let it start there, or say why it cannot."""
         session = self._window.session
         document = session.document
         if session.surface is not None and document.panels:
             try:
-                session.surface.check_vertex(vertex)
+                source = source_at(source, session.surface)
             except BihdistError as error:
                 self._window.refused.emit(str(error))
                 self._box.refuse(str(error))
                 return
-            session.show(move_source(document, document.panels[0].id, vertex))
+            session.show(move_source(document, document.panels[0].id, source))
             self.show()
 
     def ask(self) -> None:
@@ -34,7 +35,8 @@ class TypedSource:
             self._box.ask()
 
     def show(self) -> None:
-        """Let the box say where it is."""
+        """Let the box say what it is."""
         sources, surface = self._window.session.document.sources, self._window.session.surface
-        known = vertex_at(sources[0], surface) if surface is not None and sources else None
-        self._box.show_source(known, 0 if surface is None else len(surface.vertices))
+        known = source_at(sources[0], surface) if surface is not None and sources else None
+        if self._box.show_source(known, 0 if surface is None else len(surface.vertices)):
+            self._window.tool_bar.fit()

@@ -34,7 +34,8 @@ def _untrue(hands: Hands) -> list[str]:
     from app.qt.look.look import LOOK
     from app.qt.panels.quantity_menu import quantity_name
     from app.session.bar_ends import bar_end
-    from app.session.questions import questions, vertex_at
+    from app.session.questions import questions, source_at, vertex_at
+    from bihdist_core.sources.words import words_of
 
     window, found = hands.window, []
     session, document = window.session, window.session.document
@@ -57,8 +58,8 @@ def _untrue(hands: Hands) -> list[str]:
         }
         found += [f"panel {panel.id} {panel.shows}: {fact}" for fact, holds in facts.items() if not holds]
     sources = document.sources
-    known = vertex_at(sources[0], session.surface) if sources else None
-    if window.source_box.text() != ("" if known is None else str(known)):
+    known = words_of(source_at(sources[0], session.surface)) if sources else ""
+    if window.source_box.text() != known:
         found.append(f"the box says {window.source_box.text()!r}, the document {known}")
     if window.windowTitle() != f"{session.surface.name} - Biharmonic distance":
         found.append(f"title {window.windowTitle()}")

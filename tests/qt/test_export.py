@@ -6,9 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import Place, Point, comparison
+from app.document.document import Point, comparison
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
+from bihdist_core import Place
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 

@@ -9,9 +9,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import Anchor, Panel, Place, Point, Zoom
+from app.document.document import Anchor, Panel, Point, Zoom
 from app.document.page import Page
 from app.document.quantities import DistanceFrom
+from bihdist_core import Place
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 

@@ -8,7 +8,7 @@ from bihdist_core.analysis.upright import DIRECTIONS
 
 from ...samples import mesh_path, sample_names, thumbnail
 from .. import remembered
-from ..actions import TURNS, VIEWS
+from ..actions import INSTRUMENTS, TURNS, VIEWS
 from ..look.numbers import MINUS
 from .colour_menu import ColourMenu
 from .isoline_menu import IsolineMenu
@@ -92,7 +92,10 @@ class Menus:
         )
         self._fill(self.up, [None, "next up", "other end up"])
         steps = ("step left", "step right", "step up", "step down")
-        self._fill(self.tools, ["source id", "live", None, "source before", "source after", None, *steps, None, "stop"])
+        self._fill(
+            self.tools, ["source id", "draw source", "snap", "live", None, "source before", "source after", None]
+        )
+        self._fill(self.tools, [*steps, None, "stop"])
         file, edit, view, panels, tools, about = (
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
         )
@@ -103,10 +106,10 @@ class Menus:
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
         self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, *walked, None])
         self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
-        edits = ("Duplicate this panel", "Move it back", "Move it on", "Remove it")
+        edits = ("Duplicate this panel", "Move it back", "Move it on", "Regions of the pins", "Remove it")
         self._fill(panels, ["add panel", None, *(f"panel {word}" for word in edits), None])
         self._fill(panels, ["next panel", "previous panel", "panels and bars"])
-        self._fill(tools, self.tools.actions())
+        self._fill(tools, [*(act.word for act in INSTRUMENTS), None, *self.tools.actions()])
         self._fill(about, ["keys", "tour", None, "about"])
 
     def allow(self, has_mesh: bool) -> None:

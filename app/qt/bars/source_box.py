@@ -1,51 +1,72 @@
-"""The box for the vertex that the first panel's field starts from."""
+"""The box for what the first panel's field starts from, in words."""
+
+import re
 
 from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import ParameterError
+from bihdist_core.sources.source import Source
+from bihdist_core.sources.words import source_from_words, words_of
 
 from ..look.look import LOOK
 from ..look.text_box import TextBox, mark_wrong
 
-WIDTH = 76
+WIDTH, WIDER = 76, 164
+"""Of a vertex, and of all other words."""
+
+WIDEST_SENTENCE = 420
+
+WHAT = "12, 12+40+7, f311:0.2,0.5, loop:0 or curve.json"
 SHOWN_MS = 6000
 """For how long it is said what is wrong."""
 
 
 class SourceBox(TextBox):
-    """`chosen(int)` by Enter; what is no vertex is said under the box, with those that there are."""
+    """`chosen(source)` by Enter; what is no source is said under the box, with those that there are."""
 
-    chosen = QtCore.Signal(int)
+    chosen = QtCore.Signal(object)
     left = QtCore.Signal()  # the keys are wanted elsewhere again
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.setFixedWidth(WIDTH)
-        self.setAccessibleName("Source vertex")
-        self.setToolTip("The vertex that distances start from: type an id and press Enter (G)")
+        self.setAccessibleName("Source")
         self.setPlaceholderText("–")
-        digits = QtCore.QRegularExpression("[0-9, ]*")
-        self.setValidator(QtGui.QRegularExpressionValidator(digits, self))
-        self._vertex: int | None = None
+        self._source: Source | None = None
         self._count = 0
         self.wrong = QtWidgets.QLabel(self.window(), QtCore.Qt.WindowType.ToolTip)
         self.wrong.setProperty("error", True)
         self.wrong.setMargin(6)
+        self.wrong.setWordWrap(True)
         self._hide_soon = QtCore.QTimer(self, singleShot=True, interval=SHOWN_MS)
         self._hide_soon.timeout.connect(self.forgive)
         self.returnPressed.connect(self._choose)
         self.textEdited.connect(self.forgive)
         self.show_source(None, 0)
 
-    def show_source(self, vertex: int | None, count: int) -> None:
-        """The present source, None if there is none; count: of vertices, all ids being less."""
-        self._vertex, self._count = vertex, count
-        self.setEnabled(vertex is not None)
-        self.setText("" if vertex is None else str(vertex))
+    def show_source(self, source: Source | None, count: int) -> bool:
+        """The present source, None if there is none; count: of vertices, all ids being less.
+
+        Whether the box has become wider or narrower.
+        """
+        words = "" if source is None else words_of(source)
+        self._source, self._count = source, count
+        self.setEnabled(source is not None)
+        self.setText(words)
+        self.setCursorPosition(0)
         self.setModified(False)
         self.forgive()
+        known = f"\nNow: {words if len(words) < 200 else words[:200] + ' …'}" if len(words) > 10 else ""
+        self.setToolTip(f"What distances start from: type {WHAT} and press Enter (G){known}")
+        width = WIDTH if isinstance(source, int | None) else WIDER
+        if width == self.maximumWidth():
+            return False
+        self.setFixedWidth(width)
+        return True
 
-    def value(self) -> int:
+    def value(self) -> Source:
         """The source that is shown; -1 if there is none."""
-        return -1 if self._vertex is None else self._vertex
+        return -1 if self._source is None else self._source
 
     def ask(self) -> None:
         """Have the keys, for another vertex."""
@@ -60,7 +81,9 @@ class SourceBox(TextBox):
             f"background: {theme.error_ground}; color: {theme.error}; border: 1px solid {theme.error}; font: 13px;"
         )
         self.wrong.setText(sentence)
-        self.wrong.adjustSize()
+        asked = self.wrong.fontMetrics().horizontalAdvance(sentence) + 20
+        self.wrong.setFixedWidth(min(asked, round(WIDEST_SENTENCE * LOOK.scale)))
+        self.wrong.setFixedHeight(self.wrong.heightForWidth(self.wrong.width()))
         self.wrong.move(self.mapToGlobal(QtCore.QPoint(0, self.height() + 4)))
         self.wrong.setVisible(self.isVisible())
         self._hide_soon.start()
@@ -73,17 +96,30 @@ class SourceBox(TextBox):
 
     def give_up(self) -> None:
         """What was typed is not meant."""
-        self.show_source(self._vertex, self._count)
+        self.show_source(self._source, self._count)
 
     def _choose(self) -> None:
-        text = self.text().strip().replace(",", "")
-        if not text.isascii() or not text.isdigit() or int(text) >= self._count:
-            self.refuse(f"No vertex {self.text().strip()[:20] or 'of no id'} here: 0 to {self._count - 1:,}")
-            self.selectAll()
+        text = self.text().strip()
+        if self._source is not None and text == words_of(self._source):
+            self.left.emit()  # a curve has no words that could be read
             return
-        self.chosen.emit(int(text))
+        if re.fullmatch("[0-9]{1,3}(,[0-9]{3})+", text):
+            text = text.replace(",", "")
+        if not text or (text.isascii() and text.isdigit() and int(text) >= self._count):
+            self._refuse(f"No vertex {text[:20] or 'of no id'} here: 0 to {self._count - 1:,}")
+            return
+        try:
+            source = source_from_words(text)
+        except ParameterError as error:
+            self._refuse(str(error))
+            return
+        self.chosen.emit(source)
         if not self.wrong.isVisible() and not self.property("wrong"):
             self.left.emit()
+
+    def _refuse(self, sentence: str) -> None:
+        self.refuse(sentence)
+        self.selectAll()
 
     def focusOutEvent(self, event: QtGui.QFocusEvent) -> None:
         super().focusOutEvent(event)

@@ -81,6 +81,11 @@ class StatusBar(QtWidgets.QStatusBar):
         self.message.show_text(text)
         self._forget_soon.start()
 
+    def show_rate(self, text: str) -> None:
+        """How quickly fields follow, as long as they do; "" afterwards."""
+        self._forget_soon.stop()
+        self.message.show_text(text)
+
     def _forget(self) -> None:
         self.message.show_text("")
 

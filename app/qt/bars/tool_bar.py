@@ -10,7 +10,10 @@ from .tool_button import FULL, ICONS, VALUES, ToolButton
 
 HEIGHT = 44
 
-LAST_TO_GO = ("up", "views", "colours", "range", "isolines", "live", "tools", "redo", "undo")
+DOCKS = {"dock pins": "pin", "dock profile": "profile", "dock scatter": "scatter"}
+"""Instruments with a button of their own, and its icon; the others are in the menu Tools."""
+
+LAST_TO_GO = (*reversed(DOCKS), "up", "views", "colours", "range", "isolines", "live", "tools", "redo", "undo")
 """Where even the icons have no room: which buttons are left out, the first of these first; all are in the menus."""
 
 
@@ -36,6 +39,8 @@ class ToolBar(QtWidgets.QToolBar):
         self._button("redo", "redo", "", actions["redo"])
         self._line()
         self._menu("tools", "source", "", menus.tools, "The source: type it, step along edges, live")
+        for word, icon in DOCKS.items():
+            self._button(word, icon, "", actions[word])
         self.source_box = SourceBox(self)
         label = QtWidgets.QLabel("Source")
         label.setProperty("quiet", True)

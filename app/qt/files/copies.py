@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import BihdistError
+from bihdist_core import BihdistError, Place
 
 from ...document import one_line
-from ...document.document import Place
 from ...document.file import recipe_text
 from ...document.page import Recipe
 from ...figures.export import Surfaces, figure_of
@@ -87,11 +86,12 @@ class _Waiting(QtCore.QObject):
 
 
 def _at_vertices(recipe: Recipe, surfaces: Surfaces) -> Recipe:
-    """The same with each point at the vertex that it stands for, which is what is drawn."""
+    """The same with each anchor in a face, unless something starts there, at the vertex where it is drawn."""
     document = recipe.document
+    shown = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
     points = tuple(
         replace(point, at=vertex_at(point.at, surfaces[point.surface].surface))
-        if isinstance(point.at, Place)
+        if isinstance(point.at, Place) and point.name not in shown
         else point
         for point in document.points
     )

@@ -15,7 +15,8 @@ class Theme:
     window: menus, bars and docks; canvas: the panels, with their views; raised: fields, menus, buttons.  border: lines
     between parts; strong: outlines of controls.  quiet: what is beside the point.  accent: focus, what is checked,
     progress, links; fill: the one button that is meant, and on_fill on it.  selection: the ground of what is chosen.
-    label: the ground of the label at the pointer.  curves: of plots, in the order of panels.
+    label: the ground of the label at the pointer.  curves: of plots, in the order of panels.  cells: of a matrix,
+    from 0 to its largest value.
     """
 
     word: str
@@ -41,6 +42,7 @@ class Theme:
     label_text: str
     label_quiet: str
     curves: tuple[str, ...]
+    cells: tuple[str, str]
 
     @property
     def is_dark(self) -> bool:
@@ -71,6 +73,7 @@ LIGHT = Theme(
     label_text="#FFFFFF",
     label_quiet="#C3C9D0",
     curves=("#0A7358", "#B45309", "#6D4AC7", "#1D2125", "#8A3A78", "#5F6B00"),
+    cells=("#F6F7F8", "#CFD3D7"),
 )
 
 DARK = Theme(
@@ -97,6 +100,7 @@ DARK = Theme(
     label_text="#16181B",
     label_quiet="#5B626B",
     curves=("#52CFA6", "#F0A45A", "#B79CFF", "#E8EAED", "#E59BD3", "#C9CC5A"),
+    cells=("#1E2125", "#4A5159"),
 )
 
 THEMES = {theme.word: theme for theme in (LIGHT, DARK)}
@@ -113,6 +117,13 @@ def contrast(one: str, other: str) -> float:
     """From 1 to 21 (WCAG 2)."""
     dark, light = sorted((lightness(one), lightness(other)))
     return (light + 0.05) / (dark + 0.05)
+
+
+def between(ends: tuple[str, str], share: float) -> QtGui.QColor:
+    """The colour at a share of the way from one end to the other."""
+    first, last = (QtGui.QColor(end) for end in ends)
+    pairs = ((getattr(first, part)(), getattr(last, part)()) for part in ("redF", "greenF", "blueF"))
+    return QtGui.QColor.fromRgbF(*(a + (b - a) * share for a, b in pairs))
 
 
 def palette(theme: Theme) -> QtGui.QPalette:

@@ -19,7 +19,8 @@ from ...drawing.style import PAPER, Style
 from ...session.anchors import anchors_on
 from ...session.bar_ends import bar_end
 from ...session.passed import Passed, passed
-from ...session.questions import vertex_at
+from ...session.pinned import pinned_on
+from ...session.questions import pieces_at, vertex_at
 from ...session.session import Session
 from ..look.look import LOOK
 from .line_labels import LineLabels
@@ -33,6 +34,9 @@ SIDE_BY_SIDE = 3
 LEAST_WIDTH, LEAST_HEIGHT = 280, 220
 """Of a panel, in logical pixels; where there is less room panels stand below each other, and the grid is scrolled."""
 
+BRUSH_KEY = QtCore.Qt.Key.Key_B
+"""Held, a drag paints a selection."""
+
 LINE = 1
 """Pixels between panels."""
 
@@ -41,8 +45,12 @@ class PanelGrid(QtWidgets.QWidget):
     """A panel for each of the document's, by its id; gestures come out as signals that name the panel."""
 
     clicked = QtCore.Signal(int, object)  # panel, where the surface is met
-    dragged = QtCore.Signal(int, int)  # the source's mark, over a vertex
+    pinned = QtCore.Signal(int, object)  # the same with Shift
+    added = QtCore.Signal(int, object)  # the same with Ctrl
+    dragged = QtCore.Signal(int, int, object)  # panel, a mark of its source by its number, the `Met` it is over
     released = QtCore.Signal()
+    stroked = QtCore.Signal(int, object)  # panel, a `Met`, while the surface is drawn on
+    stroke_ended = QtCore.Signal(int, bool)  # panel, whether with Ctrl
     chosen = QtCore.Signal(int, object)  # panel, quantity
     asked = QtCore.Signal(int, str)  # panel, a word of PANEL_EDITS
     hovered = QtCore.Signal(int, object)  # panel, a `Met` or None beside the surface
@@ -51,6 +59,9 @@ class PanelGrid(QtWidgets.QWidget):
     ended = QtCore.Signal(int, object)  # panel, where its colour bar is to end
     cancelled = QtCore.Signal(int)  # what is computed for a panel
     activated = QtCore.Signal(int)
+    brushed = QtCore.Signal(object, float)  # a `Met`, and how long a pixel is there
+    brush_lifted = QtCore.Signal()
+    brush_held = QtCore.Signal(bool)  # the key for it, down or up
 
     def __init__(self, session: Session, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -63,6 +74,7 @@ class PanelGrid(QtWidgets.QWidget):
         self.camera = vtkCamera()
         self.active = -1  # the id of the panel that the keys go to
         self.wheel_factor = 1.0
+        self._is_drawn_on = False
         self.is_turntable = False  # whether what is up stays upright while the surface turns
         self.keys: Callable[[QtGui.QKeyEvent], bool] = lambda event: False  # what a key does on a view
         self._panels: dict[int, DistancePanel] = {}
@@ -71,6 +83,9 @@ class PanelGrid(QtWidgets.QWidget):
         self._is_closed = False
         self._fitted = QtCore.QSize()  # of the views that the camera was placed for
         self._pointed: tuple[int, int] | None = None  # panel, vertex
+        self._lit: tuple[str, ...] = ()  # the points of pins that stand out
+        self._selected = np.empty(0, np.int64), np.empty((0, 3), np.uint8)
+        self._brush: QtGui.QCursor | None = None
         LOOK.changed.connect(self.update)
         self.show_panels(session.document)
 
@@ -151,14 +166,20 @@ class PanelGrid(QtWidgets.QWidget):
         view = panel.view
         view.pressed.connect(lambda: self.activate(panel.id))
         view.clicked.connect(lambda met: self.clicked.emit(panel.id, met))
-        view.dragged.connect(lambda vertex: self.dragged.emit(panel.id, vertex))
+        view.pinned.connect(lambda met: self.pinned.emit(panel.id, met))
+        view.added.connect(lambda met: self.added.emit(panel.id, met))
+        view.dragged.connect(lambda mark, met: self.dragged.emit(panel.id, mark, met))
         view.released.connect(self.released)
+        view.stroked.connect(lambda met: self.stroked.emit(panel.id, met))
+        view.stroke_ended.connect(lambda has_ctrl: self.stroke_ended.emit(panel.id, has_ctrl))
         view.hovered.connect(lambda met: self.hovered.emit(panel.id, met))
         view.moved.connect(self._looked)
         view.let_go.connect(self.moving.rest)
         view.resized.connect(self._keep_in_view)
         view.menu_wanted.connect(lambda met, where: self.menu_wanted.emit(panel.id, met, where))
         view.centred.connect(lambda met: view.centre(met.position))
+        view.brushed.connect(self.brushed)
+        view.brush_lifted.connect(self.brush_lifted)
         view.installEventFilter(self)
         self.labels.watch(panel)
         panel.head.clicked.connect(lambda: self.activate(panel.id))
@@ -180,8 +201,11 @@ class PanelGrid(QtWidgets.QWidget):
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = self._upright
+        panel.view.draw_on(self._is_drawn_on)
         panel.view.show_axes(self._session.document.axes)
         panel.show_isolines(self._session.document.isolines)
+        panel.mark_selected(*self._selected)
+        panel.view.set_brush(self._brush)
         panel.show()
 
     def show_style(self, style: Style) -> bool:
@@ -213,14 +237,46 @@ class PanelGrid(QtWidgets.QWidget):
         """Tell each panel where its field starts."""
         for panel in document.panels:
             opened = self._session.opened(panel.surface)
-            starts = [vertex_at(document.point(name).at, opened.surface) for name in panel.shows.points]
-            self._panels[panel.id].expect_source(starts[0] if starts else None)
+            places = [document.point(name).at for name in panel.shows.points]
+            start = vertex_at(places[0], opened.surface) if places else None
+            self._panels[panel.id].expect_source(start, [pieces_at(at, opened.surface) for at in places])
+
+    def draw_on(self, is_drawn_on: bool) -> None:
+        """Whether the left button draws on the surfaces, and no longer turns them there."""
+        self._is_drawn_on = is_drawn_on
+        for panel in self.panels:
+            panel.view.draw_on(is_drawn_on)
 
     def mark_anchors(self, document: Document) -> None:
         """Put the anchors of each panel's surface where they are."""
         for panel in document.panels:
             opened = self._session.opened(panel.surface)
             self._panels[panel.id].mark_anchors(anchors_on(document, panel.surface, opened))
+
+    def show_pins(self, document: Document) -> None:
+        """Put the pins of each panel's surface where they are."""
+        for panel in document.panels:
+            pins = pinned_on(document, panel.surface, self._session.opened(panel.surface).surface)
+            self._panels[panel.id].show_pins(pins, self._lit)
+
+    def light_pins(self, points: tuple[str, ...]) -> None:
+        """Let the pins at these points stand out."""
+        if points != self._lit:
+            self._lit = points
+            if self._session.surface is not None:
+                self.show_pins(self._session.document)
+
+    def mark_selected(self, vertices: np.ndarray, colours: np.ndarray) -> None:
+        """Vertices (k,) of selections in all panels, each in a colour (k, 3) uint8."""
+        self._selected = vertices, colours
+        for panel in self.panels:
+            panel.mark_selected(vertices, colours)
+
+    def set_brush(self, brush: QtGui.QCursor | None) -> None:
+        """What a drag paints with in all panels, None if it turns them."""
+        self._brush = brush
+        for panel in (*self.panels, *self._spare):
+            panel.view.set_brush(brush)
 
     def show_insets(self, document: Document) -> None:
         """Enlarge the document's places in each panel."""
@@ -376,7 +432,13 @@ class PanelGrid(QtWidgets.QWidget):
             for id, panel in self._panels.items():
                 if panel.view is watched:
                     self.activate(id)
-        if event.type() == QtCore.QEvent.Type.KeyPress and self.keys(event):
+        kinds = QtCore.QEvent.Type
+        if event.type() in (kinds.KeyPress, kinds.KeyRelease) and event.key() == BRUSH_KEY:
+            if not event.isAutoRepeat() and not event.modifiers():
+                self.brush_held.emit(event.type() == kinds.KeyPress)
+        elif event.type() == kinds.FocusOut:
+            self.brush_held.emit(False)
+        if event.type() == kinds.KeyPress and self.keys(event):
             return True
         return super().eventFilter(watched, event)
 

@@ -21,6 +21,8 @@ SLIDERS_FROM, ALL_FROM, FIRST_FROM = 440, 300, 200
 
 MARGIN, BETWEEN = 8, 4
 WARNING_ROOM = 22
+DOT_ROOM, DOT = 13, 4.0
+"""For the dot of a curve, and its radius."""
 
 EXACT = ("biharmonic", "commute-time")
 """Distances of all eigenpairs, of which nothing can be left out."""
@@ -43,7 +45,7 @@ class PanelHead(QtWidgets.QWidget):
         self.controls: list[Control] = []
         self._choices = Choices()
         self._made_of: object = None
-        self._info, self._warning = "", ""
+        self._info = self._warning = self._dot = ""
         # Panels are equally wide whatever is in here.
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.name = FlatButton(self, bold=True)
@@ -122,6 +124,13 @@ class PanelHead(QtWidgets.QWidget):
         self.warning.setAccessibleName(text)
         self.show_info(self._info)
         self._restyle()
+
+    def show_dot(self, colour: str) -> None:
+        """Of the panel's curve in a plot that is open; "" for none."""
+        if colour != self._dot:
+            self._dot = colour
+            self._lay_out()
+            self.update()
 
     def set_compact(self, compact: bool) -> None:
         """Lower, for a panel with little height."""
@@ -223,7 +232,7 @@ class PanelHead(QtWidgets.QWidget):
     def _lay_out(self) -> None:
         """From the left name, warning, parameters; from the right the two buttons."""
         controls = [c for c in self.controls if not (self._warning and isinstance(c, FixedWord))]
-        left = MARGIN
+        left = MARGIN + (DOT_ROOM if self._dot else 0)
         right = self.width() - MARGIN - ICON_SIDE
         self.more.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)
         name = self.name.sizeHint().width()
@@ -290,3 +299,8 @@ class PanelHead(QtWidgets.QWidget):
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         painter = QtGui.QPainter(self)
         painter.fillRect(self.rect(), QtGui.QColor(LOOK.theme.canvas))
+        if self._dot:
+            painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+            painter.setPen(QtCore.Qt.PenStyle.NoPen)
+            painter.setBrush(QtGui.QColor(self._dot))
+            painter.drawEllipse(QtCore.QPointF(MARGIN + 8, self.height() / 2), DOT, DOT)

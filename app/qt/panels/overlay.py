@@ -8,6 +8,8 @@ import numpy as np
 from qtpy import QtCore, QtGui
 
 from ...drawing.axes import ARM, Arm
+from ...drawing.source_lines import RIM, WIDTH
+from ...drawing.style import Colour
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
 
@@ -56,6 +58,18 @@ def paint_ring(painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hid
         painter.setPen(QtGui.QPen(DARK, 1))
         painter.setBrush(BRIGHT)
         painter.drawEllipse(at, 2.0, 2.0)
+
+
+def paint_stroke(painter: QtGui.QPainter, places: Sequence[QtCore.QPointF], colour: Colour, rim: Colour) -> None:
+    """A line through places as it is drawn, in the source's colour with its rim."""
+    painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
+    path = QtGui.QPolygonF(places if len(places) > 1 else [*places, *places])
+    for shade, width in ((rim, WIDTH + 2 * RIM), (colour, WIDTH)):
+        pen = QtGui.QPen(QtGui.QColor.fromRgbF(*shade), width)
+        pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
+        pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
+        painter.setPen(pen)
+        painter.drawPolyline(path)
 
 
 def label_place(at: QtCore.QPointF, value: str, share: str, view: QtCore.QRectF) -> QtCore.QRectF:

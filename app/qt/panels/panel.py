@@ -1,6 +1,6 @@
 """One panel: its head, its view, and its colour bar.  Gestures become signals; it decides nothing."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from html import escape
 
 import numpy as np
@@ -8,7 +8,10 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from bihdist_core import Surface
+from bihdist_core.analysis.places import Places
+from bihdist_core.analysis.regions import Regions
 from bihdist_core.distances.answers import Answer
+from bihdist_core.sources.pieces import Pieces
 
 from ...document.document import COMPARISON, Zoom
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
@@ -19,17 +22,20 @@ from ...drawing.drawable import drawable
 from ...drawing.picking import LatePicker
 from ...drawing.prepared import Drawn
 from ...drawing.relief import relief, rise
-from ...drawing.style import Style
+from ...drawing.source_lines import SourceLine, source_lines
+from ...drawing.style import PINS, Style
 from ...session.anchors import anchor_value
 from ...session.answering import Shown
 from ...session.opened import Opened
 from ...session.passed import Passed
+from ...session.pinned import PinnedPlace
 from ..look.look import LOOK
 from ..look.numbers import number, share
 from .colour_bar import ColourBar
 from .end_box import EndPopUp
 from .head import PanelHead
 from .overlay import Pointed
+from .pin_marks import PinMark
 from .view import View
 from .waiting import Waiting
 
@@ -38,6 +44,8 @@ COMPACT_BELOW = 360
 
 ACCENT = 2
 """Height of the line over the panel that the keys go to."""
+
+_NONE = np.empty(0, np.int64), np.empty((0, 3), np.uint8)
 
 NOT_CONNECTED, UNDEFINED = "not connected to the source", "undefined here"
 
@@ -75,9 +83,17 @@ class DistancePanel(QtWidgets.QWidget):
         self._shading, self._drawn = AS_IT_IS, None  # of the surface as it lies
         self._positions = np.empty((0, 3))
         self._source: int | None = None
+        self._pieces: tuple[Pieces, ...] = ()
+        self._lines: list[SourceLine] = []
         self._zooms: tuple[Zoom, ...] = ()
         self._anchors: Sequence[tuple[int, float | None]] = ()
+        self._pins: Sequence[PinnedPlace] = ()
+        self._lit: Collection[str] = ()
+        self._selected = _NONE
         self._isolines = TWENTY_STEPS
+        self._path: Places | None = None
+        self._regions: Regions | None = None
+        self._extrema = np.empty(0, np.int64), np.empty(0, np.int64)
         self._dots = np.empty((0, 3))  # on isolines through points
         self.answer: Answer | None = None
         self._is_preview = self._is_waiting = self._in_shares = False
@@ -108,8 +124,13 @@ class DistancePanel(QtWidgets.QWidget):
         """Show nothing, and keep nothing of what was shown."""
         self._opened = self.answer = self._source = self._shape = self._raised = self._drawn = None
         self._positions = np.empty((0, 3))
-        self._anchors, self._zooms, self._dots = (), (), np.empty((0, 3))
-        self.view.picker = self.view.source = None
+        self._anchors, self._zooms, self._pieces, self._pins, self._lines = (), (), (), (), []
+        self._selected, self._dots = _NONE, np.empty((0, 3))
+        self.view.show_pins(())
+        self.view.picker, self.view.handles, self.view.stroke = None, np.empty((0, 3)), None
+        self._regions = None
+        self.mark_extrema()
+        self.show_path(None)
         self.view.scene.show_surface(vtkPolyData(), (0, 1, 0, 1, 0, 1))
         self.view.show_empty(True)
         self.bar.clear()
@@ -140,15 +161,26 @@ class DistancePanel(QtWidgets.QWidget):
         self._shading, self._drawn = shading, drawn
         self.view.redraw()
 
-    def expect_source(self, vertex: int | None) -> None:
-        """Where the field starts, None for one that starts nowhere; marked once that field is there."""
-        self._source = vertex
+    def expect_source(self, vertex: int | None, pieces: Sequence[Pieces] = ()) -> None:
+        """Where the field starts, None for one that starts nowhere; marked once that field is there.
+
+        vertex: one that stands for it; pieces: all that it consists of.
+        """
+        self._source, self._pieces = vertex, tuple(pieces)
+        self._lines = [line for each in self._pieces for line in source_lines(each)]
 
     def mark_source(self) -> None:
         """Put the mark where the field starts."""
-        self.view.source = self._position(self._source)
-        self.view.scene.mark_source(self.view.source)
+        places = self._places([pieces.points for pieces in self._pieces])
+        self.view.handles = places
+        has_shape = len(self._positions) > 0
+        lines = [(line.positions(self._positions), line.is_closed) for line in self._lines if has_shape]
+        self.view.scene.mark_source(places, lines)
         self.view.redraw()
+
+    def show_stroke(self, corners: np.ndarray, weights: np.ndarray) -> None:
+        """What has been drawn so far: places, each in a face with corners (k, 3), whose weights are (k, 3)."""
+        self.view.show_stroke(np.einsum("kc,kcx->kx", weights, self._positions[corners]) if len(corners) else None)
 
     def show_insets(self, zooms: tuple[Zoom, ...]) -> None:
         """Enlarge these places."""
@@ -162,6 +194,30 @@ class DistancePanel(QtWidgets.QWidget):
             samples = self._opened.prepared.samples if self._raised is None else self._positions
             marked = [vertex for vertex, _ in self._anchors] + ([] if self._source is None else [self._source])
             self.view.scene.insets.settle(samples, self._positions[marked])
+
+    def show_regions(self, regions: Regions | None) -> None:
+        """Draw the boundaries of regions, or none."""
+        if regions is not self._regions:
+            self._regions = regions
+            self._put_regions()
+            self.view.redraw()
+
+    def _put_regions(self) -> None:
+        found, segments = self._regions, np.empty((0, 2, 3))
+        if found is not None and self._opened is not None and len(found.faces):
+            corners = self._positions[self._opened.surface.faces[found.faces]]
+            segments = np.einsum("sec,scx->sex", found.weights, corners)
+        self.view.scene.show_regions(segments)
+
+    def mark_extrema(self, minima: Sequence[int] = (), maxima: Sequence[int] = ()) -> None:
+        """Put triangles at these vertices."""
+        self._extrema = np.asarray(minima, np.int64), np.asarray(maxima, np.int64)
+        self._put_extrema()
+
+    def _put_extrema(self) -> None:
+        minima, maxima = self._extrema
+        ups = np.arange(len(minima) + len(maxima)) >= len(minima)
+        self.view.extrema.show(self._positions[np.concatenate([minima, maxima])], ups)
 
     def show_isolines(self, isolines: Isolines, through: tuple[Passed, ...] = ()) -> None:
         """These, and one through each of the points, which have dots."""
@@ -208,6 +264,31 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.scene.mark_anchors(self._positions[[vertex for vertex, _ in anchors]], values)
         self.view.redraw()
 
+    def show_pins(self, pins: Sequence[PinnedPlace], lit: Collection[str] = ()) -> None:
+        """Drops at these places; lit: the names of the points of those that stand out."""
+        self._pins, self._lit = pins, lit
+        self._put_pins()
+
+    def _put_pins(self) -> None:
+        """Where they are in the shape that is shown."""
+        if len(self._positions):
+            self.view.show_pins(
+                tuple(
+                    PinMark(each.number, each.position(self._positions), PINS[each.pin.colour], each.point in self._lit)
+                    for each in self._pins
+                )
+            )
+
+    def show_dabs(self, vertices: np.ndarray | None, colour: str = "") -> None:
+        """More vertices (k,) that a brush has touched, None for none; see `View.show_dabs`."""
+        self.view.show_dabs(None if vertices is None else self._positions[vertices], colour)
+
+    def mark_selected(self, vertices: np.ndarray, colours: np.ndarray) -> None:
+        """Vertices (k,) of selections, each in a colour (k, 3) uint8."""
+        self._selected = vertices, colours
+        self.view.scene.mark_selected(self._positions[vertices], colours)
+        self.view.redraw()
+
     @property
     def source(self) -> int | None:
         """Where its field starts."""
@@ -217,6 +298,12 @@ class DistancePanel(QtWidgets.QWidget):
     def positions(self) -> np.ndarray:
         """(n, 3) where the vertices are drawn."""
         return self._positions
+
+    def _places(self, points: Sequence[Pieces]) -> np.ndarray:
+        """(k, 3) where points are in the shape that is shown."""
+        if not points or not len(self._positions):
+            return np.empty((0, 3))
+        return np.concatenate([some.positions(self._positions)[0] for some in points])
 
     def _position(self, vertex: int | None) -> np.ndarray | None:
         return None if vertex is None else self._positions[vertex]
@@ -299,10 +386,15 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.picker = LatePicker(surface) if is_relief else prepared.picker
         self._positions = surface.vertices
         self._shape = surface
+        self._put_path()
+        self._put_pins()
         self.view.scene.show_shape(drawable(surface, self._shading) if is_relief else self._drawn.mesh, bounds)
         self.view.scene.take_stand_in(None if is_relief else self._drawn.stand_in)
+        self.mark_selected(*self._selected)
         self.show_insets(self._zooms)
         self.settle_insets()
+        self._put_regions()
+        self._put_extrema()
 
     def show_certificate(self, shown: Shown) -> None:
         """How accurate the field is."""
@@ -343,6 +435,30 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.dim(True)
         self.view.say("Stopped. Click a point to ask again.")
         self._show_bar()
+
+    # ------------------------------------------------------------------ a path
+    def show_path(self, path: Places | None) -> None:
+        """A line through places, in the shape that is shown."""
+        self._path = path
+        self._put_path()
+
+    def _put_path(self) -> None:
+        is_there = self._path is not None and len(self._positions)
+        if self.view.path.show(self._path.values(self._positions) if is_there else np.empty((0, 3))):
+            self.view.redraw()
+
+    def echo(self, place: Places | None) -> None:
+        """Put a ring at one place, and its value into the bar: somewhere else the pointer is there."""
+        answer = self.answer
+        if place is None or self._opened is None:
+            self.point_at(None, False)
+            return
+        position = place.values(self._positions)[0]
+        self.view.point_at(Pointed(position, False, not self.view.sees(position)))
+        if answer is None or answer.field is None or self._is_waiting:
+            self.bar.show_value(None)
+        else:
+            self.bar.show_value(float(place.values(answer.field)[0]))
 
     # ------------------------------------------------------------------ the pointer
     def point_at(self, vertex: int | None, is_own: bool, is_hidden: bool = False) -> None:

@@ -1,0 +1,1 @@
+"""Instruments: what measures, each in a dock of the window."""

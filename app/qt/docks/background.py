@@ -1,0 +1,67 @@
+"""What an instrument computes beside the window's thread: the latest that is asked for, and nothing else."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from qtpy import QtCore
+
+from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.progress import Progress
+
+from ...session.lane import Lane
+
+
+class Background(QtCore.QObject):
+    """`compute(request, progress)` runs for the latest request and yields one answer or more.
+
+    They come as `answered(request, answer)` on the thread of the window, unless something else has been asked for
+    meanwhile; what goes wrong comes as `failed(request, sentence)`.  A request is compared by identity.
+    """
+
+    answered = QtCore.Signal(object, object)
+    failed = QtCore.Signal(object, str)
+    progressed = QtCore.Signal(object)  # (share done, words), or None when nothing goes on
+    _posted = QtCore.Signal(object)
+
+    def __init__(self, name: str, compute: Callable[[Any, Progress], Iterator[Any]], window: QtCore.QObject) -> None:
+        super().__init__(window)
+        self._compute = compute
+        self._latest: Any = None
+        self._posted.connect(self._run)
+        self._lane: Lane[Any] = Lane(name, self._work, self._report, self._fail)
+        window.closed.connect(self.close)
+
+    def ask(self, request: Any) -> None:
+        """None stops what goes on."""
+        self._latest = request
+        self._lane.submit(request)
+
+    def close(self) -> None:
+        self._latest = None
+        self._lane.close()
+
+    # ------------------------------------------------------------------ on the lane
+    def _work(self, request: Any, lane: Lane[Any]) -> None:
+        progress = lane.progress(lambda latest: latest is request)
+        for answer in self._compute(request, progress):
+            progress(0, "")  # Cancelled if nobody wants the rest
+            self._posted.emit(lambda answer=answer: self._arrive(request, answer))
+
+    def _fail(self, request: Any, error: Exception) -> None:
+        self._posted.emit(lambda: self._tell(request, failure_in_words(error)))
+
+    def _report(self, fraction: float | None, words: str) -> None:
+        self._posted.emit(lambda: self.progressed.emit(None if fraction is None or not words else (fraction, words)))
+
+    # ------------------------------------------------------------------ on the window's thread
+    @staticmethod
+    def _run(function: Callable[[], None]) -> None:
+        function()
+
+    def _arrive(self, request: Any, answer: Any) -> None:
+        if request is self._latest:
+            self.answered.emit(request, answer)
+
+    def _tell(self, request: Any, sentence: str) -> None:
+        if request is self._latest:
+            self.failed.emit(request, sentence)

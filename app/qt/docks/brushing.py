@@ -1,0 +1,195 @@
+"""Selections on all panels, and the brush that paints them on the surface.  `window` is the main window."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import Surface
+from bihdist_core.analysis.selecting import Brush
+from bihdist_core.progress import Progress
+
+from ...document.document import Document, free_names
+from ...document.measuring import select, vertices_of
+from ...drawing.style import PINS
+from .background import Background
+
+if TYPE_CHECKING:
+    from ...drawing.picking import Met
+
+RADII = (4, 28)
+"""Of the brush, in logical pixels: a cursor can be no larger."""
+
+RADIUS = 12
+
+ERASED = "#FFFFFF"
+"""Of what is taken away, while the brush is down."""
+
+
+class Brushing(QtCore.QObject):
+    """See the module.
+
+    current: the selection that is added to, "" for a new one.  is_on: whether drags paint, switched on by a button;
+    they do as well while the key is held.  `stroked` is emitted with the vertices (k,) of a stroke that goes on, which
+    become a step of the history when the button is let go.
+    """
+
+    stroked = QtCore.Signal(object)
+    switched = QtCore.Signal(bool)
+
+    def __init__(self, window: Any) -> None:
+        super().__init__(window)
+        self._window, self._grid = window, window.grid
+        self.current = ""
+        self.radius = RADIUS
+        self.is_on = self._is_held = False
+        self._surface: Surface | None = None  # that the brush is for
+        self._brush: Brush | None = None
+        self._waiting: list[tuple[Met, float]] = []  # places touched before the brush is there
+        self._is_lifted = True
+        self._stroke: np.ndarray | None = None  # (n,) bool
+        self._is_erasing = False
+        self._making = Background("brush", _made, window)
+        self._making.answered.connect(self._ready)
+        self._grid.brushed.connect(self._touch)
+        self._grid.brush_lifted.connect(self._lift)
+        self._grid.brush_held.connect(self._hold)
+
+    # ------------------------------------------------------------------ what is shown
+    def show(self, document: Document) -> None:
+        """The selections of the document on all panels."""
+        surface = self._window.session.surface
+        count = 0 if surface is None else len(surface.vertices)
+        ids = [vertices_of(each.runs) for each in document.selections]
+        ids = [some[some < count] for some in ids]
+        colours = [each.colour for each in document.selections]
+        shades = [
+            np.broadcast_to(_rgb(PINS[colour]), (len(some), 3)) for colour, some in zip(colours, ids, strict=True)
+        ]
+        self._grid.mark_selected(
+            np.concatenate([np.empty(0, np.int64), *ids]), np.concatenate([np.empty((0, 3), np.uint8), *shades])
+        )
+
+    @property
+    def colour(self) -> int:
+        """The number of the colour that the brush paints in."""
+        document = self._window.session.document
+        for each in document.selections:
+            if each.name == self.current:
+                return each.colour
+        return select(document, "\N{BULLET}", np.array([0])).selections[-1].colour
+
+    # ------------------------------------------------------------------ what is chosen
+    def choose(self, name: str) -> None:
+        """The selection that the brush adds to; "" for a new one."""
+        self.current = name
+
+    def select(self, vertices: np.ndarray, way: str = "new") -> None:
+        """A new selection of vertices (k,), or these "added" to or "removed" from the current one."""
+        session = self._window.session
+        document = session.document
+        known = {each.name: each for each in document.selections}
+        if way == "new" or self.current not in known:
+            if way == "removed" or not len(vertices):
+                return
+            name = free_names("selection", 1, list(known))[0]
+            wanted = vertices
+        else:
+            name, before = self.current, vertices_of(known[self.current].runs)
+            wanted = np.union1d(before, vertices) if way == "added" else np.setdiff1d(before, vertices)
+        session.show(select(document, name, wanted))
+        if name in [each.name for each in session.document.selections]:
+            self.current = name
+
+    # ------------------------------------------------------------------ the brush
+    def switch(self, is_on: bool) -> None:
+        """By the button."""
+        self.is_on = is_on
+        self._take()
+        self.switched.emit(is_on)
+
+    def enlarge(self, radius: int) -> None:
+        self.radius = min(max(radius, RADII[0]), RADII[1])
+        self._take()
+
+    def _hold(self, is_held: bool) -> None:
+        if is_held != self._is_held:
+            self._is_held = is_held
+            self._take()
+
+    def _take(self) -> None:
+        """Take the brush into the hand, or lay it down."""
+        is_wanted = self.is_on or self._is_held
+        surface = self._window.session.surface
+        self._grid.set_brush(_cursor(self.radius, self._grid.devicePixelRatioF()) if is_wanted else None)
+        if is_wanted and surface is not None and surface is not self._surface:
+            self._surface, self._brush = surface, None
+            self._making.ask((surface,))
+
+    def _ready(self, request: tuple[Surface], brush: Brush) -> None:
+        self._brush = brush
+        waiting, self._waiting = self._waiting, []
+        for met, pixel in waiting:
+            self._touch(met, pixel)
+        if self._is_lifted:
+            self._lift()
+
+    def _touch(self, met: "Met", pixel: float) -> None:
+        surface = self._window.session.surface
+        if surface is None:
+            return
+        self._is_lifted = False
+        if surface is not self._surface:
+            self._take()
+        if self._brush is None:
+            self._waiting.append((met, pixel))
+            return
+        if self._stroke is None or len(self._stroke) != len(surface.vertices):
+            self._stroke = np.zeros(len(surface.vertices), bool)
+            keys = QtWidgets.QApplication.keyboardModifiers()
+            known = [each.name for each in self._window.session.document.selections]
+            self._is_erasing = bool(keys & QtCore.Qt.KeyboardModifier.ControlModifier) and self.current in known
+        position = met.weights @ surface.vertices[surface.faces[met.face]]  # not that in a relief
+        near = self._brush.near(met.face, position, self.radius * pixel)
+        new = near[~self._stroke[near]]
+        if len(new):
+            self._stroke[new] = True
+            for panel in self._grid.panels:
+                panel.show_dabs(new, ERASED if self._is_erasing else PINS[self.colour])
+            self.stroked.emit(np.flatnonzero(self._stroke))
+
+    def _lift(self) -> None:
+        self._is_lifted = True
+        if self._brush is None and self._waiting:
+            return
+        stroke, self._stroke = self._stroke, None
+        for panel in self._grid.panels:
+            panel.show_dabs(None)
+        if stroke is not None and self._window.session.surface is self._surface:
+            self.select(np.flatnonzero(stroke), "removed" if self._is_erasing else "added")
+        self.stroked.emit(np.empty(0, np.int64))
+
+
+def _made(request: tuple[Surface], progress: Progress) -> Iterator[Brush]:
+    brush = Brush(request[0])
+    brush.near(0, request[0].vertices[request[0].faces[0, 0]], 1e-300)  # its edges, too
+    yield brush
+
+
+def _rgb(colour: str) -> np.ndarray:
+    return np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)], np.uint8)
+
+
+def _cursor(radius: int, ratio: float) -> QtGui.QCursor:
+    side = 2 * radius + 6
+    picture = QtGui.QPixmap(round(side * ratio), round(side * ratio))
+    picture.setDevicePixelRatio(ratio)
+    picture.fill(QtCore.Qt.GlobalColor.transparent)
+    painter = QtGui.QPainter(picture)
+    painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+    for colour, width in (("#14161A", 3.0), ("#FFFFFF", 1.25)):
+        painter.setPen(QtGui.QPen(QtGui.QColor(colour), width))
+        painter.drawEllipse(QtCore.QPointF(side / 2, side / 2), radius, radius)
+    painter.end()
+    return QtGui.QCursor(picture, side // 2, side // 2)

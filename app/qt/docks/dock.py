@@ -1,0 +1,78 @@
+"""A dock with the head of a panel: its title, buttons, and a cross that closes it."""
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ..look.look import LOOK
+from ..panels.flat_button import FlatButton
+
+HEAD = 36
+"""Height of the head, in logical pixels."""
+
+PAD = 12
+
+
+class DockHead(QtWidgets.QWidget):
+    """title: what it is; note: quiet, beside it; `add` puts buttons at its right, before the cross."""
+
+    closed = QtCore.Signal()
+
+    def __init__(self, title: str, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._title, self._note = QtWidgets.QLabel(title), QtWidgets.QLabel()
+        self._title.setProperty("heading", True)
+        self._note.setProperty("quiet", True)
+        self.close_button = FlatButton(self, "close")
+        self.close_button.setToolTip(f"Close {title.lower()}")
+        self.close_button.setAccessibleName(f"Close {title.lower()}")
+        self.close_button.opened.connect(self.closed)
+        self._row = QtWidgets.QHBoxLayout(self)
+        self._row.setContentsMargins(PAD, 0, 4, 0)
+        self._row.setSpacing(8)
+        self._row.addWidget(self._title)
+        self._row.addWidget(self._note)
+        self._row.addStretch(1)
+        self._row.addWidget(self.close_button)
+        self.setFixedHeight(HEAD)
+        LOOK.follow(self, self.update)
+
+    def sizeHint(self) -> QtCore.QSize:
+        """A dock gives its head the height of this, and no other."""
+        return QtCore.QSize(super().sizeHint().width(), HEAD)
+
+    def add(self, widget: QtWidgets.QWidget, after_title: bool = False) -> None:
+        """A button or a choice."""
+        place = 2 if after_title else self._row.count() - 1
+        self._row.insertWidget(place, widget)
+
+    def say(self, note: str) -> None:
+        self._note.setText(note)
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter = QtGui.QPainter(self)
+        painter.fillRect(event.rect(), QtGui.QColor(LOOK.theme.window))
+        painter.fillRect(0, self.height() - 1, self.width(), 1, QtGui.QColor(LOOK.theme.border))
+
+
+class Dock(QtWidgets.QDockWidget):
+    """An instrument's place in the window.  word: one of `DOCKS`.  What is in it is `content`."""
+
+    wants_closed = QtCore.Signal(str)
+
+    def __init__(self, word: str, title: str, content: QtWidgets.QWidget, window: QtWidgets.QMainWindow) -> None:
+        super().__init__(title, window)
+        self.word, self.content = word, content
+        self.setObjectName(f"dock {word}")
+        self.head = DockHead(title, self)
+        self.head.closed.connect(self._close)
+        feature = QtWidgets.QDockWidget.DockWidgetFeature
+        self.setFeatures(feature.DockWidgetClosable | feature.DockWidgetMovable | feature.DockWidgetFloatable)
+        self.setTitleBarWidget(self.head)
+        self.setWidget(content)
+
+    def _close(self) -> None:
+        self.wants_closed.emit(self.word)
+
+    def closeEvent(self, event: QtGui.QCloseEvent) -> None:
+        """By the desktop's own cross, where it floats."""
+        event.ignore()
+        self._close()

@@ -1,0 +1,157 @@
+"""The docks of the window: made when first opened, shown as the document says.  `window` is the main window."""
+
+from collections.abc import Callable
+
+from qtpy import QtCore, QtWidgets
+
+from ...document.document import Document
+from .brushing import Brushing
+from .dock import Dock
+from .findings import Findings
+from .instrument import Instrument
+
+NARROW = 1_100
+"""Logical pixels of the window's width under which the docks at the right are tabs of one."""
+
+AREAS = {
+    "right": QtCore.Qt.DockWidgetArea.RightDockWidgetArea,
+    "below": QtCore.Qt.DockWidgetArea.BottomDockWidgetArea,
+}
+WIDTH, WIDER, HEIGHT = 320, 390, 220
+"""Of docks at the right, where there is room for panels and where there is much of it, and below, at first."""
+
+WIDE = 1_500
+"""Of the window, from which on there is much room."""
+
+
+def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
+    """By word: the title, and what makes the instrument; the imports wait until one is opened."""
+    from .pins import PinsDock
+    from .profile_dock import ProfileDock
+    from .quality import QualityDock
+    from .regions import RegionsDock
+    from .scatter_dock import ScatterDock
+    from .statistics_dock import StatisticsDock
+
+    return {
+        "pins": ("Pins", PinsDock),
+        "profile": ("Profile", ProfileDock),
+        "quality": ("Quality", QualityDock),
+        "regions": ("Regions", RegionsDock),
+        "scatter": ("Scatter", ScatterDock),
+        "statistics": ("Statistics", StatisticsDock),
+    }
+
+
+class Docks:
+    """Keeps the instruments, tells them what changes, and lets menus say which are open."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+        self._docks: dict[str, Dock] = {}
+        self._shown: Document | None = None
+        self.findings = Findings(window)
+        self.brushing = Brushing(window)
+        window.setDockNestingEnabled(True)
+        window.setTabPosition(QtCore.Qt.DockWidgetArea.RightDockWidgetArea, QtWidgets.QTabWidget.TabPosition.North)
+        for corner, area in (
+            (QtCore.Qt.Corner.BottomRightCorner, AREAS["right"]),
+            (QtCore.Qt.Corner.TopRightCorner, AREAS["right"]),
+        ):
+            window.setCorner(corner, area)
+
+    @staticmethod
+    def words() -> dict[str, str]:
+        """By word: the titles of those there are."""
+        return {word: title for word, (title, _) in _kinds().items()}
+
+    # ------------------------------------------------------------------ open and close
+    def toggle(self, word: str) -> None:
+        document = self._window.session.document
+        if word in document.docks:
+            self.close(word)
+        else:
+            self._keep((*document.docks, word))
+            self._docks[word].raise_()
+
+    def close(self, word: str) -> None:
+        self._keep(tuple(each for each in self._window.session.document.docks if each != word))
+
+    def close_all(self) -> None:
+        """The window closes."""
+        self.findings.close()
+        for dock in self._docks.values():
+            dock.content.end()
+            dock.hide()
+
+    def _keep(self, docks: tuple[str, ...]) -> None:
+        self._window.session.keep_open(docks)
+        self.document_changed()
+
+    # ------------------------------------------------------------------ what is told
+    def document_changed(self) -> None:
+        """Show what the document says, in the docks that it says."""
+        document, kinds = self._window.session.document, _kinds()
+        self.findings.document_changed()
+        wanted = [word for word in document.docks if word in kinds and self._window.session.surface is not None]
+        for word in wanted:
+            dock = self._docks.get(word) or self._new(word)
+            was_open = not dock.isHidden()
+            if not was_open:
+                self._place(dock)
+            self._instrument(word).show_document(document, self._shown if was_open else None)
+        for word, dock in self._docks.items():
+            if word not in wanted and not dock.isHidden():
+                dock.hide()
+                self._instrument(word).show_closed()
+        self._shown = document
+        for word in kinds:
+            self._window.actions_by_word[f"dock {word}"].setChecked(word in wanted)
+
+    def answer_changed(self, panel: int) -> None:
+        self.findings.answer_changed()
+        for instrument in self._open():
+            instrument.show_answer(panel)
+
+    def pointed(self, vertex: int | None) -> None:
+        for instrument in self._open():
+            instrument.show_pointed(vertex)
+
+    def _open(self) -> list[Instrument]:
+        return [self._instrument(word) for word, dock in self._docks.items() if not dock.isHidden()]
+
+    def _instrument(self, word: str) -> Instrument:
+        return self._docks[word].content
+
+    # ------------------------------------------------------------------ where they are
+    def _new(self, word: str) -> Dock:
+        title, make = _kinds()[word]
+        instrument = make(self._window)
+        dock = Dock(word, title, instrument, self._window)
+        for widget in reversed(instrument.title_widgets()):
+            dock.head.add(widget, after_title=True)
+        for widget in instrument.head_widgets():
+            dock.head.add(widget)
+        instrument.said.connect(dock.head.say)
+        dock.wants_closed.connect(self.close)
+        dock.hide()
+        self._docks[word] = dock
+        return dock
+
+    def _place(self, dock: Dock) -> None:
+        """Where it was, or at first at the end of its area; tabs where the window is narrow."""
+        window, area = self._window, AREAS[dock.content.area]
+        if window.dockWidgetArea(dock) == QtCore.Qt.DockWidgetArea.NoDockWidgetArea:
+            others = [
+                other
+                for other in self._docks.values()
+                if other is not dock and not other.isHidden() and window.dockWidgetArea(other) == area
+            ]
+            window.addDockWidget(area, dock)
+            if others and (dock.content.area == "below" or window.width() < NARROW):
+                window.tabifyDockWidget(others[-1], dock)
+            is_right = dock.content.area == "right"
+            way = QtCore.Qt.Orientation.Horizontal if is_right else QtCore.Qt.Orientation.Vertical
+            window.resizeDocks([dock], [(WIDER if window.width() >= WIDE else WIDTH) if is_right else HEIGHT], way)
+        dock.show()
+        dock.raise_()

@@ -1,0 +1,147 @@
+"""What is found out in the background about what the panels show, and drawn on them: extrema while the dock of quality
+is open, and regions of the pins where the document says.  `window` is the main window."""
+
+from collections.abc import Callable
+from contextlib import suppress
+
+from qtpy import QtCore
+
+from ...session.quality import Found, Quality
+from ...session.questions import DistanceQuestion
+from ...session.regions import Divided, Dividing, regions_questions
+
+REST_MS = 150
+"""Fields that follow each other faster, as in a drag, are not judged."""
+
+
+class Findings(QtCore.QObject):
+    """quality_changed: more is known of some panel, or less; regions_changed: of a panel."""
+
+    quality_changed = QtCore.Signal()
+    regions_changed = QtCore.Signal(int)
+    _posted = QtCore.Signal(object)
+
+    def __init__(self, window) -> None:
+        super().__init__(window)
+        self._window = window
+        self._quality: Quality | None = None  # once the dock has been opened
+        self._dividing = Dividing(self.post, self._show_regions)
+        self._is_closed = False
+        self._posted.connect(self._run)
+        self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
+        self._rest.timeout.connect(self._ask_quality)
+
+    # ------------------------------------------------------------------ what is told
+    def document_changed(self) -> None:
+        session = self._window.session
+        if session.surface is None or self._is_closed:
+            return
+        asked = {}
+        for id, question in regions_questions(session.document).items():
+            opened = session.opened(session.document.panel(id).surface)
+            if opened is not None:
+                asked[id] = (question, opened)
+        self._dividing.ask(asked)
+        self._quality_wanted()
+
+    def answer_changed(self) -> None:
+        self._quality_wanted()
+
+    def show_again(self) -> None:
+        """The panels have forgotten what was drawn on them."""
+        for panel in self._window.grid.panels:
+            self._show_regions(panel.id)
+        self._show_extrema()
+
+    def close(self) -> None:
+        """Nothing more is found out."""
+        self._is_closed = True
+        self._rest.stop()
+        self._dividing.close()
+        if self._quality is not None:
+            self._quality.close()
+
+    # ------------------------------------------------------------------ what is known
+    def found(self, panel: int) -> Found:
+        """Of the answer that a panel shows; nothing of one that is not final."""
+        question = self._judged_question(panel)
+        return Found() if question is None or self._quality is None else self._quality.found(question)
+
+    def divided(self, panel: int) -> Divided | None:
+        """The regions that a panel shows."""
+        return self._dividing.divided(panel)
+
+    def is_divided(self, panel: int) -> bool:
+        """Whether these are the regions of where the pins are now."""
+        return self._dividing.is_answered(panel)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether there is nothing more to be found out."""
+        if self._rest.isActive() or not self._dividing.is_complete:
+            return False
+        judged = [panel.id for panel in self._window.session.document.panels if self._judged_question(panel.id)]
+        return not self._is_judging or all(self.found(id).is_complete for id in judged)
+
+    @property
+    def _is_judging(self) -> bool:
+        session = self._window.session
+        return "quality" in session.document.docks and session.surface is not None and not self._is_closed
+
+    def _judged_question(self, panel: int) -> DistanceQuestion | None:
+        """That which a panel shows the answer to, if it is a distance."""
+        session = self._window.session
+        shown = session.shown.get(panel)
+        if shown is None or not session.is_answered(panel) or shown.answer.field is None:
+            return None
+        return shown.asked if isinstance(shown.asked, DistanceQuestion) else None
+
+    # ------------------------------------------------------------------ quality
+    def _quality_wanted(self) -> None:
+        if self._is_judging:
+            self._rest.start()
+        self._show_extrema()
+        self.quality_changed.emit()
+
+    def _ask_quality(self) -> None:
+        if not self._is_judging:
+            if self._quality is not None:
+                self._quality.ask({})
+            return
+        if self._quality is None:
+            self._quality = Quality(self.post, self._judged)
+        session, asked = self._window.session, {}
+        for panel in session.document.panels:
+            question, opened = self._judged_question(panel.id), session.opened(panel.surface)
+            if question is not None and opened is not None:
+                asked[question] = (opened, session.shown[panel.id].answer)
+        self._quality.ask(asked)
+
+    def _judged(self) -> None:
+        self._show_extrema()
+        self.quality_changed.emit()
+
+    def _show_extrema(self) -> None:
+        for panel in self._window.grid.panels:
+            extrema = self.found(panel.id).extrema if self._is_judging else None
+            if extrema is None:
+                panel.mark_extrema()
+            else:
+                panel.mark_extrema(extrema.minima, extrema.maxima)
+
+    # ------------------------------------------------------------------ regions
+    def _show_regions(self, panel: int) -> None:
+        divided = self._dividing.divided(panel)
+        if any(shown.id == panel for shown in self._window.grid.panels):
+            self._window.grid.panel(panel).show_regions(None if divided is None else divided.regions)
+        self.regions_changed.emit(panel)
+
+    # ------------------------------------------------------------------ threads
+    def post(self, function: Callable[[], None]) -> None:
+        """Run a function on the window's thread, unless the window is closed by then."""
+        with suppress(RuntimeError):  # the window may be gone
+            self._posted.emit(function)
+
+    def _run(self, function: Callable[[], None]) -> None:
+        if not self._is_closed:
+            function()

@@ -1,0 +1,52 @@
+"""What every instrument is: a widget that shows a part of the session's document, and of its answers.
+
+An instrument decides nothing: what is done in it becomes an edit of the document, which comes back by `show_document`.
+"""
+
+from typing import Any, ClassVar
+
+from qtpy import QtCore, QtWidgets
+
+from ...document.document import Document
+
+
+class Instrument(QtWidgets.QWidget):
+    """word: one of `DOCKS`; title: for the user; icon: of the tool bar; area: "right" or "below".
+
+    window: the main window, with its session and its grid.  Only instruments in open docks are told anything; one that
+    is opened gets `show_document` first.
+    """
+
+    word: ClassVar[str]
+    title: ClassVar[str]
+    area: ClassVar[str] = "right"
+
+    said = QtCore.Signal(str)  # a note beside the title
+
+    def __init__(self, window: Any) -> None:
+        super().__init__()
+        self.window_ = window
+        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
+
+    def head_widgets(self) -> list[QtWidgets.QWidget]:
+        """Buttons and choices for the dock's head, from left to right."""
+        return []
+
+    def title_widgets(self) -> list[QtWidgets.QWidget]:
+        """The same, beside the title."""
+        return []
+
+    def show_document(self, document: Document, before: Document | None) -> None:
+        """Another document is there; before: the one that was shown, None if none was."""
+
+    def show_answer(self, panel: int) -> None:
+        """Another field is there, or what is known of it has changed."""
+
+    def end(self) -> None:
+        """The window closes: stop what is being computed."""
+
+    def show_closed(self) -> None:
+        """The dock has been closed: take away what it has put elsewhere."""
+
+    def show_pointed(self, vertex: int | None) -> None:
+        """The pointer is at a vertex in some panel, or at none."""

@@ -1,0 +1,216 @@
+"""Isolines as objects: saved as coordinates, and the region between two values as vertices, a mesh or a selection."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core import Surface
+from bihdist_core.analysis.bands import Band, band
+from bihdist_core.analysis.isoline_output import ISOLINE_FORMATS, write_isolines
+from bihdist_core.analysis.isoline_tracing import isolines
+from bihdist_core.analysis.selecting import write_ids
+from bihdist_core.errors import ParameterError
+from bihdist_core.formats.field_output import write_fields
+from bihdist_core.progress import Progress
+
+from ..look.numbers import MINUS, number, share
+from ..look.text_box import TextBox, mark_wrong
+from ..panels.flat_button import FlatButton
+from .background import Background
+from .saving import ask_path, vertices_in_words
+
+REST_MS = 250
+"""After the last letter, until the region is looked for."""
+
+REGION_FORMATS = {"ids": (".txt", ".npy", ".csv"), "mesh": (".ply", ".vtp")}
+
+
+@dataclass(frozen=True, eq=False)
+class Levels:
+    """What can be saved of a panel: its surface, its field (n,) with the end of its bar, and the isolines' values."""
+
+    surface: Surface
+    field: np.ndarray
+    label: str
+    maximum: float
+    values: np.ndarray
+
+
+def write_levels(path: str, levels: Levels) -> None:
+    """The isolines that the panel shows; see `write_isolines`."""
+    if not len(levels.values):
+        raise ParameterError("This panel shows no isolines; choose some in the menu Isolines first.")
+    write_isolines(path, isolines(levels.surface, levels.field, levels.values))
+
+
+def write_region(path: str, levels: Levels, found: Band, way: str) -> None:
+    """way: "ids" of the vertices in the region, or "mesh", cut along the two isolines, with the field on it."""
+    if way == "ids":
+        write_ids(path, found.vertices)
+    else:
+        write_fields(path, found.surface, {levels.label or "field": found.along(levels.field)})
+
+
+def level_of(text: str, maximum: float, otherwise: float) -> float:
+    """A value as it is typed: "0.25", "20 %" of the maximum; nothing means `otherwise`.  ParameterError for others."""
+    words = text.strip().replace(MINUS, "-")
+    if not words:
+        return otherwise
+    scale = maximum / 100 if words.endswith("%") else 1.0
+    try:
+        value = float(words.removesuffix("%").replace(",", "")) * scale
+    except ValueError:
+        value = np.nan
+    if np.isnan(value):
+        raise ParameterError(f"{text.strip()!r} is no value; type one such as {number(maximum / 4)}, or 25 %.")
+    return value
+
+
+def _done(request: tuple[Callable[[], object]], progress: Progress) -> Iterator[object]:
+    yield request[0]()
+
+
+class LevelBox(QtWidgets.QWidget):
+    def __init__(self, window: Any) -> None:
+        super().__init__()
+        self._window = window
+        self._levels: Levels | None = None
+        self._asked: tuple[Any, ...] | None = None
+        self.band: Band | None = None
+        self.lines = QtWidgets.QPushButton("Save isolines …", autoDefault=False)
+        self.lines.setToolTip("The panel's isolines as coordinates: CSV, OBJ, VTP or JSON")
+        self.lines.clicked.connect(self.save_isolines)
+        self.low, self.high = TextBox(), TextBox()
+        for box, words, hint in ((self.low, "From", "least"), (self.high, "To", "greatest")):
+            box.setPlaceholderText(hint)
+            box.setAccessibleName(f"Region: {words.lower()}")
+            box.setToolTip("A value, or a share of the maximum such as 25 %")
+            box.textChanged.connect(self._type)
+        self.more = FlatButton(self)
+        self.more.setText("Save")
+        menu = QtWidgets.QMenu(self.more)
+        menu.addAction("Select its vertices", self.select)
+        menu.addAction("Save vertex ids …", self.save_ids)
+        menu.addAction("Save the cut-out mesh …", self.save_mesh)
+        self.more.setMenu(menu)
+        self.more.setToolTip("The region between the two values")
+        row = QtWidgets.QHBoxLayout()
+        row.setSpacing(6)
+        row.addWidget(self.low, 1)
+        row.addWidget(QtWidgets.QLabel("to"))
+        row.addWidget(self.high, 1)
+        row.addWidget(self.more)
+        self.said = QtWidgets.QLabel(wordWrap=True)
+        self.said.setProperty("quiet", True)
+        column = QtWidgets.QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(6)
+        column.addWidget(self.lines)
+        column.addLayout(row)
+        column.addWidget(self.said)
+        self._soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
+        self._soon.timeout.connect(self._look)
+        self._background = Background("region", _done, window)
+        self._background.answered.connect(self._take)
+        self._background.failed.connect(self._refuse)
+        self._writing = Background("isolines", _done, window)
+        self._writing.answered.connect(self._say_written)
+        self._writing.failed.connect(self._say_failed)
+
+    def show_levels(self, levels: Levels | None) -> None:
+        """Of another panel, or another field."""
+        self._levels = levels
+        self.setEnabled(levels is not None)
+        self._type()
+
+    # ------------------------------------------------------------------ the region
+    def _type(self, *_: object) -> None:
+        self.band = None
+        self.more.setEnabled(False)
+        self._soon.start()
+
+    def ends(self) -> tuple[float, float]:
+        """The two values; ParameterError for what is none."""
+        top = self._levels.maximum if self._levels is not None else 1.0
+        return level_of(self.low.text(), top, -np.inf), level_of(self.high.text(), top, np.inf)
+
+    def _look(self) -> None:
+        levels = self._levels
+        self.said.setText("The region between two values of the field: type one or both.")
+        for box in (self.low, self.high):
+            mark_wrong(box, False)
+        if levels is None or not (self.low.text().strip() or self.high.text().strip()):
+            self._background.ask(None)
+            return
+        try:
+            low, high = self.ends()
+        except ParameterError as error:
+            self._background.ask(None)
+            self._refuse(None, str(error))
+            return
+        self._background.ask((lambda: band(levels.surface, levels.field, low, high),))
+
+    def _refuse(self, request: object, sentence: str) -> None:
+        self.band = None
+        self.said.setText(sentence)
+        for box in (self.low, self.high):
+            mark_wrong(box, bool(box.text().strip()))
+
+    def _take(self, request: object, found: Band) -> None:
+        self.band = found
+        self.more.setEnabled(True)
+        part = found.area / self._levels.surface.face_areas.sum()
+        self.said.setText(f"{vertices_in_words(len(found.vertices))}, {share(float(part))} of the area")
+
+    # ------------------------------------------------------------------ what becomes of it
+    def select(self) -> None:
+        if self.band is not None:
+            self._window.docks.brushing.select(self.band.vertices)
+
+    def save_isolines(self, *_: object, path: str = "") -> None:
+        """path: asks for one if it is empty."""
+        levels = self._levels
+        if levels is None:
+            return
+
+        def write(path: str) -> None:
+            write_levels(path, levels)
+
+        self._save("Save isolines", f"{levels.surface.name} isolines", ISOLINE_FORMATS, write, path)
+
+    def save_ids(self, path: str = "") -> None:
+        self._save_region("ids", path)
+
+    def save_mesh(self, path: str = "") -> None:
+        self._save_region("mesh", path)
+
+    def _save_region(self, way: str, path: str) -> None:
+        levels, found = self._levels, self.band
+        if levels is None or found is None:
+            return
+
+        def write(path: str) -> None:
+            write_region(path, levels, found, way)
+
+        self._save("Save a region", f"{levels.surface.name} region", REGION_FORMATS[way], write, path)
+
+    def _save(
+        self, title: str, name: str, formats: tuple[str, ...], write: Callable[[str], None], path: str = ""
+    ) -> None:
+        path = path or ask_path(self._window, title, name, formats)
+
+        def work() -> str:
+            write(path)
+            return path
+
+        if path:
+            self._writing.ask((work,))
+
+    def _say_written(self, request: object, path: str) -> None:
+        self._window.say(f"Saved {QtCore.QFileInfo(path).fileName()}")
+
+    def _say_failed(self, request: object, sentence: str) -> None:
+        self._window.failed(sentence)

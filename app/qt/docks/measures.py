@@ -1,0 +1,129 @@
+"""The numbers of a field's quality, in words: what each is called, what it means, and how it is written."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...session.quality import Found
+from ..look.numbers import number, share
+
+WAITING, NONE = "…", "–"
+
+
+@dataclass(frozen=True)
+class Measure:
+    """name: in the table; tip: what it means; written: of what has been found, WAITING where it has not yet.
+
+    said: a sentence on one panel's number, or "".
+    """
+
+    name: str
+    tip: str
+    written: Callable[[Found], str]
+    said: Callable[[Found], str] = lambda found: ""
+
+
+def _minima(found: Found) -> str:
+    if found.extrema is None:
+        return NONE if found.failure else WAITING
+    return str(len(found.extrema.minima))
+
+
+def _minima_said(found: Found) -> str:
+    if found.extrema is None or not len(found.extrema.minima):
+        return ""
+    return f"The deepest, at vertex {found.extrema.minima[0]}, by {share(found.extrema.minima_depth[0])} of the maximum"
+
+
+def _maxima(found: Found) -> str:
+    if found.extrema is None:
+        return NONE if found.failure else WAITING
+    return str(len(found.extrema.maxima))
+
+
+def _maxima_said(found: Found) -> str:
+    if found.extrema is None or len(found.extrema.maxima) < 2:
+        return ""
+    second, height = found.extrema.maxima[1], found.extrema.maxima_height[1]
+    return f"After the farthest point, that at vertex {second} stands out most, by {share(height)} of the maximum"
+
+
+def _of_whole(value: Callable[[Found], float]) -> Callable[[Found], str]:
+    def written(found: Found) -> str:
+        if found.whole is None:
+            return NONE if found.failure else WAITING
+        # Infinite, too, where the field is 0 beside the source.
+        return "∞" if np.isinf(value(found)) else number(value(found))
+
+    return written
+
+
+def _kink_said(found: Found) -> str:
+    if found.whole is None or found.whole.kink_edge[0] < 0:
+        return ""
+    first, second = found.whole.kink_edge
+    return f"Across the edge from vertex {first} to vertex {second}"
+
+
+def _triangles(found: Found) -> str:
+    if found.triangles is None:
+        return NONE if found.triangles_failure else WAITING
+    if not found.triangles.violations:
+        return "0"
+    return share(found.triangles.violations / found.triangles.triples)
+
+
+def _triangles_said(found: Found) -> str:
+    sample = found.triangles
+    if sample is None:
+        return found.triangles_failure
+    said = f"{sample.violations:,} of {sample.triples:,} triples break it"
+    if sample.violations:
+        return f"{said}, the worst by {100 * sample.worst:.2g} % of the largest distance"
+    return f"{said}; the closest has {100 * sample.tightest:.2g} % to spare"
+
+
+MEASURES = (
+    Measure(
+        "Other minima",
+        "Minima away from the source that persist over a thousandth of the range or more: places that look like the "
+        "source. White triangles that point down. A distance should have none.",
+        _minima,
+        _minima_said,
+    ),
+    Measure(
+        "Maxima",
+        "Maxima that persist over a thousandth of the range or more. White triangles that point up. One at the end of "
+        "each limb is the shape's; more are the distance's.",
+        _maxima,
+        _maxima_said,
+    ),
+    Measure(
+        "Isotropy",
+        "The greatest over the least value on the geodesic circle around the source whose radius is 4 % of the root of "
+        "the area, or four edges if that is more. 1 where the distance grows equally in all directions.",
+        _of_whole(lambda found: found.whole.isotropy),
+        lambda found: found.failure,
+    ),
+    Measure(
+        "Largest kink",
+        "How far the gradient jumps across an edge away from the source, over its length. About 2 where it turns "
+        "round, as on a ridge; a smooth field's shrinks with the edges.",
+        _of_whole(lambda found: found.whole.kink),
+        _kink_said,
+    ),
+    Measure(
+        "Kink length",
+        "The length of all edges with a kink of 1 or more, over the root of the surface's area: long where there is a "
+        "ridge, next to nothing where a few edges are too long for the field.",
+        _of_whole(lambda found: found.whole.kink_length),
+    ),
+    Measure(
+        "Triangles",
+        "Of 100,000 random triples among 40 random points, those that break the triangle inequality by more than "
+        "rounding. A metric has none, wherever it starts.",
+        _triangles,
+        _triangles_said,
+    ),
+)

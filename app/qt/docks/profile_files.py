@@ -1,0 +1,139 @@
+"""What can be saved and copied of a profile.  `dock` is its dock."""
+
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from qtpy import QtWidgets
+
+from bihdist_core import BihdistError, ParameterError
+from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
+from bihdist_core.whole_file import check_output
+
+from ...drawing.style import style_of
+from ..look.theme import DARK, LIGHT, lightness
+
+if TYPE_CHECKING:
+    from ...figures.profile_figure import ProfileFigure
+
+FIGURE_FORMATS = (".pdf", ".png", ".svg", ".eps")
+NUMBERS = "Numbers (*.csv *.npy *.vtp *.json)"
+FIGURES = "Figures (*.pdf *.png *.svg *.eps)"
+
+
+class ProfileFiles:
+    def __init__(self, dock) -> None:
+        self._dock = dock
+        self._actions: list[QtWidgets.QAction] = []
+
+    def menu(self, parent: QtWidgets.QWidget) -> QtWidgets.QMenu:
+        menu = QtWidgets.QMenu(parent)
+        self._actions = [
+            menu.addAction("Save the numbers …", self.choose_numbers),
+            menu.addAction("Save as a figure …", self.choose_figure),
+            menu.addAction("Copy the numbers", self.copy),
+        ]
+        self.allow(False)
+        return menu
+
+    def allow(self, is_there: bool) -> None:
+        for action in self._actions:
+            action.setEnabled(is_there)
+
+    # ------------------------------------------------------------------ by a dialog
+    def choose_numbers(self) -> None:
+        self._choose("Save the profile's numbers", "profile.csv", NUMBERS, self.save_numbers)
+
+    def choose_figure(self) -> None:
+        self._choose("Save the profile as a figure", "profile.pdf", FIGURES, self.save_figure)
+
+    def _choose(self, title: str, name: str, kinds: str, save: Callable[[str], None]) -> None:
+        window = self._dock.window_
+        folder = os.path.join(window.preferences.last_folder, name)
+        path, _ = QtWidgets.QFileDialog.getSaveFileName(window, title, folder, kinds)
+        if path:
+            path = path if os.path.splitext(path)[1] else path + os.path.splitext(name)[1]
+            window.preferences = replace(window.preferences, last_folder=os.path.dirname(path))
+            try:
+                save(path)
+            except BihdistError as error:
+                window.failed(str(error))
+
+    # ------------------------------------------------------------------ what is written
+    def save_numbers(self, path: str) -> None:
+        """The path, and the fields along it, as the extension says (`PROFILE_FORMATS`)."""
+        if os.path.splitext(path)[1].lower() not in PROFILE_FORMATS:
+            raise ParameterError(f"{path} has to end with one of {', '.join(PROFILE_FORMATS)}.")
+        write_profile(path, self._there(), self._fields())
+        self._dock.window_.say(f"Saved {os.path.basename(path)}")
+
+    def save_figure(self, path: str) -> None:
+        """In the background, as all figures."""
+        from ...figures.profile_figure import save_profile_figure
+
+        check_output(path, FIGURE_FORMATS)
+        self._dock.window_.exports.start(partial(save_profile_figure, self.figure(), path), path, "Figure")
+
+    def figure(self) -> "ProfileFigure":
+        """What the chart shows, in the style of the page and the colours that go with its ground."""
+        from ...figures.profile_figure import ProfileCurve, ProfileFigure
+
+        self._there()
+        dock = self._dock
+        chart, page, document = dock.chart, dock.window_.page, dock.window_.session.document
+        style = style_of(page.style, document.colours)
+        colours = (LIGHT if lightness(_hex(style.background)) > 0.5 else DARK).curves
+        places = {panel.id: k for k, panel in enumerate(document.panels)}
+        curves = [
+            ProfileCurve(curve.name, chart.plotted(curve), colours[places[id] % len(colours)], curve.is_dashed)
+            for id, curve in dock.curves.items()
+        ]
+        units = {curve.unit for curve in dock.curves.values() if not curve.is_share}
+        return ProfileFigure(
+            chart.arcs,
+            tuple(curve for curve in curves if np.isfinite(curve.values).any()),
+            "mesh units",
+            chart.in_shares,
+            units.pop() if len(units) == 1 else "",
+            tuple((arc, badge.name) for arc, badge in chart.knots),
+            style,
+            page.font,
+        )
+
+    def copy(self) -> None:
+        """A table with tabs, as spreadsheets read it."""
+        if self._dock.path is None:
+            return
+        fields = {name: self._dock.path.along(field) for name, field in self._fields().items()}
+        rows = ["\t".join(["arc", *fields])]
+        for k, arc in enumerate(self._dock.path.arcs):
+            rows.append("\t".join(repr(float(x)) for x in (arc, *(column[k] for column in fields.values()))))
+        QtWidgets.QApplication.clipboard().setText("\n".join(rows) + "\n")
+        self._dock.window_.say(f"{len(rows) - 1:,} points of the profile are on the clipboard")
+
+    def _there(self):
+        if self._dock.path is None:
+            raise ParameterError("There is no path yet; wait until it has been found.")
+        return self._dock.path
+
+    def _fields(self) -> dict[str, np.ndarray]:
+        """By names that differ: the fields of the panels that have one."""
+        session, found = self._dock.window_.session, {}
+        for panel in session.document.panels:
+            if panel.id in self._dock.curves:
+                base = name = str(panel.shows)
+                if (point := (*panel.shows.points, "source")[0]) != "source":
+                    base = name = f"{base} from {point}"
+                count = 1
+                while name in found:
+                    count += 1
+                    name = f"{base} {count}"
+                found[name] = session.shown[panel.id].answer.field
+        return found
+
+
+def _hex(colour: tuple[float, float, float]) -> str:
+    return "#" + "".join(f"{round(255 * x):02X}" for x in colour)

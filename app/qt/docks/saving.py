@@ -1,0 +1,56 @@
+"""Asking where a file goes, and writing it; what fails is said in the window.  `window` is the main window."""
+
+import os
+import re
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from qtpy import QtWidgets
+
+from bihdist_core import BihdistError
+from bihdist_core.formats.polygons import counted
+
+NAMES = {
+    ".txt": "Text, an id on each line",
+    ".npy": "NumPy array",
+    ".csv": "Table",
+    ".ply": "PLY mesh",
+    ".vtp": "VTK PolyData",
+    ".obj": "OBJ lines",
+    ".json": "JSON",
+    ".pp": "MeshLab's picked points",
+}
+
+
+def save(window: Any, title: str, name: str, formats: Sequence[str], write: Callable[[str], object]) -> None:
+    """Ask for a path (`ask_path`), and write what there is to it."""
+    path = ask_path(window, title, name, formats)
+    if path:
+        written(window, path, write)
+
+
+def ask_path(window: Any, title: str, name: str, formats: Sequence[str]) -> str:
+    """A path that ends in one of the formats, the first if none is typed; empty if the user has none."""
+    dialog = QtWidgets.QFileDialog(window, title)
+    dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
+    dialog.setNameFilters([f"{NAMES[extension]} (*{extension})" for extension in formats])
+    dialog.setDefaultSuffix(formats[0].removeprefix("."))
+    dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(re.search(r"\*\.(\w+)", chosen)[1]))
+    dialog.selectFile(re.sub(r"[^\w.-]+", "-", name).strip("-") + formats[0])
+    return dialog.selectedFiles()[0] if dialog.exec() else ""
+
+
+def written(window: Any, path: str, write: Callable[[str], object]) -> bool:
+    """Write a file, and say so or why not."""
+    try:
+        write(path)
+    except BihdistError as error:
+        window.failed(str(error))
+        return False
+    window.say(f"Saved {os.path.basename(path)}")
+    return True
+
+
+def vertices_in_words(count: int) -> str:
+    """ "1 vertex", "12,345 vertices"."""
+    return counted(count, "vertex", "vertices")

@@ -1,0 +1,224 @@
+"""The field of the active panel in numbers: its histogram, mean, extremes and quantiles, what a truncation loses of it,
+and its isolines as objects."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core.analysis.field_statistics import FieldStatistics, field_statistics, rank_correlation
+from bihdist_core.distances.answers import Answer
+from bihdist_core.progress import Progress, part
+
+from ...document.document import Document
+from ...session.opened import Opened
+from ...session.questions import DifferenceQuestion, Question
+from ..look.look import LOOK
+from ..look.numbers import number, share
+from ..panels.quantity_menu import quantity_name
+from .background import Background
+from .fact_table import FactTable
+from .histogram import Histogram
+from .instrument import Instrument
+from .level_box import LevelBox, Levels
+from .truncation_box import TruncationBox
+
+BINS = 40
+SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
+DIFFERENCE_OF_SHARES = "difference of shares"
+
+
+@dataclass(frozen=True, eq=False)
+class _Request:
+    """parts: the question of a difference, whose two fields are correlated."""
+
+    opened: Opened
+    answer: Answer
+    parts: DifferenceQuestion | None
+
+
+def _numbers(request: _Request, progress: Progress) -> Iterator[FieldStatistics | float]:
+    surface = request.opened.surface
+    yield field_statistics(surface, request.answer.field, BINS, SHARES)
+    if request.parts is not None:
+        fields = [
+            request.opened.answer(question, part(progress, k / 2, (k + 1) / 2)).field
+            for k, question in enumerate((request.parts.minuend, request.parts.subtrahend))
+        ]
+        if all(field is not None for field in fields):
+            there = np.isfinite(fields[0]) & np.isfinite(fields[1]) & (surface.component_of_vertex >= 0)
+            yield rank_correlation(fields[0][there], fields[1][there])
+
+
+class StatisticsDock(Instrument):
+    word, title, area = "statistics", "Statistics", "right"
+
+    def __init__(self, window: Any) -> None:
+        super().__init__(window)
+        self._panel = -1
+        self._asked: tuple[Any, ...] = ()
+        self._request: _Request | None = None
+        self.statistics: FieldStatistics | None = None
+        self._correlation: float | None = None
+        self.name = QtWidgets.QLabel()
+        self.name.setProperty("heading", True)
+        self._unit = QtWidgets.QLabel()
+        self._unit.setProperty("quiet", True)
+        self.histogram = Histogram()
+        self.histogram.pointed.connect(self._say_bin)
+        self.facts, self.quantiles = FactTable(), FactTable()
+        self.truncation, self.levels = TruncationBox(window), LevelBox(window)
+        self.sentence = QtWidgets.QLabel(wordWrap=True)
+        self.sentence.setProperty("quiet", True)
+        sheet = QtWidgets.QWidget()
+        column = QtWidgets.QVBoxLayout(sheet)
+        column.setContentsMargins(12, 10, 12, 12)
+        column.setSpacing(6)
+        top = QtWidgets.QHBoxLayout()
+        top.addWidget(self.name, 1)
+        top.addWidget(self._unit)
+        column.addLayout(top)
+        for widget in (self.sentence, self.histogram, self.facts):
+            column.addWidget(widget)
+        for title, widget in (
+            ("Quantiles, by area", self.quantiles),
+            ("Truncation", self.truncation),
+            ("Isolines and regions", self.levels),
+        ):
+            heading = QtWidgets.QLabel(title)
+            heading.setProperty("heading", True)
+            column.addSpacing(8)
+            column.addWidget(heading)
+            column.addWidget(widget)
+        column.addStretch(1)
+        scroll = QtWidgets.QScrollArea()
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(sheet)
+        scroll.viewport().setAutoFillBackground(False)
+        sheet.setAutoFillBackground(False)
+        around = QtWidgets.QVBoxLayout(self)
+        around.setContentsMargins(0, 0, 0, 0)
+        around.addWidget(scroll)
+        self.setMinimumWidth(240)
+        self._background = Background("statistics", _numbers, window)
+        self._background.answered.connect(self._take)
+        self._background.failed.connect(self._refuse)
+        window.grid.activated.connect(self._follow)
+        LOOK.follow(self, self._show)
+
+    # ------------------------------------------------------------------ what it is about
+    def show_document(self, document: Document, before: Document | None) -> None:
+        self._ask()
+
+    def show_answer(self, panel: int) -> None:
+        if panel == self._panel:
+            self._ask()
+
+    def _follow(self, panel: int) -> None:
+        if self.isVisible():
+            self._ask()
+
+    def _ask(self) -> None:
+        """For the numbers of the active panel, if they are not there."""
+        window = self.window_
+        session, id = window.session, window.grid.active
+        shown, opened = session.shown.get(id), session.opened()
+        self._panel = id
+        if opened is None or shown is None:
+            return  # on its way
+        names = {panel.id: quantity_name(panel.shows) for panel in session.document.panels}
+        self.name.setText(names.get(id, ""))
+        question: Question = shown.asked
+        self.truncation.expect(opened, question)
+        scene = window.grid.panel(id).view.scene
+        key = (id, shown.answer.field is not None and shown.answer.field.ctypes.data, shown.answer, opened.surface)
+        lines = (scene.maximum, scene.isolines.tobytes(), scene.style)
+        if (key[:2], key[3], lines) == self._asked:
+            return
+        if self._asked[:2] != (key[:2], key[3]):
+            self.statistics = self._correlation = None
+            if shown.answer.field is None:
+                self._background.ask(None)
+                self._refuse(None, shown.answer.failure)
+            else:
+                parts = question if isinstance(question, DifferenceQuestion) else None
+                self._request = _Request(opened, shown.answer, parts)
+                self._background.ask(self._request)
+        else:
+            self._show()
+        self._asked = (key[:2], key[3], lines)
+        field = shown.answer.field
+        self.levels.show_levels(
+            None
+            if field is None
+            else Levels(opened.surface, field, shown.answer.label, shown.answer.maximum, np.array(scene.isolines))
+        )
+
+    def _refuse(self, request: object, sentence: str) -> None:
+        self.statistics = None
+        self.sentence.setText(sentence)
+        self._show()
+
+    def _take(self, request: _Request, answer: FieldStatistics | float) -> None:
+        if isinstance(answer, FieldStatistics):
+            self.statistics = answer
+        else:
+            self._correlation = answer
+        self._show()
+
+    # ------------------------------------------------------------------ what is seen
+    def _show(self) -> None:
+        found = self.statistics
+        for widget in (self.histogram, self.facts, self.quantiles):
+            widget.setVisible(found is not None)
+        self.sentence.setVisible(found is None and bool(self.sentence.text()))
+        if found is None or self._request is None or self._panel not in self._ids():
+            return
+        answer = self._request.answer
+        scene = self.window_.grid.panel(self._panel).view.scene
+        top, signed = scene.maximum, answer.is_signed
+        middle = (found.bins[1:] + found.bins[:-1]) / 2
+        places = np.clip(middle / top if top > 0 else 0 * middle, -1 if signed else 0, 1)
+        in_shares = answer.unit == DIFFERENCE_OF_SHARES
+        self.histogram.show_bins(found.bins, found.areas, scene.style.colours_at(places, signed), in_shares, signed)
+        self._unit.setText("share of the area")
+        self.facts.show_facts(self._facts(found, answer))
+        self.quantiles.show_facts(
+            [
+                (f"{100 * part:g} % of the area up to", *self._written(float(value), answer))
+                for part, value in zip(found.shares, found.quantiles, strict=True)
+            ]
+        )
+
+    def _ids(self) -> list[int]:
+        return [panel.id for panel in self.window_.grid.panels]
+
+    def _facts(self, found: FieldStatistics, answer: Answer) -> list[tuple[str, ...]]:
+        facts: list[tuple[str, ...]] = []
+        if answer.is_signed:
+            sign = answer.field[found.largest_at]
+            facts.append((f"largest, at vertex {found.largest_at}", *self._written(float(sign), answer)))
+            facts.append(("mean size, by area", *self._written(found.mean_size, answer, False)))
+        else:
+            facts.append((f"greatest, at vertex {found.greatest_at}", *self._written(found.greatest, answer)))
+            facts.append((f"least, at vertex {found.least_at}", *self._written(found.least, answer)))
+        facts.append(("mean, by area", *self._written(found.mean, answer)))
+        facts.append(("standard deviation", *self._written(found.deviation, answer, False)))
+        if self._correlation is not None:
+            facts.append(("rank correlation", number(self._correlation)))
+        return facts
+
+    @staticmethod
+    def _written(value: float, answer: Answer, with_sign: bool = True) -> tuple[str, ...]:
+        """The value, and its share of the maximum where it is no share itself."""
+        signed = answer.is_signed and with_sign
+        if answer.unit == DIFFERENCE_OF_SHARES:
+            return (share(value, signed),)
+        top = answer.maximum
+        return (number(value, signed), share(value / top, signed)) if top > 0 else (number(value, signed),)
+
+    def _say_bin(self, words: str) -> None:
+        self._unit.setText(words or "share of the area")

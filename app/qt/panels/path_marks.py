@@ -1,0 +1,76 @@
+"""A path over a surface: dark on white where it is seen, dotted where the surface hides it."""
+
+import numpy as np
+from qtpy import QtCore, QtGui
+
+from ...drawing.board import Board
+from ...drawing.lines_of_sight import seen_in
+from ...drawing.scene import PanelScene
+from .overlay import BRIGHT, DARK
+
+WIDE, NARROW = 4.5, 2.0
+"""Logical pixels of the white line, and of the dark one on it."""
+
+DOTS = 6.0
+"""From one dot to the next."""
+
+
+class PathMarks:
+    """The path of one view.
+
+    pixels: (k, 2) device pixels of its points, y down, NaN where there is nothing to paint; is_seen: (k,) whether the
+    surface is not before them; both of the picture that `see` was called for.
+    """
+
+    def __init__(self) -> None:
+        self.points = np.empty((0, 3))
+        self.pixels, self.is_seen = np.empty((0, 2)), np.empty(0, bool)
+
+    def show(self, points: np.ndarray) -> bool:
+        """Through points (k, 3) of the surface, none if there are none; whether that has to be drawn."""
+        before, self.points = self.points, points
+        return bool(len(points) or len(before))
+
+    def see(self, scene: PanelScene, board: Board) -> None:
+        """What is seen in the picture that has just been drawn; insets lie over the path."""
+        self.pixels, self.is_seen = np.empty((0, 2)), np.empty(0, bool)
+        if not len(self.points):
+            return
+        depths = board.depths()
+        self.pixels, self.is_seen = seen_in(scene.renderer, self.points, depths)
+        for left, bottom, width, height in scene.insets.covered:
+            top = len(depths) - bottom - height
+            low, high = (left, top), (left + width, top + height)
+            self.pixels[((self.pixels >= low) & (self.pixels < high)).all(axis=1)] = np.nan
+
+    def paint(self, painter: QtGui.QPainter, ratio: float) -> None:
+        """ratio: device pixels in a logical one."""
+        if not len(self.pixels):
+            return
+        places = self.pixels / ratio
+        painter.save()
+        painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
+        for seen in (False, True):  # what is hidden lies behind
+            lines = _runs(places, self.is_seen == seen)
+            for colour, width in ((BRIGHT, WIDE), (DARK, NARROW)):
+                pen = QtGui.QPen(colour, width)
+                pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
+                pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
+                if not seen:
+                    pen.setWidthF(width - 0.5)
+                    pen.setDashPattern([0.01, DOTS / pen.widthF()])
+                painter.setPen(pen)
+                for line in lines:
+                    painter.drawPolyline(line)
+        painter.restore()
+
+
+def _runs(places: np.ndarray, is_meant: np.ndarray) -> list[QtGui.QPolygonF]:
+    """The pieces both of whose ends are meant; a change in between belongs to neither, so that they just meet."""
+    meant = is_meant & np.isfinite(places).all(axis=1)
+    pieces = meant[:-1] & meant[1:]
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], pieces, [False]]).astype(int)))
+    return [
+        QtGui.QPolygonF([QtCore.QPointF(x, y) for x, y in places[first : last + 1].tolist()])
+        for first, last in edges.reshape(-1, 2)
+    ]

@@ -1,0 +1,118 @@
+"""Pins as they are painted: drops over a view, whose tips are the places, and badges in lists, with numerals."""
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from qtpy import QtCore, QtGui
+
+from ..look.look import LOOK
+
+HEAD = 8.5
+"""Radius of a drop's head, and of a badge's disc."""
+
+RISE = 17.0
+"""From the tip to the middle of the head."""
+
+BRIGHT, DARK = QtGui.QColor("#FFFFFF"), QtGui.QColor("#14161A")
+
+
+@dataclass(frozen=True, eq=False)
+class PinMark:
+    """A pin at a position (3,), in a colour such as "#1F7A3D"; is_lit: it stands out."""
+
+    number: int
+    position: np.ndarray
+    colour: str
+    is_lit: bool = False
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, PinMark)
+            and (self.number, self.colour, self.is_lit) == (other.number, other.colour, other.is_lit)
+            and np.array_equal(self.position, other.position)
+        )
+
+    __hash__ = None
+
+
+def paint_pins(
+    painter: QtGui.QPainter, pins: Mapping[int, tuple[PinMark, QtCore.QPointF]], hidden: Collection[int]
+) -> None:
+    """Drops at their places, by number: those that are hidden under the others, the first and what is lit on top."""
+
+    def height(each: tuple[PinMark, QtCore.QPointF]) -> tuple[bool, bool, int]:
+        pin, _ = each
+        return pin.number not in hidden, pin.is_lit, -pin.number
+
+    for pin, at in sorted(pins.values(), key=height):
+        paint_drop(painter, at, pin, pin.number in hidden)
+
+
+def paint_drop(painter: QtGui.QPainter, tip: QtCore.QPointF, pin: PinMark, is_hidden: bool) -> None:
+    """A drop whose tip is the place; hollow and dashed on the far side."""
+    radius, colour = HEAD * LOOK.scale, QtGui.QColor(pin.colour)
+    drop = drop_at(tip)
+    painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
+    if pin.is_lit:
+        _outline(painter, drop, QtGui.QColor(LOOK.theme.accent), 9.0)
+        _outline(painter, drop, BRIGHT, 4.5)
+    if is_hidden:
+        ground = QtGui.QColor(BRIGHT)
+        ground.setAlphaF(0.92)
+        painter.fillPath(drop, ground)
+        _outline(painter, drop, BRIGHT, 3.5)
+        pen = QtGui.QPen(colour, 1.6)
+        pen.setCapStyle(QtCore.Qt.PenCapStyle.FlatCap)
+        pen.setDashPattern([2.4, 1.6])
+        painter.setPen(pen)
+        painter.drawPath(drop)
+    else:
+        if not pin.is_lit:
+            _outline(painter, drop, DARK, 4.5)
+        _outline(painter, drop, BRIGHT, 2.5)
+        painter.fillPath(drop, colour)
+    middle = QtCore.QPointF(tip.x(), tip.y() - RISE * LOOK.scale)
+    paint_numeral(painter, middle, radius, pin.number, colour if is_hidden else BRIGHT)
+
+
+def paint_badge(painter: QtGui.QPainter, middle: QtCore.QPointF, number: int, colour: str) -> None:
+    """A disc in the colour of a pin, with its number."""
+    painter.setPen(QtCore.Qt.PenStyle.NoPen)
+    painter.setBrush(QtGui.QColor(colour))
+    radius = HEAD * LOOK.scale
+    painter.drawEllipse(middle, radius, radius)
+    paint_numeral(painter, middle, radius, number, BRIGHT)
+
+
+def paint_numeral(
+    painter: QtGui.QPainter, middle: QtCore.QPointF, radius: float, number: int, colour: QtGui.QColor
+) -> None:
+    """In the middle of a disc, smaller where there are more digits."""
+    text = str(number)
+    painter.setFont(LOOK.font((11, 10, 8)[min(len(text), 3) - 1], bold=True))
+    painter.setPen(colour)
+    metrics = QtGui.QFontMetricsF(painter.font())
+    x = middle.x() - metrics.horizontalAdvance(text) / 2
+    painter.drawText(QtCore.QPointF(x, middle.y() + metrics.capHeight() / 2), text)
+
+
+def drop_at(tip: QtCore.QPointF) -> QtGui.QPainterPath:
+    """Its outline: a circle, and from where tangents from the tip touch it, these."""
+    radius, rise = HEAD * LOOK.scale, RISE * LOOK.scale
+    middle = QtCore.QPointF(tip.x(), tip.y() - rise)
+    box = QtCore.QRectF(middle.x() - radius, middle.y() - radius, 2 * radius, 2 * radius)
+    # The tangents touch at this angle from straight down.
+    half = math.degrees(math.acos(radius / rise))
+    drop = QtGui.QPainterPath(tip)
+    drop.arcTo(box, -90 + half, 360 - 2 * half)
+    drop.closeSubpath()
+    return drop
+
+
+def _outline(painter: QtGui.QPainter, drop: QtGui.QPainterPath, colour: QtGui.QColor, width: float) -> None:
+    pen = QtGui.QPen(colour, width)
+    pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
+    painter.setPen(pen)
+    painter.drawPath(drop)

@@ -1,0 +1,224 @@
+"""What is done to sources on the panels: places, sets, boundary loops, and curves that are drawn.
+
+`window` is the main window.
+"""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from qtpy import QtWidgets
+
+from bihdist_core.sources.boundary import boundary_loops
+from bihdist_core.sources.pieces import pieces_of
+from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Place, Source
+from bihdist_core.sources.words import short_words_of
+
+from ..document.edits import move_source, source_name
+from ..document.sourcing import members_of, place_at, place_in, points_of, with_member, with_moved, without_member
+from .live_rate import LiveRate
+
+if TYPE_CHECKING:
+    from ..drawing.picking import Met
+
+NEAR = 24.0
+"""Pixels from the pointer to a member of the source, or to a boundary, that a menu means."""
+
+CLOSING = 14.0
+"""Pixels between the ends of what is drawn below which it is closed, if it has been farther away."""
+
+
+class SourceGestures:
+    """See the module.
+
+    is_snapping: whether the source is put on vertices.  is_drawing: whether the left button draws.
+    """
+
+    def __init__(self, window) -> None:
+        self._window, self._grid = window, window.grid
+        self.is_snapping, self.is_drawing = True, False
+        self.rate = LiveRate(window)
+        self._moved: tuple[str, Source, Member] | None = None  # a point, what it was, and which member moves
+        self._stroke: list[Place] = []
+        self._grid.added.connect(self.add_or_remove)
+        self._grid.stroked.connect(self._draw)
+        self._grid.stroke_ended.connect(self._stroke_ended)
+
+    def begin(self) -> None:
+        """Another surface is there."""
+        self._moved = None
+        self._forget_stroke()
+
+    # ------------------------------------------------------------------ points
+    def at(self, met: "Met") -> Source:
+        """The source that a place means."""
+        if self.is_snapping:
+            return met.vertex
+        return place_at(self._window.session.surface.faces[met.face], met.face, met.weights)
+
+    def set_snapping(self, is_snapping: bool) -> None:
+        """Whether the source is put on vertices, or anywhere in faces."""
+        self.is_snapping = is_snapping
+        where = "on vertices" if is_snapping else "anywhere in faces"
+        self._window.say(f"A click puts the source {where}")
+
+    def drag(self, panel: int, mark: int, met: "Met") -> None:
+        """One of the marks of a panel's source is over a place."""
+        session = self._window.session
+        if self._moved is None:
+            document = session.document
+            marked = [
+                (name, document.point(name).at, member)
+                for name in document.panel(panel).shows.points
+                for member in points_of(document.point(name).at)
+            ]
+            if mark >= len(marked):
+                return
+            self._moved = marked[mark]
+            self.rate.begin()
+        name, whole, member = self._moved
+        moved = with_moved(session.document, name, whole, member, self.at(met))
+        session.show(moved, key=f"drag in {panel}", live=True)
+
+    def rest(self) -> None:
+        """The source has arrived."""
+        self._moved = None
+        self.rate.end()
+
+    # ------------------------------------------------------------------ members
+    def add_or_remove(self, panel: int, met: "Met") -> None:
+        """Ctrl and a click: a place joins the source, a member that is there leaves it."""
+        member, at = self._member_at(panel, met), self.at(met)
+        if member is None and at in self._members(panel):
+            member = at
+        if member is not None:
+            self.remove(panel, member)
+        else:
+            self.add(panel, at)
+
+    def add(self, panel: int, more: Source) -> None:
+        """Something joins the source that a panel shows."""
+        session = self._window.session
+        session.show(with_member(session.document, panel, more))
+        self._say(panel)
+
+    def remove(self, panel: int, member: Member) -> None:
+        """A member leaves it; the last one stays."""
+        session = self._window.session
+        if len(self._members(panel)) < 2:
+            self._window.say("The source consists of this alone")
+            return
+        session.show(without_member(session.document, panel, member))
+        self._say(panel)
+
+    def put(self, panel: int, source: Source) -> None:
+        """The source is something else."""
+        session = self._window.session
+        session.show(move_source(session.document, panel, source))
+        self._say(panel)
+
+    def _say(self, panel: int) -> None:
+        document = self._window.session.document
+        name = source_name(document, panel)
+        if name and document.point(name).at is not None:
+            self._window.say(f"Source: {short_words_of(document.point(name).at)}")
+
+    def _members(self, panel: int) -> tuple[Member, ...]:
+        document = self._window.session.document
+        name = source_name(document, panel)
+        return members_of(document.point(name).at) if name else ()
+
+    def _member_at(self, panel: int, met: "Met") -> Member | None:
+        """The member of the source next to a place, if it is near."""
+        members = self._members(panel)
+        if not members:
+            return None
+        nearest = [self._nearest_of(panel, member, met) for member in members]
+        best = int(np.argmin([np.linalg.norm(x - met.position) for x in nearest]))
+        return members[best] if self._is_near(panel, nearest[best], met, NEAR / 2) else None
+
+    def _nearest_of(self, panel: int, member: Member, met: "Met") -> np.ndarray:
+        """(3,) the point of a member that is nearest to a place."""
+        pieces = pieces_of(member, self._window.session.surface)
+        start, stop = pieces.positions(self._grid.panel(panel).positions)
+        way = stop - start
+        share = np.einsum("kx,kx->k", met.position - start, way) / np.maximum(np.einsum("kx,kx->k", way, way), 1e-300)
+        points = start + np.clip(share, 0, 1)[:, None] * way
+        return points[np.linalg.norm(points - met.position, axis=1).argmin()]
+
+    def _is_near(self, panel: int, point: np.ndarray, met: "Met", pixels: float) -> bool:
+        view = self._grid.panel(panel).view
+        away = view.place_of(point) - view.place_of(met.position)
+        return float(np.hypot(away.x(), away.y())) <= pixels
+
+    # ------------------------------------------------------------------ the menu
+    def offer(self, menu: QtWidgets.QMenu, panel: int, met: "Met") -> None:
+        """What can be done to the source at a place."""
+        member, members = self._member_at(panel, met), self._members(panel)
+        if member is None:
+            menu.addAction("Add to the source\tCtrl+Click", lambda: self.add(panel, self.at(met)))
+        elif len(members) > 1:
+            menu.addAction("Remove from the source\tCtrl+Click", lambda: self.remove(panel, member))
+        loop = self._loop_near(panel, met)
+        if loop is not None:
+            menu.addAction("This boundary as source", lambda: self.put(panel, loop))
+            if members and loop not in members:
+                menu.addAction("Add this boundary to the source", lambda: self.add(panel, loop))
+
+    def _loop_near(self, panel: int, met: "Met") -> BoundaryLoop | None:
+        surface, positions = self._window.session.surface, self._grid.panel(panel).positions
+        edges = surface.boundary_edges
+        if not len(edges):
+            return None
+        middles = positions[edges].mean(axis=1)
+        nearest = int(np.linalg.norm(middles - met.position, axis=1).argmin())
+        ends = positions[edges[nearest]]
+        if not any(self._is_near(panel, point, met, NEAR) for point in (*ends, middles[nearest])):
+            return None
+        loops = boundary_loops(surface)
+        return BoundaryLoop(next(number for number, rows in enumerate(loops) if nearest in rows))
+
+    # ------------------------------------------------------------------ drawing
+    def set_drawing(self, is_drawing: bool) -> None:
+        """Whether the left button draws a source on the surface."""
+        self.is_drawing = is_drawing
+        self._forget_stroke()
+        self._grid.draw_on(is_drawing)
+        self._window.say("Drag over the surface: a curve as source (with Ctrl it is added); Esc ends" * is_drawing)
+
+    def _draw(self, panel: int, met: "Met") -> None:
+        place = place_in(met.face, met.weights)
+        if not self._stroke or self._stroke[-1] != place:
+            self._stroke.append(place)
+            self._show_stroke()
+
+    def _stroke_ended(self, panel: int, has_ctrl: bool) -> None:
+        places, ends = list(self._stroke), self._on_view(panel)
+        self._forget_stroke()
+        if not places:
+            return
+        if len(places) == 1:
+            corners = self._window.session.surface.faces[places[0].face]
+            drawn: Source = place_at(corners, places[0].face, places[0].weights)
+        else:
+            away = np.linalg.norm(ends - ends[0], axis=1)
+            is_closed = len(places) > 3 and away[-1] < CLOSING and away.max() > 2 * CLOSING
+            drawn = Curve(tuple(places), bool(is_closed))
+        (self.add if has_ctrl else self.put)(panel, drawn)
+
+    def _on_view(self, panel: int) -> np.ndarray:
+        """(k, 2) where what has been drawn is seen."""
+        widget, faces = self._grid.panel(panel), self._window.session.surface.faces
+        points = [np.array(place.weights) @ widget.positions[faces[place.face]] for place in self._stroke]
+        seen = [widget.view.place_of(point) for point in points]
+        return np.array([(each.x(), each.y()) for each in seen])
+
+    def _show_stroke(self) -> None:
+        faces = self._window.session.surface.faces if self._stroke else np.empty((0, 3), int)
+        corners = faces[[place.face for place in self._stroke]]
+        weights = np.array([place.weights for place in self._stroke]).reshape(-1, 3)
+        for widget in self._grid.panels:
+            widget.show_stroke(corners, weights)
+
+    def _forget_stroke(self) -> None:
+        self._stroke = []
+        self._show_stroke()

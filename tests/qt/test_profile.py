@@ -1,0 +1,288 @@
+"""The dock of the profile, by real keys and a real pointer: numbers equal to those of the core, and echoes."""
+
+import shutil
+import subprocess
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.document.document import Document, Point, comparison
+from app.document.edits import move_source
+from app.document.instruments import Pin, Profile
+from app.document.measuring import add_pins
+from app.session.profiling import points_along, wanted_path
+from bihdist_core import Laplacian, ParameterError
+from bihdist_core.analysis.geodesic_paths import GeodesicPaths
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+with_pointer = pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed")
+
+TWO = (Spec.of("biharmonic"), Spec.of("geodesic", method="dijkstra"))
+
+
+def run(*words):
+    subprocess.run(["xdotool", *map(str, words)], check=True, capture_output=True)
+
+
+def move_to(widget, point):
+    at = widget.mapToGlobal(point)
+    run("mousemove", at.x(), at.y())
+
+
+@pytest.fixture
+def opened(screen, mesh_file):
+    s = screen(TWO)
+    s.window.move(20, 40)
+    s.window.resize(1100, 800)
+    s.open(mesh_file(bumpy(800)), 5)
+    s.settle(0.3)
+    return s
+
+
+def pinned(s, count=2):
+    x = s.session.surface.vertices
+    ids = [int(x[:, 0].argmin()), int(x[:, 0].argmax()), int(x[:, 1].argmax())][:count]
+    s.session.show(add_pins(s.document, ids))
+    return ids
+
+
+def dock_of(s):
+    return s.window.docks._docks["profile"].content
+
+
+def with_profile(s, count=2):
+    ids = pinned(s, count)
+    run("windowfocus", "--sync", int(s.window.winId()), "key", "f")
+    s.until(lambda: "profile" in s.document.docks)
+    dock = dock_of(s)
+    s.until(lambda: dock.path is not None)
+    s.settle()
+    return dock, ids
+
+
+@with_pointer
+def test_it_opens_by_its_key_and_its_numbers_are_the_cores(opened):
+    s = opened
+    dock, ids = with_profile(s)
+    surface = s.session.surface
+    path = GeodesicPaths(surface).path(ids)
+    assert dock.path.label == path.label == "shortest geodesic, exact"
+    assert np.array_equal(dock.path.points, path.points)
+    places = dock.path.places
+    assert np.allclose(
+        np.einsum("kc,kcx->kx", places.weights, surface.vertices[places.corners]), path.points, atol=1e-12
+    )
+    distances = Distances(Laplacian(surface))
+    for panel, spec in zip(s.document.panels, TWO, strict=True):
+        field = distances.answer(spec, 5).field
+        assert np.abs(dock.curves[panel.id].values - path.along(field)).max() <= 1e-9 * field.max()
+        assert np.abs(dock.curves[panel.id].shares - path.along(field) / field.max()).max() <= 1e-9
+
+
+@with_pointer
+def test_the_chart_and_the_panels_mark_the_same_place(opened):
+    s = opened
+    dock, _ = with_profile(s)
+    chart, path = dock.chart, dock.path
+    middle = chart.plot.center().toPoint()
+    move_to(chart, middle)
+    s.until(lambda: chart.at is not None)
+    s.settle()
+    arc = chart.at
+    assert arc == pytest.approx(path.length / 2, rel=0.02)
+    place = path.at([arc]).values(s.session.surface.vertices)[0]
+    for panel, answer in zip(s.panels, s.answers, strict=True):
+        assert np.allclose(panel.view._pointed.position, place)
+        assert panel.bar._reading.value == pytest.approx(float(path.at([arc]).values(answer.field)[0]))
+    # The other way round, where the path is seen.
+    s.window.reset_view("back")
+    s.settle()
+    panel = s.panels[1]
+    seen = [k for k in range(5, len(path.points) - 5) if panel.view.sees(path.points[k])]
+    at = panel.view.place_of(path.points[seen[len(seen) // 2]]).toPoint()
+    move_to(panel.view, at)
+    s.until(lambda: chart.at is not None and chart.at != arc)
+    s.settle()
+    assert abs(chart.at - path.arcs[seen[len(seen) // 2]]) < 2 * s.session.surface.mean_edge_length
+    move_to(panel.head, panel.head.rect().center())
+    s.until(lambda: chart.at is None)
+    assert all(panel.view._pointed is None for panel in s.panels)
+
+
+@with_pointer
+def test_arrow_keys_go_along_the_path(opened):
+    from qtpy.QtCore import Qt
+
+    s = opened
+    dock, _ = with_profile(s)
+    dock.chart.setFocus(Qt.FocusReason.TabFocusReason)
+    for key in ("Right", "Right", "shift+Right", "Left"):
+        run("key", key)
+        s.settle(0.1)
+    assert dock.chart.at == pytest.approx(0.1 * dock.path.length)
+    assert all(panel.view._pointed is not None for panel in s.panels)
+    run("key", "Escape")
+    s.until(lambda: dock.chart.at is None)
+
+
+def test_the_path_is_dark_on_white_where_it_is_seen(opened):
+    s = opened
+    pinned(s)
+    s.window.docks.toggle("profile")
+    dock = dock_of(s)
+    s.until(lambda: dock.path is not None)
+    s.window.reset_view("back")
+    s.settle()
+    view = s.panels[0].view
+    picture = view.grab().toImage()
+    pixels, is_seen = view.path.pixels, view.path.is_seen
+    assert 0.2 < is_seen.mean() < 1
+    ratio = view.devicePixelRatioF()
+    well = np.flatnonzero(is_seen)[10:-10:20]
+    dark = [picture.pixelColor(*(pixels[k] / ratio).astype(int).tolist()).value() for k in well]
+    assert np.mean(np.array(dark) < 110) > 0.8
+    s.window.docks.close("profile")
+    s.settle()
+    assert not len(view.path.pixels)
+
+
+def test_curves_follow_the_source_and_the_path_stays(opened):
+    s = opened
+    pinned(s)
+    s.window.docks.toggle("profile")
+    dock = dock_of(s)
+    s.until(lambda: dock.path is not None)
+    path = dock.path
+    s.session.show(move_source(s.document, 0, 100))
+    s.until(lambda: s.session.is_complete)
+    assert dock.path is path
+    for panel, answer in zip(s.document.panels, s.answers, strict=True):
+        assert np.array_equal(dock.curves[panel.id].values, path.along(answer.field))
+
+
+def test_ways_and_ends_are_steps_that_can_be_undone(opened):
+    s = opened
+    pinned(s)
+    s.window.docks.toggle("profile")
+    dock = dock_of(s)
+    s.until(lambda: dock.path is not None)
+    first = dock.path
+    dock._choose_way("section")
+    s.until(lambda: dock.path is not None and dock.path is not first)
+    assert dock.path.label == "section by a plane" == dock.way.text()
+    assert s.document.profile.across is not None
+    dock.type_end(1, "300")
+    s.until(lambda: dock._wanted.places[1] == 300)
+    assert s.document.pins[-1].point == s.document.profile.points[1]
+    dock.type_end(0, "100000")
+    assert "100000" in s.refusals[-1]
+    s.session.undo()
+    s.session.undo()
+    assert s.document.profile == Profile()
+    s.until(lambda: dock.path is not None and dock.path.label == first.label)
+    assert np.array_equal(dock.path.points, first.points)
+
+
+def test_what_is_saved_is_what_is_shown(opened, tmp_path):
+    from app.figures.profile_figure import save_profile_figure
+
+    s = opened
+    pinned(s, 3)
+    s.window.docks.toggle("profile")
+    dock = dock_of(s)
+    s.until(lambda: dock.path is not None)
+    assert len(dock.chart.knots) == 3
+    dock.files.save_numbers(str(tmp_path / "along.csv"))
+    lines = (tmp_path / "along.csv").read_text().splitlines()
+    assert lines[0] == "arc,x,y,z,face,b0,b1,b2,biharmonic,geodesic(method=dijkstra)"
+    table = np.array([[float(x) for x in line.split(",")] for line in lines[1:]])
+    assert np.array_equal(table[:, 0], dock.path.arcs)
+    assert np.array_equal(table[:, 8:].T, [curve.values for curve in dock.curves.values()])
+    for kind in ("svg", "pdf", "png"):
+        for name in ("one", "two"):
+            save_profile_figure(dock.files.figure(), tmp_path / f"{name}.{kind}")
+        assert (tmp_path / f"one.{kind}").read_bytes() == (tmp_path / f"two.{kind}").read_bytes()
+    dock.files.save_figure(str(tmp_path / "saved.svg"))
+    s.until(lambda: not s.window.exports.running)
+    assert (tmp_path / "saved.svg").read_bytes() == (tmp_path / "one.svg").read_bytes()
+    drawn = (tmp_path / "one.svg").read_text()
+    assert ">Biharmonic</text>" in drawn
+    assert ">% of the maximum</text>" in drawn
+
+
+def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(opened, screen, mesh_file, tmp_path):
+    s = opened
+    pinned(s)
+    s.window.docks.toggle("profile")
+    dock = dock_of(s)
+    s.until(lambda: dock.path is not None)
+    dock._choose_way("edges")
+    s.until(lambda: dock.path.label == "shortest path along edges")
+    path = str(tmp_path / "it.json")
+    s.window.session_file.save(path)
+    again = screen(TWO)
+    again.window.session_file.open(path)
+    again.until(lambda: again.session.is_complete and "profile" in again.window.docks._docks)
+    other = dock_of(again)
+    again.until(lambda: other.path is not None)
+    assert again.document.profile == s.document.profile
+    assert np.array_equal(other.path.points, dock.path.points)
+    assert all(panel.head._dot for panel in again.panels)
+    again.open(mesh_file(bumpy(300), "other.off"), 7)
+    assert other.path is None
+    assert "pin two points" in other.chart.sentence
+
+
+def test_panels_come_and_go_while_the_chart_is_pointed_at(opened):
+    s = opened
+    pinned(s)
+    s.window.docks.toggle("profile")
+    dock = dock_of(s)
+    s.until(lambda: dock.path is not None)
+    dock._point((dock.path.length / 3, 0.5))
+    s.window.choices.add_panel()
+    s.until(lambda: s.session.is_complete and len(dock.curves) == 3)
+    assert {curve.colour for curve in dock.curves.values()} == {panel.head._dot for panel in s.panels}
+    s.window.choices.edit_panel(s.document.panels[0].id, "Remove it")
+    s.until(lambda: s.session.is_complete and len(dock.chart.curves) == 2)
+    s.settle()
+    assert all(panel.view._pointed is not None for panel in s.panels[:1])
+    s.window.docks.close("profile")
+    assert not any(panel.head._dot or len(panel.view.path.points) for panel in s.panels)
+
+
+def test_without_two_points_it_says_what_to_do(opened):
+    s = opened
+    s.window.docks.toggle("profile")
+    assert "pin two points" in dock_of(s).chart.sentence
+    pinned(s, 1)
+    assert points_along(s.document) == ("source", "pin")
+    s.until(lambda: dock_of(s).path is not None)
+
+
+def test_what_makes_no_path_is_named():
+    document = replace(
+        comparison("", TWO),
+        points=(Point("source", 1), Point("pin", 2), Point("pin 2", 3), Point("loop", "loop:0")),
+        pins=(Pin("pin"), Pin("pin 2")),
+    )
+    surface = bumpy(60)
+    assert wanted_path(document, lambda name: surface).places == (2, 3)
+    section = replace(document, profile=Profile(("source", "pin", "pin 2"), "section", (0, 0, 1)))
+    for wrong, said in (
+        (replace(document, profile=Profile(("source", "loop"))), "'loop' is neither"),
+        (section, "goes through two points"),
+        (Document(), "pin two points"),
+    ):
+        with pytest.raises(ParameterError, match=said):
+            wanted_path(wrong, lambda name: surface)
+
+
+def test_names_at_the_ends_never_touch():
+    from app.qt.docks.profile_chart import apart
+
+    assert apart([10, 12, 13, 90], 14, 0, 100) == [10, 24, 38, 90]
+    assert apart([95, 96, 97], 14, 0, 100) == [72, 86, 100]

@@ -1,0 +1,182 @@
+"""The docks of quality and of regions in the real window, by mouse and keys."""
+
+import numpy as np
+import pytest
+
+from app.document.edits import move_source, put_point
+from bihdist_core import farthest_points, read_surface, region_boundaries, region_mesh, voronoi_regions
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+SHOWN = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
+
+
+@pytest.fixture
+def opened(screen, tmp_path):
+    from bihdist_core.formats.field_output import write_fields
+
+    surface = bumpy(300)
+    write_fields(tmp_path / "bumpy.ply", surface, {"zero": np.zeros(len(surface.vertices))})
+    s = screen(SHOWN)
+    s.open(tmp_path / "bumpy.ply", 7)
+    return s
+
+
+def key(s, letter):
+    from qtpy.QtTest import QTest
+
+    view = s.panels[0].view
+    s.window.activateWindow()
+    view.setFocus()
+    s.until(view.hasFocus)
+    QTest.keyClick(view, letter)
+    s.settle(0.1)
+
+
+def press(button, x=None):
+    from qtpy.QtCore import QPoint, Qt
+    from qtpy.QtTest import QTest
+
+    place = button.rect().center() if x is None else QPoint(x, button.height() // 2)
+    QTest.mouseClick(button, Qt.MouseButton.LeftButton, pos=place)
+
+
+def dock(s, word):
+    return s.window.docks._docks[word].content
+
+
+def known(s):
+    s.until(lambda: s.window.docks.findings.is_complete)
+    s.settle(0.1)  # what is known is on its way to the dock
+
+
+def test_quality_opens_by_its_key_and_follows_the_source(opened):
+    s = opened
+    key(s, "q")
+    known(s)
+    table = dock(s, "quality").text()
+    assert "…" not in table
+    assert table.splitlines()[0].split("\t")[1:] == ["Biharmonic", "Geodesic", "Diffusion"]
+    assert table.splitlines()[1].split("\t")[1:3] == ["0", "0"]
+    extrema = s.window.docks.findings.found(0).extrema
+    marks = s.panels[0].view.extrema
+    assert marks.positions.tolist() == s.session.surface.vertices[extrema.maxima].tolist()
+    assert marks.is_maximum.all()
+    assert len(dock(s, "quality").charts[0].circles) > 1
+    s.session.show(move_source(s.document, 0, 200))
+    s.until(lambda: s.session.is_complete)
+    known(s)
+    assert dock(s, "quality").text() != table
+    assert s.window.docks.findings.found(0).whole.source == 200
+    press(dock(s, "quality").copy_button)
+    from qtpy.QtWidgets import QApplication
+
+    assert QApplication.clipboard().text() == dock(s, "quality").text()
+    key(s, "q")
+    assert not s.window.docks._docks["quality"].isVisible()
+    assert not len(marks.positions)
+
+
+def test_a_difference_is_not_judged(opened):
+    from app.document.edits import show_in
+    from app.document.quantities import quantity
+
+    s = opened
+    key(s, "q")
+    s.session.show(show_in(s.document, 2, quantity("biharmonic - geodesic")))
+    s.until(lambda: s.session.is_complete)
+    known(s)
+    assert {line.split("\t")[3] for line in dock(s, "quality").text().splitlines()[1:]} == {"–"}
+
+
+def test_farthest_points_are_pinned_and_divide_the_panels(opened, tmp_path):
+    s = opened
+    key(s, "n")
+    regions = dock(s, "regions")
+    regions.sampler.count.setValue(5)
+    press(regions.sampler.pin)
+    s.until(lambda: len(s.document.pins) == 5)
+    distance = s.session.opened().distances("voronoi").get(SHOWN[0])
+    wanted = farthest_points(distance, 7, 5)
+    assert [s.document.point(pin.point).at for pin in s.document.pins] == wanted.tolist()
+    before = s.pictures()
+    press(regions.ticks[0], 8)
+    assert s.document.regions == (0,)
+    known(s)
+    columns = distance.from_sources(wanted)
+    found = voronoi_regions(s.session.surface, columns)
+    assert s.window.docks.findings.divided(0).regions.areas == pytest.approx(found.areas, rel=1e-9)
+    after = s.pictures()
+    assert (before[0] != after[0]).any()
+    assert (before[1] == after[1]).all()
+    # The same from the panel's own menu, and back.
+    s.panels[1].head.edits["Regions of the pins"].trigger()
+    assert s.document.regions == (0, 1)
+    known(s)
+    assert len(regions.text().splitlines()[1].split("\t")) == 3
+    s.session.undo()
+    s.session.undo()
+    assert s.document.regions == ()
+    s.settle(0.1)
+    assert (s.pictures()[0] == before[0]).all()
+    s.session.redo()
+    known(s)
+    # Files are those that the library writes.
+    assert regions.save_to(0, "labels", str(tmp_path / "labels.npy"))
+    assert np.load(tmp_path / "labels.npy").tolist() == (found.labels + 1).tolist()
+    assert regions.save_to(0, "mesh", str(tmp_path / "mesh.ply"))
+    cut = read_surface(tmp_path / "mesh.ply")
+    assert len(cut.faces) == len(region_mesh(s.session.surface, columns).surface.faces)
+    assert regions.save_to(0, "boundaries", str(tmp_path / "boundaries.csv"))
+    lines = (tmp_path / "boundaries.csv").read_text().splitlines()
+    assert len({line.split(",")[0] for line in lines[1:]}) == len(region_boundaries(s.session.surface, found))
+    regions.sampler.save_to(str(tmp_path / "ids.txt"))
+    s.until(lambda: (tmp_path / "ids.txt").exists())
+    assert (tmp_path / "ids.txt").read_text().split() == [str(id) for id in wanted]
+
+
+def test_regions_follow_a_pin_that_is_moved(opened):
+    from app.document.measuring import add_pins, show_regions
+
+    s = opened
+    s.session.show(show_regions(add_pins(s.document, [7, 90, 200]), 0))
+    known(s)
+    s.session.show(put_point(s.document, s.document.pins[2].point, 150), key="drag", live=True)
+    known(s)
+    distance = s.session.opened().distances("voronoi").get(SHOWN[0])
+    wanted = voronoi_regions(s.session.surface, distance.from_sources([7, 90, 150]))
+    assert s.window.docks.findings.divided(0).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
+
+
+def test_too_many_points_are_refused_in_the_dock(opened):
+    s = opened
+    key(s, "n")
+    sampler = dock(s, "regions").sampler
+    sampler.count.setValue(2_000)
+    press(sampler.pin)
+    s.until(lambda: "2000 points asked for" in sampler.words.text())
+    sampler.count.setValue(201)
+    press(sampler.pin)
+    s.until(lambda: "at most 200 pins" in sampler.words.text())
+    assert s.document.pins == ()
+
+
+def test_the_docks_come_back_with_a_session(opened, tmp_path):
+    s = opened
+    key(s, "q")
+    key(s, "n")
+    sampler = dock(s, "regions").sampler
+    sampler.count.setValue(3)
+    press(sampler.pin)
+    s.until(lambda: len(s.document.pins) == 3)
+    press(dock(s, "regions").ticks[1], 8)
+    known(s)
+    areas = dock(s, "regions").text()
+    path = str(tmp_path / "session.json")
+    s.window.session_file.save(path)
+    key(s, "q")
+    s.window.session_file.open(path)
+    s.until(lambda: s.session.is_complete and "quality" in s.document.docks)
+    known(s)
+    assert dock(s, "regions").text() == areas
+    assert "…" not in dock(s, "quality").text()

@@ -1,0 +1,110 @@
+"""The active panel's field in numbers, as Python has them; isolines and regions in files."""
+
+import numpy as np
+import pytest
+
+from app.document.measuring import vertices_of
+from app.document.quantities import quantity
+from bihdist_core import band, field_statistics, rank_correlation, read_surface
+from bihdist_core.analysis.truncation import truncation_loss
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+
+
+@pytest.fixture
+def opened(screen, mesh_file):
+    s = screen([Spec.of("biharmonic"), Spec.of("diffusion"), quantity("biharmonic - diffusion")])
+    s.window.resize(1200, 900)
+    s.open(mesh_file(bumpy(1000)), 5)
+    s.window.actions_by_word["dock statistics"].trigger()
+    s.dock = s.window.docks._docks["statistics"].content
+    s.until(lambda: s.dock.facts.facts)
+    return s
+
+
+def activate(s, place):
+    s.window.grid.activate(s.document.panels[place].id)
+    s.until(lambda: s.dock.statistics is not None)
+
+
+def test_the_active_panel_in_numbers(opened):
+    s, dock = opened, opened.dock
+    found = field_statistics(s.session.surface, s.answers[0].field)
+    facts = {words: numbers for words, *numbers in dock.facts.facts}
+    assert facts[f"greatest, at vertex {found.greatest_at}"] == [f"{found.greatest:.4g}", "100.0 %"]
+    assert abs(float(facts["mean, by area"][0]) / found.mean - 1) < 1e-3
+    assert abs(dock.statistics.mean - found.mean) <= 1e-12 * found.greatest
+    assert [line[0] for line in dock.quantiles.facts][2] == "50 % of the area up to"
+    assert abs(float(dock.quantiles.facts[2][1]) / found.quantiles[2] - 1) < 1e-3
+
+
+def test_a_difference_has_its_parts_rank_correlation_and_signs(opened):
+    s, dock = opened, opened.dock
+    activate(s, 2)
+    s.until(lambda: dock.facts.facts[-1][0] == "rank correlation")
+    a, b, d = (answer.field for answer in s.answers)
+    assert dock.facts.facts[-1][1] == f"{rank_correlation(a, b):.4f}"
+    worst = int(np.abs(d).argmax())
+    assert dock.facts.facts[0] == (
+        f"largest, at vertex {worst}",
+        f"{100 * d[worst]:+.1f} %".replace("-", "−"),
+    )
+    bars = dock.histogram.bars
+    areas = field_statistics(s.session.surface, d, 40).areas
+    assert np.allclose(dock.histogram._shares, areas / areas.sum(), atol=1e-12)
+    assert np.argmax([bar.height() for bar in bars]) == areas.argmax()
+    # Brown below 0, violet above.
+    low, high = dock.histogram._colours[0], dock.histogram._colours[-1]
+    assert low[0] > low[2]
+    assert high[2] > high[0]
+
+
+def test_truncation_goes_with_the_slider_and_the_source(opened):
+    from app.document.edits import move_source
+
+    s, box = opened, opened.dock.truncation
+    assert box.loss is None
+    box.button.click()
+    s.until(lambda: box.loss is not None)
+    expected = truncation_loss(s.session.surface, 5)
+    assert np.allclose(box.loss.means, expected.means, atol=1e-9)
+    box.slider.setValue(12)
+    facts = dict(box.facts.facts)
+    assert facts["eigenpairs"] == "12"
+    assert facts["mean loss, by area"].startswith(f"{100 * expected.means[11]:.3g}"[:3])
+    s.session.show(move_source(s.document, 0, 900))
+    s.until(lambda: box.loss is not None and box.loss.source == 900)
+    activate(s, 1)
+    assert box.loss is None
+    assert "biharmonic" in box.hint.text()
+
+
+def test_isolines_and_the_region_between_two_values_are_saved(opened, tmp_path):
+    s, box = opened, opened.dock.levels
+    box.save_isolines(path=str(tmp_path / "lines.csv"))
+    s.until((tmp_path / "lines.csv").exists)
+    rows = np.genfromtxt(tmp_path / "lines.csv", delimiter=",", names=True)
+    shown = s.panels[0].view.scene.isolines
+    assert np.allclose(np.unique(rows["value"]), shown)
+    field = s.answers[0].field
+    box.low.setText("20 %")
+    box.high.setText(f"{field.max() / 2:.17g}")
+    s.until(lambda: box.band is not None)
+    expected = band(s.session.surface, field, 0.2 * field.max(), field.max() / 2)
+    assert box.band.area == pytest.approx(expected.area, rel=1e-12)
+    box.save_ids(str(tmp_path / "ids.npy"))
+    s.until((tmp_path / "ids.npy").exists)
+    assert np.load(tmp_path / "ids.npy").tolist() == expected.vertices.tolist()
+    box.save_mesh(str(tmp_path / "part.ply"))
+    s.until((tmp_path / "part.ply").exists)
+    assert read_surface(tmp_path / "part.ply").face_areas.sum() == pytest.approx(expected.area, rel=1e-9)
+    box.select()
+    assert vertices_of(s.document.selections[0].runs).tolist() == expected.vertices.tolist()
+    for words in ("near", "", "5 %"):
+        box.low.setText(words)
+        box.high.setText("2 %" if words == "5 %" else "")
+        s.settle(0.5)
+        assert box.band is None
+    assert "smaller first" in box.said.text()
