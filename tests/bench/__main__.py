@@ -11,7 +11,19 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from datetime import date
 
-from . import drag_row, exact_rows, growth_rows, machine, moving_row, other_rows, peers, window_rows
+from . import (
+    drag_row,
+    exact_rows,
+    growth_rows,
+    live_row,
+    machine,
+    moving_row,
+    other_rows,
+    peers,
+    region_row,
+    scatter_row,
+    window_rows,
+)
 from .size import FULL, QUICK, Size
 from .table import Line, as_json, render
 
@@ -32,6 +44,9 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     14: window_rows.stalls,
     15: drag_row.drag,
     16: moving_row.moving,
+    17: region_row.regions,
+    18: scatter_row.scatter,
+    19: live_row.live,
 }
 
 

@@ -1,0 +1,71 @@
+"""Row 19: the fields that follow a source which is dragged, as the session computes them, without painting."""
+
+import time
+from collections.abc import Iterator
+
+from bihdist_core.distances.kinds import Spec
+
+from .child import in_child
+from .drag_row import EVERY, _run
+from .meshes import bumpy_sphere
+from .peers import heat_solver
+from .size import Size
+from .table import Line
+from .timing import timed
+from .window_rows import PATIENCE, Viewless, mesh_file
+
+SECONDS = 3.0
+LIVE_BOUND = 1.5
+"""A field of the three, by how much longer it may take than a heat solve of potpourri3d on its own."""
+
+LIVE = Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion")
+"""What a window opens with; the geodesic distance is by the heat method as long as the source moves."""
+
+
+def live(size: Size) -> Iterator[Line]:
+    """Seconds from one field to the next while three panels follow, beside one heat solve."""
+    for count in size.live:
+        for name in ("vertices", "places"):
+            fields, seconds, peer = in_child(_live, count, name == "places")
+            yield Line(
+                19,
+                f"a field in a live drag over {name}, {count:,}",
+                seconds / max(fields, 1),
+                peer,
+                seconds / max(fields, 1) / peer,
+                bound=LIVE_BOUND,
+                note=f"{fields / seconds:.0f} fields a second in three panels; peer: one heat solve",
+            )
+
+
+def _live(count: int, in_faces: bool) -> tuple[int, float, float]:
+    """Fields shown, in how many seconds, and the seconds of a heat solve."""
+    from app.document.document import comparison
+    from app.document.edits import move_source
+    from app.session.session import Session
+    from bihdist_core import Place
+
+    view = Viewless()
+    session = Session(view, view.posted.put)
+    vertices, faces = bumpy_sphere(count)
+    with mesh_file(vertices, faces) as path:
+        session.show(comparison(path, LIVE, (0,)))
+        while session.surface is None or not session.shown.keys() >= {0, 2}:
+            view.posted.get(timeout=PATIENCE)()
+    session.show(move_source(session.document, 0, 7), live=True)
+    while 1 not in session.shown or "heat" not in session.shown[1].answer.label:
+        view.posted.get(timeout=PATIENCE)()  # the heat method is made ready
+    shown: list[int] = []
+    view.answer_changed = shown.append  # type: ignore[method-assign]
+    begun, move = time.perf_counter(), 0
+    while time.perf_counter() < begun + SECONDS:
+        move += 1
+        at = Place.of(10 + move, 0.25, 0.5) if in_faces else 10 + move
+        session.show(move_source(session.document, 0, at), key="drag", live=True)
+        _run(view, begun + move * EVERY)
+    seconds = time.perf_counter() - begun
+    session.close()
+    solver = heat_solver(vertices, faces)
+    solver.compute_distance(0)
+    solves = sorted(timed(lambda: solver.compute_distance(5))[0] for _ in range(5))
+    return len(shown), seconds, solves[2]
