@@ -4,17 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import ParameterError, SolverError
+from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
-from ..solver.factor import Factor
 from ..sources.pieces import Pieces
 from ..sources.splitting import along, split_at
 from ..surface import Surface
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
 from .exact_geodesic import ExactGeodesic
-from .heat_geodesic import HeatGeodesic, heat_matrix, heat_time
+from .heat_times import HeatTimes
 
 METHODS = ("auto", "exact", "heat", "dijkstra")
 EXACT_UP_TO = 20_000
@@ -26,12 +25,6 @@ eighth of an edge, and at a distance of d edges 1 / 128 d of one too long."""
 
 TINY = 1e-9
 """The share of an edge length that a part of a line counts as at least, where all of it is in one place."""
-
-TIME_FACTORS = (1.0, 4.0, 16.0, 64.0)
-PROBES = 4
-MOST_NEGATIVE = 1e-2
-"""The heat method's times that are tried, in squared mean edge lengths; from how many vertices; the share of negative
-values that is harmless."""
 
 LABELS = {"exact": "geodesic, exact", "heat": "geodesic, heat method", "dijkstra": "geodesic, Dijkstra along edges"}
 
@@ -56,7 +49,7 @@ class GeodesicDistance(Distance):
         self.method = method
         self.label = LABELS[method]
         self.is_symmetric = method != "heat"
-        self._solvers: dict[int, ExactGeodesic | HeatGeodesic | EdgeGeodesic] = {}
+        self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
         self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
@@ -64,7 +57,7 @@ class GeodesicDistance(Distance):
             if self.method == "exact":
                 self._solvers[component.index] = ExactGeodesic(component.surface)
             elif self.method == "heat":
-                self._solvers[component.index] = _heat(component, progress)
+                self._solvers[component.index] = HeatTimes(component, progress)
             else:
                 self._solvers[component.index] = EdgeGeodesic(component.surface)
 
@@ -127,29 +120,3 @@ def _spread(pieces: Pieces, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
     to = surface.vertices[pieces.corners] - start[:, None]
     share = np.einsum("kcx,kx->kc", to, way) / np.where(length > 0, length, 1)[:, None] ** 2
     return loads, np.linalg.norm(to - np.clip(share, 0, 1)[..., None] * way[:, None], axis=2)
-
-
-def _heat(component: Component, progress: Progress | None) -> HeatGeodesic:
-    """The heat method, with one elimination order for all its matrices.
-
-    Heat is positive, but on badly shaped triangles a short flow comes out negative here and there, and where it does
-    directions are wrong (on one real mesh by 40 % of the largest distance).  A longer flow is blurred instead, by a
-    few percent: so the time grows until what comes out is positive.
-    """
-    component.factor(part(progress, 0, 0.7))
-    n = len(component.vertices)
-    probes = np.unique(np.linspace(0, n - 1, PROBES).astype(int))
-    heat = np.zeros((n, len(probes)))
-    heat[probes, np.arange(len(probes))] = 1
-    for factor in TIME_FACTORS:
-        matrix = heat_matrix(component.stiffness, component.areas, heat_time(component.surface, factor))
-        try:
-            flow = Factor(component.tree(), matrix, progress=part(progress, 0.7, 1))
-        except SolverError as error:
-            raise SolverError(
-                f"The heat flow on {component.surface.name} cannot be computed: its faces are too thin, or differ too "
-                f"much in size. Remeshing would help. ({error})"
-            ) from None
-        if (flow.solve(heat) < 0).mean() <= MOST_NEGATIVE:
-            break
-    return HeatGeodesic(component.surface, matrix, flow.solve, component.solve)

@@ -167,7 +167,7 @@ def test_a_stand_in_that_fails_does_not_cost_the_answer(desk, mesh_file, monkeyp
     def broken(*_):
         raise SolverError("no heat")
 
-    monkeypatch.setattr("bihdist_core.distances.geodesic._heat", broken)
+    monkeypatch.setattr("bihdist_core.distances.geodesic.HeatTimes", broken)
     d = desk([Spec.of("geodesic", method="exact")])
     d.opened(mesh_file(bumpy(60)))
     assert d.answers[0].maximum > 0
