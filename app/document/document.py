@@ -12,7 +12,7 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, checked_source, whole_number
 
 from .camera import View, checked_view
-from .instruments import ALONG_ALL_PINS, DOCKS, FIRST_TWO, Pin, Profile, Scatter, Selection
+from .instruments import ALONG_ALL_PINS, AS_LISTED, DOCKS, FIRST_TWO, Pin, PinList, Profile, Scatter, Selection
 from .looks import (
     AS_IT_IS,
     LARGEST,
@@ -179,6 +179,7 @@ class Document:
     projection: str = "perspective"
     axes: bool = False
     pins: tuple[Pin, ...] = ()
+    pin_list: PinList = AS_LISTED
     profile: Profile = ALONG_ALL_PINS
     scatter: Scatter = FIRST_TWO
     selections: tuple[Selection, ...] = ()

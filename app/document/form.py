@@ -10,7 +10,7 @@ from bihdist_core.sources.words import curve_rows, places_from
 
 from .camera import Camera, View
 from .document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom
-from .instruments import ALONG_ALL_PINS, FIRST_TWO, Pin, Profile, Scatter, Selection
+from .instruments import ALONG_ALL_PINS, AS_LISTED, FIRST_TWO, Pin, PinList, Profile, Scatter, Selection
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
 from .quantities import Difference, DistanceFrom, OwnField, Part, Quantity
@@ -24,6 +24,7 @@ LATER: dict[str, Any] = {
     "projection": "perspective",
     "axes": False,
     "pins": [],
+    "pin_list": {},
     "profile": {},
     "scatter": {},
     "selections": [],
@@ -47,6 +48,7 @@ def document_data(document: Document) -> dict[str, Any]:
         "anchors": [plain(anchor) for anchor in document.anchors],
         "fields": [plain(field) for field in document.fields],
         "pins": [plain(pin) for pin in document.pins],
+        "pin_list": _pin_list_data(document.pin_list),
         "profile": _unlike(document.profile, ALONG_ALL_PINS),
         "scatter": _unlike(document.scatter, FIRST_TWO),
         "selections": [plain(selection) for selection in document.selections],
@@ -66,6 +68,11 @@ def plain(value: Any) -> dict[str, Any]:
 def _unlike(value: Any, usual: Any) -> dict[str, Any]:
     """Those fields that are not as usual."""
     return {name: each for name, each in plain(value).items() if each != getattr(usual, name)}
+
+
+def _pin_list_data(pins: PinList) -> dict[str, Any]:
+    data = _unlike(pins, AS_LISTED)
+    return data if pins.distance is None else {**data, "distance": pins.distance.in_full}
 
 
 def _isolines_data(isolines: Isolines) -> int | dict[str, Any]:
@@ -122,6 +129,7 @@ def document_from(data: Any, where: str = "document") -> Document:
         "projection": text,
         "axes": flag,
         "pins": listed(_pin),
+        "pin_list": _pin_list,
         "profile": _profile,
         "scatter": _scatter,
         "selections": listed(_selection),
@@ -225,6 +233,11 @@ def _shading(data: Any, where: str) -> Shading:
 
 def _pin(data: Any, where: str) -> Pin:
     return placed(Pin, where, **record(data, where, {"point": text, "name": text, "colour": whole}, {"point"}))
+
+
+def _pin_list(data: Any, where: str) -> PinList:
+    readers = {"distance": or_none(_spec), "shares": flag, "positions": flag}
+    return PinList(**record(data, where, readers, set()))
 
 
 def _profile(data: Any, where: str) -> Profile:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 
 from .looks import one_of
@@ -35,6 +36,19 @@ class Pin:
     def __post_init__(self) -> None:
         _check_name(self.name, "pin")
         _check_colour(self.colour)
+
+
+@dataclass(frozen=True)
+class PinList:
+    """How pins are listed.
+
+    distance: whose distances among them, the first panel's if None.  shares: of the maxima instead of values.
+    positions: whether their coordinates are listed.
+    """
+
+    distance: Spec | None = None
+    shares: bool = False
+    positions: bool = False
 
 
 @dataclass(frozen=True)
@@ -95,5 +109,5 @@ def _check_colour(colour: int) -> None:
         raise ParameterError(f"There are {PIN_COLOURS} colours, numbered from 0, and none is {colour}.")
 
 
-ALONG_ALL_PINS, FIRST_TWO = Profile(), Scatter()
+AS_LISTED, ALONG_ALL_PINS, FIRST_TWO = PinList(), Profile(), Scatter()
 """What holds where nothing is said."""

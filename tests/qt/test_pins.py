@@ -172,7 +172,7 @@ def test_the_list_says_what_every_panel_has_there(opened):
     for text, answer in zip(dock.table.rows.rows[1].values, s.answers, strict=True):
         assert read_number(text.removesuffix(" %")) == pytest.approx(100 * answer.field[40] / answer.maximum, abs=0.06)
     # And of another source.
-    s.window.choose_source(700)
+    s.window.typed_source.choose(700)
     s.until(lambda: s.session.is_complete)
     s.settle(0.05)
     assert read_number(dock.table.rows.rows[0].values[0].removesuffix(" %")) == pytest.approx(
@@ -319,11 +319,41 @@ def test_what_is_copied_has_all_digits(opened):
     assert float(lines[1][2]) == dock.distances.matrix()[0, 1]
 
 
+def test_how_pins_are_listed_is_undone(opened):
+    from qtpy import QtCore, QtTest
+
+    from bihdist_core.distances.kinds import Spec
+
+    s = opened
+    dock = dock_of(s)
+    type_ids(s, dock, "12, 40")
+    by_value = dock.table.rows.rows[0].values
+    QtTest.QTest.mouseClick(dock.ways.buttons["share"], QtCore.Qt.MouseButton.LeftButton)
+    dock.distances.distance.menu().aboutToShow.emit()
+    next(action for action in dock.distances.distance.menu().actions() if action.text() == "Geodesic").trigger()
+    dock.show_positions(True)
+    assert dock.table.rows.titles[:3] == ("x", "y", "z")
+    assert dock.distances.spec == Spec.of("geodesic")
+    assert dock.distances.distance.text() == "Geodesic"
+    s.session.undo()
+    assert dock.table.rows.titles[0] == "Biharmonic"
+    assert dock.table.rows.rows[0].values != by_value
+    s.session.undo()
+    assert dock.distances.distance.text() == "Biharmonic"
+    s.session.undo()
+    assert dock.table.rows.rows[0].values == by_value
+    assert dock.ways.choice() == "value"
+
+
 def test_a_session_brings_pins_and_their_dock_back(opened, screen, tmp_path):
+    from bihdist_core.distances.kinds import Spec
+
     s = opened
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
     dock.rename(s.document.pins[0].point, "nose")
+    dock.distances.choose_distance(Spec.of("geodesic", method="dijkstra"))
+    dock.list_otherwise(shares=True)
     s.window.session_file.save(str(tmp_path / "all.json"))
     other = screen()
     other.window.files.open(str(tmp_path / "all.json"))
@@ -334,3 +364,6 @@ def test_a_session_brings_pins_and_their_dock_back(opened, screen, tmp_path):
     rows = other.window.docks._docks["pins"].content.table.rows.rows
     assert [row.name for row in rows] == ["nose", ""]
     assert [row.values for row in rows] == [row.values for row in dock.table.rows.rows]
+    listed = other.window.docks._docks["pins"].content
+    assert listed.distances.spec == Spec.of("geodesic", method="dijkstra")
+    assert listed.ways.choice() == "share"

@@ -1,6 +1,7 @@
 """Under the list of pins: how far they are from each other, by a distance that is chosen."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from html import escape
 
 import numpy as np
@@ -31,7 +32,6 @@ class PinDistances(QtWidgets.QWidget):
         self.window_ = window
         self._places: tuple[PinnedPlace, ...] = ()
         self.spec: Spec | None = None
-        self._is_chosen = False  # by the user
         self._among = Among(window._posted.emit, self._show_among)
         heading = QtWidgets.QLabel("Distances among pins")
         heading.setProperty("heading", True)
@@ -73,8 +73,7 @@ class PinDistances(QtWidgets.QWidget):
         """Those at vertices, by a distance of the panels unless another has been chosen."""
         self._places = tuple(place for place in places if place.vertex is not None)
         self.setVisible(len(self._places) > 1)
-        if self.spec is None or not self._is_chosen:
-            self.spec = self._specs(document)[0]
+        self.spec = document.pin_list.distance or self._specs(document)[0]
         self._ask()
 
     def end(self) -> None:
@@ -113,8 +112,9 @@ class PinDistances(QtWidgets.QWidget):
 
     def choose_distance(self, spec: Spec) -> None:
         """Whose distances among pins are shown."""
-        self.spec, self._is_chosen = spec, True
-        self._ask()
+        session = self.window_.session
+        document = session.document
+        session.show(replace(document, pin_list=replace(document.pin_list, distance=spec)))
 
     @property
     def _compared(self) -> list[Spec]:

@@ -50,7 +50,7 @@ class PinsDock(Instrument):
     def __init__(self, window) -> None:
         super().__init__(window)
         self.places: tuple[PinnedPlace, ...] = ()
-        self._in_shares = self.has_positions = self._is_split = False
+        self._is_split = False
         self.files = PinFiles(window, lambda: self.places)
         self.menu = PinMenu(self)
         self.box = IdBox(placeholderText="Add ids, e.g. 12, 40")
@@ -59,7 +59,6 @@ class PinsDock(Instrument):
         self.box.textEdited.connect(self._forgive)
         self.box.left.connect(window.leave_boxes)
         self.ways = Segments({"Value": "value", "% of max": "share"}, "Values")
-        self.ways.choose("value")
         self.ways.chosen.connect(self._choose_way)
         self.wrong = QtWidgets.QLabel(visible=False, wordWrap=True)
         self.wrong.setProperty("error", True)
@@ -136,6 +135,7 @@ class PinsDock(Instrument):
         if opened is None:
             return
         self.places = pinned_on(document, document.surfaces[0].name, opened.surface)
+        self.ways.choose("share" if document.pin_list.shares else "value")
         self.said.emit(str(len(self.places)) if self.places else "")
         self.empty.setVisible(not self.places)
         self.table.setVisible(bool(self.places))
@@ -172,15 +172,15 @@ class PinsDock(Instrument):
         if surface is None:
             return
         answers = self.answers()
-        with_place = self.has_positions
+        listed = self.window_.session.document.pin_list
         rows = []
         for place in self.places:
             at = place.position(surface.vertices)
-            values = [number(x) for x in at] if with_place else []
+            values = [number(x) for x in at] if listed.positions else []
             tips, quiet = [""] * len(values), [False] * len(values)
             for title, answer, is_old in answers:
                 one, other = written(place, answer)
-                values.append(other if self._in_shares else one)
+                values.append(other if listed.shares else one)
                 tips.append(f"{answer.label or title}: {one} {answer.unit}{f' ({other})' if other else ''}")
                 quiet.append(is_old)
             where = "in a face" if place.vertex is None else str(place.vertex)
@@ -199,18 +199,26 @@ class PinsDock(Instrument):
                     tuple(quiet),
                 )
             )
-        titles = [*(["x", "y", "z"] if with_place else []), *(title for title, _, _ in answers)]
-        labels = [*(["Position"] * 3 if with_place else []), *(answer.label or title for title, answer, _ in answers)]
+        titles = [title for title, _, _ in answers]
+        labels = [answer.label or title for title, answer, _ in answers]
+        if listed.positions:
+            titles, labels = [*"xyz", *titles], [*["Position"] * 3, *labels]
         self.table.show_rows(rows, titles, labels)
 
     def _choose_way(self, word: str) -> None:
-        self._in_shares = word == "share"
-        self._show_rows()
+        self.list_otherwise(shares=word == "share")
+
+    @property
+    def has_positions(self) -> bool:
+        """Whether the list has columns of places."""
+        return self.window_.session.document.pin_list.positions
 
     def show_positions(self, is_on: bool) -> None:
-        """Whether the list has columns of places."""
-        self.has_positions = is_on
-        self._show_rows()
+        self.list_otherwise(positions=is_on)
+
+    def list_otherwise(self, **changes: object) -> None:
+        """Fields of the document's `PinList`."""
+        self._show(lambda document: replace(document, pin_list=replace(document.pin_list, **changes)))
 
     def copy_matrix(self) -> None:
         """The distances among the pins."""
