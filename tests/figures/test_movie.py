@@ -231,8 +231,8 @@ def test_a_frame_is_as_large_as_what_turns_and_no_larger():
 
 def test_words_are_drawn_once_while_the_shape_turns(monkeypatch):
     drawn = []
-    real = canvas._draw_words
-    monkeypatch.setattr(canvas, "_draw_words", lambda axes, page: drawn.append(1) or real(axes, page))
+    real = canvas.draw_words
+    monkeypatch.setattr(canvas, "draw_words", lambda axes, page: drawn.append(1) or real(axes, page))
     surface, field = bumpy(60), np.linspace(0, 1, 60)
     figures = [
         Figure((FigurePanel(surface, field, "a", views=(view,)),), size=Size(90, 90)) for view in ("front", "left")
