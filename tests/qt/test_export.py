@@ -186,7 +186,7 @@ def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, m
     opened_recipe(s, tmp_path, document)
     s.until(lambda: s.session.is_complete)
     s.settle()
-    assert s.window.source_box.value() == surface.faces[3][2]
+    assert s.window.source_box.value() == Place(3, (0.2, 0.2, 0.6))
     assert s.pictures()[0].std() > 20
     s.window.grid.point_at(s.panels[0].id, 5)
     assert s.panels[0].bar.accessibleDescription()

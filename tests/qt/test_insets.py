@@ -264,9 +264,9 @@ def test_the_mark_of_the_source_is_not_held_through_an_inset_over_it(shown):
     s.settle()
     s.until(lambda: s.session.is_complete)
     place = s.point_of(panel, vertex)
-    assert panel.view._is_on_mark(place)
+    assert panel.view.mark_at(place) == 0
     panel.view.scene.insets.renderer_at = lambda x, y: None  # an inset stands there
-    assert not panel.view._is_on_mark(place)
+    assert panel.view.mark_at(place) < 0
 
 
 def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):

@@ -18,6 +18,7 @@ from app.document.file import read_recipe, recipe_text
 from app.document.looks import Colours
 from app.document.page import Page, Recipe
 from app.document.quantities import quantity
+from app.drawing.picking import Met
 from app.session.given import given_comparison
 from app.session.recipe_file import recipe_written
 from bihdist_core.distances.kinds import Spec
@@ -246,6 +247,12 @@ def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh
     assert s.window.page == recipe.page
 
 
+def corner(surface, vertex):
+    """The pointer over a vertex."""
+    face, number = np.argwhere(surface.faces == vertex)[0]
+    return Met(int(face), np.eye(3)[number], surface.vertices[vertex], vertex)
+
+
 def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictures(screen, mesh_file):
     from qtpy.QtCore import Qt
     from qtpy.QtTest import QTest
@@ -288,8 +295,8 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
         elif number % 20 == 4:
             s.open(meshes[number // 20 % 2], 3)
         else:
-            s.panels[0].view.dragged.emit(int(random.integers(40)))
-            s.panels[0].view.dragged.emit(int(random.integers(40)))
+            for vertex in random.integers(40, size=2):
+                s.panels[0].view.dragged.emit(0, corner(s.session.surface, int(vertex)))
             s.panels[0].view.released.emit()
     last, document = pictures(), s.document
     s.window.activateWindow()
