@@ -118,7 +118,9 @@ class Hands:
         x, y = self.chance.random(), self.chance.random()
         if self.chance.random() < 0.6:  # more often near the middle, where the surface is
             x, y = 0.25 + x / 2, 0.25 + y / 2
-        at = widget.mapToGlobal(QtCore.QPoint(int(x * widget.width()), int(y * widget.height())))
+        # Only what is seen of it: beside it are the docks, or the page it is scrolled out of.
+        seen = widget.visibleRegion().boundingRect() or widget.rect()
+        at = widget.mapToGlobal(seen.topLeft() + QtCore.QPoint(int(x * seen.width()), int(y * seen.height())))
         return at.x(), at.y()
 
     def panel(self) -> int:
