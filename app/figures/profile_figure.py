@@ -1,10 +1,14 @@
-"""The figure of a profile: fields over the length of a path, in the fonts and colours of the other figures."""
+"""The figure of a profile: fields over the length of a path, in the fonts and colours of the other figures.
+
+Values in several units have a plot each, side by side or, on a narrow page, one below the other.
+"""
 
 import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import wrap
 
 import numpy as np
 
@@ -17,11 +21,20 @@ from .canvas import matplotlib_settings
 from .draw import FIGURE_FORMATS
 from .fonts import check_font
 
-INCHES = (5.5, 2.2)
+INCHES = 5.5
 """As wide as the text of most papers."""
 
+LEAST_ACROSS = 2.8
+"""Inches that each of several plots side by side has at least; else they stand below each other."""
+
+LOW, HIGH, SLANT = 1.5, 2.2, 0.5
+"""Inches that a plot is high, and how high it would be for each that it is wide."""
+
+LONG = 14
+"""Letters from which on a name has several lines."""
+
 POINTS = 8.0
-"""The size of all letters."""
+"""The size of all letters, if nothing is said."""
 
 LINE = 1.4
 """Points that a curve is wide."""
@@ -31,30 +44,52 @@ PIXELS_PER_INCH = 300
 
 @dataclass(frozen=True, eq=False)
 class ProfileCurve:
-    """values: (k,) at the points of the path, NaN where there are none; colour: as #rrggbb."""
+    """values: (k,) at the points of the path, NaN where there are none; colour: as #rrggbb.
+
+    is_share: the values are shares of 1, written in percent; else in `unit`.
+    """
 
     name: str
     values: np.ndarray
     colour: str
+    unit: str = ""
+    is_share: bool = True
     is_dashed: bool = False
+
+
+@dataclass(frozen=True)
+class ProfileKnot:
+    """A point that the path goes through, at a length along it: a disc in a colour with a number, "" for a source."""
+
+    arc: float
+    number: str
+    colour: str
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
 class ProfileFigure:
-    """arcs: (k,) lengths along the path, in `unit`.  in_shares: the values are shares of 1, written in percent.
+    """arcs: (k,) lengths along the path, in `unit`.
 
-    value_unit: of the values, "" where they have several.  knots: lengths with what is written there.  font: a family,
-    "" for the usual one.
+    Curves of one unit share a plot.  inches: across.  font: a family, "" for the usual one.  points: of the letters.
     """
 
     arcs: np.ndarray
     curves: tuple[ProfileCurve, ...]
     unit: str = ""
-    in_shares: bool = True
-    value_unit: str = ""
-    knots: tuple[tuple[float, str], ...] = ()
+    knots: tuple[ProfileKnot, ...] = ()
     style: Style = PAPER
     font: str = ""
+    inches: float = INCHES
+    points: float = POINTS
+
+    @property
+    def plots(self) -> list[tuple[ProfileCurve, ...]]:
+        """The curves of each plot."""
+        found: dict[tuple[str, bool], list[ProfileCurve]] = {}
+        for curve in self.curves:
+            found.setdefault(("" if curve.is_share else curve.unit, curve.is_share), []).append(curve)
+        return [tuple(curves) for curves in found.values()]
 
 
 def save_profile_figure(figure: ProfileFigure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
@@ -78,12 +113,23 @@ def _write(figure: ProfileFigure, path: Path, extension: str) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as Canvas
 
-    style = figure.style
-    canvas = Canvas(figsize=INCHES, dpi=PIXELS_PER_INCH, facecolor=style.background, layout="constrained")
+    style, plots = figure.style, figure.plots
+    is_row = figure.inches >= LEAST_ACROSS * len(plots)
+    across = figure.inches / len(plots) if is_row else figure.inches
+    high = min(max(SLANT * across, LOW), HIGH) * (1 if is_row else len(plots))
+    canvas = Canvas((figure.inches, high), PIXELS_PER_INCH, facecolor=style.background, layout="constrained")
     FigureCanvasAgg(canvas)
-    axes = canvas.add_subplot()
-    axes.set_facecolor(style.background)
-    _draw(axes, figure)
+    rows = canvas.subplots(*((1, len(plots)) if is_row else (len(plots), 1)), squeeze=False)
+    named = []
+    for k, (axes, curves) in enumerate(zip(rows.flat, plots, strict=True)):
+        axes.set_facecolor(style.background)
+        _draw(axes, figure, curves, is_row or k == len(plots) - 1)
+        _mark(axes, figure, is_row or k == 0)
+        named.append(_name(axes, figure, curves))
+    # How high the plots are is known once all words are there.
+    canvas.get_layout_engine().execute(canvas)
+    for axes, names in zip(rows.flat, named, strict=True):
+        _spread(axes, figure.points, names)
     # Nothing in the file says when it was made, so that it is equal when made again.
     dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": {"Software": None}}.get(extension, {})
     made = {} if extension == ".png" else {"Creator": "bihdist"}
@@ -93,21 +139,18 @@ def _write(figure: ProfileFigure, path: Path, extension: str) -> None:
         path.write_bytes(re.sub(rb"^%%(CreationDate|Title):[^\n]*\n", b"", content, count=2, flags=re.MULTILINE))
 
 
-def _draw(axes, figure: ProfileFigure) -> None:
+def _draw(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], is_lowest: bool) -> None:
     from matplotlib.ticker import FuncFormatter
 
-    style, scale = figure.style, 100 if figure.in_shares else 1
-    names = []
-    for k, curve in enumerate(figure.curves):
-        dashes = "--" if curve.is_dashed else "-"
-        axes.plot(figure.arcs, scale * curve.values, dashes, color=curve.colour, linewidth=LINE, gid=f"curve-{k}")
-        known = np.flatnonzero(np.isfinite(curve.values))
-        if len(known):
-            names.append((float(scale * curve.values[known[-1]]), curve))
+    style, points, in_shares = figure.style, figure.points, curves[0].is_share
+    for curve in curves:
+        dashes, scale = "--" if curve.is_dashed else "-", 100 if in_shares else 1
+        line = axes.plot(figure.arcs, scale * curve.values, dashes, color=curve.colour, linewidth=LINE)[0]
+        line.set_gid(f"curve-{figure.curves.index(curve)}")
     axes.set_xlim(0, figure.arcs[-1] or 1.0)
-    if figure.in_shares and min(axes.get_ylim()) > -5:
+    if in_shares and min(axes.get_ylim()) > -5:
         axes.set_ylim(0, max(100.0, axes.get_ylim()[1] if axes.get_ylim()[1] > 106 else 100.0))
-    elif not figure.in_shares and axes.dataLim.ymin >= 0:
+    elif not in_shares and axes.dataLim.ymin >= 0:
         axes.set_ylim(bottom=0)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
@@ -115,49 +158,79 @@ def _draw(axes, figure: ProfileFigure) -> None:
         axes.spines[side].set_color(style.quiet_text)
         axes.spines[side].set_linewidth(0.6)
     axes.grid(axis="y", color=style.quiet_text, alpha=0.25, linewidth=0.5)
-    axes.tick_params(labelsize=POINTS, colors=style.quiet_text, width=0.6, length=2.5)
+    axes.tick_params(labelsize=points, colors=style.quiet_text, width=0.6, length=2.5, labelbottom=is_lowest)
+    axes.locator_params(axis="y", nbins=5)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.6g}".replace("-", "−")))
-    axes.set_xlabel(f"length along the path ({figure.unit})", fontsize=POINTS, color=style.text)
-    words = "% of the maximum" if figure.in_shares else figure.value_unit or "value"
-    axes.set_ylabel(words, fontsize=POINTS, color=style.text)
-    for k, (arc, text) in enumerate(figure.knots):
+    if is_lowest:
+        axes.set_xlabel(f"length along the path ({figure.unit})", fontsize=points, color=style.text)
+    words = "% of the maximum" if in_shares else curves[0].unit or "value"
+    axes.set_ylabel(words, fontsize=points, color=style.text)
+
+
+def _mark(axes, figure: ProfileFigure, has_discs: bool) -> None:
+    """The points that the path goes through, by lines and, over the plot, by discs; never one on another."""
+    style, points = figure.style, figure.points
+    across = 1.5 * points
+    apart = across / 72 / (0.7 * figure.inches) * (figure.arcs[-1] or 1.0)
+    taken: list[float] = []
+    ends = figure.knots[:1] + figure.knots[-1:]
+    for knot in (*ends, *figure.knots[1:-1]):
+        axes.axvline(knot.arc, color=style.quiet_text, alpha=0.4, linewidth=0.5, zorder=0)
+        if not has_discs or any(abs(knot.arc - other) < apart for other in taken):
+            continue
+        taken.append(knot.arc)
+        disc = {"boxstyle": "circle,pad=0.25", "facecolor": knot.colour, "edgecolor": "none"}
+        if not knot.number:
+            disc |= {"edgecolor": style.mark_edge, "linewidth": 0.8, "boxstyle": "circle,pad=0.1"}
         axes.annotate(
-            text,
-            (arc, 1.0),
+            knot.number or " ",
+            (knot.arc, 1.0),
             xycoords=("data", "axes fraction"),
-            xytext=(0, 5),
+            xytext=(0, 0.9 * points),
             textcoords="offset points",
-            ha={0: "left", len(figure.knots) - 1: "right"}.get(k, "center"),
-            fontsize=POINTS,
-            color=style.quiet_text,
+            ha="center",
+            va="center",
+            fontsize=0.85 * points,
+            fontweight="bold",
+            color="#FFFFFF",
+            bbox=disc,
         )
-        axes.axvline(arc, color=style.quiet_text, alpha=0.4, linewidth=0.5, zorder=0)
-    _name(axes, names)
 
 
-def _name(axes, names: Sequence[tuple[float, ProfileCurve]]) -> None:
-    """At the ends of the curves, one below the other where they would touch."""
-    low, high = axes.get_ylim()
-    step = POINTS * 1.25 / 72 / (0.72 * INCHES[1])
-    places: list[float] = []
-    ordered = sorted(names, key=lambda each: each[0])
-    for value, _ in ordered:
-        at = (value - low) / (high - low)
-        places.append(at if not places else max(at, places[-1] + step))
-    over = 1.0
-    for k in range(len(places) - 1, -1, -1):
-        places[k] = min(places[k], over)
-        over = places[k] - step
-    for at, (_, curve) in zip(places, ordered, strict=True):
+def _name(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve]) -> list:
+    """Each curve's name at its end, from the lowest up."""
+    scale = 100 if curves[0].is_share else 1
+    known = [curve for curve in curves if np.isfinite(curve.values).any()]
+    ends = {id(curve): float(scale * curve.values[np.isfinite(curve.values)][-1]) for curve in known}
+    return [
         axes.annotate(
-            curve.name,
-            (1.0, at),
-            xycoords="axes fraction",
+            "\n".join(wrap(curve.name, LONG, break_long_words=False)),
+            (1.0, ends[id(curve)]),
+            xycoords=("axes fraction", "data"),
             xytext=(5, 0),
             textcoords="offset points",
             va="center",
-            fontsize=POINTS,
+            fontsize=figure.points,
             fontweight="bold",
             color=curve.colour,
         )
+        for curve in sorted(known, key=lambda each: ends[id(each)])
+    ]
+
+
+def _spread(axes, points: float, names: Sequence) -> None:
+    """One above the other where they would touch."""
+    low, high = axes.get_ylim()
+    line = points * 1.25 / 72 / (axes.get_position().height * axes.figure.get_figheight())
+    halves = [line * (1 + name.get_text().count("\n")) / 2 for name in names]
+    places: list[float] = []
+    for k, name in enumerate(names):
+        at = (name.xy[1] - low) / (high - low)
+        places.append(max(at, places[-1] + halves[k - 1] + halves[k]) if places else at)
+    over = 1 + line / 2
+    for k in range(len(places) - 1, -1, -1):
+        places[k] = min(places[k], over - halves[k])
+        over = places[k] - halves[k]
+    for name, at in zip(names, places, strict=True):
+        name.xycoords, name.xy = "axes fraction", (1.0, at)

@@ -87,8 +87,7 @@ def test_the_chart_and_the_panels_mark_the_same_place(opened):
     s = opened
     dock, _ = with_profile(s)
     chart, path = dock.chart, dock.path
-    middle = chart.plot.center().toPoint()
-    move_to(chart, middle)
+    move_to(chart.charts[0], chart.charts[0].plot.center().toPoint())
     s.until(lambda: chart.at is not None)
     s.settle()
     arc = chart.at
@@ -110,6 +109,53 @@ def test_the_chart_and_the_panels_mark_the_same_place(opened):
     move_to(panel.head, panel.head.rect().center())
     s.until(lambda: chart.at is None)
     assert all(panel.view._pointed is None for panel in s.panels)
+
+
+@with_pointer
+def test_values_have_a_chart_for_each_unit(screen, mesh_file):
+    s = screen((*TWO, Spec.of("diffusion", t=1)))
+    s.window.move(20, 40)
+    s.window.resize(900, 600)
+    s.open(mesh_file(bumpy(800)), 5)
+    dock, _ = with_profile(s)
+    charts = dock.chart
+    assert [len(chart.curves) for chart in charts.shown] == [3]
+    s.session.show(replace(s.document, profile=Profile(shares=False)))
+    s.settle()
+    left, right = charts.shown
+    assert [[curve.name for curve in chart.curves] for chart in (left, right)] == [
+        ["Biharmonic", "Geodesic"],
+        ["Diffusion"],
+    ]
+    assert (left.unit, right.unit) == ("mesh units", "1 / mesh units")
+    for chart in (left, right):
+        assert chart.up.high == pytest.approx(1.04 * max(curve.values.max() for curve in chart.curves))
+    assert right.x() >= left.width()
+    # One pointer for both.
+    for chart in (right, left):
+        move_to(chart, chart.plot.center().toPoint())
+        s.until(lambda: charts.at == pytest.approx(dock.path.length / 2, rel=0.02))
+        assert left.at == right.at
+        s.settle()
+    s.session.undo()
+    s.settle()
+    assert [len(chart.curves) for chart in charts.shown] == [3]
+
+
+def test_charts_stand_below_each_other_where_the_dock_is_narrow(application):
+    from app.qt.docks.profile_chart import Curve
+    from app.qt.docks.profile_charts import ProfileCharts
+
+    charts = ProfileCharts()
+    charts.show_curves([Curve(unit, "#000000", np.ones(2), 1.0, unit) for unit in "ab"], in_shares=False)
+    left, right = charts.shown
+    for width, height, is_row in ((700, 160, True), (400, 400, False), (400, 160, True)):
+        charts.resize(width, height)
+        charts.show()
+        application.processEvents()
+        assert (right.y() == 0) == is_row == (right.x() > 0)
+        assert (left.width() == right.width()) or (left.height() == right.height())
+    charts.close()
 
 
 @with_pointer

@@ -223,6 +223,8 @@ def paint_card(
         box.moveBottom(room.bottom())
     if box.left() < room.left() - 40:
         box.moveLeft(at.x() + 16)
+    # Where neither side has room, it stays in the chart.
+    box.moveLeft(max(min(box.left(), painter.device().width() - box.width() - 4), 4))
     painter.setPen(QtGui.QPen(QtGui.QColor(theme.border), 1))
     painter.setBrush(QtGui.QColor(theme.raised))
     painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 5, 5)

@@ -1,4 +1,4 @@
-"""The chart of a profile: curves over the length of a path, with their names at their ends."""
+"""A chart of a profile: curves of one unit over the length of a path, with their names at their ends."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -56,7 +56,8 @@ class Curve:
 class ProfileChart(Chart):
     """`show_at` puts the line of the pointer somewhere along the path."""
 
-    LEFT, TOP, BOTTOM = 56.0, 12.0, 34.0
+    LEFT, BOTTOM = 56.0, 34.0
+    TOPS = (12.0, 28.0)  # without and with a unit over the axis
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__("Profile", parent)
@@ -64,7 +65,7 @@ class ProfileChart(Chart):
         self.curves: Sequence[Curve] = ()
         self.in_shares = True
         self.knots: Sequence[tuple[float, Badge]] = ()
-        self._unit = ""
+        self.length_unit = self.unit = ""
         self.at: float | None = None
         self._head = ("", "")
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
@@ -72,12 +73,18 @@ class ProfileChart(Chart):
     # ------------------------------------------------------------------ what is shown
     def show_path(self, arcs: np.ndarray, unit: str, knots: Sequence[tuple[float, Badge]]) -> None:
         """Points at lengths (k,) in a unit; knots: the lengths at which it goes through marked points."""
-        self.arcs, self._unit, self.knots = arcs, unit, knots
+        self.arcs, self.length_unit, self.knots = arcs, unit, knots
         self._fit()
 
-    def show_curves(self, curves: Sequence[Curve], in_shares: bool) -> None:
-        self.curves, self.in_shares = curves, in_shares
+    def show_curves(self, curves: Sequence[Curve], in_shares: bool, unit: str = "") -> None:
+        """unit: of the values, where these are drawn and not their shares."""
+        self.curves, self.in_shares, self.unit = curves, in_shares, unit
         self._fit()
+
+    @property
+    def said(self) -> str:
+        """Where on the surface the pointer is."""
+        return self._head[1]
 
     def show_at(self, arc: float | None, said: str = "") -> None:
         """The line of the pointer; said: where on the surface that is."""
@@ -88,10 +95,8 @@ class ProfileChart(Chart):
             self.update()
 
     def plotted(self, curve: Curve) -> np.ndarray:
-        """(k,) what is drawn of a curve; a share among values has its own scale, and is NaN."""
-        if self.in_shares:
-            return curve.shares
-        return np.full_like(curve.values, np.nan) if curve.is_share else curve.values
+        """(k,) what is drawn of a curve."""
+        return curve.shares if self.in_shares else curve.values
 
     def _fit(self) -> None:
         """The axes hold all curves, the names at the right have room."""
@@ -105,10 +110,11 @@ class ProfileChart(Chart):
         low = low if low >= 0 else low - ROOM * (high - low)
         font = LOOK.font(12, bold=True)
         names = max((number_width(font, curve.name) for curve in self.curves), default=0.0)
-        unit = number_width(LOOK.font(12), self._unit) + BADGE
+        unit = number_width(LOOK.font(12), self.length_unit) + BADGE
         self.RIGHT = (max(names, unit) + 24) / LOOK.scale
+        self.TOP = self.TOPS[bool(self.unit)]
         up = Axis(low, high if high > low else low + 1, in_percent=self.in_shares)
-        self.show_axes(Axis(0.0, float(self.arcs[-1]) or 1.0, self._unit), up)
+        self.show_axes(Axis(0.0, float(self.arcs[-1]) or 1.0, self.length_unit), up)
 
     # ------------------------------------------------------------------ the keys
     def event(self, event: QtCore.QEvent) -> bool:
@@ -183,13 +189,16 @@ class ProfileChart(Chart):
             painter.drawText(QtCore.QPointF(plot.right() + 12, round(y + rise)), curve.name)
 
     def _paint_foot(self, painter: QtGui.QPainter, plot: QtCore.QRectF) -> None:
-        """The points that the path goes through, and the unit of its length."""
+        """The points that the path goes through, and the units."""
         painter.setFont(LOOK.font(12))
         metrics = QtGui.QFontMetricsF(painter.font())
+        if self.unit:
+            painter.setPen(QtGui.QColor(LOOK.theme.quiet))
+            paint_number(painter, 12, round(plot.top() - 6 - metrics.descent()), self.unit)
         baseline = self.baseline(plot, metrics)
         middle = baseline - (metrics.ascent() - metrics.descent()) / 2
         painter.setPen(QtGui.QColor(LOOK.theme.quiet))
-        paint_number(painter, plot.right() + BADGE / 2 + 6, baseline, self._unit)
+        paint_number(painter, plot.right() + BADGE / 2 + 6, baseline, self.length_unit)
         for arc, badge in self.knots:
             paint_badge(painter, QtCore.QPointF(float(self.pixels(arc, 0)[0]), middle), badge)
 

@@ -22,7 +22,8 @@ from ..panels.flat_button import FlatButton
 from ..panels.quantity_menu import quantity_name
 from .badges import BadgeButton, BadgeRow, badge_of
 from .instrument import Instrument
-from .profile_chart import Curve, ProfileChart
+from .profile_chart import Curve
+from .profile_charts import ProfileCharts
 from .profile_files import ProfileFiles
 
 WAYS = {
@@ -50,7 +51,7 @@ class ProfileDock(Instrument):
 
     def __init__(self, window) -> None:
         super().__init__(window)
-        self.chart = ProfileChart(self)
+        self.chart = ProfileCharts(self)
         self.path: SurfacePath | None = None
         self.curves: dict[int, Curve] = {}
         self._places: Places | None = None

@@ -79,7 +79,8 @@ class ProfileFiles:
 
     def figure(self) -> "ProfileFigure":
         """What the chart shows, in the style of the page and the colours that go with its ground."""
-        from ...figures.profile_figure import ProfileCurve, ProfileFigure
+        from ...figures.profile_figure import INCHES, POINTS, ProfileCurve, ProfileFigure, ProfileKnot
+        from ...figures.size import MM_PER_INCH, Size
 
         self._there()
         dock = self._dock
@@ -87,20 +88,23 @@ class ProfileFiles:
         style = style_of(page.style, document.colours)
         colours = (LIGHT if lightness(_hex(style.background)) > 0.5 else DARK).curves
         places = {panel.id: k for k, panel in enumerate(document.panels)}
-        curves = [
-            ProfileCurve(curve.name, chart.plotted(curve), colours[places[id] % len(colours)], curve.is_dashed)
-            for id, curve in dock.curves.items()
-        ]
-        units = {curve.unit for curve in dock.curves.values() if not curve.is_share}
+        in_shares, curves = document.profile.shares, []
+        for id, curve in dock.curves.items():
+            is_share = in_shares or curve.is_share
+            values = curve.shares if is_share else curve.values
+            colour = colours[places[id] % len(colours)]
+            if np.isfinite(values).any():
+                curves.append(ProfileCurve(curve.name, values, colour, curve.unit, is_share, curve.is_dashed))
+        size = Size.parse(page.size) if page.size else Size()
         return ProfileFigure(
             chart.arcs,
-            tuple(curve for curve in curves if np.isfinite(curve.values).any()),
+            tuple(curves),
             "mesh units",
-            chart.in_shares,
-            units.pop() if len(units) == 1 else "",
-            tuple((arc, badge.name) for arc, badge in chart.knots),
+            tuple(ProfileKnot(arc, badge.text, badge.colour, badge.name) for arc, badge in chart.knots),
             style,
             page.font,
+            size.width / MM_PER_INCH if size.unit == "mm" and size.width else INCHES,
+            page.text or POINTS,
         )
 
     def copy(self) -> None:
