@@ -8,13 +8,13 @@ import os
 import shlex
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import Curve, SourceSet
-from bihdist_core.sources.words import words_of
+from bihdist_core.sources.source import Curve
+from bihdist_core.sources.words import NONE
 
 from ..samples import mesh_path
 from .camera import Camera
@@ -22,6 +22,7 @@ from .document import COMPARISON, Document, Point
 from .instruments import PIN_COLOURS
 from .page import Page, Recipe
 from .quantities import Quantity, from_point, own_fields
+from .starts import Starts, as_argument
 
 USUAL, USUAL_PAGE = Document(), Page()
 
@@ -32,9 +33,12 @@ class _Unsaid(ParameterError):
 
 @dataclass(frozen=True)
 class Said:
-    """A part in words: options with their values (None for a switch), and arguments by name."""
+    """A part in words: options with their values (None for a switch), and arguments by name.
 
-    options: tuple[tuple[str, str | None], ...] = ()
+    Where a field starts is put into words at the end, since a curve has to have a file.
+    """
+
+    options: tuple[tuple[str, "str | Starts | None"], ...] = ()
     arguments: dict[str, Any] = field(default_factory=dict)
 
 
@@ -42,20 +46,25 @@ NOTHING = Said()
 
 
 # ---------------------------------------------------------------------- the lines
-def command_line(recipe: Recipe, output: str) -> str:
-    """For a shell: `bihdist figure ... -o OUTPUT`; ParameterError for what `why_not` names."""
+def command_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = NONE) -> str:
+    """For a shell: `bihdist figure ... -o OUTPUT`.
+
+    files: where curves that fields start from are saved.  ParameterError for what `why_not` names, and for a curve that
+    has no file.
+    """
     words = ["bihdist", "figure", mesh_word(recipe.document.surfaces[0].path)]
     for said in _all_said(recipe):
-        for option, value in said.options:
+        for option, told in said.options:
+            value = told.words(files) if isinstance(told, Starts) else told
             words += [option] if value is None else [f"{option}={value}"] if value[:1] == "-" else [option, value]
     return _joined([*words, "-o", output])
 
 
-def python_line(recipe: Recipe, output: str) -> str:
-    """For Python: `import bihdist; bihdist.figure(...).save(OUTPUT)`."""
+def python_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = NONE) -> str:
+    """For Python: `import bihdist; bihdist.figure(...).save(OUTPUT)`; otherwise as `command_line`."""
     arguments = [repr(mesh_word(recipe.document.surfaces[0].path))]
     for said in _all_said(recipe):
-        arguments += [f"{name}={value!r}" for name, value in said.arguments.items()]
+        arguments += [f"{name}={as_argument(value, files)!r}" for name, value in said.arguments.items()]
     return f"import bihdist; bihdist.figure({', '.join(arguments)}).save({output!r})"
 
 
@@ -117,25 +126,19 @@ def _panels(recipe: Recipe) -> Said:
     ]
     if [panel.shows for panel in document.panels] != [from_point(each, name) for name in names for each in shows]:
         raise _Unsaid("The panels start from different points, and not each distance from each.")
-    at = [_source(document.point(name)) for name in names]
-    if None in at and len(at) > 1:
+    places = [document.point(name).at for name in names]
+    if None in places and len(places) > 1:
         raise _Unsaid("One of several sources is where nobody has put it.")
+    starts = [Starts(at) for at in places if at is not None]
     words = [str(each) for each in shows]
     is_usual = words == [str(spec) for spec in COMPARISON]
-    options = [*([] if is_usual else [("--distance", word) for word in words])]
-    options += [("--source", str(source)) for source in at if source is not None]
+    options: list[tuple[str, str | Starts | None]] = []
+    options += [] if is_usual else [("--distance", word) for word in words]
+    options += [("--source", start) for start in starts]
     arguments: dict[str, Any] = {} if is_usual else {"distances": words}
-    if at != [None]:
-        arguments["source"] = at if len(at) > 1 else at[0]
+    if starts:
+        arguments["source"] = starts if len(starts) > 1 else starts[0]
     return Said(tuple(options), arguments)
-
-
-def _source(point: Point) -> int | str | None:
-    """A vertex, or words for what else there is."""
-    members = point.at.members if isinstance(point.at, SourceSet) else (point.at,)
-    if any(isinstance(member, Curve) for member in members):
-        raise _Unsaid("A source is a curve, which no line can hold.")
-    return point.at if point.at is None or isinstance(point.at, int) else words_of(point.at)
 
 
 def _vertex(point: Point) -> int | None:

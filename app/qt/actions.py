@@ -253,6 +253,13 @@ TOOLS = (
         needs_mesh=True,
         is_check=True,
     ),
+    Act(
+        "save curve",
+        "Sa&ve the drawn curve …",
+        lambda w: w.curve_files.save_source(w.grid.active),
+        tip="The curve that distances start from, as curve.json: a source in words and on the command line",
+        needs_mesh=True,
+    ),
     Act("source before", "The source be&fore", lambda w: w.session.walk_sources(-1), ("Alt+Left",), needs_mesh=True),
     Act("source after", "The source &after", lambda w: w.session.walk_sources(1), ("Alt+Right",), needs_mesh=True),
     Act(

@@ -22,6 +22,7 @@ from .bars.menus import Menus
 from .bars.status_bar import StatusBar, unseen
 from .bars.tool_bar import ToolBar
 from .choices import Choices
+from .files.curve_files import CurveFiles
 from .files.exports import ExportChip, Exports
 from .files.files import Files
 from .files.session_actions import SessionFile
@@ -66,7 +67,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.page = Page()
         self.session_file = SessionFile(self)
         self.files, self.choices, self.guide = Files(self), Choices(self), Guide(self)
-        self.exports = Exports(self)
+        self.exports, self.curve_files = Exports(self), CurveFiles(self)
         self.grid: Any = None  # a PanelGrid, once what draws has been imported
         self.gestures: Any = None  # what the mouse means in it
         self.docks: Any = None  # the instruments

@@ -158,6 +158,8 @@ class SourceGestures:
             menu.addAction("Add to the source\tCtrl+Click", lambda: self.add(panel, self.at(met)))
         elif len(members) > 1:
             menu.addAction("Remove from the source\tCtrl+Click", lambda: self.remove(panel, member))
+        if isinstance(member, Curve):
+            menu.addAction("Save this curve …", lambda: self._window.curve_files.choose_and_save(member))
         loop = self._loop_near(panel, met)
         if loop is not None:
             menu.addAction("This boundary as source", lambda: self.put(panel, loop))

@@ -1,7 +1,10 @@
 """The source in words: what the tool bar's box says.  `window` is the main window."""
 
+from collections.abc import Mapping
+
 from bihdist_core import BihdistError
-from bihdist_core.sources.source import Source
+from bihdist_core.sources.source import Curve, Source
+from bihdist_core.sources.words import NONE
 
 from ..document.edits import move_source
 from ..session.questions import source_at
@@ -15,8 +18,8 @@ class TypedSource:
         self._box.chosen.connect(self.choose)
         self._box.left.connect(window.leave_boxes)
 
-    def choose(self, source: Source) -> None:
-        """Let it start there, or say why it cannot."""
+    def choose(self, source: Source, files: Mapping[Curve, str] = NONE) -> None:
+        """Let it start there, or say why it cannot.  files: where its curves were read from."""
         session = self._window.session
         document = session.document
         if session.surface is not None and document.panels:
@@ -26,6 +29,7 @@ class TypedSource:
                 self._window.refused.emit(str(error))
                 self._box.refuse(str(error))
                 return
+            self._window.curve_files.paths.update(files)
             session.show(move_source(document, document.panels[0].id, source))
             self.show()
 

@@ -8,11 +8,13 @@ import json
 import math
 import os
 import re
+from collections.abc import Mapping
 from difflib import get_close_matches
+from types import MappingProxyType
 from typing import Any
 
 from ..errors import ParameterError
-from .source import BoundaryLoop, Curve, Place, Source, SourceSet
+from .source import BoundaryLoop, Curve, Member, Place, Source, SourceSet
 
 HOW = "write a vertex (12), several (12+40+7), a place in a face (f311:0.2,0.5), a boundary loop (loop:0) or a curve's "
 HOW += "file (curve.json)"
@@ -24,19 +26,37 @@ _FACE = re.compile(r"f([0-9]{1,18}):([^,]*),([^,]*)")
 _LOOP = re.compile(r"loop:([0-9]{1,18})")
 
 
-def source_from_words(text: str) -> Source:
+NONE: Mapping[Any, Any] = MappingProxyType({})
+
+
+def source_from_words(text: str, known: Mapping[str, Member] = NONE, files: dict[Curve, str] | None = None) -> Source:
     """The source that words mean; ParameterError, with what could have been written, for what means none.
 
-    A curve's file is read.
+    A curve's file is read; `files` gets its path.  known: what other words mean.
     """
     words = text.strip()
-    # A file may have a plus in its name.
-    parts = [words] if _is_file(words) and os.path.exists(words) else [part.strip() for part in words.split("+")]
-    members = [_member(part, words) for part in parts]
+    members = []
+    for part in _parts(words):
+        members.append(known[part] if part in known else _member(part, words))
+        if files is not None and isinstance(members[-1], Curve) and part not in known:
+            files[members[-1]] = os.path.abspath(part)
     return members[0] if len(members) == 1 else SourceSet(tuple(members))
 
 
-def _member(word: str, whole: str) -> int | Place | BoundaryLoop | Curve:
+def _parts(words: str) -> list[str]:
+    """What a plus stands between, which a file that is there may have in its name."""
+    pieces, parts = words.split("+"), []
+    while pieces:
+        for count in range(len(pieces), 0, -1):
+            part = "+".join(pieces[:count]).strip()
+            if count == 1 or (_is_file(part) and os.path.exists(part)):
+                parts.append(part)
+                del pieces[:count]
+                break
+    return parts
+
+
+def _member(word: str, whole: str) -> Member:
     if _VERTEX.fullmatch(word):
         return int(word)
     if found := _LOOP.fullmatch(word):
@@ -72,16 +92,16 @@ def _meant(word: str) -> str:
     return ""
 
 
-def words_of(source: Source) -> str:
-    """The words that mean a source, which give it back; of a curve, which has a file of its own, what it is."""
+def words_of(source: Source, files: Mapping[Curve, str] = NONE) -> str:
+    """The words that mean a source, which give it back; of a curve its file, or what it is where none is known."""
     if isinstance(source, SourceSet):
-        return "+".join(words_of(member) for member in source.members)
+        return "+".join(words_of(member, files) for member in source.members)
     if isinstance(source, Place):
         return f"f{source.face}:{source.weights[0]!r},{source.weights[1]!r}"
     if isinstance(source, BoundaryLoop):
         return f"loop:{source.number}"
     if isinstance(source, Curve):
-        return f"a {'closed ' if source.closed else ''}curve of {len(source.places)} points"
+        return files.get(source) or f"a {'closed ' if source.closed else ''}curve of {len(source.places)} points"
     return str(source)
 
 

@@ -18,8 +18,10 @@ from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
 from app.document.measuring import add_pins
 from app.document.page import Page, Recipe
 from app.document.quantities import Difference, DistanceFrom, OwnField
+from app.document.starts import curves_in
 from bihdist_core import BoundaryLoop, Curve, ParameterError, Place, SourceSet
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.sources.words import curve_text
 from tests.shapes import bumpy
 
 COUNT = 60
@@ -241,8 +243,6 @@ def test_what_no_line_can_hold_is_said_in_words(mesh):
         (replace(document, surfaces=(MeshFile("A", "", "00"),)), "arrays"),
         (replace(document, surfaces=(*document.surfaces, MeshFile("B", mesh))), "2 meshes"),
         (replace(document, panels=()), "no panels"),
-        (replace(document, points=(Point("source", CURVE),)), "a curve"),
-        (replace(document, points=(Point("source", SourceSet((3, CURVE))),)), "a curve"),
         (
             replace(document, points=(*document.points, Point("a", Place(3, (0.2, 0.2, 0.6)))), anchors=(Anchor("a"),)),
             "no vertex",
@@ -260,6 +260,24 @@ def test_what_no_line_can_hold_is_said_in_words(mesh):
         assert words in one_line.why_not(Recipe(changed))
     assert "several cameras" in one_line.why_not(Recipe(document, Page(views=(CAMERA, CAMERA))))
     assert one_line.recipe_command_line("a b.json", "x.png") == "bihdist figure --recipe 'a b.json' -o x.png"
+
+
+@pytest.mark.parametrize("source", [CURVE, SourceSet((3, CURVE, BoundaryLoop(0)))])
+def test_a_curve_is_named_by_a_file(mesh, tmp_path, source):
+    recipe = Recipe(replace(usual(mesh), points=(Point("source", source),)))
+    assert curves_in(recipe.document) == [CURVE]
+    for line in (one_line.command_line, one_line.python_line):
+        with pytest.raises(ParameterError, match="save it first"):
+            line(recipe, "out.png")
+    folder = tmp_path / "a + b"
+    folder.mkdir()
+    path = folder / "it's a curve.json"
+    path.write_text(curve_text(CURVE))
+    files = {CURVE: str(path)}
+    assert one_line.why_not(recipe) == ""
+    assert shown(read_again(one_line.command_line(recipe, "out.png", files))) == shown(recipe)
+    if isinstance(source, Curve):  # this mesh has no boundary
+        assert shown(run_again(one_line.python_line(recipe, "out.png", files))) == shown(recipe)
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")

@@ -35,6 +35,25 @@ def test_a_file_gives_back_its_curve(curve, tmp_path_factory):
     assert source_from_words(str(path)) == curve  # for all the plus in its name
 
 
+def test_a_file_among_others_may_have_a_plus_in_its_path(tmp_path):
+    folder = tmp_path / "a+b + c"
+    folder.mkdir()
+    path, curve = folder / "d+e.json", Curve((A, B))
+    path.write_text(curve_text(curve))
+    files = {}
+    assert source_from_words(f"12+{path} + loop:0", files=files) == SourceSet((12, curve, BoundaryLoop(0)))
+    assert files == {curve: str(path)}
+    assert words_of(SourceSet((12, curve)), files) == f"12+{path}"
+
+
+def test_words_that_are_known_mean_what_they_mean():
+    curve = Curve((A, B))
+    words = words_of(SourceSet((12, curve)))
+    assert source_from_words(words.replace("12", "13"), {words_of(curve): curve}) == SourceSet((13, curve))
+    with pytest.raises(ParameterError, match="is no source"):
+        source_from_words(words)
+
+
 def test_words_as_they_are_typed(tmp_path):
     assert source_from_words(" 12 ") == 12
     assert source_from_words("12+40 + 7") == SourceSet((12, 40, 7))

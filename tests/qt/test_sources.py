@@ -301,6 +301,86 @@ def test_what_is_drawn_on_the_surface_becomes_a_curve(opened, tmp_path):
     assert s.source == 5
 
 
+def draw(s, panel=0, count=16, by=(8, 1)):
+    """A stroke near the middle of a view."""
+    from qtpy import QtCore
+
+    s.window.actions_by_word["draw source"].setChecked(True)
+    s.window.gestures.sources.set_drawing(True)
+    start = s.panels[panel].view.rect().center() - QtCore.QPoint(by[0] * count // 2, 0)
+    drag(s, [start + QtCore.QPoint(by[0] * k, by[1] * k) for k in range(count)], panel)
+
+
+def in_the_dialog(s, path, do):
+    """Do what opens a dialog of files, and type the path of one there."""
+    from qtpy import QtCore, QtTest, QtWidgets
+
+    def choose():
+        dialog = s.application.activeModalWidget()
+        box = dialog.findChild(QtWidgets.QLineEdit)
+        box.selectAll()
+        QtTest.QTest.keyClicks(box, f"{path}\r")
+
+    QtCore.QTimer.singleShot(200, choose)
+    do()
+
+
+def copied(s, what):
+    from qtpy import QtWidgets
+
+    s.window.files.copy(what)
+    return QtWidgets.QApplication.clipboard().text()
+
+
+def read_again(line):
+    """The sources that a copied line names."""
+    import argparse
+    import shlex
+
+    from app.commands.figure_options import add_figure_options, chosen_recipe
+
+    parser = argparse.ArgumentParser()
+    add_figure_options(parser, "")
+    return chosen_recipe(parser.parse_args(shlex.split(line)[2:])).document.sources
+
+
+def test_a_drawn_curve_is_saved_and_the_copied_lines_name_its_file(opened, tmp_path, monkeypatch):
+    from app.qt import remembered
+    from bihdist_core import source_from_words
+
+    monkeypatch.setattr(remembered, "folder", lambda: tmp_path / "kept")
+    s = opened
+    draw(s)
+    curve = s.source
+    assert isinstance(curve, Curve)
+    line = copied(s, "command")
+    assert "--recipe" not in line
+    assert str(tmp_path / "kept") in line, "one that nobody has saved is kept"
+    assert read_again(line) == (curve,)
+    path = tmp_path / "mine.json"
+    in_the_dialog(s, path, s.window.actions_by_word["save curve"].trigger)
+    assert source_from_words(str(path)) == curve
+    for what in ("command", "python"):
+        assert str(path) in copied(s, what)
+        assert "--recipe" not in copied(s, what)
+    typed(s, f"7+{s.window.source_box.text()}")
+    assert s.source == SourceSet((7, curve)), "what the box says of it means the curve"
+    assert read_again(copied(s, "command")) == (s.source,)
+    path.write_text(json.dumps({"points": [[1, 0.2, 0.2], [2, 0.2, 0.2]]}))
+    assert read_again(copied(s, "command")) == (s.source,), "a file that has changed is not named"
+    s.window.files.open(str(path))
+    s.until(lambda: s.session.is_complete)
+    assert s.source == source_from_words(str(path)), "a curve's file can be opened like a session's"
+    assert s.refusals == []
+
+
+def test_a_loop_stands_in_the_copied_lines(sheet):
+    s = sheet
+    typed(s, "loop:0+7")
+    assert "--source loop:0+7" in copied(s, "command")
+    assert "source='loop:0+7'" in copied(s, "python")
+
+
 def test_a_ring_that_is_drawn_is_closed_and_a_click_is_a_place(opened):
     from qtpy import QtCore, QtTest
 

@@ -92,9 +92,8 @@ class Menus:
         )
         self._fill(self.up, [None, "next up", "other end up"])
         steps = ("step left", "step right", "step up", "step down")
-        self._fill(
-            self.tools, ["source id", "draw source", "snap", "live", None, "source before", "source after", None]
-        )
+        self._fill(self.tools, ["source id", "draw source", "save curve", "snap", "live", None])
+        self._fill(self.tools, ["source before", "source after", None])
         self._fill(self.tools, [*steps, None, "stop"])
         file, edit, view, panels, tools, about = (
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")

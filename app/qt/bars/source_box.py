@@ -5,9 +5,10 @@ import re
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import ParameterError
-from bihdist_core.sources.source import Source
+from bihdist_core.sources.source import Curve, Source
 from bihdist_core.sources.words import source_from_words, words_of
 
+from ...document.sourcing import members_of
 from ..look.look import LOOK
 from ..look.text_box import TextBox, mark_wrong
 
@@ -22,9 +23,11 @@ SHOWN_MS = 6000
 
 
 class SourceBox(TextBox):
-    """`chosen(source)` by Enter; what is no source is said under the box, with those that there are."""
+    """`chosen(source, files)` by Enter, with the files its curves were read from; what is no source is said under the
+    box, with those that there are.
+    """
 
-    chosen = QtCore.Signal(object)
+    chosen = QtCore.Signal(object, object)
     left = QtCore.Signal()  # the keys are wanted elsewhere again
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
@@ -108,12 +111,16 @@ class SourceBox(TextBox):
         if not text or (text.isascii() and text.isdigit() and int(text) >= self._count):
             self._refuse(f"No vertex {text[:20] or 'of no id'} here: 0 to {self._count - 1:,}")
             return
+        # The words of a curve, which has a file of its own, mean the one that is there.
+        curves = [(words_of(member), member) for member in members_of(self._source) if isinstance(member, Curve)]
+        known = {words: curve for words, curve in curves if [each for each, _ in curves].count(words) == 1}
+        files: dict[Curve, str] = {}
         try:
-            source = source_from_words(text)
+            source = source_from_words(text, known, files)
         except ParameterError as error:
             self._refuse(str(error))
             return
-        self.chosen.emit(source)
+        self.chosen.emit(source, files)
         if not self.wrong.isVisible() and not self.property("wrong"):
             self.left.emit()
 

@@ -13,6 +13,7 @@ from bihdist_core import BihdistError, Place
 from ...document import one_line
 from ...document.file import recipe_text
 from ...document.page import Recipe
+from ...document.starts import curves_in
 from ...figures.export import Surfaces, figure_of
 from ...figures.preview import whole_picture
 from ...session.questions import vertex_at
@@ -37,7 +38,8 @@ def copy_line(window: Any, recipe: Recipe, surfaces: Surfaces, is_python: bool) 
     output = f"{stem(recipe.document.surfaces[0].path, 'figure')}.{recipe.page.format or 'png'}"
     reason = one_line.why_not(recipe)
     if not reason:
-        line = (one_line.python_line if is_python else one_line.command_line)(recipe, output)
+        files = {curve: window.curve_files.path_of(curve) for curve in curves_in(recipe.document)}
+        line = (one_line.python_line if is_python else one_line.command_line)(recipe, output, files)
     else:
         path = str(_kept(recipe, window.session.given))
         line = (one_line.recipe_python_line if is_python else one_line.recipe_command_line)(path, output)

@@ -9,6 +9,7 @@ from bihdist_core import BihdistError, OutputError
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..pages.messages import ask_which
+from .curve_files import is_curve
 from .session_actions import FILES
 
 
@@ -30,11 +31,13 @@ class Files(QtCore.QObject):
             self.open(path)
 
     def open(self, path: str) -> None:
-        """A mesh, or a session or recipe."""
-        if path.lower().endswith(".json"):
-            self._window.once_built(lambda: self._window.session_file.open(path))
-        else:
+        """A mesh, a session or recipe, or a curve for distances to start from."""
+        if not path.lower().endswith(".json"):
             self._window.open(path)
+        elif is_curve(path):
+            self._window.once_built(lambda: self._window.curve_files.take(path))
+        else:
+            self._window.once_built(lambda: self._window.session_file.open(path))
 
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
         kinds = QtCore.QEvent.Type

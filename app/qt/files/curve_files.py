@@ -1,0 +1,107 @@
+"""Curves that fields start from, and the files they are saved in.  `window` is the main window."""
+
+import hashlib
+import json
+import os
+from pathlib import Path
+
+from qtpy import QtWidgets
+
+from bihdist_core import BihdistError, Curve, OutputError, ParameterError
+from bihdist_core.sources.words import curve_text, read_curve
+from bihdist_core.whole_file import whole_file
+
+from ...document.sourcing import members_of
+from .. import remembered
+
+CURVES = "Curves (*.json)"
+
+
+class CurveFiles:
+    """See the module.
+
+    paths: where curves were read from, or saved by the user; a file may have changed since.
+    """
+
+    def __init__(self, window) -> None:
+        self._window = window
+        self.paths: dict[Curve, str] = {}
+
+    def take(self, path: str) -> None:
+        """Let distances start from the curve in a file, or say why they cannot."""
+        window = self._window
+        name = os.path.basename(path)
+        try:
+            curve = read_curve(path)
+        except ParameterError as error:
+            window.failed(str(error))
+            return
+        if window.session.surface is None:
+            window.failed(f"{name} is a curve for distances to start from; open its mesh first.")
+            return
+        window.typed_source.choose(curve, {curve: os.path.abspath(path)})
+
+    def save_source(self, panel: int) -> bool:
+        """Ask where to save the curve that a panel's field starts from; whether it was saved."""
+        document = self._window.session.document
+        points = [document.point(name) for each in document.panels if each.id == panel for name in each.shows.points]
+        curves = [each for point in points for each in members_of(point.at) if isinstance(each, Curve)]
+        if len(curves) == 1:
+            return self.choose_and_save(curves[0])
+        where = "right-click the one that is to be saved" if curves else "draw one on the surface (D)"
+        self._window.say(f"The source has {len(curves) or 'no'} curve{'s' * bool(curves)}; {where}")
+        return False
+
+    def choose_and_save(self, curve: Curve) -> bool:
+        """Ask for a file; whether the curve was saved."""
+        surface = self._window.session.surface
+        name = Path(surface.name).stem if surface is not None else "source"
+        dialog = QtWidgets.QFileDialog(self._window, "Save the curve", f"{name}-curve.json", CURVES)
+        dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("json")
+        if not dialog.exec():
+            return False
+        try:
+            self.save(curve, dialog.selectedFiles()[0])
+        except BihdistError as error:
+            self._window.failed(str(error))
+            return False
+        return True
+
+    def save(self, curve: Curve, path: str) -> None:
+        """Into a file, `curve.json` as a source in words; OutputError if it cannot be written."""
+        with whole_file(path) as temporary:
+            Path(temporary).write_text(curve_text(curve), encoding="utf-8")
+        self.paths[curve] = os.path.abspath(path)
+        self._window.say(f"Saved {os.path.basename(path)}")
+
+    def path_of(self, curve: Curve) -> str:
+        """A file that holds a curve: the user's, or one among the program's data; OutputError if there can be none."""
+        path = self.paths.get(curve, "")
+        if path and _holds(path, curve):
+            return path
+        text = curve_text(curve)
+        kept = remembered.folder() / "curves" / f"curve-{hashlib.sha256(text.encode()).hexdigest()[:8]}.json"
+        try:
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            kept.write_text(text, encoding="utf-8")
+        except OSError as error:
+            raise OutputError(f"The curve cannot be kept in {kept.parent}: {error.strerror or error}.") from error
+        return str(kept)
+
+
+def is_curve(path: str) -> bool:
+    """Whether a file looks like a curve, which is no session or recipe."""
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            data = json.load(file)
+    except (OSError, ValueError, RecursionError):
+        return False
+    return isinstance(data, dict) and "points" in data and "document" not in data
+
+
+def _holds(path: str, curve: Curve) -> bool:
+    try:
+        return read_curve(path) == curve
+    except ParameterError:
+        return False
