@@ -80,7 +80,7 @@ class Picture:
 def figure(
     mesh: Mesh,
     distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
-    source: Source | str | Sequence[Source | str] | None = None,
+    source: Source | str | Sequence[Source | str] | npt.NDArray[np.integer] | None = None,
     *,
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
@@ -143,8 +143,10 @@ def figure(
     >>> picture.pixels.shape
     (200, 400, 3)
     """
-    several = isinstance(source, Sequence) and not isinstance(source, str)
-    sources = tuple(source) if isinstance(source, Sequence) and not isinstance(source, str) else (source,)
+    several = isinstance(source, Sequence | np.ndarray) and not isinstance(source, str)
+    sources = tuple(source) if isinstance(source, Sequence | np.ndarray) and not isinstance(source, str) else (source,)
+    if not sources:
+        raise ParameterError("There is no source in an empty list; name one, or None for the highest vertex.")
     document, given = given_comparison(mesh, distances, {} if fields is None else fields, sources, areas)
     marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
     names = free_names("anchor", len(marked), [point.name for point in document.points])

@@ -7,13 +7,19 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bihdist_core.distances.answers import Answer
+from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Place, Source
+from bihdist_core.sources.words import short_words_of
 
 from ..document.page import Recipe
-from ..session.questions import vertex_at
+from ..document.sourcing import members_of
+from ..session.questions import source_at
 from .bars import with_unit
 from .description import Figure
 from .layout import lay_out
 from .size import MM_PER_INCH, UNITS_PER_INCH
+
+MOST_NAMED = 6
+"""Of each kind so many sources are named."""
 
 _SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -54,10 +60,10 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
     document, tops = recipe.document, figure.tops()
     meshes = dict.fromkeys(panel.surface.name for panel in figure.panels)
     surface = figure.panels[0].surface
-    sources = [str(vertex_at(at, surface)) for at in document.sources]
+    sources = [source_at(at, surface) for at in document.sources]
     sentences = [f"{'Distances' if sources else 'Fields'} on {_listed(list(meshes))}"]
     if sources:
-        sentences[0] += f" from {'vertex' if len(sources) == 1 else 'vertices'} {_listed(sources)}"
+        sentences[0] += f" from {sources_in_words(sources)}"
     parts = []
     for shown, answer, top in zip(figure.panels, answers, tops, strict=True):
         if shown.field is None:
@@ -77,6 +83,37 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
     elif isolines.spacing is not None:
         sentences.append(f"Isolines every {isolines.spacing:.4g}")
     return escaped(". ".join(sentence[0].upper() + sentence[1:] for sentence in sentences) + ".")
+
+
+def sources_in_words(sources: Sequence[Source]) -> str:
+    """ "vertex 3", "vertices 3 and 7", "the nearest of vertices 3 and 7 and boundary loop 0"."""
+    if all(isinstance(each, int) for each in sources):
+        return _members_in_words([each for each in sources if isinstance(each, int)])
+    return "; from ".join(
+        ("the nearest of " if len(members_of(each)) > 1 else "") + _members_in_words(members_of(each))
+        for each in sources
+    )
+
+
+def _members_in_words(members: Sequence[Member]) -> str:
+    vertices = [str(each) for each in members if isinstance(each, int)]
+    words = [f"{'vertex' if len(vertices) == 1 else 'vertices'} {_listed(_some(vertices))}"] if vertices else []
+    return _listed(words + _some([_in_words(each) for each in members if not isinstance(each, int)]))
+
+
+def _in_words(member: Member) -> str:
+    if isinstance(member, Place):
+        return f"the place {short_words_of(member)}"
+    if isinstance(member, BoundaryLoop):
+        return f"boundary loop {member.number}"
+    if isinstance(member, Curve):
+        return short_words_of(member)
+    return str(member)
+
+
+def _some(words: list[str]) -> list[str]:
+    """A few of them, and how many more there are."""
+    return words if len(words) <= MOST_NAMED else [*words[: MOST_NAMED - 1], f"{len(words) - MOST_NAMED + 1} more"]
 
 
 def escaped(text: str) -> str:

@@ -19,7 +19,7 @@ import qtpy
 from qtpy import QtCore
 
 from bihdist_core import BihdistError, ParameterError
-from bihdist_core.sources.source import Source
+from bihdist_core.sources.source import Source, checked_source
 
 from ..document.document import Document
 from ..document.edits import move_source
@@ -27,7 +27,7 @@ from ..document.quantities import Quantity
 from ..drawing.style import map_of
 from ..session.given import Mesh, given_comparison
 from ..session.opened import checked_path
-from ..session.questions import vertex_at
+from ..session.questions import source_at
 from .application import application, check_screen, interrupts_noted, run_until
 from .look.look import LOOK
 from .main_window import MainWindow
@@ -94,21 +94,22 @@ class Viewer:
         self._show(document)
 
     @property
-    def source(self) -> int | None:
-        """The vertex that the first panel's field starts from; None if it starts nowhere.  Set, it moves there.
+    def source(self) -> Source | None:
+        """Where the first panel's field starts; None if it starts nowhere.  Set, it moves there.
 
-        VertexError for one that there is not.
+        A vertex, or a `Place`, `BoundaryLoop`, `Curve` or `SourceSet`; words such as "12+40" do, too.  VertexError or
+        ParameterError for one that there is not.
         """
         sources = self.document.sources
-        return vertex_at(sources[0], self._session.surface) if sources else None
+        return source_at(sources[0], self._session.surface) if sources else None
 
     @source.setter
-    def source(self, vertex: int) -> None:
-        vertex = self._session.surface.check_vertex(vertex)
+    def source(self, source: Source | str) -> None:
+        source = source_at(checked_source(source), self._session.surface)
         with_source = [panel.id for panel in self.document.panels if panel.shows.points]
         if not with_source:
             raise BihdistError("No panel shows a field that starts anywhere.")
-        self.document = move_source(self.document, with_source[0], vertex)
+        self.document = move_source(self.document, with_source[0], source)
 
     @property
     def panels(self) -> tuple[ShownPanel, ...]:

@@ -20,11 +20,12 @@ from app.figures.fonts import check_font
 from app.figures.layout import lay_out
 from app.figures.shots import Shot, take_shots
 from app.figures.size import Size
-from app.figures.tex import escaped
+from app.figures.tex import escaped, sources_in_words
 from app.figures.words import LAST, LEAST, Lettering
 from app.main import main
 from bihdist_core import OutputError, ParameterError
 from bihdist_core.progress import silent
+from bihdist_core.sources.source import checked_source
 from tests.shapes import bumpy, sphere
 
 LONG = (
@@ -184,6 +185,30 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     assert main(words) == 2
     assert "is another file" in capsys.readouterr().err
     assert (tmp_path / "my_figure.tex").read_text() == "an article"
+
+
+@pytest.mark.parametrize(
+    ("sources", "said"),
+    [
+        (["4"], "vertex 4"),
+        (["4", "9"], "vertices 4 and 9"),
+        (["4+9+7"], "the nearest of vertices 4, 9 and 7"),
+        (["f3:0.25,0.5"], "the place f3:0.25,0.5"),
+        (["loop:1"], "boundary loop 1"),
+        (["4+loop:0"], "the nearest of vertex 4 and boundary loop 0"),
+        (["4", "loop:0"], "vertex 4; from boundary loop 0"),
+        (["+".join(map(str, range(20)))], "the nearest of vertices 0, 1, 2, 3, 4 and 15 more"),
+    ],
+)
+def test_sources_of_all_kinds_are_named_as_what_they_are(sources, said):
+    assert sources_in_words([checked_source(words) for words in sources]) == said
+
+
+def test_a_caption_names_no_vertex_where_a_place_is_the_source(mesh_file, tmp_path):
+    out = tmp_path / "a.pdf"
+    words = ["figure", mesh_file(bumpy(200)), "--source", "f7:0.25,0.5", "--distance", "biharmonic", "--tex"]
+    assert main([*words, "--size", "200x200", "-o", str(out)]) == 0
+    assert "Distances on mesh.off from the place f7:0.25,0.5. " in out.with_suffix(".tex").read_text()
 
 
 def test_the_unit_stands_before_the_maximum_where_one_bar_is_in_shares(ball):

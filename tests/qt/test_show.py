@@ -11,8 +11,18 @@ from app.document.document import Document
 from app.document.edits import remove_panel
 from app.document.file import read_recipe
 from app.document.looks import Colours
-from bihdist_core import BiharmonicDistance, BihdistError, MeshError, ParameterError, VertexError
-from tests.shapes import bumpy, two_pieces
+from bihdist_core import (
+    BiharmonicDistance,
+    BihdistError,
+    BoundaryLoop,
+    Curve,
+    MeshError,
+    ParameterError,
+    Place,
+    SourceSet,
+    VertexError,
+)
+from tests.shapes import bumpy, grid, two_pieces
 
 pytest.importorskip("qtpy")
 
@@ -76,6 +86,38 @@ def test_the_source_moves_and_the_numbers_are_those_from_there(shown):
     with pytest.raises(VertexError, match="no vertex 5000"):
         viewer.source = 5000
     assert viewer.source == 20
+
+
+def test_the_source_is_of_any_kind_in_objects_and_in_words(shown):
+    surface = grid(9, 9)
+    viewer = shown(surface, ["biharmonic"], source="12+40")
+    assert viewer.source == SourceSet((12, 40))
+    place = Place.of(31, 0.25, 0.5)
+    curve = Curve((place, Place.of(60, 0.2, 0.2)))
+    exact = BiharmonicDistance(surface)
+    for given, kept in [
+        (place, place),
+        ("f31:0.25,0.5", place),
+        (BoundaryLoop(0), BoundaryLoop(0)),
+        ("loop:0+7", SourceSet((BoundaryLoop(0), 7))),
+        (curve, curve),
+        (SourceSet((3, place)), SourceSet((3, place))),
+        (np.int64(5), 5),
+        ("5", 5),
+    ]:
+        viewer.source = given
+        assert viewer.source == kept
+        assert np.abs(viewer.panels[0].field - exact.from_source(kept)).max() <= 1e-9
+    for wrong, said in [
+        ("loop:3", "its only one is loop:0"),
+        ("f900:0.2,0.2", "no face 900"),
+        ("banana", "is no source"),
+        (None, "A source is a vertex id"),
+        (-1, "start at 0"),
+    ]:
+        with pytest.raises(ParameterError, match=said):
+            viewer.source = wrong
+    assert viewer.source == 5
 
 
 def test_a_document_is_shown_and_can_be_undone(shown):
