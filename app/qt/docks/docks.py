@@ -23,6 +23,9 @@ WIDTH, WIDER, HEIGHT = 320, 390, 220
 WIDE = 1_500
 """Of the window, from which on there is much room."""
 
+STACKED = 2
+"""So many docks stand on one another at the right; more are tabs of the lowest."""
+
 
 def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
     """By word: the title, and what makes the instrument; the imports wait until one is opened."""
@@ -148,7 +151,8 @@ class Docks:
                 if other is not dock and not other.isHidden() and window.dockWidgetArea(other) == area
             ]
             window.addDockWidget(area, dock)
-            if others and (dock.content.area == "below" or window.width() < NARROW):
+            is_full = len(others) >= STACKED or dock.content.area == "below" or window.width() < NARROW
+            if others and is_full:
                 window.tabifyDockWidget(others[-1], dock)
             is_right = dock.content.area == "right"
             way = QtCore.Qt.Orientation.Horizontal if is_right else QtCore.Qt.Orientation.Vertical
