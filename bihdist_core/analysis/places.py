@@ -47,9 +47,9 @@ class Places:
 
 
 def weighted(at: np.ndarray, corners: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """(k,) or (k, d): sums over corners (k, 3) of values `at` them; those of weight 0 do not count, NaN or not."""
+    """(k,) or (k, d): sums over corners (k, 3) of values `at` them; those of weight 0 do not count, finite or not."""
     w = weights.reshape(*weights.shape, *(1,) * (at.ndim - 1))
-    return np.where(w > 0, w * at[corners], 0).sum(axis=1)
+    return (w * np.where(w > 0, at[corners], 0)).sum(axis=1)
 
 
 def _checked(surface: Surface, place: Place) -> tuple[int, np.ndarray]:

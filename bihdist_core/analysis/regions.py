@@ -17,12 +17,15 @@ from .clipping import clipped, polygon_shares
 CHUNK = 1 << 18
 """Faces or segments treated at a time, over the number of fields, which bounds the memory."""
 
+TIED = 1e-13
+"""Below this share of its values in the face, a difference of fields along a segment is 0 but for rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class Regions:
     """Regions of k fields, numbered from 0; where fields are equal, the first counts as the least.
 
-    labels: (n,) the region of each vertex, -1 where all fields are NaN.  areas: (k,) of the regions.  Each boundary
+    labels: (n,) the region of each vertex, -1 where no field has a value.  areas: (k,) of the regions.  Each boundary
     segment lies in one face between two regions: segments (s, 2, 3) its ends; between (s, 2) the regions, the smaller
     number first; faces (s,); weights (s, 2, 3) of its ends at the corners of the face.  One along an edge of the mesh
     is listed once, in one of the edge's faces.  cut_by (s, 2): the third region that an end meets inside the face, -1
@@ -49,8 +52,9 @@ class Regions:
 def voronoi_regions(surface: Surface, columns: npt.ArrayLike) -> Regions:
     """The regions of fields (n, k), linear on each face, such as the distances from k vertices.
 
-    NaN (another component, a vertex of no face) is no value: there the other fields compete, and a face with a corner
-    at which a field is NaN is not in that field's region.  Raises ParameterError for another shape, or no fields.
+    What is not finite (NaN on another component, at a vertex of no face) is no value: there the other fields compete,
+    and a face with a corner at which a field has none is not in that field's region.  Raises ParameterError for another
+    shape, or no fields.
     """
     f, labels = least_of(surface, columns)
     at_corner = labels[surface.faces]
@@ -74,7 +78,7 @@ def least_of(surface: Surface, columns: npt.ArrayLike) -> tuple[np.ndarray, np.n
     n = len(surface.vertices)
     if f.ndim != 2 or len(f) != n or not f.shape[1]:
         raise ParameterError(f"Regions are those of fields (n, k) of {n} vertices, k at least 1, not {f.shape}.")
-    f = np.where(np.isnan(f), np.inf, f)
+    f = np.where(np.isfinite(f), f, np.inf)
     return f, np.where(np.isfinite(f).any(axis=1), f.argmin(axis=1), -1)
 
 
@@ -150,8 +154,9 @@ def _segments(f: np.ndarray, corners: np.ndarray, faces: np.ndarray, rivals: np.
             both = np.flatnonzero(rivals[:, b] >= 0)
             i, j, at = rivals[both, a], rivals[both, b], corners[both]
             mine = f[at, i[:, None]]
-            ends, crossed = _crossing(f[at, j[:, None]] - mine)
-            both, i, j, at, mine = both[crossed], i[crossed], j[crossed], at[crossed], mine[crossed]
+            apart = f[at, j[:, None]] - mine
+            ends, crossed = _crossing(apart)
+            both, i, j, at, mine, apart = (x[crossed] for x in (both, i, j, at, mine, apart))
             low, high = np.zeros(len(both)), np.ones(len(both))
             cut_by = np.full((len(both), 2), -1)
             for c in range(rivals.shape[1]):
@@ -159,6 +164,8 @@ def _segments(f: np.ndarray, corners: np.ndarray, faces: np.ndarray, rivals: np.
                 there = (third >= 0) & (third != i) & (third != j)
                 slack = np.where(there[:, None], f[at, third[:, None]] - mine, 1.0)
                 u, v = np.einsum("sec,sc->se", ends, slack).T
+                tied = np.flatnonzero(there & (np.maximum(np.abs(u), np.abs(v)) <= TIED * np.abs(slack).max(axis=1)))
+                u[tied] = v[tied] = 0
                 with np.errstate(divide="ignore", invalid="ignore"):
                     t = u / (u - v)
                 enters, leaves = (u < 0) & (v > 0), (u > 0) & (v < 0)
@@ -166,7 +173,13 @@ def _segments(f: np.ndarray, corners: np.ndarray, faces: np.ndarray, rivals: np.
                 low = np.where(enters, np.maximum(low, t), low)
                 cut_by[:, 1] = np.where(leaves & (t <= high), third, cut_by[:, 1])
                 high = np.where(leaves, np.minimum(high, t), high)
-                high = np.where((u <= 0) & (v <= 0) & ((u < 0) | (v < 0)), -1, high)
+                outside = (u <= 0) & (v <= 0) & ((u < 0) | (v < 0))
+                if len(tied):
+                    # Equal to both all along the segment, it is less than the one or the other beside it, or between.
+                    corner = np.abs(apart[tied]).argmax(axis=1)
+                    share = slack[tied, corner] / apart[tied, corner]
+                    outside[tied] = (share < 0) | (share > 1)
+                high = np.where(outside, -1, high)
             kept = np.flatnonzero(high > low)
             t = np.stack([low, high], 1)[kept][..., None]
             weights = (1 - t) * ends[kept, :1] + t * ends[kept, 1:]
@@ -251,7 +264,7 @@ def _crossing(g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         ends[rows[zero], count[zero], k] = 1
         count += zero
         j = (k + 1) % 3
-        turns = has & (g[:, k] * g[:, j] < 0)
+        turns = has & (np.sign(g[:, k]) * np.sign(g[:, j]) < 0)
         with np.errstate(divide="ignore", invalid="ignore"):
             t = g[:, k] / (g[:, k] - g[:, j])
         ends[rows[turns], count[turns], k] = 1 - t[turns]

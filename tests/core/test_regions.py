@@ -175,6 +175,29 @@ def test_of_equal_fields_the_first_has_the_region():
     assert np.array_equal(voronoi_regions(plane, x[:, None]).areas, [9])
 
 
+@pytest.mark.parametrize("step", [1, 0.1, 1e-200])
+def test_where_several_boundaries_coincide_there_is_one(step):
+    surface = bumpy(300)
+    fields = step * np.random.default_rng(5).integers(0, 4, (300, 6))
+    found, cut = voronoi_regions(surface, fields), region_mesh(surface, fields).surface
+    check(surface, fields, found)
+    ends = cut.vertices[cut.boundary_edges]
+    assert np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum() == pytest.approx(2 * found.lengths.sum(), rel=1e-9)
+
+
+def test_a_field_that_is_not_finite_has_no_region_there():
+    plane = grid(4, 3)
+    x = plane.vertices[:, 0]
+    whole = voronoi_regions(plane, np.stack([x, 4 - x], 1))
+    for nothing in (np.nan, np.inf, -np.inf):
+        fields = np.stack([x, np.full(len(x), nothing), 4 - x, np.where(x == 4, nothing, 0)], 1)
+        found = voronoi_regions(plane, fields[:, :3])
+        assert np.array_equal(found.areas, whole.areas[[0, 0, 1]] * [1, 0, 1])
+        assert set(found.labels) == {0, 2}
+        assert voronoi_regions(plane, fields).areas.tolist() == [0, 0, 3, 9]
+        assert np.isfinite(region_mesh(plane, fields).along(fields[:, 2])).all()
+
+
 def test_components_without_a_pin_belong_to_none():
     both = two_pieces()
     found = voronoi_regions(both, BiharmonicDistance(both).from_sources([0, 30]))
