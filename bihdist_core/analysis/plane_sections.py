@@ -12,6 +12,9 @@ from .isoline_tracing import Isoline, isolines
 from .places import Place, Places, split_at
 from .surface_paths import Crossings, Stars, SurfacePath, assembled
 
+IN_PLANE = 1e-12
+"""Vertices nearer to a plane than this share of the surface's extent lie in it."""
+
 
 def plane_section(surface: Surface, places: Sequence[Place], direction: npt.ArrayLike) -> SurfacePath:
     """The shortest part of the surface's section that joins two places; the plane holds both and a direction (3,).
@@ -32,6 +35,8 @@ def plane_section(surface: Surface, places: Sequence[Place], direction: npt.Arra
     if not size > 1e-12 * np.linalg.norm(x[stop] - x[start]) * np.linalg.norm(d):
         raise ParameterError("Two places and the direction between them make no plane; take another direction.")
     height = (x - x[start]) @ (normal / size)
+    # Vertices that rounding keeps from the plane would be passed on either side.
+    height[np.abs(height) <= IN_PLANE * np.linalg.norm(np.ptp(x, axis=0))] = 0
     height[[start, stop]] = 0
     # A vertex in the plane counts as above it, from either side: a place that is the highest one near it is met from
     # the other.

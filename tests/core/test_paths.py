@@ -301,3 +301,12 @@ def test_real_meshes(name):
         check(surface, path)
     assert shortest.length <= straight.length * (1 + ROUNDING) <= edges.length
     assert shortest.length == pytest.approx(straight.length, rel=0.01)
+
+
+def test_a_section_along_vertices_goes_through_them():
+    plane = grid(8, 8)
+    for start, stop in ((70, 10), (10, 70), (0, 80)):
+        # Across the diagonal, heights of the vertices on it are rounding.
+        path = plane_section(plane, [start, stop], [0, 0, 1])
+        check(plane, path)
+        assert path.length == pytest.approx(np.linalg.norm(plane.vertices[start] - plane.vertices[stop]), rel=1e-12)
