@@ -158,6 +158,7 @@ class Document:
     fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
     projection: one of PROJECTIONS.  axes: whether their directions are shown.  regions: the panels, by id, that show
     the regions of the pins by their distance.  docks: those of DOCKS that are open.
+    snap: whether the pointer puts sources on vertices, and not anywhere in faces.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
@@ -185,6 +186,7 @@ class Document:
     selections: tuple[Selection, ...] = ()
     regions: tuple[int, ...] = ()
     docks: tuple[str, ...] = ()
+    snap: bool = True
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -286,8 +288,8 @@ def free_names(base: str, count: int, taken: list[str]) -> list[str]:
 
 
 def content(document: Document) -> Document:
-    """What two documents have in common that differ in nothing but where they are seen from, and in open docks."""
-    return replace(document, camera="home", docks=())
+    """What two documents have in common that differ in nothing but the camera, open docks and snapping."""
+    return replace(document, camera="home", docks=(), snap=True)
 
 
 def _unlike(names: list, what: str) -> set:

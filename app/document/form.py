@@ -30,6 +30,7 @@ LATER: dict[str, Any] = {
     "selections": [],
     "regions": [],
     "docks": [],
+    "snap": True,
 }
 """Parts of a document that it need not have, and what then holds: as it was before there were any."""
 
@@ -135,6 +136,7 @@ def document_from(data: Any, where: str = "document") -> Document:
         "selections": listed(_selection),
         "regions": listed(whole),
         "docks": listed(text),
+        "snap": flag,
     }
     values = record(data, where, readers, readers.keys() - LATER.keys() - {"shared_range"})
     return placed(Document, where, **with_range({"up": LATER["up"], **values}))

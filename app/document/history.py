@@ -15,7 +15,7 @@ class History:
 
     Steps with the same key in a row are one: a drag, a slider.  The camera belongs to the document, but its moves are
     no steps: undo and redo leave it where it is, except that another mesh is seen as it was seen last.  Nor are docks
-    that are opened and closed.
+    that are opened and closed, and snapping that is switched.
     """
 
     def __init__(self, document: Document) -> None:
@@ -33,8 +33,9 @@ class History:
         return bool(self._future)
 
     def change(self, document: Document, key: str = "") -> Document:
-        """Make this the present: a step, unless only camera or docks differ.  Without a key a row of equal ones
-        ends.
+        """Make this the present: a step, unless only camera, docks or snapping differ.
+
+        Without a key a row of equal ones ends.
         """
         if content(document) != content(self.present):
             self._future.clear()
@@ -126,5 +127,5 @@ class Trail(Generic[Place]):
 
 
 def _seen_from(document: Document, present: Document) -> Document:
-    document = replace(document, docks=present.docks)
+    document = replace(document, docks=present.docks, snap=present.snap)
     return replace(document, camera=present.camera) if document.surfaces == present.surfaces else document

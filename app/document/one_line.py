@@ -389,6 +389,7 @@ UNSEEN = {
     "Document.tool": "what a click does in the window",
     "Document.next_id": "for panels that are still to come",
     "Document.docks": "instruments of the window",
+    "Document.snap": "what the pointer does in the window",
     "Document.pin_list": "for the window's list",
     "Document.profile": "for the window's chart",
     "Document.scatter": "for the window's chart",

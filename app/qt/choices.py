@@ -51,6 +51,7 @@ class Choices:
         menus.show_choice(menus.theme, LOOK.choice)
         menus.show_choice(menus.shading, document.shading.normals)
         window.actions_by_word["wireframe"].setChecked(document.shading.wireframe)
+        window.actions_by_word["snap"].setChecked(document.snap)
 
     # ------------------------------------------------------------------ panels
     def add_panel(self) -> None:
@@ -205,11 +206,18 @@ class Choices:
 
     def _take(self, preferences: Preferences) -> None:
         window = self._window
+        has_switched = preferences.snap != window.preferences.snap
         self._prefer(preferences)
+        if has_switched:
+            window.session.keep_snapping(preferences.snap)
         self.theme(preferences.theme)
         if window.grid is not None:
             window.grid.turn_wheel(-1.0 if preferences.wheel_reversed else 1.0)
             window.grid.turn_upright(preferences.turntable)
+
+    def prefer(self, **changes) -> None:
+        """Other values of some preferences."""
+        self._prefer(replace(self._window.preferences, **changes))
 
     def _prefer(self, preferences: Preferences) -> None:
         self._window.preferences = preferences

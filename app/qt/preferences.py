@@ -36,7 +36,7 @@ class Preferences:
     """theme: one of CHOICES.  isolines: steps between the isolines of a mesh that is opened anew.  wheel_reversed:
     turning the wheel does the opposite.  geometry: where the window
     was, in Qt's own words; empty if nowhere.  last_folder: where a file was opened last; empty if nowhere.  turntable:
-    what is up stays upright while the surface turns."""
+    what is up stays upright while the surface turns.  snap: the pointer puts sources on vertices."""
 
     theme: str = "desktop"
     isolines: int = 20
@@ -44,6 +44,7 @@ class Preferences:
     geometry: bytes = b""
     last_folder: str = ""
     turntable: bool = False
+    snap: bool = True
 
 
 def path() -> Path:
@@ -155,6 +156,7 @@ _READ: dict[str, Callable[[Any], Any]] = {
     "geometry": _hexadecimal,
     "last_folder": lambda value: value if isinstance(value, str) else None,
     "turntable": _flag,
+    "snap": _flag,
 }
 """From what stands in the file to the value; None if it is none."""
 

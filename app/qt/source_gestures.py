@@ -30,12 +30,12 @@ CLOSING = 14.0
 class SourceGestures:
     """See the module.
 
-    is_snapping: whether the source is put on vertices.  is_drawing: whether the left button draws.
+    is_drawing: whether the left button draws.
     """
 
     def __init__(self, window) -> None:
         self._window, self._grid = window, window.grid
-        self.is_snapping, self.is_drawing = True, False
+        self.is_drawing = False
         self.rate = LiveRate(window)
         self._moved: tuple[str, Source, Member] | None = None  # a point, what it was, and which member moves
         self._stroke: list[Place] = []
@@ -49,6 +49,11 @@ class SourceGestures:
         self._forget_stroke()
 
     # ------------------------------------------------------------------ points
+    @property
+    def is_snapping(self) -> bool:
+        """Whether the source is put on vertices."""
+        return self._window.session.document.snap
+
     def at(self, met: "Met") -> Source:
         """The source that a place means."""
         if self.is_snapping:
@@ -56,8 +61,9 @@ class SourceGestures:
         return place_at(self._window.session.surface.faces[met.face], met.face, met.weights)
 
     def set_snapping(self, is_snapping: bool) -> None:
-        """Whether the source is put on vertices, or anywhere in faces."""
-        self.is_snapping = is_snapping
+        """Whether the source is put on vertices, or anywhere in faces, also at the next start."""
+        self._window.session.keep_snapping(is_snapping)
+        self._window.choices.prefer(snap=is_snapping)
         where = "on vertices" if is_snapping else "anywhere in faces"
         self._window.say(f"A click puts the source {where}")
 

@@ -50,7 +50,7 @@ def run_viewer(
     preferences = Preferences(theme="light") if screenshot else load()
     LOOK.choose(theme or preferences.theme)
     if isinstance(shown, Document):
-        shown = replace(shown, isolines=preferences.isolines)
+        shown = as_preferred(shown, preferences)
     window = MainWindow(None if isinstance(shown, str) else shown, preferences)
     restore_geometry(window, preferences)
     _alive.append(window)
@@ -92,6 +92,11 @@ def run_viewer(
         for message in failed:
             print(f"bihdist: {message}", file=sys.stderr)
     return 2 if failures else 1 if screenshot and failed else 0
+
+
+def as_preferred(document: Document, preferences: Preferences) -> Document:
+    """A document as the user wants what is opened anew."""
+    return replace(document, isolines=preferences.isolines, snap=preferences.snap)
 
 
 def share_arenas() -> None:

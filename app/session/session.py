@@ -143,6 +143,11 @@ class Session:
         if self._is_begun:
             self.history.change(replace(self.document, docks=docks))
 
+    def keep_snapping(self, is_snapping: bool) -> None:
+        """Whether the pointer puts sources on vertices, which is no step of the history."""
+        if self._is_begun:
+            self.history.change(replace(self.document, snap=is_snapping))
+
     def undo(self) -> None:
         """One step back."""
         self._step(-1)

@@ -397,6 +397,40 @@ def test_a_ring_that_is_drawn_is_closed_and_a_click_is_a_place(opened):
     assert isinstance(s.source, Place | int)
 
 
+def test_snapping_is_remembered_and_kept_with_a_session(application, screen, mesh_file, tmp_path, monkeypatch):
+    from qtpy import QtTest
+
+    from app.document.document import comparison
+    from app.qt import preferences, remembered, start
+
+    monkeypatch.setattr(remembered, "folder", lambda: tmp_path)
+    s = screen()
+    s.window.remembers = True
+    s.open(mesh_file(bumpy(400)), 5)
+    s.window.activateWindow()
+    s.settle()
+    snaps = s.window.actions_by_word["snap"]
+    QtTest.QTest.keyClicks(s.panels[0].view, "v")
+    assert not snaps.isChecked()
+    assert not preferences.load().snap
+    assert not s.session.can_undo, "it is no step"
+    path = str(tmp_path / "s.json")
+    s.window.session_file.save(path)
+    QtTest.QTest.keyClicks(s.panels[0].view, "v")
+    assert snaps.isChecked()
+    assert preferences.load().snap
+    typed(s, "7")
+    s.session.undo()
+    assert snaps.isChecked(), "undo leaves it as it is"
+    s.window.files.open(path)
+    s.until(lambda: s.session.is_complete and not snaps.isChecked())
+    click(s, s.panels[0].view.rect().center())
+    assert isinstance(s.source, Place)
+    s.window.remembers = False
+    new = start.as_preferred(comparison(""), preferences.Preferences(snap=False))
+    assert not new.snap
+
+
 def test_all_kinds_come_back_with_a_session(opened, tmp_path):
     s = opened
     kinds = ["12+40", "f31:0.25,0.5"]

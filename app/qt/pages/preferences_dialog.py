@@ -11,6 +11,7 @@ from ..preferences import Preferences, load, save
 
 THEMES = {"As the desktop": "desktop", "Light": "light", "Dark": "dark"}
 TURNING = {"Freely": "", "Turntable": "turntable"}
+SNAPPING = {"On vertices": "", "Anywhere in faces": "faces"}
 WHEEL = {"Forwards goes closer": "", "Forwards goes away": "reversed"}
 RESET = "All as at the first start."
 LABELS = 88
@@ -37,6 +38,8 @@ class PreferencesDialog(QtWidgets.QDialog):
         self.wheel.setToolTip("What turning the wheel away from you does to the view")
         self.turning = Segments(TURNING, "Turning")
         self.turning.setToolTip("On a turntable, what is up stays upright while the surface is dragged")
+        self.snapping = Segments(SNAPPING, "Source")
+        self.snapping.setToolTip("Where a click and a drag put the source; V switches it")
         self.again = QtWidgets.QPushButton("Reset all preferences", objectName="link", autoDefault=False)
         self.again.setToolTip("Everything as at the first start, also the window's place; Cancel undoes it")
         self.again.clicked.connect(self.reset)
@@ -61,6 +64,7 @@ class PreferencesDialog(QtWidgets.QDialog):
             isolines=self.isolines.value(),
             wheel_reversed=bool(self.wheel.choice()),
             turntable=bool(self.turning.choice()),
+            snap=not self.snapping.choice(),
         )
 
     def reset(self) -> None:
@@ -75,6 +79,7 @@ class PreferencesDialog(QtWidgets.QDialog):
         self.isolines.setValue(preferences.isolines)
         self.wheel.choose("reversed" if preferences.wheel_reversed else "")
         self.turning.choose("turntable" if preferences.turntable else "")
+        self.snapping.choose("" if preferences.snap else "faces")
 
     def _rows(self) -> QtWidgets.QLayout:
         rows = QtWidgets.QGridLayout()
@@ -95,6 +100,7 @@ class PreferencesDialog(QtWidgets.QDialog):
                 ("&Isolines", isolines, self.isolines),
                 ("&Wheel", self.wheel, self.wheel),
                 ("T&urning", self.turning, self.turning),
+                ("&Source", self.snapping, self.snapping),
             ]
         ):
             label = QtWidgets.QLabel(text)
