@@ -45,8 +45,8 @@ def add_up(parser: argparse.ArgumentParser, default: str = "guessed") -> None:
 
 
 def add_pins(parser: argparse.ArgumentParser) -> None:
-    words = "a drop with a number at a vertex; repeat for more, which are numbered in their order"
-    parser.add_argument("--pin", type=vertex, metavar="V", action="append", help=words)
+    words = "a drop with a number at a vertex or a place in a face (f311:0.2,0.5); repeat for more, in their order"
+    parser.add_argument("--pin", type=point, metavar="V", action="append", help=words)
 
 
 def with_pins(document: Document, options: argparse.Namespace) -> Document:
@@ -101,6 +101,11 @@ def source(text: str) -> Source:
         return source_from_words(text)
     except ParameterError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def point(text: str) -> Source:
+    """A vertex id, or a place in a face from its words."""
+    return source(text) if text.strip().startswith("f") else vertex(text)
 
 
 def vertex(text: str) -> int:

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import Source
+from bihdist_core.sources.source import Place, Source
+from bihdist_core.sources.words import short_words_of
 
 from .document import Document, Point, free_names
 from .instruments import DOCKS, PIN_COLOURS, Pin, Runs, Selection
@@ -17,7 +18,14 @@ MOST_PINS = 200
 
 
 def add_pins(document: Document, places: Iterable[Source], surface: str = "A") -> Document:
-    """A pin at each place that has none, each in the colour that fewest have; ParameterError beyond MOST_PINS."""
+    """A pin at each vertex or place in a face that has none, each in the colour that fewest have.
+
+    ParameterError for other sources, and beyond MOST_PINS.
+    """
+    places = list(places)
+    for at in places:
+        if not isinstance(at, int | Place):
+            raise ParameterError(f"A pin is at a vertex or a place in a face, not at {short_words_of(at)}.")
     taken = {document.point(pin.point).at for pin in document.pins if document.point(pin.point).surface == surface}
     new = [at for at in dict.fromkeys(places) if at not in taken]
     if len(document.pins) + len(new) > MOST_PINS:

@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import Curve
-from bihdist_core.sources.words import NONE
+from bihdist_core.sources.source import Curve, Place
+from bihdist_core.sources.words import NONE, words_of
 
 from ..samples import mesh_path
 from .camera import Camera
@@ -203,16 +203,19 @@ def _anchors(recipe: Recipe) -> Said:
 def _pins(recipe: Recipe) -> Said:
     """In the colours that they get by themselves."""
     document = recipe.document
-    vertices = [document.point(pin.point).at for pin in document.pins]
-    if not vertices:
+    places = [document.point(pin.point).at for pin in document.pins]
+    if not places:
         return NOTHING
     if any(document.point(pin.point).surface != document.surfaces[0].name for pin in document.pins):
         raise _Unsaid("A pin is on another mesh.")
-    if not all(isinstance(vertex, int) for vertex in vertices) or len(set(vertices)) < len(vertices):
-        raise _Unsaid("A pin is at no vertex of its own.")
-    if [pin.colour for pin in document.pins] != [k % PIN_COLOURS for k in range(len(vertices))]:
+    if len(set(places)) < len(places):
+        raise _Unsaid("Two pins are at one place.")
+    if [pin.colour for pin in document.pins] != [k % PIN_COLOURS for k in range(len(places))]:
         raise _Unsaid("Pins have other colours than usual.")
-    return Said(tuple(("--pin", str(vertex)) for vertex in vertices), {"pins": vertices})
+    said = [at if isinstance(at, int) else words_of(at) for at in places if isinstance(at, int | Place)]
+    if len(said) < len(places):
+        raise _Unsaid("A pin is at more than a point.")
+    return Said(tuple(("--pin", str(at)) for at in said), {"pins": said})
 
 
 # ---------------------------------------------------------------------- how it looks

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from bihdist_core import ParameterError
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
-from bihdist_core.sources.source import Source
+from bihdist_core.sources.source import Source, checked_source
 
 from ..document.camera import Camera, View
 from ..document.document import Anchor, Document, Point, Zoom, free_names
@@ -102,7 +102,7 @@ def figure(
     camera: Sequence[float] | None = None,
     zooms: Sequence[int | tuple[int, float] | tuple[int, float, int]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
-    pins: Sequence[int] = (),
+    pins: Sequence[Source | str] = (),
     height: float = 0.0,
     shading: str | None = None,
     crease: float | None = None,
@@ -128,7 +128,7 @@ def figure(
     projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
     with a factor, or with that and a number of steps.  isolines: a number of steps; isoline_spacing, isoline_values:
     where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.  anchors:
-    vertices to be marked, perhaps each with a value.  pins: vertices with numbers, in their order.
+    vertices to be marked, perhaps each with a value.  pins: vertices, or places in faces, with numbers, in their order.
     shading: "smooth", "creased" at more than `crease` degrees, or
     "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
@@ -169,7 +169,7 @@ def figure(
         camera=chosen[0] if chosen else "home",
     )
     if len(pins):
-        document = add_pins(document, [int(vertex) for vertex in pins])
+        document = add_pins(document, [checked_source(at) for at in pins])
     if len(isoline_through):
         document = pass_through(document, tuple(isoline_through))
     page = Page(

@@ -73,7 +73,7 @@ class Gestures:
         session = self._window.session
         surface = session.document.panel(panel).surface
         try:
-            session.show(add_pins(session.document, [met.vertex], surface))
+            session.show(add_pins(session.document, [self.sources.at(met)], surface))
         except ParameterError as error:  # there are too many
             self._window.failed(str(error))
 

@@ -1,6 +1,6 @@
-"""Distances among a few vertices, by any of the distances, computed in the background and kept.
+"""Distances among a few vertices and places in faces, by any of the distances, computed in the background and kept.
 
-Asked on one thread, that of `post`; what was known before is not computed again when vertices come or go.
+Asked on one thread, that of `post`; what was known before is not computed again when some come or go.
 """
 
 from collections.abc import Callable, Sequence
@@ -14,6 +14,7 @@ from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
+from bihdist_core.sources.source import Source
 
 from .lane import Lane
 from .opened import Opened
@@ -27,9 +28,9 @@ Wanted = tuple[Opened, str, Spec]
 
 @dataclass(frozen=True, eq=False)
 class _Known:
-    """vertices: (k,) ids; matrix: (k, k) the distances among them."""
+    """matrix: (k, k) the distances among k places."""
 
-    vertices: np.ndarray
+    places: tuple[Source, ...]
     matrix: np.ndarray
 
 
@@ -38,7 +39,7 @@ class _Request:
     opened: Opened
     areas: str
     specs: tuple[Spec, ...]
-    vertices: tuple[int, ...]
+    places: tuple[Source, ...]
 
 
 class Among:
@@ -53,27 +54,27 @@ class Among:
         self.progress: tuple[float, str] | None = None
         self._lane: Lane[_Request] = Lane("among", self._work, self._report, self._fail)
 
-    def ask(self, opened: Opened, areas: str, specs: Sequence[Spec], vertices: Sequence[int]) -> None:
-        """The distances among these vertices are wanted, those of the first of the specs first; nothing else is."""
-        asked = _Request(opened, areas, tuple(dict.fromkeys(specs)), tuple(vertices))
+    def ask(self, opened: Opened, areas: str, specs: Sequence[Spec], places: Sequence[Source]) -> None:
+        """The distances among these are wanted, those of the first of the specs first; nothing else is."""
+        asked = _Request(opened, areas, tuple(dict.fromkeys(specs)), tuple(places))
         wanted = {(opened, areas, spec) for spec in asked.specs}
         # What nobody asks for any more is forgotten, but for the same pins' other distances.
         self._known = {key: known for key, known in self._known.items() if key[:2] == (opened, areas)}
         self._failures = {key: said for key, said in self._failures.items() if key[:2] == (opened, areas)}
         self._units = {key: unit for key, unit in self._units.items() if key[:2] == (opened, areas)}
-        missing = [key for key in wanted if key not in self._failures and self.matrix(*key, vertices) is None]
+        missing = [key for key in wanted if key not in self._failures and self.matrix(*key, places) is None]
         old, self._asked = self._asked, asked
-        if not missing or len(vertices) < 2:
+        if not missing or len(places) < 2:
             self._lane.submit(None)
         elif old is None or not _is_same(old, asked) or self.progress is None:
             self._lane.submit(asked)
 
-    def matrix(self, opened: Opened, areas: str, spec: Spec, vertices: Sequence[int]) -> np.ndarray | None:
-        """(k, k) the distances among k vertices, NaN between components; None as long as they are not known."""
+    def matrix(self, opened: Opened, areas: str, spec: Spec, places: Sequence[Source]) -> np.ndarray | None:
+        """(k, k) the distances among k places, NaN between components; None as long as they are not known."""
         known = self._known.get((opened, areas, spec))
         if known is None:
             return None
-        rows = _rows_in(known.vertices, vertices)
+        rows = _rows_in(known.places, places)
         return None if (rows < 0).any() else known.matrix[np.ix_(rows, rows)]
 
     def unit(self, opened: Opened, areas: str, spec: Spec) -> str:
@@ -96,13 +97,13 @@ class Among:
             share = part(progress, k / len(request.specs), (k + 1) / len(request.specs))
             try:
                 distance = request.opened.distances(request.areas).get(spec, part(share, 0, 0.5))
-                matrix = distances_among(distance, request.vertices, known, part(share, 0.5, 1))
+                matrix = distances_among(distance, request.places, known, part(share, 0.5, 1))
             except Cancelled:
                 raise
             except (BihdistError, MemoryError) as error:
                 self._post(partial(self._failed, key, error))
             else:
-                found = _Known(np.array(request.vertices), matrix)
+                found = _Known(request.places, matrix)
                 self._post(partial(self._found, key, found, distance.unit))
 
     def _found(self, key: Wanted, found: _Known, unit: str) -> None:
@@ -128,14 +129,13 @@ class Among:
 
 
 def distances_among(
-    distance: Distance, vertices: Sequence[int], known: _Known | None, progress: Progress
+    distance: Distance, places: Sequence[Source], known: _Known | None, progress: Progress
 ) -> np.ndarray:
-    """(k, k) those among vertices; of what is known, none is computed again."""
-    ids = distance.surface.check_vertices(vertices)
-    count = len(ids)
+    """(k, k) those among places; of what is known, none is computed again."""
+    count = len(places)
     matrix, rows = np.full((count, count), np.nan), np.full(count, -1)
     if known is not None:
-        rows = _rows_in(known.vertices, vertices)
+        rows = _rows_in(known.places, places)
         old = np.flatnonzero(rows >= 0)
         matrix[np.ix_(old, old)] = known.matrix[np.ix_(rows[old], rows[old])]
     new = np.flatnonzero(rows < 0)
@@ -146,21 +146,21 @@ def distances_among(
         pairs = [(i, j) for i in some for j in range(count) if rows[j] >= 0 or j < i]
         if pairs:
             i, j = np.array(pairs).T
-            matrix[i, j] = matrix[j, i] = distance.of_pairs(np.column_stack([ids[i], ids[j]]))
+            matrix[i, j] = matrix[j, i] = distance.of_pairs([(places[a], places[b]) for a, b in pairs])
     np.fill_diagonal(matrix, 0.0)
     return matrix
 
 
-def _rows_in(known: np.ndarray, vertices: Sequence[int]) -> np.ndarray:
-    """(k,) where vertices stand among those that are known, -1 for those that are not there."""
-    rows = {int(vertex): row for row, vertex in enumerate(known)}
-    return np.array([rows.get(int(vertex), -1) for vertex in vertices], int)
+def _rows_in(known: Sequence[Source], places: Sequence[Source]) -> np.ndarray:
+    """(k,) where places stand among those that are known, -1 for those that are not there."""
+    rows = {at: row for row, at in enumerate(known)}
+    return np.array([rows.get(at, -1) for at in places], int)
 
 
 def _is_same(one: _Request, other: _Request) -> bool:
-    return (one.opened, one.areas, one.specs, one.vertices) == (
+    return (one.opened, one.areas, one.specs, one.places) == (
         other.opened,
         other.areas,
         other.specs,
-        other.vertices,
+        other.places,
     )

@@ -8,6 +8,7 @@ import numpy as np
 from bihdist_core import Place, Surface
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats.pins import Pins
+from bihdist_core.sources.words import words_of
 
 from ..document.document import Document
 from ..document.instruments import Pin
@@ -34,6 +35,19 @@ class PinnedPlace:
     def point(self) -> str:
         """The name of its point in the document."""
         return self.pin.point
+
+    @property
+    def at(self) -> int | Place:
+        """Where it is: its vertex, or the place in its face."""
+        if self.vertex is not None:
+            return self.vertex
+        first, second, third = self.weights.tolist()
+        return Place(self.face, (first, second, third))
+
+    @property
+    def words(self) -> str:
+        """The same, short."""
+        return str(self.vertex) if self.vertex is not None else f"f{self.face}"
 
     @property
     def name(self) -> str:
@@ -68,14 +82,18 @@ def pinned_on(document: Document, name: str, surface: Surface) -> tuple[PinnedPl
 
 
 def pins_to_write(places: Sequence[PinnedPlace], surface: Surface) -> Pins:
-    """Those at vertices, for a file; ids are the numbers that the window shows.
+    """All of them, for a file, which has vertices only: of a place in a face, the nearest of its corners, and how far
+    that is.  Ids are the numbers that the window shows.
 
     ParameterError if there are none.
     """
-    at_vertices = [(place, place.vertex) for place in places if place.vertex is not None]
-    numbers = [place.number for place, _ in at_vertices]
-    names = [place.pin.name for place, _ in at_vertices]
-    return Pins.of(surface, [vertex for _, vertex in at_vertices], names, numbers)
+    vertices, moved = [], []
+    for place in places:
+        away = np.linalg.norm(surface.vertices[place.corners] - place.position(surface.vertices), axis=1)
+        vertices.append(int(place.corners[away.argmin()]) if place.vertex is None else place.vertex)
+        moved.append(float(away.min()) if place.vertex is None else 0.0)
+    pins = Pins.of(surface, vertices, [place.pin.name for place in places], [place.number for place in places])
+    return replace(pins, moved=np.array(moved))
 
 
 def with_pins(document: Document, pins: Pins, surface: str = "A") -> Document:
@@ -99,7 +117,7 @@ def pins_text(places: Sequence[PinnedPlace], surface: Surface, answers: Sequence
     head += [text for title, _ in answers for text in (title, f"{title}, share of the maximum")]
     lines = ["\t".join(head)]
     for place in places:
-        vertex = "" if place.vertex is None else str(place.vertex)
+        vertex = words_of(place.at)
         row = [str(place.number), place.pin.name, vertex, *map(repr, place.position(surface.vertices).tolist())]
         for _, answer in answers:
             value = np.nan if answer.field is None else place.value(answer.field)

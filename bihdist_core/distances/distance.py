@@ -14,7 +14,8 @@ from ..sources.source import BoundaryLoop, Curve, Place, Source, SourceSet, chec
 from ..sources.words import short_words_of
 from ..surface import Surface
 from .accuracy import REFUSE, Certificate, rounded_up
-from .in_faces import blocks, form, squares_from
+from .in_faces import blocks, squares_from
+from .place_pairs import Pair, are_of_places, are_same, has_places, points_on, squares_of_pairs
 
 ROUNDING = 1e-7
 """Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""
@@ -215,19 +216,24 @@ class Distance(ABC):
             return float(self.from_source(u)[self.surface.check_vertex(v)])
         if not isinstance(u, ELSEWHERE):
             return float(self.from_source(v)[self.surface.check_vertex(u)])
-        if not (self.is_quadratic and isinstance(u, Place) and isinstance(v, Place)):
+        if not (isinstance(u, Place) and isinstance(v, Place)):
             raise ParameterError(
                 f"{self.label} is not known between {short_words_of(u)} and {short_words_of(v)}; let one be a vertex."
             )
-        start, stop = pieces_of(u, self.surface), pieces_of(v, self.surface)
-        corners, weights = np.append(start.corners, stop.corners), np.append(start.start, -stop.start)
-        used = weights != 0
-        ids, place = np.unique(corners[used], return_inverse=True)
-        return float(np.sqrt(max(form(np.bincount(place, weights[used]), self.pairwise(ids) ** 2), 0)))
+        return float(self.of_pairs([(u, v)])[0])
 
-    def pairwise(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> np.ndarray:
-        """(k, k) distances among k vertices: symmetric, zero diagonal."""
-        ids = self.surface.check_vertices(vertices)
+    def pairwise(
+        self, vertices: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
+    ) -> np.ndarray:
+        """(k, k) distances among k vertices, or places in faces: symmetric, zero diagonal."""
+        if has_places(vertices):
+            points = list(vertices)
+            i, j = np.triu_indices(len(points), 1)
+            among = points_on(self.surface, points)
+            found = np.zeros((len(points), len(points)))
+            found[i, j] = found[j, i] = self._of_points(among.some(i), among.some(j))
+            return found
+        ids = self.surface.check_vertices(np.asarray(vertices))
         distances = np.full((len(ids), len(ids)), np.nan)
         for component, mine in self._by_component(ids):
             block = self._pairwise(component, component.local(ids[mine]), progress)
@@ -235,11 +241,14 @@ class Distance(ABC):
         distances[ids[:, None] == ids] = 0
         return distances
 
-    def of_pairs(self, pairs: npt.ArrayLike) -> np.ndarray:
-        """(k,) the distances of k pairs of vertices (k, 2); NaN between components.
+    def of_pairs(self, pairs: npt.ArrayLike | Sequence[Pair]) -> np.ndarray:
+        """(k,) the distances of k pairs of vertices (k, 2), or places in faces; NaN between components.
 
-        The mean of both ways where a distance is not symmetric.  ParameterError for another shape.
+        The mean of both ways where a distance is not symmetric.  ParameterError for another shape, and for places in
+        faces if this distance knows vertices only.
         """
+        if are_of_places(pairs):
+            return self._of_points(*(points_on(self.surface, [pair[side] for pair in pairs]) for side in (0, 1)))
         table = np.asarray(pairs)
         if table.ndim != 2 or table.shape[1] != 2:
             raise ParameterError(f"Pairs of vertices must have shape (k, 2), not {table.shape}.")
@@ -253,6 +262,25 @@ class Distance(ABC):
                 distances[mine] = self._of_pairs(component, component.local(i[mine]), component.local(j[mine]))
         distances[i == j] = 0
         return distances
+
+    def _of_points(self, u: Pieces, v: Pieces) -> np.ndarray:
+        """(k,) distances of pairs of vertices and places in faces."""
+        distances = np.zeros(len(u))
+        are_vertices = (u.start.max(axis=1) == 1) & (v.start.max(axis=1) == 1)
+        if are_vertices.any():
+            one, other = (each.some(are_vertices) for each in (u, v))
+            distances[are_vertices] = self.of_pairs(np.column_stack([e.corners[e.start == 1] for e in (one, other)]))
+        others = np.flatnonzero(~are_vertices & ~are_same(u, v))
+        if len(others):
+            distances[others] = self._of_places(u.some(others), v.some(others))
+        return distances
+
+    def _of_places(self, u: Pieces, v: Pieces) -> np.ndarray:
+        """(k,) the same of pairs that are apart, and of which one is no vertex."""
+        if not self.is_quadratic:
+            raise ParameterError(f"{self.label} is known between vertices only, not at places in faces.")
+        squares = squares_of_pairs(u, v, self.of_pairs)
+        return np.sqrt(np.maximum(squares, 0))
 
     def _of_pairs(self, component: Component, i: np.ndarray, j: np.ndarray) -> np.ndarray:
         """(k,) distances of local vertices i and j (k,)."""

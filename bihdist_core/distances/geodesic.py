@@ -1,6 +1,6 @@
 """Geodesic distance: exact (MMP), by the heat method, or along edges (Dijkstra).  The label says which."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
 from .exact_geodesic import ExactGeodesic
 from .heat_times import HeatTimes
+from .place_pairs import by_start, straight
 
 METHODS = ("auto", "exact", "heat", "dijkstra")
 EXACT_UP_TO = 20_000
@@ -104,6 +105,67 @@ class GeodesicDistance(Distance):
             found = solver.distances_with(corners[row][some], loads[row][some], offsets[row][some], step)
             np.minimum(least, found, out=least)
         return least
+
+    def _of_places(self, u: Pieces, v: Pieces) -> np.ndarray:
+        labels = self.surface.component_of_vertex
+        found = np.full(len(u), np.nan)
+        for component, mine in self._by_component(u.corners[:, 0]):
+            mine = mine[labels[v.corners[mine, 0]] == component.index]
+            if len(mine):
+                self.prepare(component)
+                one, other = u.some(mine), v.some(mine)
+                if self.method == "exact":
+                    found[mine] = self._exactly(component, one, other)
+                elif self.method == "dijkstra":
+                    found[mine] = self._along_edges(component, one, other)
+                else:
+                    found[mine] = (self._by_heat(one, other) + self._by_heat(other, one)) / 2
+        # Within a face nothing is shorter.
+        lengths = straight(u, v, self.surface)
+        return np.where(np.isfinite(lengths), lengths, found)
+
+    def _exactly(self, component: Component, u: Pieces, v: Pieces) -> np.ndarray:
+        """(k,) on the component divided at all points."""
+        faces, ends = self._local_faces(component, u, v)
+        divided, ids = split_at(component.surface, replace(ends, faces=faces, corners=component.local(ends.corners)))
+        starts, stops = ids[: len(u)], ids[len(u) :]
+        if len(np.unique(stops)) < len(np.unique(starts)):
+            starts, stops = stops, starts
+        solver, found = ExactGeodesic(divided), np.empty(len(u))
+        try:
+            for start in np.unique(starts):
+                mine = starts == start
+                found[mine] = solver.distances(start)[stops[mine]]
+        finally:
+            solver.close()
+        return found
+
+    def _local_faces(self, component: Component, u: Pieces, v: Pieces) -> tuple[np.ndarray, Pieces]:
+        """(2 k,) the component's numbers of the faces of both, and these as one."""
+        ends = Pieces(*(np.concatenate([getattr(each, f.name) for each in (u, v)]) for f in fields(Pieces)))
+        own = np.flatnonzero(self.surface.component_of_vertex[self.surface.faces[:, 0]] == component.index)
+        return np.searchsorted(own, ends.faces), ends
+
+    def _along_edges(self, component: Component, u: Pieces, v: Pieces) -> np.ndarray:
+        """(k,) from corner to corner, and straight to both."""
+        solver, found = self._solvers[component.index], np.empty(len(u))
+        assert isinstance(solver, EdgeGeodesic)
+        for start, mine in by_start(u):
+            used = start.start[0] > 0
+            offsets = _spread(start, self.surface)[1][0]
+            lengths = solver.distances_with(component.local(start.corners[0][used]), offsets[used])
+            some = v.some(mine)
+            ways = lengths[component.local(some.corners)] + _spread(some, self.surface)[1]
+            found[mine] = np.where(some.start > 0, ways, np.inf).min(axis=1)
+        return found
+
+    def _by_heat(self, u: Pieces, v: Pieces) -> np.ndarray:
+        """(k,) of fields from u what they are at v, linear in faces."""
+        found = np.empty(len(u))
+        for start, mine in by_start(u):
+            field = self.from_pieces(start)
+            found[mine] = (v.start[mine] * field[v.corners[mine]]).sum(axis=1)
+        return found
 
 
 def _spread(pieces: Pieces, surface: Surface) -> tuple[np.ndarray, np.ndarray]:

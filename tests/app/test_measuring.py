@@ -20,7 +20,7 @@ from app.document.measuring import (
     show_regions,
     vertices_of,
 )
-from bihdist_core import ParameterError
+from bihdist_core import BoundaryLoop, ParameterError
 
 DOCUMENT = comparison("mesh.off", sources=(5,))
 
@@ -52,6 +52,11 @@ def test_names_colours_and_order_of_pins_change():
     changed = move_pin(change_pin(pinned, Pin(first, "nose", 8)), first, 2)
     assert changed.pins[2] == Pin(first, "nose", 8)
     assert [changed.point(pin.point).at for pin in changed.pins] == [9, 3, 7]
+
+
+def test_pins_are_points():
+    with pytest.raises(ParameterError, match="a vertex or a place in a face, not at loop:0"):
+        add_pins(DOCUMENT, [BoundaryLoop(0)])
 
 
 def test_too_many_pins_are_refused():

@@ -200,6 +200,42 @@ def test_the_matrix_is_what_the_command_writes(opened, tmp_path, capsys):
     capsys.readouterr()
 
 
+def test_pins_in_faces_are_listed_and_compared(opened, tmp_path):
+    from bihdist_core import Place
+
+    s = opened
+    dock = dock_of(s)
+    type_ids(s, dock, "12, f17:0.2,0.5")
+    assert ids(s) == [12, Place.of(17, 0.2, 0.5)]
+    s.window.gestures.sources.set_snapping(False)
+    (vertex,) = seen_vertices(s, 1)
+    shift_click(s, vertex)
+    place = ids(s)[2]
+    assert isinstance(place, Place)
+    assert vertex in s.session.surface.faces[place.face]
+    assert [row.vertex for row in dock.table.rows.rows] == ["12", "f17", f"f{place.face}"]
+    specs = [panel.shows.spec for panel in s.document.panels]
+    s.until(lambda: all(dock.distances.known(spec) is not None for spec in specs))
+    for spec in specs:
+        distance = s.session.opened().distances(s.document.areas).get(spec)
+        expected = distance.pairwise(ids(s))
+        assert np.abs(dock.distances.known(spec) - expected).max() <= 1e-9 * expected.max()
+    type_ids(s, dock, "f17:0.2,0.5")
+    assert dock.wrong.text() == "This place has a pin already."
+    type_ids(s, dock, "f99999:0.2,0.5")
+    assert "no face 99999" in dock.wrong.text()
+    type_ids(s, dock, "f17:0.8,0.5")
+    assert "add up to 1" in dock.wrong.text()
+    # Files have vertices: how far away they are is said.
+    said = []
+    s.window.status.say = said.append
+    dock.files.save(str(tmp_path / "pins.csv"))
+    assert said[-1].startswith("Saved 3 pins in pins.csv: 2 pins moved to a vertex, the farthest")
+    select_row(s, dock, 1)
+    dock.menu._move_source()
+    assert s.source == Place.of(17, 0.2, 0.5)
+
+
 def test_the_cell_under_the_pointer_says_the_pair_in_all_distances(opened):
     from qtpy import QtTest
 

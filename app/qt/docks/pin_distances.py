@@ -8,6 +8,7 @@ import numpy as np
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.sources.source import Source
 
 from ...document.document import Document
 from ...drawing.style import PINS
@@ -25,7 +26,7 @@ MOST_COMPARED = 40
 
 
 class PinDistances(QtWidgets.QWidget):
-    """Computed in the background; hidden where there are not two pins at vertices."""
+    """Computed in the background; hidden where there are not two pins."""
 
     def __init__(self, window) -> None:
         super().__init__()
@@ -70,8 +71,8 @@ class PinDistances(QtWidgets.QWidget):
         LOOK.follow(self, self._fit)
 
     def show_pins(self, document: Document, places: Sequence[PinnedPlace]) -> None:
-        """Those at vertices, by a distance of the panels unless another has been chosen."""
-        self._places = tuple(place for place in places if place.vertex is not None)
+        """By a distance of the panels unless another has been chosen."""
+        self._places = tuple(places)
         self.setVisible(len(self._places) > 1)
         self.spec = document.pin_list.distance or self._specs(document)[0]
         self._ask()
@@ -80,8 +81,8 @@ class PinDistances(QtWidgets.QWidget):
         self._among.close()
 
     @property
-    def _vertices(self) -> list[int]:
-        return [place.vertex for place in self._places if place.vertex is not None]
+    def _at(self) -> list[Source]:
+        return [place.at for place in self._places]
 
     @property
     def is_known(self) -> bool:
@@ -119,12 +120,12 @@ class PinDistances(QtWidgets.QWidget):
     @property
     def _compared(self) -> list[Spec]:
         """The one that is shown, and those of the panels."""
-        others = self._specs(self.window_.session.document) if len(self._vertices) <= MOST_COMPARED else []
+        others = self._specs(self.window_.session.document) if len(self._at) <= MOST_COMPARED else []
         return list(dict.fromkeys([self.spec, *others]))
 
     def _ask(self) -> None:
         session = self.window_.session
-        self._among.ask(session.opened(), session.document.areas, self._compared, self._vertices)
+        self._among.ask(session.opened(), session.document.areas, self._compared, self._at)
         self._show_among()
 
     def _show_among(self) -> None:
@@ -132,24 +133,24 @@ class PinDistances(QtWidgets.QWidget):
         document = self.window_.session.document
         self.distance.setText(spec_name(self.spec, self._specs(document)))
         self.distance.updateGeometry()
-        pins = [(place.number, PINS[place.pin.colour]) for place in self._places if place.vertex is not None]
+        pins = [(place.number, PINS[place.pin.colour]) for place in self._places]
         self.cells.show_matrix(pins, matrix)
         self._fit()
         self._say_pair(*self.cells.cell)
 
     def known(self, spec: Spec) -> np.ndarray | None:
-        """(k, k) the distances among the pins at vertices; None as long as they are not known."""
+        """(k, k) the distances among the pins; None as long as they are not known."""
         session = self.window_.session
         opened = session.opened()
         if opened is None:
             return None
-        return self._among.matrix(opened, session.document.areas, spec, self._vertices)
+        return self._among.matrix(opened, session.document.areas, spec, self._at)
 
     def _say_pair(self, i: int, j: int) -> None:
         """Under the matrix: the pair under the pointer in all distances that are known; otherwise the unit."""
         session = self.window_.session
         opened, areas = session.opened(), session.document.areas
-        places = [place for place in self._places if place.vertex is not None]
+        places = self._places
         if opened is None or self.spec is None:
             return
         if i >= 0 and max(i, j) < len(places):

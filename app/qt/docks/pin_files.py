@@ -37,7 +37,7 @@ class PinFiles:
             self.save(dialog.selectedFiles()[0])
 
     def save(self, path: str) -> None:
-        """Write the pins that are at vertices, or say why not."""
+        """Write the pins, or say why not; how far those in faces are from the vertices that are written is said."""
         surface = self._window.session.surface
         try:
             written = pins_to_write(self._pins(), surface)
@@ -45,7 +45,9 @@ class PinFiles:
         except BihdistError as error:
             self._window.failed(str(error))
             return
-        self._window.say(f"Saved {_counted(len(written))} in {Path(path).name}")
+        size = float(np.ptp(surface.vertices, axis=0).max())
+        said = snapped(written, size)
+        self._window.say(f"Saved {_counted(len(written))} in {Path(path).name}{f': {said}' if said else ''}")
 
     def choose_and_read(self) -> None:
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self._window, "Read pins", str(self._folder), READ)
@@ -71,9 +73,8 @@ class PinFiles:
         self._copy(pins_text(self._pins(), self._window.session.surface, answers), "The list of pins")
 
     def copy_matrix(self, matrix: np.ndarray) -> None:
-        """The same of the distances among those at vertices."""
-        places = [place for place in self._pins() if place.vertex is not None]
-        self._copy(matrix_text(places, matrix), "The distances among pins")
+        """The same of the distances among them."""
+        self._copy(matrix_text(self._pins(), matrix), "The distances among pins")
 
     def _copy(self, text: str, what: str) -> None:
         QtWidgets.QApplication.clipboard().setText(text)

@@ -65,9 +65,8 @@ class PinMenu:
         """To the pin whose row is selected, in the active panel."""
         dock = self._dock
         window, point = dock.window_, dock.table.points[0]
-        vertex = next(place.vertex for place in dock.places if place.point == point)
-        if vertex is not None:
-            window.session.show(move_source(window.session.document, window.grid.active, vertex))
+        at = next(place.at for place in dock.places if place.point == point)
+        window.session.show(move_source(window.session.document, window.grid.active, at))
 
 
 def _disc(colour: str) -> QtGui.QIcon:

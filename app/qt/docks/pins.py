@@ -9,11 +9,13 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import ParameterError, VertexError
 from bihdist_core.distances.answers import Answer
+from bihdist_core.sources.words import short_words_of, source_from_words
 
 from ...document.document import Document
 from ...document.measuring import add_pins, change_pin, move_pin, remove_pins
 from ...drawing.style import PINS
 from ...session.pinned import PinnedPlace, pinned_on
+from ...session.questions import source_at
 from ..look.numbers import number, share
 from ..look.segments import Segments
 from ..look.text_box import TextBox, mark_wrong
@@ -27,6 +29,8 @@ from .pin_table import PinRow, PinTable
 
 PAD = 12
 EMPTY = "Shift-click a surface to pin a point, or type vertex ids."
+WORD = re.compile(r"f[0-9]+:[^,;\s]*,[^,;\s]*|[^,;\s]+")
+"""Of what is typed: a place in a face has a comma of its own."""
 
 
 class IdBox(TextBox):
@@ -183,8 +187,8 @@ class PinsDock(Instrument):
                 values.append(other if listed.shares else one)
                 tips.append(f"{answer.label or title}: {one} {answer.unit}{f' ({other})' if other else ''}")
                 quiet.append(is_old)
-            where = "in a face" if place.vertex is None else str(place.vertex)
-            said = f"{place.name}: {' '.join(number(x) for x in at)}"
+            where = place.words
+            said = f"{place.name}: {short_words_of(place.at)} at {' '.join(number(x) for x in at)}"
             colour = PINS[place.pin.colour]
             rows.append(
                 PinRow(
@@ -240,25 +244,26 @@ class PinsDock(Instrument):
             self.window_.failed(str(error))
 
     def _add(self) -> None:
-        """Pins at the vertices that are typed."""
+        """Pins at the vertices, or the places in faces, that are typed."""
         surface = self.window_.session.surface
-        words = [word for word in re.split(r"[,;\s]+", self.box.text().strip()) if word]
+        words = WORD.findall(self.box.text())
         if not words:
             return
         for word in words:
-            if not (word.isascii() and word.isdigit()) or int(word) >= len(surface.vertices):
+            is_place = word.startswith("f")
+            if not is_place and (not (word.isascii() and word.isdigit()) or int(word) >= len(surface.vertices)):
                 self._refuse(f"No vertex {word[:20]} here: 0 to {len(surface.vertices) - 1:,}")
                 return
         try:
-            ids = [int(vertex) for vertex in surface.check_vertices([int(word) for word in words])]
+            places = [source_at(source_from_words(word), surface) for word in words]
             document = self.window_.session.document
-            pinned = add_pins(document, ids, document.surfaces[0].name)
+            pinned = add_pins(document, places, document.surfaces[0].name)
         except (VertexError, ParameterError) as error:
             self._refuse(str(error))
             return
         if pinned == document:
-            is_one = len(set(ids)) == 1
-            self._refuse(f"Vertex {ids[0]} has a pin already." if is_one else "These vertices have pins already.")
+            one = f"Vertex {places[0]}" if isinstance(places[0], int) else "This place"
+            self._refuse(f"{one} has a pin already." if len(set(places)) == 1 else "These have pins already.")
             return
         self.window_.session.show(pinned)
         self.box.clear()

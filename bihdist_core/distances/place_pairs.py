@@ -1,0 +1,98 @@
+"""Distances of pairs of points that may be anywhere in faces."""
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations
+from typing import TypeGuard
+
+import numpy as np
+
+from ..errors import ParameterError
+from ..sources.pieces import Pieces, pieces_of
+from ..sources.source import Place, Source, checked_source
+from ..sources.words import short_words_of
+from ..surface import Surface
+
+Point = Source | str
+Pair = tuple[Point, Point]
+
+
+def has_places(points: object) -> TypeGuard[Sequence[Point]]:
+    """Whether a sequence of points holds other than vertex ids: places in faces, or words."""
+    return isinstance(points, Sequence) and any(isinstance(each, Place | str) for each in points)
+
+
+def are_of_places(pairs: object) -> TypeGuard[Sequence[Pair]]:
+    """The same of a sequence of pairs; ParameterError for such that are no pairs."""
+    if not (isinstance(pairs, Sequence) and any(map(has_places, pairs))):
+        return False
+    if any(len(pair) != 2 for pair in pairs):
+        raise ParameterError("Pairs of points must be two each.")
+    return True
+
+
+def points_on(surface: Surface, points: Sequence[Point]) -> Pieces:
+    """Each of them, a vertex or a place in a face.
+
+    Raises VertexError and ParameterError for what is not on the surface or is more than a point.
+    """
+    found = []
+    for each in points:
+        source = checked_source(each)
+        if not isinstance(source, int | Place):
+            raise ParameterError(f"Pairs are of vertices and places in faces, not of {short_words_of(source)}.")
+        found.append(pieces_of(source, surface))
+    faces, corners, start = (
+        np.concatenate([getattr(each, name) for each in found]) for name in ("faces", "corners", "start")
+    )
+    return Pieces(faces, corners, start, start, np.zeros(len(found), bool))
+
+
+def squares_of_pairs(u: Pieces, v: Pieces, of_pairs: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """(k,) squared distances of k pairs of points, for squares that are quadratic forms (see `in_faces`).
+
+    of_pairs: distances of pairs of vertices (m, 2).
+    """
+    corners = np.concatenate([u.corners, v.corners], axis=1)
+    weights = np.concatenate([u.start, -v.start], axis=1)
+    a, b = np.array(list(combinations(range(6), 2))).T
+    ends = np.sort(np.stack([corners[:, a], corners[:, b]], axis=2), axis=2)
+    share = -weights[:, a] * weights[:, b]
+    used = (share != 0) & (ends[..., 0] != ends[..., 1])
+    squares = np.zeros(share.shape)
+    if used.any():
+        pairs, place = np.unique(ends[used], axis=0, return_inverse=True)
+        squares[used] = of_pairs(pairs)[place.ravel()] ** 2
+    return np.asarray((share * squares).sum(axis=1))
+
+
+def are_same(u: Pieces, v: Pieces) -> np.ndarray:
+    """(k,) whether both points of a pair are one, in whichever faces."""
+    return np.array([one == other for one, other in zip(_keys(u), _keys(v), strict=True)], bool)
+
+
+def straight(u: Pieces, v: Pieces, surface: Surface) -> np.ndarray:
+    """(k,) the lengths of the straight ways of pairs of points in one face; infinite for others."""
+    holds = np.array([_in_face(u, v, k) or _in_face(v, u, k) for k in range(len(u))], bool)
+    lengths = np.linalg.norm(u.positions(surface.vertices)[0] - v.positions(surface.vertices)[0], axis=1)
+    return np.where(holds, lengths, np.inf)
+
+
+def by_start(u: Pieces) -> Iterator[tuple[Pieces, np.ndarray]]:
+    """Each point of u once, with the numbers of the pairs that start there."""
+    rows: dict[frozenset, list[int]] = {}
+    for k, key in enumerate(_keys(u)):
+        rows.setdefault(key, []).append(k)
+    for mine in rows.values():
+        yield u.some(np.array(mine[:1])), np.array(mine)
+
+
+def _in_face(u: Pieces, v: Pieces, k: int) -> bool:
+    """Whether the face of one point holds the other, too."""
+    return set(v.corners[k][v.start[k] > 0].tolist()) <= set(u.corners[k].tolist())
+
+
+def _keys(points: Pieces) -> list[frozenset]:
+    return [
+        frozenset((c, w) for c, w in zip(corners, weights, strict=True) if w > 0)
+        for corners, weights in zip(points.corners.tolist(), points.start.tolist(), strict=True)
+    ]
