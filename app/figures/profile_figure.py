@@ -4,25 +4,16 @@ Values in several units have a plot each, side by side or, on a narrow page, one
 """
 
 import os
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from textwrap import wrap
 
 import numpy as np
 
-from bihdist_core import OutputError, ParameterError
-from bihdist_core.progress import Progress, silent
-from bihdist_core.whole_file import check_output, whole_file
+from bihdist_core import ParameterError
+from bihdist_core.progress import Progress
 
-from ..drawing.style import PAPER, Style
-from .canvas import matplotlib_settings
-from .draw import FIGURE_FORMATS
-from .fonts import check_font
-
-INCHES = 5.5
-"""As wide as the text of most papers."""
+from .chart_page import USUAL_LOOK, ChartLook, dress, save_chart
 
 LEAST_ACROSS = 2.8
 """Inches that each of several plots side by side has at least; else they stand below each other."""
@@ -33,13 +24,8 @@ LOW, HIGH, SLANT = 1.5, 2.2, 0.5
 LONG = 14
 """Letters from which on a name has several lines."""
 
-POINTS = 8.0
-"""The size of all letters, if nothing is said."""
-
 LINE = 1.4
 """Points that a curve is wide."""
-
-PIXELS_PER_INCH = 300
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,17 +57,14 @@ class ProfileKnot:
 class ProfileFigure:
     """arcs: (k,) lengths along the path, in `unit`.
 
-    Curves of one unit share a plot.  inches: across.  font: a family, "" for the usual one.  points: of the letters.
+    Curves of one unit share a plot.
     """
 
     arcs: np.ndarray
     curves: tuple[ProfileCurve, ...]
     unit: str = ""
     knots: tuple[ProfileKnot, ...] = ()
-    style: Style = PAPER
-    font: str = ""
-    inches: float = INCHES
-    points: float = POINTS
+    look: ChartLook = USUAL_LOOK
 
     @property
     def plots(self) -> list[tuple[ProfileCurve, ...]]:
@@ -93,56 +76,32 @@ class ProfileFigure:
 
 
 def save_profile_figure(figure: ProfileFigure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
-    """Into a .png, .pdf, .svg or .eps file, whole or not at all.
-
-    Raises ParameterError where there are no curves or no such font; OutputError if it cannot be written.
-    """
-    extension = check_output(path, FIGURE_FORMATS)
-    check_font(figure.font)
+    """See `save_chart`; ParameterError where there are no curves, too."""
     if not figure.curves:
         raise ParameterError("There is no field along the path yet; wait until a panel has one.")
-    (progress or silent)(0.0, "drawing the profile")
-    with whole_file(path) as temporary, matplotlib_settings(figure.font):
-        try:
-            _write(figure, temporary, extension)
-        except ValueError as error:  # matplotlib's word for a page it cannot make
-            raise OutputError(f"{path} could not be written: {error}.") from error
+    inches, count = figure.look.inches, len(figure.plots)
+    is_row = inches >= LEAST_ACROSS * count
+    across = inches / count if is_row else inches
+    high = min(max(SLANT * across, LOW), HIGH) * (1 if is_row else count)
+    save_chart(path, figure.look, high, lambda page: _fill(page, figure, is_row), progress)
 
 
-def _write(figure: ProfileFigure, path: Path, extension: str) -> None:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure as Canvas
-
-    style, plots = figure.style, figure.plots
-    is_row = figure.inches >= LEAST_ACROSS * len(plots)
-    across = figure.inches / len(plots) if is_row else figure.inches
-    high = min(max(SLANT * across, LOW), HIGH) * (1 if is_row else len(plots))
-    canvas = Canvas((figure.inches, high), PIXELS_PER_INCH, facecolor=style.background, layout="constrained")
-    FigureCanvasAgg(canvas)
-    rows = canvas.subplots(*((1, len(plots)) if is_row else (len(plots), 1)), squeeze=False)
+def _fill(page, figure: ProfileFigure, is_row: bool) -> None:
+    plots = figure.plots
+    rows = page.subplots(*((1, len(plots)) if is_row else (len(plots), 1)), squeeze=False)
     named = []
     for k, (axes, curves) in enumerate(zip(rows.flat, plots, strict=True)):
-        axes.set_facecolor(style.background)
         _draw(axes, figure, curves, is_row or k == len(plots) - 1)
         _mark(axes, figure, is_row or k == 0)
         named.append(_name(axes, figure, curves))
     # How high the plots are is known once all words are there.
-    canvas.get_layout_engine().execute(canvas)
+    page.get_layout_engine().execute(page)
     for axes, names in zip(rows.flat, named, strict=True):
-        _spread(axes, figure.points, names)
-    # Nothing in the file says when it was made, so that it is equal when made again.
-    dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": {"Software": None}}.get(extension, {})
-    made = {} if extension == ".png" else {"Creator": "bihdist"}
-    canvas.savefig(path, metadata={**made, **dates}, facecolor=style.background)
-    if extension == ".eps":
-        content = path.read_bytes()
-        path.write_bytes(re.sub(rb"^%%(CreationDate|Title):[^\n]*\n", b"", content, count=2, flags=re.MULTILINE))
+        _spread(axes, figure.look.points, names)
 
 
 def _draw(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], is_lowest: bool) -> None:
-    from matplotlib.ticker import FuncFormatter
-
-    style, points, in_shares = figure.style, figure.points, curves[0].is_share
+    in_shares = curves[0].is_share
     for curve in curves:
         dashes, scale = "--" if curve.is_dashed else "-", 100 if in_shares else 1
         line = axes.plot(figure.arcs, scale * curve.values, dashes, color=curve.colour, linewidth=LINE)[0]
@@ -152,27 +111,17 @@ def _draw(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], is_lowest
         axes.set_ylim(0, max(100.0, axes.get_ylim()[1] if axes.get_ylim()[1] > 106 else 100.0))
     elif not in_shares and axes.dataLim.ymin >= 0:
         axes.set_ylim(bottom=0)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-    for side in ("left", "bottom"):
-        axes.spines[side].set_color(style.quiet_text)
-        axes.spines[side].set_linewidth(0.6)
-    axes.grid(axis="y", color=style.quiet_text, alpha=0.25, linewidth=0.5)
-    axes.tick_params(labelsize=points, colors=style.quiet_text, width=0.6, length=2.5, labelbottom=is_lowest)
-    axes.locator_params(axis="y", nbins=5)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.6g}".replace("-", "−")))
-    if is_lowest:
-        axes.set_xlabel(f"length along the path ({figure.unit})", fontsize=points, color=style.text)
     words = "% of the maximum" if in_shares else curves[0].unit or "value"
-    axes.set_ylabel(words, fontsize=points, color=style.text)
+    dress(axes, figure.look, f"length along the path ({figure.unit})" if is_lowest else "", words)
+    axes.tick_params(labelbottom=is_lowest)
+    axes.locator_params(axis="y", nbins=5)
 
 
 def _mark(axes, figure: ProfileFigure, has_discs: bool) -> None:
     """The points that the path goes through, by lines and, over the plot, by discs; never one on another."""
-    style, points = figure.style, figure.points
+    style, points = figure.look.style, figure.look.points
     across = 1.5 * points
-    apart = across / 72 / (0.7 * figure.inches) * (figure.arcs[-1] or 1.0)
+    apart = across / 72 / (0.7 * figure.look.inches) * (figure.arcs[-1] or 1.0)
     taken: list[float] = []
     ends = figure.knots[:1] + figure.knots[-1:]
     for knot in (*ends, *figure.knots[1:-1]):
@@ -211,7 +160,7 @@ def _name(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve]) -> list:
             xytext=(5, 0),
             textcoords="offset points",
             va="center",
-            fontsize=figure.points,
+            fontsize=figure.look.points,
             fontweight="bold",
             color=curve.colour,
         )

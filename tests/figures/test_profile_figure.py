@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from app.figures.chart_page import ChartLook
 from app.figures.profile_figure import ProfileCurve, ProfileFigure, ProfileKnot, save_profile_figure
 from bihdist_core import ParameterError
 
@@ -56,7 +57,9 @@ def test_values_of_several_units_have_a_plot_each(tmp_path):
 
 @pytest.mark.parametrize("mm", [60, 85, 140, 178])
 def test_no_word_is_off_the_page_or_on_another(tmp_path, mm):
-    words, (width, height) = boxes(tmp_path, ProfileFigure(ARCS, CURVES, "mesh units", KNOTS, inches=mm / 25.4))
+    words, (width, height) = boxes(
+        tmp_path, ProfileFigure(ARCS, CURVES, "mesh units", KNOTS, look=ChartLook(inches=mm / 25.4))
+    )
     assert width == pytest.approx(72 * mm / 25.4, abs=0.01)
     # The boxes have empty rims.
     words += (1.2, 1.2, -1.2, -1.2)
@@ -68,7 +71,10 @@ def test_no_word_is_off_the_page_or_on_another(tmp_path, mm):
 
 
 def test_on_narrow_pages_plots_stand_below_each_other(tmp_path):
-    heights = [boxes(tmp_path, ProfileFigure(ARCS, CURVES[:3], "m", inches=mm / 25.4))[1][1] for mm in (85, 178)]
+    heights = [
+        boxes(tmp_path, ProfileFigure(ARCS, CURVES[:3], "m", look=ChartLook(inches=mm / 25.4)))[1][1]
+        for mm in (85, 178)
+    ]
     assert heights[0] > 1.8 * 72 * 1.5
     assert heights[1] < 2.3 * 72
 

@@ -206,3 +206,21 @@ def test_a_session_has_its_selections_and_its_dock_again(opened, screen, tmp_pat
     assert dock.list.topLevelItemCount() == 1
     green = np.array([0x1F, 0x7A, 0x3D])
     assert all((np.abs(picture.astype(int) - green).max(axis=2) < 3).sum() > 200 for picture in other.pictures())
+
+
+def test_the_scatter_is_saved_as_a_figure_and_as_numbers(opened, tmp_path):
+    s, dock = opened, opened.dock
+    lasso(s, [(0.5, -0.02), (1.02, -0.02), (1.02, 1.02), (0.5, 1.02)])
+    assert dock.list.current == "selection"
+    dock.save_figure(path=str(tmp_path / "it.svg"))
+    s.until((tmp_path / "it.svg").exists)
+    text = (tmp_path / "it.svg").read_text()
+    count = len(selected(s, "selection"))
+    assert f"selection ({count:,})" in text
+    assert f"rank correlation {dict(dock.facts.facts)['rank correlation']}" in text
+    dock.save_numbers(path=str(tmp_path / "it.csv"))
+    rows = np.genfromtxt(tmp_path / "it.csv", delimiter=",", skip_header=1)
+    a, b = (answer.field for answer in s.answers)
+    assert np.array_equal(rows[:, :3], np.column_stack([np.arange(len(a)), a / a.max(), b / b.max()]))
+    assert np.flatnonzero(rows[:, 3]).tolist() == selected(s, "selection").tolist()
+    assert (tmp_path / "it.csv").read_text().startswith("vertex,Biharmonic,Diffusion,selection\n")

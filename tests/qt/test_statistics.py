@@ -108,3 +108,18 @@ def test_isolines_and_the_region_between_two_values_are_saved(opened, tmp_path):
         s.settle(0.5)
         assert box.band is None
     assert "smaller first" in box.said.text()
+
+
+def test_the_histogram_is_saved_and_copied(opened, tmp_path):
+    s, dock = opened, opened.dock
+    dock.save_figure(path=str(tmp_path / "it.svg"))
+    s.until((tmp_path / "it.svg").exists)
+    text = (tmp_path / "it.svg").read_text()
+    assert f"mean {dock.statistics.mean:.4g}" in text
+    assert "Biharmonic (mesh units)" in text
+    dock.save_numbers(path=str(tmp_path / "it.csv"))
+    rows = np.genfromtxt(tmp_path / "it.csv", delimiter=",", names=True)
+    assert np.array_equal(rows["area"], dock.statistics.areas)
+    assert np.array_equal(rows["to"], dock.statistics.bins[1:])
+    dock.copy()
+    assert s.application.clipboard().text().splitlines()[1].startswith("greatest, at vertex")

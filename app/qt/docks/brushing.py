@@ -98,9 +98,10 @@ class Brushing(QtCore.QObject):
         else:
             name, before = self.current, vertices_of(known[self.current].runs)
             wanted = np.union1d(before, vertices) if way == "added" else np.setdiff1d(before, vertices)
-        session.show(select(document, name, wanted))
-        if name in [each.name for each in session.document.selections]:
+        after = select(document, name, wanted)
+        if name in [each.name for each in after.selections]:
             self.current = name
+        session.show(after)
 
     # ------------------------------------------------------------------ the brush
     def switch(self, is_on: bool) -> None:

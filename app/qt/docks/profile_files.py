@@ -14,7 +14,7 @@ from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
 from bihdist_core.whole_file import check_output
 
 from ...drawing.style import style_of
-from ..look.theme import DARK, LIGHT, lightness
+from .chart_files import paper_theme
 
 if TYPE_CHECKING:
     from ...figures.profile_figure import ProfileFigure
@@ -79,14 +79,13 @@ class ProfileFiles:
 
     def figure(self) -> "ProfileFigure":
         """What the chart shows, in the style of the page and the colours that go with its ground."""
-        from ...figures.profile_figure import INCHES, POINTS, ProfileCurve, ProfileFigure, ProfileKnot
-        from ...figures.size import MM_PER_INCH, Size
+        from ...figures.chart_page import ChartLook
+        from ...figures.profile_figure import ProfileCurve, ProfileFigure, ProfileKnot
 
         self._there()
         dock = self._dock
         chart, page, document = dock.chart, dock.window_.page, dock.window_.session.document
-        style = style_of(page.style, document.colours)
-        colours = (LIGHT if lightness(_hex(style.background)) > 0.5 else DARK).curves
+        colours = paper_theme(dock.window_).curves
         places = {panel.id: k for k, panel in enumerate(document.panels)}
         in_shares, curves = document.profile.shares, []
         for id, curve in dock.curves.items():
@@ -95,16 +94,12 @@ class ProfileFiles:
             colour = colours[places[id] % len(colours)]
             if np.isfinite(values).any():
                 curves.append(ProfileCurve(curve.name, values, colour, curve.unit, is_share, curve.is_dashed))
-        size = Size.parse(page.size) if page.size else Size()
         return ProfileFigure(
             chart.arcs,
             tuple(curves),
             "mesh units",
             tuple(ProfileKnot(arc, badge.text, badge.colour, badge.name) for arc, badge in chart.knots),
-            style,
-            page.font,
-            size.width / MM_PER_INCH if size.unit == "mm" and size.width else INCHES,
-            page.text or POINTS,
+            ChartLook.of(page, style_of(page.style, document.colours)),
         )
 
     def copy(self) -> None:
@@ -137,7 +132,3 @@ class ProfileFiles:
                     name = f"{base} {count}"
                 found[name] = session.shown[panel.id].answer.field
         return found
-
-
-def _hex(colour: tuple[float, float, float]) -> str:
-    return "#" + "".join(f"{round(255 * x):02X}" for x in colour)

@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from qtpy import QtWidgets
@@ -19,6 +20,10 @@ NAMES = {
     ".obj": "OBJ lines",
     ".json": "JSON",
     ".pp": "MeshLab's picked points",
+    ".pdf": "PDF",
+    ".png": "PNG",
+    ".svg": "SVG",
+    ".eps": "EPS",
 }
 
 
@@ -31,13 +36,17 @@ def save(window: Any, title: str, name: str, formats: Sequence[str], write: Call
 
 def ask_path(window: Any, title: str, name: str, formats: Sequence[str]) -> str:
     """A path that ends in one of the formats, the first if none is typed; empty if the user has none."""
-    dialog = QtWidgets.QFileDialog(window, title)
+    dialog = QtWidgets.QFileDialog(window, title, window.preferences.last_folder)
     dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
     dialog.setNameFilters([f"{NAMES[extension]} (*{extension})" for extension in formats])
     dialog.setDefaultSuffix(formats[0].removeprefix("."))
     dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(re.search(r"\*\.(\w+)", chosen)[1]))
     dialog.selectFile(re.sub(r"[^\w.-]+", "-", name).strip("-") + formats[0])
-    return dialog.selectedFiles()[0] if dialog.exec() else ""
+    if not dialog.exec():
+        return ""
+    (path,) = dialog.selectedFiles()
+    window.preferences = replace(window.preferences, last_folder=os.path.dirname(path))
+    return path
 
 
 def written(window: Any, path: str, write: Callable[[str], object]) -> bool:

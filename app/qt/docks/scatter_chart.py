@@ -7,15 +7,10 @@ from qtpy import QtCore, QtGui
 
 from bihdist_core.analysis.field_scatter import FieldScatter
 
+from ...drawing.density import cell_size, density_picture
 from ...drawing.style import PINS
 from ..look.look import LOOK
 from .chart import Axis, Chart, paint_dot
-
-FAINTEST = 0.22
-"""How dark the cell of a single point is where the fullest is 1."""
-
-COARSE = ((3_000, 3), (60_000, 2))
-"""Up to so many points a cell is so many pixels wide: few points are to be seen, too."""
 
 REACH = 12.0
 """Pixels from the pointer to the point that it means."""
@@ -132,24 +127,14 @@ class ScatterChart(Chart):
 
     def _picture(self, plot: QtCore.QRectF) -> QtGui.QImage:
         """A cell for each pixel or some: grey by the logarithm of how many are in it, selections in their colours."""
-        ratio, count = self.devicePixelRatioF(), len(self.scatter.ids)
-        size = next((size for most, size in COARSE if count <= most), 1)
+        ratio, size = self.devicePixelRatioF(), cell_size(len(self.scatter.ids))
         columns, rows = (max(round(side * ratio / size), 1) for side in (plot.width(), plot.height()))
         grid = columns, rows, (self.across.low, self.across.high), (self.up.low, self.up.high)
-        cell, there = self.scatter.cells(*grid)
-        number = np.bincount(cell, minlength=columns * rows)
-        shade = FAINTEST + (1 - FAINTEST) * np.log1p(number) / np.log1p(max(number.max(), 1))
-        pixels = np.empty((rows * columns, 4), np.uint8)
-        ink = QtGui.QColor(LOOK.theme.text)
-        pixels[:, :3] = ink.red(), ink.green(), ink.blue()
-        pixels[:, 3] = np.where(number > 0, 255 * shade, 0)
+        chosen = []
         for vertices, colour in self._selections:
             shown = QtGui.QColor(PINS[colour])
-            if LOOK.theme.is_dark:
-                shown = shown.lighter(150)
-            chosen = np.isin(self.scatter.ids[there], vertices, assume_unique=True)
-            pixels[cell[chosen]] = shown.red(), shown.green(), shown.blue(), 255
-        pixels = np.ascontiguousarray(pixels.reshape(rows, columns, 4)[::-1])
+            chosen.append((vertices, _rgb(shown.lighter(150) if LOOK.theme.is_dark else shown)))
+        pixels = density_picture(self.scatter, grid, _rgb(QtGui.QColor(LOOK.theme.text)), chosen)
         image = QtGui.QImage(pixels.data, columns, rows, 4 * columns, QtGui.QImage.Format.Format_RGBA8888)
         return image.copy()
 
@@ -199,3 +184,7 @@ class ScatterChart(Chart):
         self.update()
         if len(lasso) > 2 and self.scatter is not None:
             self.lassoed.emit(np.array([self.values(at) for at in lasso]), event.modifiers())
+
+
+def _rgb(colour: QtGui.QColor) -> tuple[int, int, int]:
+    return colour.red(), colour.green(), colour.blue()

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
@@ -11,10 +11,12 @@ from bihdist_core import Surface
 from bihdist_core.analysis.field_scatter import FieldScatter, field_scatter
 from bihdist_core.analysis.field_statistics import Agreement, field_agreement
 from bihdist_core.distances.answers import Answer
+from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress
 
 from ...document.document import Document
 from ...document.measuring import vertices_of
+from ...drawing.style import PINS, style_of
 from ..look.icons import put_icon
 from ..look.look import LOOK
 from ..look.numbers import number, share
@@ -23,10 +25,15 @@ from ..panels.flat_button import FlatButton
 from ..panels.quantity_menu import quantity_name
 from .background import Background
 from .chart import Axis
+from .chart_files import save_figure
 from .fact_table import FactTable
 from .instrument import Instrument
+from .saving import save, written
 from .scatter_chart import ScatterChart
 from .selection_list import SelectionList
+
+if TYPE_CHECKING:
+    from ...figures.scatter_figure import ScatterFigure
 
 SIDE = 250
 """Logical pixels for the numbers and the selections."""
@@ -110,7 +117,8 @@ class ScatterDock(Instrument):
             button.setSizePolicy(QtWidgets.QSizePolicy.Policy.Preferred, QtWidgets.QSizePolicy.Policy.Fixed)
             button.symbol = words.lower()
             button.setToolTip(f"{words}: the field of this panel")
-        self.shares = Segments({"Value": "value", "% of max": "shares"}, "Values")
+        self.shares = Segments({"Value": "value", "%": "shares"}, "Values")
+        self.shares.buttons["shares"].setToolTip("Values: shares of each maximum")
         self.shares.chosen.connect(self._choose_shares)
         self.brush = QtWidgets.QToolButton(checkable=True)
         put_icon(self.brush, "brush")
@@ -129,6 +137,15 @@ class ScatterDock(Instrument):
         window.docks.brushing.switched.connect(self.brush.setChecked)
         window.docks.brushing.switched.connect(self.radius.setVisible)
         window.docks.brushing.stroked.connect(self._show_stroke)
+        self._save = FlatButton(self, "save")
+        self._save.setToolTip("Save the scatter as a figure, or its numbers")
+        self._save.setAccessibleName("What to do with the scatter")
+        menu = QtWidgets.QMenu(self._save)
+        menu.addAction("Save as a figure …", self.save_figure)
+        menu.addAction("Save the numbers …", self.save_numbers)
+        self._save.setMenu(menu)
+        self._save.setEnabled(False)
+        self._found: Agreement | None = None
         self._asked: tuple = ()
         self._request: _Request | None = None
         self._background = Background("scatter", _compared, window)
@@ -137,7 +154,7 @@ class ScatterDock(Instrument):
         LOOK.follow(self, self._wear)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
-        return [self.up_button, self.across_button, self.shares, self.brush, self.radius]
+        return [self.up_button, self.across_button, self.shares, self.brush, self.radius, self._save]
 
     # ------------------------------------------------------------------ what is shown
     def show_document(self, document: Document, before: Document | None) -> None:
@@ -206,6 +223,8 @@ class ScatterDock(Instrument):
         self._background.ask(self._request)
 
     def _refuse(self, request: object, sentence: str) -> None:
+        self._found = None
+        self._save.setEnabled(False)
         self.chart.show_nothing(sentence)
         self.facts.show_facts([])
 
@@ -229,9 +248,12 @@ class ScatterDock(Instrument):
             room = SLACK * ((high - low) or 1)
             low = low - room if low < 0 else low
             axes.append(Axis(low, high + room, "" if request.shares else unit, request.shares))
+        self._found = None
+        self._save.setEnabled(True)
         self.chart.show_scatter(scatter, names, tuple(axes), request.has_common_unit)
 
     def _show_agreement(self, request: _Request, found: Agreement) -> None:
+        self._found = found
         lines = [("rank correlation", number(found.spearman)), ("rank correlation by area", number(found.by_area))]
         if request.has_common_unit:
             difference = request.across.field[found.largest_at], request.up.field[found.largest_at]
@@ -303,3 +325,51 @@ class ScatterDock(Instrument):
         window.grid.point_at(window.grid.active, vertex)
         surface = window.session.surface
         window.status.show_place(vertex, None if vertex is None or surface is None else surface.vertices[vertex])
+
+    # ------------------------------------------------------------------ what is saved
+    def figure(self) -> "ScatterFigure":
+        """What the chart shows, in the style of the page."""
+        from ...figures.chart_page import ChartLook
+        from ...figures.scatter_figure import INCHES, ScatterAxis, ScatterFigure
+
+        window, request, found = self.window_, self._request, self._found
+        document, page = window.session.document, window.page
+        axes = []
+        for id, axis in zip(self._pair(document), (self.chart.across, self.chart.up), strict=True):
+            unit = "% of the maximum" if document.scatter.shares else axis.unit
+            axes.append(ScatterAxis(self._name(document, id), unit, axis.low, axis.high))
+        return ScatterFigure(
+            self.chart.scatter,
+            *axes,
+            in_shares=document.scatter.shares,
+            is_common=request.has_common_unit,
+            selections=tuple((each.name, vertices_of(each.runs), PINS[each.colour]) for each in document.selections),
+            correlation=None if found is None else found.spearman,
+            largest=found.largest_at if found is not None and request.has_common_unit else None,
+            look=ChartLook.of(page, style_of(page.style, document.colours), INCHES),
+        )
+
+    def save_figure(self, *_: object, path: str = "") -> None:
+        """path: asks for one if it is empty."""
+        from ...figures.scatter_figure import save_scatter_figure
+
+        save_figure(self.window_, "Save the scatter as a figure", "scatter", save_scatter_figure, self.figure, path)
+
+    def save_numbers(self, *_: object, path: str = "") -> None:
+        """The vertices, both fields there, and a column for each selection, 1 at its vertices."""
+        window, scatter = self.window_, self.chart.scatter
+        if scatter is None:
+            return
+        document = window.session.document
+        header = ["vertex", *(self._name(document, id) for id in self._pair(document))]
+        chosen = [np.isin(scatter.ids, vertices_of(each.runs)) for each in document.selections]
+        table = np.column_stack([scatter.ids, scatter.x, scatter.y, *chosen])
+        header += [each.name for each in document.selections]
+
+        def write(path: str) -> None:
+            write_array(path, table, header)
+
+        if path:
+            written(window, path, write)
+        else:
+            save(window, "Save the scatter's numbers", "scatter", (".csv",), write)

@@ -3,27 +3,35 @@ and its isolines as objects."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core.analysis.field_statistics import FieldStatistics, field_statistics, rank_correlation
 from bihdist_core.distances.answers import Answer
+from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress, part
 
 from ...document.document import Document
+from ...drawing.style import Style, style_of
 from ...session.opened import Opened
 from ...session.questions import DifferenceQuestion, Question
 from ..look.look import LOOK
 from ..look.numbers import number, share
+from ..panels.flat_button import FlatButton
 from ..panels.quantity_menu import quantity_name
 from .background import Background
+from .chart_files import save_figure
 from .fact_table import FactTable
 from .histogram import Histogram
 from .instrument import Instrument
 from .level_box import LevelBox, Levels
+from .saving import save, written
 from .truncation_box import TruncationBox
+
+if TYPE_CHECKING:
+    from ...figures.histogram_figure import HistogramFigure
 
 BINS = 40
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -103,11 +111,22 @@ class StatisticsDock(Instrument):
         around.setContentsMargins(0, 0, 0, 0)
         around.addWidget(scroll)
         self.setMinimumWidth(240)
+        self._save = FlatButton(self, "save")
+        self._save.setToolTip("Save the histogram as a figure, or its numbers")
+        self._save.setAccessibleName("What to do with the histogram")
+        menu = QtWidgets.QMenu(self._save)
+        menu.addAction("Save the histogram as a figure …", self.save_figure)
+        menu.addAction("Save the histogram's numbers …", self.save_numbers)
+        menu.addAction("Copy the statistics", self.copy)
+        self._save.setMenu(menu)
         self._background = Background("statistics", _numbers, window)
         self._background.answered.connect(self._take)
         self._background.failed.connect(self._refuse)
         window.grid.activated.connect(self._follow)
         LOOK.follow(self, self._show)
+
+    def head_widgets(self) -> list[QtWidgets.QWidget]:
+        return [self._save]
 
     # ------------------------------------------------------------------ what it is about
     def show_document(self, document: Document, before: Document | None) -> None:
@@ -174,16 +193,16 @@ class StatisticsDock(Instrument):
         found = self.statistics
         for widget in (self.histogram, self.facts, self.quantiles):
             widget.setVisible(found is not None)
+        self._save.setEnabled(found is not None)
         self.sentence.setVisible(found is None and bool(self.sentence.text()))
         if found is None or self._request is None or self._panel not in self._ids():
             return
         answer = self._request.answer
         scene = self.window_.grid.panel(self._panel).view.scene
         top, signed = scene.maximum, answer.is_signed
-        middle = (found.bins[1:] + found.bins[:-1]) / 2
-        places = np.clip(middle / top if top > 0 else 0 * middle, -1 if signed else 0, 1)
+        colours = bin_colours(found, scene.style, top, signed)
         in_shares = answer.unit == DIFFERENCE_OF_SHARES
-        self.histogram.show_bins(found.bins, found.areas, scene.style.colours_at(places, signed), in_shares, signed)
+        self.histogram.show_bins(found.bins, found.areas, colours, in_shares, signed)
         self._unit.setText("share of the area")
         self.facts.show_facts(self._facts(found, answer))
         self.quantiles.show_facts(
@@ -222,3 +241,56 @@ class StatisticsDock(Instrument):
 
     def _say_bin(self, words: str) -> None:
         self._unit.setText(words or "share of the area")
+
+    # ------------------------------------------------------------------ what is saved
+    def figure(self) -> "HistogramFigure":
+        """The histogram, in the style and the colours of figures."""
+        from ...figures.chart_page import ChartLook
+        from ...figures.histogram_figure import HistogramFigure
+
+        found, answer, window = self.statistics, self._request.answer, self.window_
+        page, document = window.page, window.session.document
+        style = style_of(page.style, document.colours)
+        top = window.grid.panel(self._panel).view.scene.maximum
+        in_shares = answer.unit == DIFFERENCE_OF_SHARES
+        return HistogramFigure(
+            found.bins,
+            found.areas / found.areas.sum(),
+            bin_colours(found, style, top, answer.is_signed),
+            self.name.text(),
+            "" if in_shares else answer.unit,
+            in_shares,
+            found.mean,
+            ChartLook.of(page, style),
+        )
+
+    def save_figure(self, *_: object, path: str = "") -> None:
+        """path: asks for one if it is empty."""
+        from ...figures.histogram_figure import save_histogram_figure
+
+        save_figure(self.window_, "Save the histogram", "histogram", save_histogram_figure, self.figure, path)
+
+    def save_numbers(self, *_: object, path: str = "") -> None:
+        """The ends of each bin, and its area."""
+        window, found = self.window_, self.statistics
+        table = np.column_stack([found.bins[:-1], found.bins[1:], found.areas])
+
+        def write(path: str) -> None:
+            write_array(path, table, ["from", "to", "area"])
+
+        if path:
+            written(window, path, write)
+        else:
+            save(window, "Save the histogram's numbers", "histogram", (".csv", ".npy"), write)
+
+    def copy(self) -> None:
+        """What the dock says, with tabs, as spreadsheets read it."""
+        facts = [(self.name.text(),), *self.facts.facts, *self.quantiles.facts]
+        QtWidgets.QApplication.clipboard().setText("".join("\t".join(fact) + "\n" for fact in facts))
+        self.window_.say("The statistics are on the clipboard")
+
+
+def bin_colours(found: FieldStatistics, style: Style, top: float, signed: bool) -> np.ndarray:
+    """(b, 3) those of the bins' middles, where the colour bar ends at `top`."""
+    middle = (found.bins[1:] + found.bins[:-1]) / 2
+    return style.colours_at(np.clip(middle / top if top > 0 else 0 * middle, -1 if signed else 0, 1), signed)

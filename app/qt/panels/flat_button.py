@@ -22,7 +22,7 @@ ICON_SIDE = 28
 class FlatButton(QtWidgets.QToolButton):
     """Paints itself; with a menu or a pop-up it opens on Space, Enter and Down.
 
-    text: what it says; symbol: quiet, before the text; icon_name: instead of words.
+    text: what it says; symbol: quiet, before the text where there is room; icon_name: instead of words.
     """
 
     opened = QtCore.Signal()  # by mouse or keyboard, where there is no menu
@@ -106,11 +106,12 @@ class FlatButton(QtWidgets.QToolButton):
         metrics = QtGui.QFontMetricsF(painter.font())
         baseline = round((self.height() + metrics.ascent() - metrics.descent()) / 2)
         x: float = PAD
-        if self.symbol:
+        words, beside = self.text(), PAD + (ARROW if self.has_arrow else 0)
+        symbol = self._width(self.symbol) + GAP if self.symbol else 0
+        if symbol and self._width(words) <= self.width() - x - symbol - beside + 0.5:
             painter.setPen(QtGui.QColor(quiet))
             x = paint_number(painter, x, baseline, self.symbol) + GAP
-        room = self.width() - x - PAD - (ARROW if self.has_arrow else 0)
-        words = self.text()
+        room = self.width() - x - beside
         if self._width(words) > room + 0.5:
             words = metrics.elidedText(words, QtCore.Qt.TextElideMode.ElideRight, max(room, 0))
         painter.setPen(QtGui.QColor(quiet if self.quiet else text))

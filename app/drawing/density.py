@@ -1,0 +1,46 @@
+"""A scatter as a picture: how many points lie in each cell of a grid, and the cells of what is selected."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bihdist_core.analysis.field_scatter import FieldScatter
+
+FAINTEST = 0.22
+"""How dark the cell of a single point is where the fullest is 1."""
+
+COARSE = ((3_000, 3), (60_000, 2))
+"""Up to so many points a cell is so many pixels wide: few points are to be seen, too."""
+
+RGB = tuple[int, int, int]
+
+
+def cell_size(count: int) -> int:
+    """Pixels that a cell is wide for so many points."""
+    return next((size for most, size in COARSE if count <= most), 1)
+
+
+def density_picture(
+    scatter: FieldScatter,
+    grid: tuple[int, int, tuple[float, float], tuple[float, float]],
+    ink: RGB,
+    selections: Sequence[tuple[np.ndarray, RGB]] = (),
+) -> np.ndarray:
+    """(rows, columns, 4) uint8 colours and alpha, the uppermost row first.
+
+    grid: columns, rows, and the ends of both axes.  A cell is as dark as the logarithm of how many points are in it.
+    selections: vertices (k,), each with a colour that their cells have, the last on top.
+    """
+    columns, rows = grid[:2]
+    cell, there = scatter.cells(*grid)
+    number = np.bincount(cell, minlength=columns * rows)
+    shade = FAINTEST + (1 - FAINTEST) * np.log1p(number) / np.log1p(max(number.max(), 1))
+    pixels = np.empty((rows * columns, 4), np.uint8)
+    pixels[:, :3] = ink
+    pixels[:, 3] = np.where(number > 0, 255 * shade, 0)
+    ids = scatter.ids[there]
+    for vertices, colour in selections:
+        is_chosen = np.zeros(max(int(ids.max(initial=-1)), int(vertices.max(initial=-1))) + 1, bool)
+        is_chosen[vertices] = True
+        pixels[cell[is_chosen[ids]]] = *colour, 255
+    return np.ascontiguousarray(pixels.reshape(rows, columns, 4)[::-1])
