@@ -193,7 +193,12 @@ def _edges(bins: int | npt.ArrayLike, least: float, greatest: float) -> np.ndarr
     if np.ndim(bins) == 0:
         if isinstance(bins, (bool, np.bool_)) or not isinstance(bins, (int, np.integer)) or bins < 1:
             raise ParameterError(f"bins is {bins!r}; a histogram has a whole number of them, at least 1.")
-        return np.histogram_bin_edges([], int(bins), (least, greatest))
+        finest = np.spacing(max(abs(least), abs(greatest)))
+        if greatest - least < 4 * bins * finest:
+            # One value, but for rounding.
+            half = max(0.5, 4 * bins * finest)
+            least, greatest = least - half, greatest + half
+        return np.linspace(least, greatest, int(bins) + 1)
     edges = np.asarray(bins, np.float64)
     if edges.ndim != 1 or len(edges) < 2 or not (np.diff(edges) > 0).all() or not np.isfinite(edges).all():
         raise ParameterError(f"The ends of bins are at least two finite numbers, ascending, not {bins!r}.")

@@ -59,7 +59,8 @@ def voronoi_regions(surface: Surface, columns: npt.ArrayLike) -> Regions:
     f, labels = least_of(surface, columns)
     at_corner = labels[surface.faces]
     whole, mixed = whole_and_mixed(at_corner)
-    areas = np.bincount(at_corner[whole, 0], surface.face_areas[whole], minlength=f.shape[1])
+    # Of nothing, bincount gives whole numbers.
+    areas = np.zeros(f.shape[1]) + np.bincount(at_corner[whole, 0], surface.face_areas[whole], minlength=f.shape[1])
     found = [_along_edges(f, surface)]
     for some in chunks(mixed, f.shape[1]):
         rivals = rivals_in(f, surface.faces[some])

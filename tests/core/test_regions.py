@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, read_surface
+from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, Surface, read_surface
 from bihdist_core.analysis.clipping import clipped, polygon_shares
 from bihdist_core.analysis.region_boundaries import region_boundaries, write_boundaries
 from bihdist_core.analysis.region_mesh import region_mesh
@@ -183,6 +183,13 @@ def test_where_several_boundaries_coincide_there_is_one(step):
     check(surface, fields, found)
     ends = cut.vertices[cut.boundary_edges]
     assert np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum() == pytest.approx(2 * found.lengths.sum(), rel=1e-9)
+
+
+def test_no_face_need_be_in_one_region():
+    face = Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    found = voronoi_regions(face, np.eye(3) * -1)
+    check(face, np.eye(3) * -1, found)
+    assert found.areas == pytest.approx([1 / 6] * 3, rel=1e-12)
 
 
 def test_a_field_that_is_not_finite_has_no_region_there():
