@@ -5,13 +5,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from .description import Mark
+import numpy as np
+
+from .description import Figure, Mark
+from .framing import Framed, shown_surface
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from .canvas import Composition
+    from .layout import Layout
 
 POINT = 0.75
 """Points in a unit."""
@@ -26,9 +30,36 @@ NUMERAL = (1.25, 1.1, 0.85)
 """The size of a numeral of one, two and three digits, in radii."""
 
 
-def head_radius(page: Composition) -> float:
+EDGE = 1.3
+"""Radii from the middle of a head to the outside of its rims."""
+
+
+def head_radius(layout: Layout) -> float:
     """In units."""
-    return max(OF_MARK * page.layout.mark, OF_LABEL * page.layout.label)
+    return max(OF_MARK * layout.mark, OF_LABEL * layout.label)
+
+
+def overhang(figure: Figure, layout: Layout) -> tuple[float, float]:
+    """By how much drops stand over the views of a page: at most above one, and at most beside one.
+
+    In a movie above, wherever they are now.
+    """
+    above = beside = 0.0
+    radius = head_radius(layout)
+    for panel, top, cell in zip(figure.panels, figure.tops(), layout.cells, strict=True):
+        pins = [mark for mark in panel.marks if mark.number is not None]
+        if not pins:
+            continue
+        surface = shown_surface(panel, top)
+        at = np.array([mark.on(surface.vertices) for mark in pins])
+        for view, box, part in zip(panel.views, cell.views, cell.parts, strict=True):
+            x, y = Framed(view, panel, surface, box, part).places(at).T
+            is_there = (x >= box.x) & (x <= box.right) & (y >= box.y) & (y <= box.bottom)
+            tips = np.full(1, box.y) if figure.is_moving else y[is_there]
+            above = max(above, float((box.y - tips + (RISE + EDGE) * radius).max(initial=0.0)))
+            sides = np.maximum(box.x - x[is_there], x[is_there] - box.right) + EDGE * radius
+            beside = max(beside, float(sides.max(initial=0.0)))
+    return above, beside
 
 
 def drop_of(
@@ -37,7 +68,7 @@ def drop_of(
     """The parts of the drop of a pin with its tip at (x, y), in the axes; hollow and dashed where it is hidden."""
     from matplotlib.patches import PathPatch
 
-    radius = head_radius(page)
+    radius = head_radius(page.layout)
     path, style = _outline(x, y, radius), page.figure.style
     rim = 0.17 * radius
     if is_hidden:

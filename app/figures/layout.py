@@ -10,6 +10,7 @@ from . import bars
 from .bars import Bar
 from .boxes import Box, Words
 from .description import Figure
+from .drops import overhang
 from .framing import Seen, height_for, seen, shown_surface
 from .grid import VIEW_HEIGHT, Grid, grid_of, most_views, view_width
 from .inset_places import insets_of
@@ -91,6 +92,16 @@ class Layout:
 
 def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> Layout:
     """The figure's layout, at its own resolution or at least at `least_scale`; or the same at a share of it."""
+    layout = _laid_out(figure, least_scale, share)
+    above, beside = overhang(figure, layout)
+    if above or (beside > MARGIN and figure.crop):
+        # Drops of pins have room at the edges, too.
+        layout = _laid_out(figure, least_scale, share, above, beside)
+    return layout
+
+
+def _laid_out(figure: Figure, least_scale: float, share: float, above: float = 0.0, beside: float = 0.0) -> Layout:
+    """With so much free above views, and at the edges of a cropped page."""
     grid = grid_of(figure)
     room = grid.width / grid.columns
     factor = _factor(figure, grid, room)
@@ -99,9 +110,9 @@ def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> Lay
     rooms = [room] * grid.columns
     for _ in range(3 if figure.crop else 2 if figure.has_one_bar else 1):
         for level in range(6):
-            texts = _Texts(figure, lettering, factor, rooms, level)
+            texts = _Texts(figure, lettering, factor, rooms, level, above)
             strip = _Strip(figure, grid, texts)
-            sizes = _Sizes(figure, grid, texts, strip, views)
+            sizes = _Sizes(figure, grid, texts, strip, views, max(MARGIN, beside))
             if grid.height is None or sizes.high >= LEAST_VIEWS * (sizes.high + texts.head + texts.foot):
                 break
         rooms = sizes.columns
@@ -152,10 +163,12 @@ def _tallest(figure: Figure, room: float) -> float:
 class _Texts:
     """The words of all panels, in columns of these widths, and what they take at the top and bottom of each.
 
-    level: the higher, the less there is of them.
+    level: the higher, the less there is of them; above: what is left free under them for what stands over views.
     """
 
-    def __init__(self, figure: Figure, lettering: Lettering, factor: float, rooms: list[float], level: int) -> None:
+    def __init__(
+        self, figure: Figure, lettering: Lettering, factor: float, rooms: list[float], level: int, above: float
+    ) -> None:
         count = len(figure.panels)
         self.factor, self.lettering = factor, lettering
         room = min(rooms) - 8
@@ -169,7 +182,7 @@ class _Texts:
         self.head_lines = lines
         gap = 7 * factor if level < 2 else 2.0
         self.head = gap + lines * LINE * self.heading + max(map(len, self.hints)) * LINE * self.hint
-        self.head += 5 * factor if self.head > gap else 0.0
+        self.head += max(5 * factor if self.head > gap else 0.0, above)
         has_bars = not figure.has_one_bar and level < 4
         self.bars = [has_bars and p.field is not None and p.top > 0 for p in figure.panels]
         lines = max(map(len, self.feet))
@@ -223,10 +236,11 @@ class _Sizes:
         texts: _Texts,
         strip: _Strip,
         shapes: list[list[tuple[float, float, Seen | None]]],
+        margin: float,
     ) -> None:
         self.shapes, self.grid = shapes, grid
         self.words = texts.head + texts.foot
-        self.pad = 0.0
+        self.pad, self._margin = 0.0, margin
         if not figure.crop:
             self.columns = [(grid.width - strip.width) / grid.columns] * grid.columns
             wide = self.columns[0] / most_views(figure) / view_width(figure)
@@ -246,7 +260,7 @@ class _Sizes:
         self.space = max(free, 0.0) / (grid.rows + 1)
 
     def _crop(self, figure: Figure, texts: _Texts, strip: _Strip) -> None:
-        grid, self.pad = self.grid, MARGIN
+        grid, self.pad = self.grid, self._margin
         wide = [0.0] * grid.columns
         tall = [0.0] * grid.rows
         views = [1] * grid.columns
@@ -255,11 +269,11 @@ class _Sizes:
             wide[column] = max(wide[column], sum(w for w, _, _ in shapes))
             tall[row] = max(tall[row], *(h for _, h, _ in shapes))
             views[column] = max(views[column], len(shapes))
-        gap, least = 8 * texts.factor, 90.0 * min(texts.factor, 1.0)
-        bound = grid.width - strip.width - 2 * MARGIN - gap * (grid.columns - 1)
+        gap, least = max(8 * texts.factor, 2 * (self.pad - MARGIN)), 90.0 * min(texts.factor, 1.0)
+        bound = grid.width - strip.width - 2 * self.pad - gap * (grid.columns - 1)
         is_free = figure.size.width is None and figure.size.height is None
         most = grid.height if grid.height is not None else TALLEST * grid.width
-        highest = (most - strip.height - 2 * MARGIN - grid.rows * self.words) / sum(tall)
+        highest = (most - strip.height - 2 * self.pad - grid.rows * self.words) / sum(tall)
         high = max(min(highest, VIEW_HEIGHT) if is_free else highest, 8.0)
 
         def columns(high: float) -> list[float]:
@@ -277,7 +291,7 @@ class _Sizes:
             self.columns = [each * bound / sum(self.columns) for each in self.columns]
         self.rows = [high * each for each in tall]
         self.gap = gap
-        self.width = sum(self.columns) + gap * (grid.columns - 1) + strip.width + 2 * MARGIN
+        self.width = sum(self.columns) + gap * (grid.columns - 1) + strip.width + 2 * self.pad
 
 
 # ---------------------------------------------------------------------- where it stands

@@ -89,3 +89,39 @@ def test_many_hidden_pins_are_said_in_one_sentence(ball):
     with tempfile.TemporaryDirectory() as folder:
         said = save_figure(figure, f"{folder}/a.png")
     assert any("Pin 1 and 4 other pins are hidden" in sentence for sentence in said)
+
+
+@pytest.mark.parametrize("crop", [True, False])
+@pytest.mark.parametrize("title", ["heading", "caption"])
+def test_a_drop_at_the_top_is_under_the_heading_and_on_the_page(ball, crop, title):
+    from app.figures.drops import RISE, head_radius
+    from app.figures.layout import lay_out
+
+    top = int(ball.vertices[:, 1].argmax())
+    panel = FigurePanel(ball, ball.vertices[:, 1] + 2, heading="biharmonic", marks=(pin(top),))
+    figure = Figure((panel,), size=Size(400, 440, dpi=96), crop=crop, title=title)
+    layout, pixels = lay_out(figure), draw_figure(figure)
+    drop = painted(pixels, PINS[0])
+    heading = max((words.y for words in layout.cells[0].words if words.is_bold), default=0.0)
+    assert drop[:, 0].min() > heading + 2
+    # None of it is cut off: the whole of the head is there.
+    assert np.ptp(drop[:, 0]) > 0.7 * (RISE + 0.7) * head_radius(layout)
+
+
+def test_a_drop_at_the_side_of_a_cropped_page_is_not_cut_off(ball):
+    from app.figures.drops import head_radius
+    from app.figures.layout import lay_out
+
+    for side in (ball.vertices[:, 0].argmin(), ball.vertices[:, 0].argmax()):
+        panel = FigurePanel(ball, ball.vertices[:, 1] + 2, marks=(pin(int(side)),))
+        figure = Figure((panel,), size=Size(400, 440, dpi=96), crop=True)
+        drop = painted(draw_figure(figure), PINS[0])
+        assert np.ptp(drop[:, 1]) > 1.35 * head_radius(lay_out(figure))
+
+
+def test_pages_without_pins_are_as_they_were(ball):
+    from app.figures.drops import overhang
+    from app.figures.layout import lay_out
+
+    figure = Figure((FigurePanel(ball, ball.vertices[:, 1] + 2, marks=(Mark(3),)),), size=Size(400, 440, dpi=96))
+    assert overhang(figure, lay_out(figure)) == (0.0, 0.0)
