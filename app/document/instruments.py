@@ -10,8 +10,11 @@ from .looks import one_of
 DOCKS = ("pins", "profile", "scatter", "statistics", "quality", "regions", "sources")
 """The instruments, each in a dock of the window."""
 
-WAYS = ("auto", "exact", "straightened", "edges", "section")
-"""How a profile goes from point to point: `GeodesicPaths`' methods, or by a plane through both and the view."""
+SECTIONS = {"section": "shorter", "section-longer": "longer", "section-whole": "whole"}
+"""Ways of a profile by a plane through two points and a direction, and the part of the section that each takes."""
+
+WAYS = ("auto", "exact", "straightened", "edges", *SECTIONS)
+"""How a profile goes from point to point: `GeodesicPaths`' methods, or by planes."""
 
 PIN_COLOURS = 10
 """How many colours there are for pins and selections."""

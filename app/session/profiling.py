@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.analysis.places import Place as PathPlace
@@ -14,6 +15,7 @@ from bihdist_core.sources.source import Place, Source
 from bihdist_core.surface import Surface
 
 from ..document.document import Document
+from ..document.instruments import SECTIONS
 from .lane import Lane
 
 FEW = "A profile goes from point to point: pin two points, or choose its ends above."
@@ -62,10 +64,29 @@ def wanted_path(
         raise ParameterError("A profile lies on one surface; its points are on several.")
     profile = document.profile
     places = tuple(_place(point.at, point.name) for point in points)
-    if profile.way == "section" and len(places) > 2:
-        raise ParameterError("A section by a plane goes through two points; choose them above.")
-    across = (profile.across or seen) if profile.way == "section" else None
-    return PathWanted(surfaces(points[0].surface), places, profile.way, across)
+    if SECTIONS.get(profile.way) == "whole" and len(places) > 2:
+        raise ParameterError("The whole section is that through two points; choose them above.")
+    surface, said = surfaces(points[0].surface), [point_words(document, point.name) for point in points]
+    for (before, a), (after, b) in pairwise(zip(said, places, strict=True)):
+        if a == b:
+            raise ParameterError(f"From {before} to {after} there is no path: they are at the same place.")
+        if len({surface.component_of_vertex[_vertex(surface, place)] for place in (a, b)}) > 1:
+            raise ParameterError(
+                f"From {before} to {after} there is no path: they are on components of the mesh that do not meet."
+            )
+    across = (profile.across or seen) if profile.way in SECTIONS else None
+    return PathWanted(surface, places, profile.way, across)
+
+
+def point_words(document: Document, name: str) -> str:
+    """How a sentence names a point: a pin by its number."""
+    number = next((k for k, pin in enumerate(document.pins, 1) if pin.point == name), None)
+    return name if number is None else f"pin {number}"
+
+
+def _vertex(surface: Surface, place: PathPlace) -> int:
+    """A vertex of the component that a place is on."""
+    return place if isinstance(place, int) else int(surface.faces[int(place[0]), 0])
 
 
 def _place(at: Source | None, name: str) -> PathPlace:
@@ -114,10 +135,10 @@ class PathLane:
         self._post(lambda: self._tell(wanted, path))
 
     def _path(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
-        if wanted.way == "section":
+        if wanted.way in SECTIONS:
             if wanted.across is None:
                 raise ParameterError("A section needs a direction; choose it again in the way's menu.")
-            return plane_section(wanted.surface, wanted.places, wanted.across)
+            return plane_section(wanted.surface, wanted.places, wanted.across, SECTIONS[wanted.way])
         if self._paths is None or self._paths.surface is not wanted.surface:
             if self._paths is not None:
                 self._paths.close()

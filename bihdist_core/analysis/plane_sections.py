@@ -1,6 +1,7 @@
-"""The section of a surface by a plane, between two places."""
+"""Sections of a surface by planes, from place to place."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -9,26 +10,98 @@ import numpy.typing as npt
 from ..errors import ParameterError
 from ..surface import Surface
 from .isoline_tracing import Isoline, isolines
-from .places import Place, Places, split_at
+from .places import Place, Places, Split, split_at
 from .surface_paths import Crossings, Stars, SurfacePath, assembled
 
-IN_PLANE = 1e-12
-"""Vertices nearer to a plane than this share of the surface's extent lie in it."""
+PARTS = {
+    "shorter": "section by a plane",
+    "longer": "section by a plane, the longer way",
+    "whole": "the whole section by a plane",
+}
+"""Which part of a section is meant, and what that is called."""
 
 
-def plane_section(surface: Surface, places: Sequence[Place], direction: npt.ArrayLike) -> SurfacePath:
-    """The shortest part of the surface's section that joins two places; the plane holds both and a direction (3,).
+def plane_section(
+    surface: Surface, places: Sequence[Place], direction: npt.ArrayLike, part: str = "shorter"
+) -> SurfacePath:
+    """The parts of the surface's sections that join two or more places in order.
 
-    Raises ParameterError for another number of places, for a direction that is not three finite numbers or is that
-    from one place to the other, and where the section does not join them; VertexError for a bad vertex.
+    Each plane holds two places and a direction (3,).  part: the "shorter" or the "longer" way along the section; or,
+    of two places, the "whole" curve on which both lie, from the first by the shorter way to the second and back to the
+    first, or from end to end where it is open.
+
+    Raises ParameterError for another part, fewer than two places, the same place twice in a row, more than two for the
+    whole, for a direction that is not three finite numbers or is that from one place to the next, and where the section
+    does not join them, or in one way only; VertexError for a bad vertex.
     """
     d = np.asarray(direction, np.float64)
     if d.shape != (3,) or not np.isfinite(d).all():
         raise ParameterError(f"A direction is three finite numbers, not {direction!r}.")
-    if len(places) != 2:
-        raise ParameterError(f"A section joins two places; {len(places)} were given.")
+    if part not in PARTS:
+        raise ParameterError(f"A section has no part {part!r}; choose one of {', '.join(PARTS)}.")
+    if len(places) < 2:
+        raise ParameterError(f"A section joins two places or more; {len(places)} were given.")
+    if part == "whole" and len(places) > 2:
+        raise ParameterError(f"The whole section is that through two places; {len(places)} were given.")
     split = split_at(surface, Places.of(surface, places))
-    start, stop = (int(v) for v in split.vertices)
+    stars, parts, knots = Stars(split.surface), [], slice(None)
+    for k, (start, stop) in enumerate(pairwise(split.vertices.tolist())):
+        if start == stop:
+            raise ParameterError(f"The places {k} and {k + 1} of a section are the same, {places[k]!r}; leave one out.")
+        found = _ways(split, start, stop, d)
+        if part == "whole":
+            pieces, knots = found[0].whole()
+        elif part == "longer" and len(found) < 2:
+            raise ParameterError(
+                f"The section of {surface.name} joins the places {k} and {k + 1} in one way only; "
+                "take the shorter part, or turn the direction."
+            )
+        else:
+            pieces = [found[0 if part == "shorter" else -1].curve]
+        parts += [Crossings(ends, t, stars.common(ends)) for ends, t in pieces]
+    path = assembled(split, parts, "section", PARTS[part])
+    return replace(path, knots=path.knots[knots])
+
+
+IN_PLANE = 1e-12
+"""Vertices nearer to a plane than this share of the surface's extent lie in it."""
+
+Curve = tuple[np.ndarray, np.ndarray]
+"""Ends (k, 2) and parameters (k,) of its points, as in `Crossings`."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Way:
+    """A part of a line that leads from one vertex to another, by the numbers (k,) of its points."""
+
+    line: Isoline
+    index: np.ndarray
+
+    @property
+    def curve(self) -> Curve:
+        return self._at(self.index)
+
+    def _at(self, index: np.ndarray) -> Curve:
+        ends, t = self.line.edges[index], self.line.parameters[index]
+        at_vertex = t == 1
+        return np.where(at_vertex[:, None], ends[:, 1:], ends), np.where(at_vertex, 0.0, t)
+
+    def whole(self) -> tuple[list[Curve], slice]:
+        """The pieces of the whole line, and which of their ends, first and last included, are the two vertices."""
+        count, step = len(self.line.points), int(self.index[1] - self.index[0])
+        if self.line.closed:
+            step = step if abs(step) == 1 else -np.sign(step)  # across the last point
+            back = (self.index[-1] + step * np.arange(count - len(self.index) + 2)) % count
+            return [self.curve, self._at(back)], slice(None)
+        before = np.arange(0 if step == 1 else count - 1, self.index[0] + step, step)
+        after = np.arange(self.index[-1], count if step == 1 else -1, step)
+        pieces = [self._at(before), self.curve, self._at(after)]
+        knots = slice(int(len(before) > 1), -1 if len(after) > 1 else None)
+        return [piece for piece in pieces if len(piece[1]) > 1], knots
+
+
+def _ways(split: Split, start: int, stop: int, d: np.ndarray) -> list[_Way]:
+    """How the section leads from one vertex to another, the shortest first."""
     x = split.surface.vertices
     normal = np.cross(x[stop] - x[start], d)
     size = np.linalg.norm(normal)
@@ -41,34 +114,29 @@ def plane_section(surface: Surface, places: Sequence[Place], direction: npt.Arra
     # A vertex in the plane counts as above it, from either side: a place that is the highest one near it is met from
     # the other.
     for field in (height, -height):
-        parts = [part for line in isolines(split.surface, field, [0.0]) for part in _between(line, start, stop)]
-        if parts:
-            best = min(parts, key=lambda part: _length(x, *part))
-            crossings = Crossings(*best, Stars(split.surface).common(best[0]))
-            return assembled(split, [crossings], "section", "section by a plane")
+        found = [way for line in isolines(split.surface, field, [0.0]) for way in _between(line, start, stop)]
+        if found:
+            return sorted(found, key=lambda way: _length(way.line.points[way.index]))
     raise ParameterError(
-        f"The section of {surface.name} by this plane does not join the two places; turn the direction."
+        f"The section of {split.whole.name} by this plane does not join the two places; turn the direction."
     )
 
 
-def _between(line: Isoline, start: int, stop: int) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Ends (k, 2) and parameters (k,) of the parts of a curve that join two vertices, without passing one of them."""
+def _between(line: Isoline, start: int, stop: int) -> list[_Way]:
+    """The parts of a line that join two vertices, without passing one of them."""
     at_vertex = line.parameters == 1
-    ends = np.where(at_vertex[:, None], line.edges[:, 1:], line.edges)
-    t = np.where(at_vertex, 0.0, line.parameters)
-    met = np.flatnonzero(at_vertex & ((ends[:, 1] == start) | (ends[:, 1] == stop)))
+    met = np.flatnonzero(at_vertex & ((line.edges[:, 1] == start) | (line.edges[:, 1] == stop)))
     turns = list(pairwise(met))
     if line.closed and len(met) > 1:
-        turns.append((met[-1], met[0] + len(t)))
+        turns.append((met[-1], met[0] + len(at_vertex)))
     found = []
     for low, high in turns:
-        index = np.arange(low, high + 1) % len(t)
-        if ends[index[0], 0] != ends[index[-1], 0]:
-            index = index if ends[index[0], 0] == start else index[::-1]
-            found.append((ends[index], t[index]))
+        index = np.arange(low, high + 1) % len(at_vertex)
+        first, last = line.edges[index[[0, -1]], 1]
+        if first != last:
+            found.append(_Way(line, index if first == start else index[::-1]))
     return found
 
 
-def _length(x: np.ndarray, ends: np.ndarray, t: np.ndarray) -> float:
-    points = Crossings(ends, t, ends[:-1, 0]).points(x)
+def _length(points: np.ndarray) -> float:
     return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())

@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import sys
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -276,13 +277,55 @@ def test_a_section_through_vertices_of_a_plane():
         assert plane_section(plane, places, [0, 0, 1]).length == pytest.approx(4, rel=1e-12)
 
 
+def test_both_ways_of_a_section_make_the_whole(rough):
+    places = [(8, 0.2, 0.3), 250]
+    short, long, whole = (plane_section(rough, places, [0.3, 0.2, 1], part) for part in ("shorter", "longer", "whole"))
+    ends = Places.of(rough, places).values(rough.vertices)
+    normal = np.cross(ends[1] - ends[0], [0.3, 0.2, 1])
+    for path in (short, long, whole):
+        check(rough, path)
+        assert np.abs((path.points - ends[0]) @ normal).max() < 1e-12 * np.linalg.norm(normal)
+        assert np.allclose(path.points[path.knots], ends if path is not whole else ends[[0, 1, 0]], 0, 1e-12)
+    assert short.length < long.length
+    assert whole.arcs[whole.knots] == pytest.approx([0, short.length, short.length + long.length], rel=1e-12)
+    lines = isolines(rough, (rough.vertices - ends[0]) @ normal, [0.0])
+    assert min(abs(line.length - whole.length) for line in lines) < 1e-9 * whole.length
+
+
+def test_the_whole_of_an_open_section_goes_from_end_to_end():
+    plane = grid(4, 4)
+    for places in ([6, 18], [18, 6], [0, 18], [18, 24], [0, 24]):
+        path = plane_section(plane, places, [0, 0, 1], "whole")
+        check(plane, path)
+        assert path.length == pytest.approx(np.sqrt(32), rel=1e-12)
+        assert np.allclose(path.points[path.knots], plane.vertices[places])
+        assert path.knots[0] < path.knots[1]
+
+
+def test_sections_are_led_from_place_to_place(rough):
+    places, d = [3, (8, 0.2, 0.3), 250, 120], [0.3, 0.2, 1]
+    path = plane_section(rough, places, d)
+    check(rough, path)
+    assert np.allclose(path.points[path.knots], Places.of(rough, places).values(rough.vertices), 0, 1e-12)
+    parts = [plane_section(rough, pair, d).length for pair in pairwise(places)]
+    assert np.diff(path.arcs[path.knots]) == pytest.approx(parts, rel=1e-9)
+
+
 def test_sections_that_do_not_join_are_refused(rough):
     with pytest.raises(ParameterError, match="make no plane"):
         plane_section(rough, [0, 9], rough.vertices[9] - rough.vertices[0])
     with pytest.raises(ParameterError, match="three finite numbers"):
         plane_section(rough, [0, 9], [0, 0, np.nan])
-    with pytest.raises(ParameterError, match="joins two places; 3"):
-        plane_section(rough, [0, 9, 7], [0, 0, 1])
+    with pytest.raises(ParameterError, match="joins two places or more; 1"):
+        plane_section(rough, [0], [0, 0, 1])
+    with pytest.raises(ParameterError, match="through two places; 3"):
+        plane_section(rough, [0, 9, 7], [0, 0, 1], "whole")
+    with pytest.raises(ParameterError, match="places 1 and 2 of a section are the same, 9"):
+        plane_section(rough, [0, 9, 9], [0, 0, 1])
+    with pytest.raises(ParameterError, match="no part 'half'; choose one of shorter, longer, whole"):
+        plane_section(rough, [0, 9], [0, 0, 1], "half")
+    with pytest.raises(ParameterError, match="the places 0 and 1 in one way only"):
+        plane_section(grid(4, 4), [0, 24], [0, 0, 1], "longer")
     ring = torus()
     across = [0, int(ring.vertices[:, 0].argmin())]
     with pytest.raises(ParameterError, match="does not join"):

@@ -216,14 +216,29 @@ def test_ways_and_ends_are_steps_that_can_be_undone(opened):
     dock = dock_of(s)
     s.until(lambda: dock.path is not None)
     first = dock.path
-    dock._choose_way("section")
+    dock.choices.choose_way("section")
     s.until(lambda: dock.path is not None and dock.path is not first)
     assert dock.path.label == "section by a plane" == dock.way.text()
     assert s.document.profile.across is not None
-    dock.type_end(1, "300")
+    across = s.document.profile.across
+    shorter = dock.path.length
+    s.window.reset_view("back")
+    s.settle()
+    dock.choices.choose_way("section-whole")
+    s.until(lambda: dock.path is not None and dock.path.label == "the whole section by a plane")
+    # The plane stays; it comes back to its first point.
+    assert s.document.profile.across == across
+    assert s.document.camera == "back"
+    assert [badge.name for _, badge in dock.chart.knots] == ["pin 1", "pin 2", "pin 1"]
+    assert dock.chart.knots[1][0] == pytest.approx(shorter)
+    dock.choices.turn_plane()
+    assert s.document.profile.across != across
+    s.session.undo()
+    s.session.undo()
+    dock.choices.type_end(1, "300")
     s.until(lambda: dock._wanted.places[1] == 300)
     assert s.document.pins[-1].point == s.document.profile.points[1]
-    dock.type_end(0, "100000")
+    dock.choices.type_end(0, "100000")
     assert "100000" in s.refusals[-1]
     s.session.undo()
     s.session.undo()
@@ -265,7 +280,7 @@ def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(opened, screen,
     s.window.docks.toggle("profile")
     dock = dock_of(s)
     s.until(lambda: dock.path is not None)
-    dock._choose_way("edges")
+    dock.choices.choose_way("edges")
     s.until(lambda: dock.path.label == "shortest path along edges")
     path = str(tmp_path / "it.json")
     s.window.session_file.save(path)
@@ -317,10 +332,12 @@ def test_what_makes_no_path_is_named():
     )
     surface = bumpy(60)
     assert wanted_path(document, lambda name: surface).places == (2, 3)
-    section = replace(document, profile=Profile(("source", "pin", "pin 2"), "section", (0, 0, 1)))
+    section = replace(document, profile=Profile(("source", "pin", "pin 2"), "section-whole", (0, 0, 1)))
+    same = replace(document, points=(*document.points, Point("other", 2)), profile=Profile(("pin", "other")))
     for wrong, said in (
         (replace(document, profile=Profile(("source", "loop"))), "'loop' is neither"),
-        (section, "goes through two points"),
+        (section, "that through two points"),
+        (same, "From pin 1 to other there is no path: they are at the same place"),
         (Document(), "pin two points"),
     ):
         with pytest.raises(ParameterError, match=said):
