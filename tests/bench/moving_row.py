@@ -52,7 +52,7 @@ def _moving(size: Size) -> tuple[float, float, float, float, int, int]:
         for panel in panels:
             panel.view.scene.show_field(np.linalg.norm(x - x[0], axis=1))
             panel.show_waiting(None)
-            panel.view.say("")
+            panel.view.over.say("")
         grid.redraw()
         _wait_a_while(application, 0.5)
         view = panels[0].view

@@ -129,7 +129,7 @@ def test_a_panel_shows_the_difference_of_two_distances_and_names_the_largest(scr
     assert panel.bar._reading.remark == f"largest {largest} at vertex {vertex}"
     assert ends() == pytest.approx((-panel.answer.maximum, panel.answer.maximum))
     s.window.grid.point_at(panel.id, vertex)
-    assert (panel.view._pointed.value, panel.bar._reading.value) == (largest, panel.answer.field[vertex])
+    assert (panel.view.over.pointed.value, panel.bar._reading.value) == (largest, panel.answer.field[vertex])
     of_commute_time = "Biharmonic − Commute-time", "biharmonic, exact − commute-time, exact"
     assert chosen("Second: Geodesic", "Commute-time") == of_commute_time
     assert chosen("Show the first alone") == ("Biharmonic", "biharmonic, exact")
@@ -254,10 +254,10 @@ def test_escape_puts_the_box_back_and_elsewhere_stops_the_work(screen, mesh_file
     QTest.keyClick(view, Qt.Key_Escape)
     assert s.session.is_stopped
     s.settle()
-    assert "Stopped" in view.sentence
+    assert "Stopped" in view.over.sentence
     s.session.show(move_source(s.document, 0, 12))
     s.until(lambda: s.session.is_complete)
-    assert (s.session.is_stopped, view.sentence) == (False, "")
+    assert (s.session.is_stopped, view.over.sentence) == (False, "")
 
 
 def test_what_was_stopped_and_is_not_asked_any_more_is_not_spoken_of(screen, mesh_file):
@@ -267,10 +267,11 @@ def test_what_was_stopped_and_is_not_asked_any_more_is_not_spoken_of(screen, mes
     s.session.show(move_source(s.document, 0, 9))
     s.window.cancel()
     s.settle()
-    assert ("Stopped" in panel.view.sentence, panel.view._is_dimmed, panel.bar._reading) == (True, True, None)
+    assert ("Stopped" in panel.view.over.sentence, panel.view._is_dimmed, panel.bar._reading) == (True, True, None)
     s.session.undo()
     s.settle()
-    assert (panel.view.sentence, panel.view._is_dimmed, panel.bar._reading.high) == ("", False, panel.answer.maximum)
+    said = panel.view.over.sentence, panel.view._is_dimmed, panel.bar._reading.high
+    assert said == ("", False, panel.answer.maximum)
     assert all(np.array_equal(a, b) for a, b in zip(before, s.pictures(), strict=True))
 
 

@@ -94,7 +94,7 @@ def test_the_chart_and_the_panels_mark_the_same_place(opened):
     assert arc == pytest.approx(path.length / 2, rel=0.02)
     place = path.at([arc]).values(s.session.surface.vertices)[0]
     for panel, answer in zip(s.panels, s.answers, strict=True):
-        assert np.allclose(panel.view._pointed.position, place)
+        assert np.allclose(panel.view.over.pointed.position, place)
         assert panel.bar._reading.value == pytest.approx(float(path.at([arc]).values(answer.field)[0]))
     # The other way round, where the path is seen.
     s.window.reset_view("back")
@@ -108,7 +108,7 @@ def test_the_chart_and_the_panels_mark_the_same_place(opened):
     assert abs(chart.at - path.arcs[seen[len(seen) // 2]]) < 2 * s.session.surface.mean_edge_length
     move_to(panel.head, panel.head.rect().center())
     s.until(lambda: chart.at is None)
-    assert all(panel.view._pointed is None for panel in s.panels)
+    assert all(panel.view.over.pointed is None for panel in s.panels)
 
 
 @with_pointer
@@ -169,7 +169,7 @@ def test_arrow_keys_go_along_the_path(opened):
         run("key", key)
         s.settle(0.1)
     assert dock.chart.at == pytest.approx(0.1 * dock.path.length)
-    assert all(panel.view._pointed is not None for panel in s.panels)
+    assert all(panel.view.over.pointed is not None for panel in s.panels)
     run("key", "Escape")
     s.until(lambda: dock.chart.at is None)
 
@@ -184,7 +184,7 @@ def test_the_path_is_dark_on_white_where_it_is_seen(opened):
     s.settle()
     view = s.panels[0].view
     picture = view.grab().toImage()
-    pixels, is_seen = view.path.pixels, view.path.is_seen
+    pixels, is_seen = view.over.path.pixels, view.over.path.is_seen
     assert 0.2 < is_seen.mean() < 1
     ratio = view.devicePixelRatioF()
     well = np.flatnonzero(is_seen)[10:-10:20]
@@ -192,7 +192,7 @@ def test_the_path_is_dark_on_white_where_it_is_seen(opened):
     assert np.mean(np.array(dark) < 110) > 0.8
     s.window.docks.close("profile")
     s.settle()
-    assert not len(view.path.pixels)
+    assert not len(view.over.path.pixels)
 
 
 def test_curves_follow_the_source_and_the_path_stays(opened):
@@ -310,9 +310,9 @@ def test_panels_come_and_go_while_the_chart_is_pointed_at(opened):
     s.window.choices.edit_panel(s.document.panels[0].id, "Remove it")
     s.until(lambda: s.session.is_complete and len(dock.chart.curves) == 2)
     s.settle()
-    assert all(panel.view._pointed is not None for panel in s.panels[:1])
+    assert all(panel.view.over.pointed is not None for panel in s.panels[:1])
     s.window.docks.close("profile")
-    assert not any(panel.head._dot or len(panel.view.path.points) for panel in s.panels)
+    assert not any(panel.head._dot or len(panel.view.over.path.points) for panel in s.panels)
 
 
 def test_without_two_points_it_says_what_to_do(opened):

@@ -59,7 +59,7 @@ def test_quality_opens_by_its_key_and_follows_the_source(opened):
     assert table.splitlines()[0].split("\t")[1:] == ["Biharmonic", "Geodesic", "Diffusion"]
     assert table.splitlines()[1].split("\t")[1:3] == ["0", "0"]
     extrema = s.window.docks.findings.found(0).extrema
-    marks = s.panels[0].view.extrema
+    marks = s.panels[0].view.over.extrema
     assert marks.positions.tolist() == s.session.surface.vertices[extrema.maxima].tolist()
     assert marks.is_maximum.all()
     assert len(dock(s, "quality").charts[0].circles) > 1

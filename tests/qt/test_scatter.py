@@ -108,7 +108,7 @@ def test_with_the_key_held_a_drag_paints_a_selection_and_not_the_view(opened):
     run("mousemove", *at)
     run("keydown", "b")
     s.settle(0.3)
-    assert panel.view.brush is not None
+    assert panel.view.pointer.brush is not None
     run("mousedown", 1)
     for step in range(1, 9):
         run("mousemove", at[0] + 5 * step, at[1] + step)
@@ -118,7 +118,7 @@ def test_with_the_key_held_a_drag_paints_a_selection_and_not_the_view(opened):
     run("keyup", "b")
     s.until(lambda: s.document.selections)
     s.settle(0.3)
-    assert panel.view.brush is None
+    assert panel.view.pointer.brush is None
     assert panel.view.camera.GetPosition() == camera
     painted = selected(s, "selection")
     # Every vertex that is seen along the way is in it.

@@ -283,14 +283,14 @@ def test_what_is_drawn_on_the_surface_becomes_a_curve(opened, tmp_path):
     assert s.window.actions_by_word["draw source"].isChecked()
     start = view.rect().center() - QtCore.QPoint(60, 0)
     drag(s, [start + QtCore.QPoint(8 * k, k) for k in range(16)], end=False)
-    assert all(len(panel.view.stroke) > 5 for panel in s.panels), "it is seen while it is drawn"
+    assert all(len(panel.view.over.stroke) > 5 for panel in s.panels), "it is seen while it is drawn"
     QtTest.QTest.mouseRelease(view, QtCore.Qt.MouseButton.LeftButton, pos=start + QtCore.QPoint(120, 15))
     s.until(lambda: s.session.is_complete)
     assert isinstance(s.source, Curve)
     assert not s.source.closed
     assert len(s.source.places) > 5
     assert view.camera.GetPosition() == camera
-    assert all(panel.view.stroke is None for panel in s.panels)
+    assert all(panel.view.over.stroke is None for panel in s.panels)
     assert s.refusals == []
     path = tmp_path / "c.json"
     path.write_text(curve_text(s.source))

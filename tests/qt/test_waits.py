@@ -48,7 +48,7 @@ def test_a_panel_tells_what_it_waits_for_and_can_be_stopped(screen, mesh_file):
     panel.waiting.stop.click()
     s.until(lambda: not panel.waiting.isVisible(), seconds=5)
     assert s.session.is_stopped
-    assert panel.view.sentence == "Stopped. Click a point to ask again."
+    assert panel.view.over.sentence == "Stopped. Click a point to ask again."
 
 
 def test_what_was_stopped_is_asked_again_by_a_click(screen, mesh_file):
@@ -60,10 +60,10 @@ def test_what_was_stopped_is_asked_again_by_a_click(screen, mesh_file):
     assert not panel.waiting.isVisible()
     QTest.mouseClick(panel.view, LEFT, pos=panel.view.rect().center())
     s.until(panel.waiting.isVisible)
-    assert panel.view.sentence == "", "it is not stopped any more"
+    assert panel.view.over.sentence == "", "it is not stopped any more"
     s.until(lambda: s.session.is_complete)
     assert not panel.waiting.isVisible()
-    assert panel.view.sentence == ""
+    assert panel.view.over.sentence == ""
     assert "no values" not in panel.bar.accessibleDescription()
 
 
@@ -71,13 +71,13 @@ def test_what_failed_and_is_computed_in_another_way_says_nothing_of_the_failure(
     s = screen((Spec.of("geodesic", method="exact"),))
     s.open(mesh_file(fin()), 0)
     (panel,) = s.panels
-    assert "is not manifold" in panel.view.sentence
+    assert "is not manifold" in panel.view.over.sentence
     panel.head.changed.emit(DistanceFrom(Spec.of("biharmonic")))
-    assert panel.view.sentence == ""
+    assert panel.view.over.sentence == ""
     s.until(lambda: s.session.is_complete)
     s.session.undo()
     s.until(lambda: s.session.is_complete)
-    assert "is not manifold" in panel.view.sentence
+    assert "is not manifold" in panel.view.over.sentence
 
 
 def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows_at_once(screen, mesh_file):

@@ -113,9 +113,9 @@ def test_a_panel_that_fails_says_so_in_its_own_place(screen, mesh_file):
     def words():
         """Where they stand: rows and columns of pixels."""
         before = seen(s)[0]
-        failed.view.say("")
+        failed.view.over.say("")
         found = np.nonzero((before != seen(s)[0]).any(axis=2))
-        failed.view.say(failed.answer.failure)
+        failed.view.over.say(failed.answer.failure)
         return found
 
     high = np.ptp(words()[0])

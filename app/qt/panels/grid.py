@@ -201,11 +201,11 @@ class PanelGrid(QtWidgets.QWidget):
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = self._upright
-        panel.view.draw_on(self._is_drawn_on)
-        panel.view.show_axes(self._session.document.axes)
+        panel.view.pointer.draw_on(self._is_drawn_on)
+        panel.view.over.show_axes(self._session.document.axes)
         panel.show_isolines(self._session.document.isolines)
         panel.mark_selected(*self._selected)
-        panel.view.set_brush(self._brush)
+        panel.view.pointer.set_brush(self._brush)
         panel.show()
 
     def show_style(self, style: Style) -> bool:
@@ -245,7 +245,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Whether the left button draws on the surfaces, and no longer turns them there."""
         self._is_drawn_on = is_drawn_on
         for panel in self.panels:
-            panel.view.draw_on(is_drawn_on)
+            panel.view.pointer.draw_on(is_drawn_on)
 
     def mark_anchors(self, document: Document) -> None:
         """Put the anchors of each panel's surface where they are."""
@@ -276,7 +276,7 @@ class PanelGrid(QtWidgets.QWidget):
         """What a drag paints with in all panels, None if it turns them."""
         self._brush = brush
         for panel in (*self.panels, *self._spare):
-            panel.view.set_brush(brush)
+            panel.view.pointer.set_brush(brush)
 
     def show_insets(self, document: Document) -> None:
         """Enlarge the document's places in each panel."""
@@ -349,7 +349,7 @@ class PanelGrid(QtWidgets.QWidget):
 
     def show_axes(self, has_axes: bool) -> None:
         for panel in self.panels:
-            panel.view.show_axes(has_axes)
+            panel.view.over.show_axes(has_axes)
 
     @property
     def seen(self) -> Camera:

@@ -126,8 +126,8 @@ class DistancePanel(QtWidgets.QWidget):
         self._positions = np.empty((0, 3))
         self._anchors, self._zooms, self._pieces, self._pins, self._lines = (), (), (), (), []
         self._selected, self._dots = _NONE, np.empty((0, 3))
-        self.view.show_pins(())
-        self.view.picker, self.view.handles, self.view.stroke = None, np.empty((0, 3)), None
+        self.view.over.show_pins(())
+        self.view.picker, self.view.handles, self.view.over.stroke = None, np.empty((0, 3)), None
         self._regions = None
         self.mark_extrema()
         self.show_path(None)
@@ -180,7 +180,7 @@ class DistancePanel(QtWidgets.QWidget):
 
     def show_stroke(self, corners: np.ndarray, weights: np.ndarray) -> None:
         """What has been drawn so far: places, each in a face with corners (k, 3), whose weights are (k, 3)."""
-        self.view.show_stroke(np.einsum("kc,kcx->kx", weights, self._positions[corners]) if len(corners) else None)
+        self.view.over.show_stroke(np.einsum("kc,kcx->kx", weights, self._positions[corners]) if len(corners) else None)
 
     def show_insets(self, zooms: tuple[Zoom, ...]) -> None:
         """Enlarge these places."""
@@ -217,7 +217,7 @@ class DistancePanel(QtWidgets.QWidget):
     def _put_extrema(self) -> None:
         minima, maxima = self._extrema
         ups = np.arange(len(minima) + len(maxima)) >= len(minima)
-        self.view.extrema.show(self._positions[np.concatenate([minima, maxima])], ups)
+        self.view.over.extrema.show(self._positions[np.concatenate([minima, maxima])], ups)
 
     def show_isolines(self, isolines: Isolines, through: tuple[Passed, ...] = ()) -> None:
         """These, and one through each of the points, which have dots."""
@@ -272,7 +272,7 @@ class DistancePanel(QtWidgets.QWidget):
     def _put_pins(self) -> None:
         """Where they are in the shape that is shown."""
         if len(self._positions):
-            self.view.show_pins(
+            self.view.over.show_pins(
                 tuple(
                     PinMark(each.number, each.position(self._positions), PINS[each.pin.colour], each.point in self._lit)
                     for each in self._pins
@@ -280,8 +280,8 @@ class DistancePanel(QtWidgets.QWidget):
             )
 
     def show_dabs(self, vertices: np.ndarray | None, colour: str = "") -> None:
-        """More vertices (k,) that a brush has touched, None for none; see `View.show_dabs`."""
-        self.view.show_dabs(None if vertices is None else self._positions[vertices], colour)
+        """More vertices (k,) that a brush has touched, None for none; see `MarksOver.show_dabs`."""
+        self.view.over.show_dabs(None if vertices is None else self._positions[vertices], colour)
 
     def mark_selected(self, vertices: np.ndarray, colours: np.ndarray) -> None:
         """Vertices (k,) of selections, each in a colour (k, 3) uint8."""
@@ -417,7 +417,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._is_waiting = is_waiting
         self.view.dim(is_waiting)
         # Why there is no field is not said of one that is on its way.
-        self.view.say("" if is_waiting or self.answer is None else self.answer.failure)
+        self.view.over.say("" if is_waiting or self.answer is None else self.answer.failure)
         if progress is None:
             self.waiting.hide()
         else:
@@ -433,7 +433,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.show_waiting(None)
         self._is_waiting = True
         self.view.dim(True)
-        self.view.say("Stopped. Click a point to ask again.")
+        self.view.over.say("Stopped. Click a point to ask again.")
         self._show_bar()
 
     # ------------------------------------------------------------------ a path
@@ -444,7 +444,7 @@ class DistancePanel(QtWidgets.QWidget):
 
     def _put_path(self) -> None:
         is_there = self._path is not None and len(self._positions)
-        if self.view.path.show(self._path.values(self._positions) if is_there else np.empty((0, 3))):
+        if self.view.over.path.show(self._path.values(self._positions) if is_there else np.empty((0, 3))):
             self.view.redraw()
 
     def echo(self, place: Places | None) -> None:
@@ -454,7 +454,7 @@ class DistancePanel(QtWidgets.QWidget):
             self.point_at(None, False)
             return
         position = place.values(self._positions)[0]
-        self.view.point_at(Pointed(position, False, not self.view.sees(position)))
+        self.view.over.point_at(Pointed(position, False, not self.view.sees(position)))
         if answer is None or answer.field is None or self._is_waiting:
             self.bar.show_value(None)
         else:
@@ -465,10 +465,10 @@ class DistancePanel(QtWidgets.QWidget):
         """Put the ring at a vertex, and its value into the bar and, under the pointer, beside it."""
         words = self._words_of(vertex)
         if vertex is None or self._opened is None:
-            self.view.point_at(None)
+            self.view.over.point_at(None)
         else:
             value, part = words if is_own else ("", "")
-            self.view.point_at(Pointed(self._positions[vertex], is_own, is_hidden, value, part))
+            self.view.over.point_at(Pointed(self._positions[vertex], is_own, is_hidden, value, part))
         answer = self.answer
         if vertex is None or answer is None or answer.field is None or self._is_waiting:
             self.bar.show_value(None)

@@ -1,4 +1,4 @@
-"""The picture of a panel, and what the mouse does in it.  Gestures become signals; it decides nothing.
+"""The picture of a panel.  Gestures become signals; it decides nothing.
 
 The surface is drawn off the screen, once for each change; what lies over it is painted by Qt, and costs no drawing.
 """
@@ -8,18 +8,12 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from ...drawing import moves
-from ...drawing.axes import arms, middle
 from ...drawing.board import Board
-from ...drawing.camera import camera_seen, frame
-from ...drawing.lines_of_sight import pixels_in
 from ...drawing.picking import Met, Picker, pixel_of
 from ...drawing.style import Style
 from ..look.look import LOOK
-from . import overlay
-from .extremum_marks import ExtremumMarks
-from .overlay import Pointed
-from .path_marks import PathMarks
-from .pin_marks import PinMark, paint_pins
+from .marks_over import MarksOver
+from .pointer import Pointer
 
 MARK_SLACK = 4.0
 """Pixels beside a mark of the source at which it can still be taken hold of."""
@@ -27,20 +21,11 @@ MARK_SLACK = 4.0
 MOST_HELD = 300
 """Marks up to which each can be taken hold of."""
 
-STROKE_STEP = 5
-"""Pixels from one point of what is drawn to the next."""
-
 NOTCH = 1.1
 """By how much a notch of the wheel enlarges."""
 
 DIMMED = 0.28
 """How opaque a field is that is no longer the answer."""
-
-DAB = 4.0
-"""Pixels across of a vertex that a brush touches."""
-
-BRUSH_STEP, MOST_BRUSHED = 6, 24
-"""Pixels between two places that a brush touches, and how many at most for one movement of the pointer."""
 
 KEY_TURN, KEY_SHIFT = 15.0, 0.05
 """Degrees, and shares of the view's height, for a key."""
@@ -70,12 +55,11 @@ class View(QtWidgets.QWidget):
 
     def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self._board = board
+        self.board = board
+        self.over, self.pointer = MarksOver(self), Pointer(self)
         self.scene = board.new_scene(scale=self.devicePixelRatioF())
         self.picker: Picker | None = None
         self.handles = np.empty((0, 3))  # where the source's marks are
-        self.is_drawn_on = False  # whether the left button draws
-        self.stroke: np.ndarray | None = None  # (k, 3) what has been drawn
         self.wheel_factor = 1.0  # -1 for a wheel that goes the other way
         self.upright: np.ndarray | None = None  # what stays upright while the surface turns
         self._picture: QtGui.QImage | None = None
@@ -85,22 +69,6 @@ class View(QtWidgets.QWidget):
         self._is_stale = True
         self._is_empty = True
         self._is_dimmed = False
-        self.sentence = ""
-        self._has_axes = False
-        self.extrema = ExtremumMarks(self)
-        self._pointed: Pointed | None = None
-        self.path = PathMarks()
-        self._pins: tuple[PinMark, ...] = ()
-        self._unseen: frozenset[int] | None = None  # which pins the surface hides; None until it is looked
-        self._covered = QtCore.QRect()
-        self._press: QtCore.QPoint | None = None
-        self._last = QtCore.QPoint()
-        self._button = QtCore.Qt.MouseButton.NoButton
-        self._dragging = self._is_stroke = False
-        self._held = -1  # which mark
-        self._dabs: list[tuple[str, QtGui.QPolygonF]] = []  # of a brush that is down
-        self.brush: QtGui.QCursor | None = None  # what drags paint with, instead of turning
-        self._is_brushing = False
         self.setMouseTracking(True)
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -111,7 +79,7 @@ class View(QtWidgets.QWidget):
     # ------------------------------------------------------------------ what is seen
     @property
     def renderer(self) -> vtkRenderer:
-        self._board.fit(self.pixels)
+        self.board.fit(self.pixels)
         return self.scene.renderer
 
     @property
@@ -134,15 +102,15 @@ class View(QtWidgets.QWidget):
         if (style, ratio) == (self.scene.style, self.scene.scale):
             return False
         camera = self.camera
-        self._board.remove(self.scene)
-        self.scene = self._board.new_scene(style, ratio)
+        self.board.remove(self.scene)
+        self.scene = self.board.new_scene(style, ratio)
         self.scene.renderer.SetActiveCamera(camera)
         self.redraw()
         return True
 
     def show_empty(self, is_empty: bool) -> None:
         """Whether there is no surface: then nothing is drawn."""
-        self._is_empty, self._picture, self._pointed = is_empty, None, None
+        self._is_empty, self._picture, self.over.pointed = is_empty, None, None
         self.redraw()
 
     def redraw(self) -> None:
@@ -155,35 +123,6 @@ class View(QtWidgets.QWidget):
         if is_dimmed != self._is_dimmed:
             self._is_dimmed = is_dimmed
             self.update()
-
-    def say(self, sentence: str) -> None:
-        """In the middle of the view: why there is no field; "" for nothing."""
-        if sentence != self.sentence:
-            self.sentence = sentence
-            self.update()
-
-    def show_axes(self, has_axes: bool) -> None:
-        """Whether a cross in a corner says where x, y and z point to."""
-        if has_axes != self._has_axes:
-            self._has_axes = has_axes
-            self.update()
-
-    def point_at(self, pointed: Pointed | None) -> None:
-        """Put the ring somewhere; the surface is not drawn for it."""
-        self._pointed = pointed
-        before, self._covered = self._covered, self._cover()
-        self.update(before | self._covered)
-
-    def show_pins(self, pins: tuple[PinMark, ...]) -> None:
-        """Put drops at these places; the surface is not drawn for them."""
-        if pins != self._pins:
-            self._pins, self._unseen = pins, None
-            self.update()
-
-    def show_stroke(self, stroke: np.ndarray | None) -> None:
-        """What has been drawn so far, points (k, 3); the surface is not drawn for it."""
-        self.stroke = stroke
-        self.update()
 
     # ------------------------------------------------------------------ painting
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
@@ -198,56 +137,17 @@ class View(QtWidgets.QWidget):
             painter.setOpacity(DIMMED)
         painter.drawImage(QtCore.QPointF(0, 0), picture)
         painter.setOpacity(1.0)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        self.path.paint(painter, self.devicePixelRatioF())
-        for colour, places in self._dabs:
-            painter.setPen(QtGui.QPen(QtGui.QColor(colour), DAB))
-            painter.drawPoints(places)
-        self.extrema.paint(painter)
-        if self._has_axes:
-            at = middle(self.width(), self.height(), self.scene.insets.corners)
-            overlay.paint_axes(painter, arms(frame(camera_seen(self.camera, 1.0))), at)
-        if self._pins:
-            paint_pins(painter, self._seen_pins(), self._hidden_pins())
-        if self.sentence:
-            overlay.paint_sentence(painter, self.rect(), self.sentence)
-        if self.stroke is not None and len(self.stroke):
-            style = self.scene.style
-            overlay.paint_stroke(painter, [self.place_of(x) for x in self.stroke], style.source, style.mark_edge)
-        if self._pointed is not None:
-            at = self.place_of(self._pointed.position)
-            overlay.paint_ring(painter, at, self._pointed.is_own, self._pointed.is_hidden)
-            if self._pointed.value:
-                value, share = self._pointed.value, self._pointed.share
-                place = overlay.label_place(at, value, share, QtCore.QRectF(self.rect()))
-                overlay.paint_label(painter, place, value, share)
-
-    def _seen_pins(self) -> dict[int, tuple[PinMark, QtCore.QPointF]]:
-        """By their numbers: the pins with their places, but for those that an inset covers."""
-        found, renderer = {}, self.renderer
-        for pin in self._pins:
-            x, y = pixel_of(renderer, pin.position)
-            if self.scene.insets.renderer_at(x, y) is renderer:
-                ratio = self.devicePixelRatioF()
-                found[pin.number] = (pin, QtCore.QPointF(x / ratio, self.height() - y / ratio))
-        return found
-
-    def _hidden_pins(self) -> frozenset[int]:
-        """The numbers of those that the surface is before."""
-        if self._unseen is None:
-            self._unseen = frozenset(pin.number for pin in self._pins if not self.sees(pin.position))
-        return self._unseen
+        self.over.paint(painter)
 
     def _drawn(self) -> QtGui.QImage:
         """The picture, drawn if something has changed since."""
         width, height = self.pixels
         size = QtCore.QSize(width, height)
         if self._is_stale or self._picture is None or self._picture.size() != size:
-            self._drawing, self._written = self._board.picture(self.scene, (width, height)), None
+            self._drawing, self._written = self.board.picture(self.scene, (width, height)), None
             self._picture = self._image(self._drawing)
-            self._is_stale, self._unseen = False, None
-            self.path.see(self.scene, self._board)
-            self._covered = self._cover()
+            self._is_stale = False
+            self.over.see()
             self.pictures += 1
             self.drawn.emit()
         return self._picture
@@ -282,17 +182,6 @@ class View(QtWidgets.QWidget):
         self.shot_wanted.emit()
         return (self._drawing if self._written is None else self._written)[..., :3].copy()
 
-    def _cover(self) -> QtCore.QRect:
-        """What the ring and its label take."""
-        if self._pointed is None:
-            return QtCore.QRect()
-        at = self.place_of(self._pointed.position)
-        found = QtCore.QRectF(at.x() - overlay.REACH, at.y() - overlay.REACH, 2 * overlay.REACH, 2 * overlay.REACH)
-        if self._pointed.value:
-            view = QtCore.QRectF(self.rect())
-            found |= overlay.label_place(at, self._pointed.value, self._pointed.share, view)
-        return found.toAlignedRect().adjusted(-2, -2, 2, 2)
-
     # ------------------------------------------------------------------ places
     def place_of(self, point: np.ndarray) -> QtCore.QPointF:
         """Where a point (3,) is seen, in logical pixels."""
@@ -305,7 +194,7 @@ class View(QtWidgets.QWidget):
         if self.picker is None or self._is_empty:
             return None
         pixel = self._pixel(position)
-        self._board.fit(self.pixels)
+        self.board.fit(self.pixels)
         return self.picker.met_at(self.scene.insets.renderer_at(*pixel), *pixel)
 
     def sees(self, point: np.ndarray) -> bool:
@@ -316,6 +205,14 @@ class View(QtWidgets.QWidget):
         """Device pixels, y up."""
         ratio = self.devicePixelRatioF()
         return (position.x() + 0.5) * ratio, (self.height() - position.y() - 0.5) * ratio
+
+    def pixel_size(self, point: np.ndarray) -> float:
+        """How long a logical pixel is at a point (3,)."""
+        camera = self.camera
+        if camera.GetParallelProjection():
+            return float(2 * camera.GetParallelScale() / max(self.height(), 1))
+        depth = (point - np.array(camera.GetPosition())) @ np.array(camera.GetDirectionOfProjection())
+        return float(2 * depth * np.tan(np.radians(camera.GetViewAngle()) / 2) / max(self.height(), 1))
 
     @property
     def source(self) -> np.ndarray | None:
@@ -338,155 +235,16 @@ class View(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ the mouse
     def mousePressEvent(self, event: QtGui.QMouseEvent) -> None:
-        self.pressed.emit()
-        if self._button != QtCore.Qt.MouseButton.NoButton:
-            return  # another button is down already
-        self._button, self._press, self._last, self._dragging = event.button(), event.pos(), event.pos(), False
-        is_plain = event.modifiers() == QtCore.Qt.KeyboardModifier.NoModifier
-        is_left = event.button() == QtCore.Qt.MouseButton.LeftButton
-        self._is_brushing = is_left and self.brush is not None and not self._is_empty
-        if self._is_brushing:
-            self._brush_to(event.pos())
-            return
-        self._is_stroke = is_left and self.is_drawn_on and self._draw(event.pos())
-        self._held = self.mark_at(event.pos()) if is_left and is_plain and not self._is_stroke else -1
-        if self._held >= 0:
-            self.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
+        self.pointer.press(event)
 
     def mouseMoveEvent(self, event: QtGui.QMouseEvent) -> None:
-        if event.buttons() == QtCore.Qt.MouseButton.NoButton:
-            self._button = QtCore.Qt.MouseButton.NoButton
-            self.hovered.emit(self.met_at(event.pos()))
-            self._show_cursor(event.pos())
-            return
-        if self._is_brushing:
-            self._brush_to(event.pos())
-            return
-        if self._press is not None and not self._dragging:
-            # A hand that trembles still clicks.
-            if (event.pos() - self._press).manhattanLength() < QtWidgets.QApplication.startDragDistance():
-                return
-            self._dragging = True
-            self.hovered.emit(None)
-        if self._is_stroke:
-            if (event.pos() - self._last).manhattanLength() >= STROKE_STEP and self._draw(event.pos()):
-                self._last = event.pos()
-            return
-        step, self._last = event.pos() - self._last, event.pos()
-        if self._held >= 0:
-            met = self.met_at(event.pos())
-            if met is not None:
-                self.dragged.emit(self._held, met)
-        elif not self._is_empty:
-            self._drag(step, event.modifiers())
-
-    def _draw(self, position: QtCore.QPoint) -> bool:
-        """Go on drawing at a point of the view; whether the surface is there."""
-        met = self.met_at(position)
-        if met is not None:
-            self.stroked.emit(met)
-        return met is not None
-
-    def _show_cursor(self, position: QtCore.QPoint) -> None:
-        """What the left button would do."""
-        if self.brush is not None:
-            self.setCursor(self.brush)
-        elif self.is_drawn_on:
-            self.setCursor(QtCore.Qt.CursorShape.CrossCursor)
-        elif self.mark_at(position) >= 0:
-            self.setCursor(QtCore.Qt.CursorShape.OpenHandCursor)
-        else:
-            self.unsetCursor()
-
-    def draw_on(self, is_drawn_on: bool) -> None:
-        """Whether the left button draws on the surface, and no longer turns it there."""
-        self.is_drawn_on, self._is_stroke = is_drawn_on, False
-        self._show_cursor(self.mapFromGlobal(QtGui.QCursor.pos()))
-
-    def _drag(self, step: QtCore.QPoint, modifiers: QtCore.Qt.KeyboardModifiers) -> None:
-        button, shift = QtCore.Qt.MouseButton, QtCore.Qt.KeyboardModifier.ShiftModifier
-        if self._button == button.LeftButton and not modifiers & shift:
-            moves.turn(self.camera, step.x(), -step.y(), (self.width(), self.height()), self.upright)
-        elif self._button == button.RightButton:
-            moves.zoom(self.camera, float(np.exp(-4 * step.y() / max(self.height(), 1))), self._focal_point())
-        else:
-            moves.shift(self.camera, step.x(), -step.y(), self.height())
-        self.moved.emit()
-
-    def set_brush(self, brush: QtGui.QCursor | None) -> None:
-        """What a drag with the left button paints with from now on; None if it turns the surface again."""
-        self.brush = brush
-        self._show_cursor(self.mapFromGlobal(QtGui.QCursor.pos()))
-
-    def show_dabs(self, points: np.ndarray | None, colour: str = "") -> None:
-        """More vertices (k, 3) that a brush has touched, over the picture as long as the brush is down; None for none.
-
-        The surface is not drawn for them.
-        """
-        if points is None:
-            self._dabs.clear()
-        else:
-            at = pixels_in(self.scene.renderer, points, *self.pixels) / self.devicePixelRatioF()
-            self._dabs.append((colour, QtGui.QPolygonF([QtCore.QPointF(*place) for place in at.tolist()])))
-        self.update()
-
-    def _brush_to(self, position: QtCore.QPoint) -> None:
-        """Along the way from where it was last: a quick hand leaves no gaps."""
-        way, start = position - self._last, self._last
-        self._last = position
-        steps = min(max(way.manhattanLength() // BRUSH_STEP, 1), MOST_BRUSHED)
-        for step in range(1, steps + 1):
-            met = self.met_at(start + way * step / steps)
-            if met is not None:
-                self.brushed.emit(met, self._pixel_size(met.position))
-
-    def _pixel_size(self, point: np.ndarray) -> float:
-        """How long a logical pixel is at a point (3,)."""
-        camera = self.camera
-        if camera.GetParallelProjection():
-            return float(2 * camera.GetParallelScale() / max(self.height(), 1))
-        depth = (point - np.array(camera.GetPosition())) @ np.array(camera.GetDirectionOfProjection())
-        return float(2 * depth * np.tan(np.radians(camera.GetViewAngle()) / 2) / max(self.height(), 1))
+        self.pointer.move(event)
 
     def mouseReleaseEvent(self, event: QtGui.QMouseEvent) -> None:
-        if event.button() != self._button:
-            return
-        self._button = QtCore.Qt.MouseButton.NoButton
-        press, self._press = self._press, None
-        if self._is_brushing:
-            self._is_brushing = False
-            self.brush_lifted.emit()
-            self.point_again()
-            return
-        held, self._held = self._held >= 0, -1
-        is_stroke, self._is_stroke = self._is_stroke, False
-        has_ctrl = bool(event.modifiers() & QtCore.Qt.KeyboardModifier.ControlModifier)
-        if held:
-            self.unsetCursor()
-        if is_stroke:
-            self._draw(event.pos()) if self._dragging else None
-            self.stroke_ended.emit(has_ctrl)
-        elif self._dragging:
-            if held:
-                self.released.emit()
-            else:
-                self.let_go.emit()
-            self.point_again()
-        elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
-            self.menu_wanted.emit(self.met_at(press), self.mapToGlobal(press))
-        elif press is not None and event.button() == QtCore.Qt.MouseButton.LeftButton and not held:
-            met = self.met_at(press)
-            has_shift = bool(event.modifiers() & QtCore.Qt.KeyboardModifier.ShiftModifier)
-            if met is not None:
-                (self.pinned if has_shift else self.added if has_ctrl else self.clicked).emit(met)
+        self.pointer.release(event)
 
     def mouseDoubleClickEvent(self, event: QtGui.QMouseEvent) -> None:
-        """The first click has moved the source there."""
-        if event.button() == QtCore.Qt.MouseButton.LeftButton:
-            met = self.met_at(event.pos())
-            if met is not None:
-                self.centred.emit(met)
-        self._press = None
+        self.pointer.double_click(event)
 
     def contextMenuEvent(self, event: QtGui.QContextMenuEvent) -> None:
         """By the keyboard; that of the mouse comes when its button is let go."""
@@ -506,7 +264,7 @@ class View(QtWidgets.QWidget):
     def point_again(self) -> None:
         """What is under the pointer now, after the camera or the surface has moved."""
         position = self.mapFromGlobal(QtGui.QCursor.pos())
-        if self._button == QtCore.Qt.MouseButton.NoButton and self.underMouse() and self.rect().contains(position):
+        if self.pointer.is_up and self.underMouse() and self.rect().contains(position):
             self.hovered.emit(self.met_at(position))
 
     # ------------------------------------------------------------------ the camera

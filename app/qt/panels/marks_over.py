@@ -1,0 +1,142 @@
+"""All that lies over the picture of a view, painted by Qt: the surface is drawn for none of it."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from qtpy import QtCore, QtGui
+
+from ...drawing.axes import arms, middle
+from ...drawing.camera import camera_seen, frame
+from ...drawing.lines_of_sight import pixels_in
+from ...drawing.picking import pixel_of
+from . import overlay
+from .extremum_marks import ExtremumMarks
+from .overlay import Pointed
+from .path_marks import PathMarks
+from .pin_marks import PinMark, paint_pins
+
+if TYPE_CHECKING:
+    from .view import View
+
+DAB = 4.0
+"""Pixels across of a vertex that a brush touches."""
+
+
+class MarksOver:
+    """view: what they lie over.  The path alone is told by a drawing of the surface where it is hidden."""
+
+    def __init__(self, view: "View") -> None:
+        self._view = view
+        self.extrema = ExtremumMarks(view)
+        self.path = PathMarks()
+        self.pointed: Pointed | None = None
+        self.sentence = ""
+        self.stroke: np.ndarray | None = None  # (k, 3) what has been drawn
+        self._has_axes = False
+        self._pins: tuple[PinMark, ...] = ()
+        self._unseen: frozenset[int] | None = None  # which pins the surface hides; None until it is looked
+        self._covered = QtCore.QRect()  # by the ring and its label
+        self._dabs: list[tuple[str, QtGui.QPolygonF]] = []  # of a brush that is down
+
+    # ------------------------------------------------------------------ what there is
+    def say(self, sentence: str) -> None:
+        """In the middle of the view: why there is no field; "" for nothing."""
+        if sentence != self.sentence:
+            self.sentence = sentence
+            self._view.update()
+
+    def show_axes(self, has_axes: bool) -> None:
+        """Whether a cross in a corner says where x, y and z point to."""
+        if has_axes != self._has_axes:
+            self._has_axes = has_axes
+            self._view.update()
+
+    def point_at(self, pointed: Pointed | None) -> None:
+        """Put the ring somewhere."""
+        self.pointed = pointed
+        before, self._covered = self._covered, self._cover()
+        self._view.update(before | self._covered)
+
+    def show_pins(self, pins: tuple[PinMark, ...]) -> None:
+        """Put drops at these places."""
+        if pins != self._pins:
+            self._pins, self._unseen = pins, None
+            self._view.update()
+
+    def show_stroke(self, stroke: np.ndarray | None) -> None:
+        """What has been drawn so far, points (k, 3)."""
+        self.stroke = stroke
+        self._view.update()
+
+    def show_dabs(self, points: np.ndarray | None, colour: str = "") -> None:
+        """More vertices (k, 3) that a brush has touched, shown as long as the brush is down; None for none."""
+        if points is None:
+            self._dabs.clear()
+        else:
+            view = self._view
+            at = pixels_in(view.scene.renderer, points, *view.pixels) / view.devicePixelRatioF()
+            self._dabs.append((colour, QtGui.QPolygonF([QtCore.QPointF(*place) for place in at.tolist()])))
+        self._view.update()
+
+    def see(self) -> None:
+        """Another picture has been drawn: what is hidden in it?"""
+        self._unseen = None
+        self.path.see(self._view.scene, self._view.board)
+        self._covered = self._cover()
+
+    # ------------------------------------------------------------------ painting
+    def paint(self, painter: QtGui.QPainter) -> None:
+        """What lies lowest first."""
+        view = self._view
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        self.path.paint(painter, view.devicePixelRatioF())
+        for colour, places in self._dabs:
+            painter.setPen(QtGui.QPen(QtGui.QColor(colour), DAB))
+            painter.drawPoints(places)
+        self.extrema.paint(painter)
+        if self._has_axes:
+            at = middle(view.width(), view.height(), view.scene.insets.corners)
+            overlay.paint_axes(painter, arms(frame(camera_seen(view.camera, 1.0))), at)
+        if self._pins:
+            paint_pins(painter, self._seen_pins(), self._hidden_pins())
+        if self.sentence:
+            overlay.paint_sentence(painter, view.rect(), self.sentence)
+        if self.stroke is not None and len(self.stroke):
+            style = view.scene.style
+            overlay.paint_stroke(painter, [view.place_of(x) for x in self.stroke], style.source, style.mark_edge)
+        if self.pointed is not None:
+            self._paint_pointed(painter, self.pointed)
+
+    def _paint_pointed(self, painter: QtGui.QPainter, pointed: Pointed) -> None:
+        at = self._view.place_of(pointed.position)
+        overlay.paint_ring(painter, at, pointed.is_own, pointed.is_hidden)
+        if pointed.value:
+            place = overlay.label_place(at, pointed.value, pointed.share, QtCore.QRectF(self._view.rect()))
+            overlay.paint_label(painter, place, pointed.value, pointed.share)
+
+    def _cover(self) -> QtCore.QRect:
+        """What the ring and its label take."""
+        if self.pointed is None:
+            return QtCore.QRect()
+        at, reach = self._view.place_of(self.pointed.position), overlay.REACH
+        found = QtCore.QRectF(at.x() - reach, at.y() - reach, 2 * reach, 2 * reach)
+        if self.pointed.value:
+            view = QtCore.QRectF(self._view.rect())
+            found |= overlay.label_place(at, self.pointed.value, self.pointed.share, view)
+        return found.toAlignedRect().adjusted(-2, -2, 2, 2)
+
+    def _seen_pins(self) -> dict[int, tuple[PinMark, QtCore.QPointF]]:
+        """By their numbers: the pins with their places, but for those that an inset covers."""
+        view = self._view
+        found, renderer, ratio = {}, view.renderer, view.devicePixelRatioF()
+        for pin in self._pins:
+            x, y = pixel_of(renderer, pin.position)
+            if view.scene.insets.renderer_at(x, y) is renderer:
+                found[pin.number] = (pin, QtCore.QPointF(x / ratio, view.height() - y / ratio))
+        return found
+
+    def _hidden_pins(self) -> frozenset[int]:
+        """The numbers of those that the surface is before."""
+        if self._unseen is None:
+            self._unseen = frozenset(pin.number for pin in self._pins if not self._view.sees(pin.position))
+        return self._unseen

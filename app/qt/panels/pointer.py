@@ -1,0 +1,181 @@
+"""What the mouse does in a view: it turns, holds a mark of the source, draws or paints; each becomes a signal."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from qtpy import QtCore, QtGui, QtWidgets
+
+from ...drawing import moves
+
+if TYPE_CHECKING:
+    from .view import View
+
+STROKE_STEP = 5
+"""Pixels from one point of what is drawn to the next."""
+
+BRUSH_STEP, MOST_BRUSHED = 6, 24
+"""Pixels between two places that a brush touches, and how many at most for one movement of the pointer."""
+
+_NONE = QtCore.Qt.MouseButton.NoButton
+
+
+class Pointer:
+    """view: the one whose signals it emits.  One button counts: the first that went down."""
+
+    def __init__(self, view: "View") -> None:
+        self._view = view
+        self.is_drawn_on = False  # whether the left button draws
+        self.brush: QtGui.QCursor | None = None  # what drags paint with, instead of turning
+        self._button = _NONE
+        self._press: QtCore.QPoint | None = None
+        self._last = QtCore.QPoint()
+        self._is_dragging = self._is_stroke = self._is_brushing = False
+        self._held = -1  # which mark
+
+    @property
+    def is_up(self) -> bool:
+        """Whether no button is down."""
+        return self._button == _NONE
+
+    def draw_on(self, is_drawn_on: bool) -> None:
+        """Whether the left button draws on the surface, and no longer turns it there."""
+        self.is_drawn_on, self._is_stroke = is_drawn_on, False
+        self._show_cursor(self._place)
+
+    def set_brush(self, brush: QtGui.QCursor | None) -> None:
+        """What a drag with the left button paints with from now on; None if it turns the surface again."""
+        self.brush = brush
+        self._show_cursor(self._place)
+
+    @property
+    def _place(self) -> QtCore.QPoint:
+        return self._view.mapFromGlobal(QtGui.QCursor.pos())
+
+    # ------------------------------------------------------------------ what Qt tells
+    def press(self, event: QtGui.QMouseEvent) -> None:
+        view = self._view
+        view.pressed.emit()
+        if not self.is_up:
+            return  # another button is down already
+        self._button, self._press, self._last, self._is_dragging = event.button(), event.pos(), event.pos(), False
+        is_plain = event.modifiers() == QtCore.Qt.KeyboardModifier.NoModifier
+        is_left = event.button() == QtCore.Qt.MouseButton.LeftButton
+        self._is_brushing = is_left and self.brush is not None and not view.is_empty
+        if self._is_brushing:
+            self._brush_to(event.pos())
+            return
+        self._is_stroke = is_left and self.is_drawn_on and self._draw(event.pos())
+        self._held = view.mark_at(event.pos()) if is_left and is_plain and not self._is_stroke else -1
+        if self._held >= 0:
+            view.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
+
+    def move(self, event: QtGui.QMouseEvent) -> None:
+        view = self._view
+        if event.buttons() == _NONE:
+            self._button = _NONE
+            view.hovered.emit(view.met_at(event.pos()))
+            self._show_cursor(event.pos())
+            return
+        if self._is_brushing:
+            self._brush_to(event.pos())
+            return
+        if self._press is not None and not self._is_dragging:
+            # A hand that trembles still clicks.
+            if (event.pos() - self._press).manhattanLength() < QtWidgets.QApplication.startDragDistance():
+                return
+            self._is_dragging = True
+            view.hovered.emit(None)
+        if self._is_stroke:
+            if (event.pos() - self._last).manhattanLength() >= STROKE_STEP and self._draw(event.pos()):
+                self._last = event.pos()
+            return
+        step, self._last = event.pos() - self._last, event.pos()
+        if self._held >= 0:
+            met = view.met_at(event.pos())
+            if met is not None:
+                view.dragged.emit(self._held, met)
+        elif not view.is_empty:
+            self._drag(step, event.modifiers())
+
+    def release(self, event: QtGui.QMouseEvent) -> None:
+        view = self._view
+        if event.button() != self._button:
+            return
+        self._button = _NONE
+        press, self._press = self._press, None
+        if self._is_brushing:
+            self._is_brushing = False
+            view.brush_lifted.emit()
+            view.point_again()
+            return
+        held, self._held = self._held >= 0, -1
+        is_stroke, self._is_stroke = self._is_stroke, False
+        has_ctrl = bool(event.modifiers() & QtCore.Qt.KeyboardModifier.ControlModifier)
+        if held:
+            view.unsetCursor()
+        if is_stroke:
+            self._draw(event.pos()) if self._is_dragging else None
+            view.stroke_ended.emit(has_ctrl)
+        elif self._is_dragging:
+            if held:
+                view.released.emit()
+            else:
+                view.let_go.emit()
+            view.point_again()
+        elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
+            view.menu_wanted.emit(view.met_at(press), view.mapToGlobal(press))
+        elif press is not None and event.button() == QtCore.Qt.MouseButton.LeftButton and not held:
+            met = view.met_at(press)
+            has_shift = bool(event.modifiers() & QtCore.Qt.KeyboardModifier.ShiftModifier)
+            if met is not None:
+                (view.pinned if has_shift else view.added if has_ctrl else view.clicked).emit(met)
+
+    def double_click(self, event: QtGui.QMouseEvent) -> None:
+        """The first click has moved the source there."""
+        if event.button() == QtCore.Qt.MouseButton.LeftButton:
+            met = self._view.met_at(event.pos())
+            if met is not None:
+                self._view.centred.emit(met)
+        self._press = None
+
+    # ------------------------------------------------------------------ what it does
+    def _show_cursor(self, position: QtCore.QPoint) -> None:
+        """What the left button would do."""
+        if self.brush is not None:
+            self._view.setCursor(self.brush)
+        elif self.is_drawn_on:
+            self._view.setCursor(QtCore.Qt.CursorShape.CrossCursor)
+        elif self._view.mark_at(position) >= 0:
+            self._view.setCursor(QtCore.Qt.CursorShape.OpenHandCursor)
+        else:
+            self._view.unsetCursor()
+
+    def _draw(self, position: QtCore.QPoint) -> bool:
+        """Go on drawing at a point of the view; whether the surface is there."""
+        met = self._view.met_at(position)
+        if met is not None:
+            self._view.stroked.emit(met)
+        return met is not None
+
+    def _brush_to(self, position: QtCore.QPoint) -> None:
+        """Along the way from where it was last: a quick hand leaves no gaps."""
+        view = self._view
+        way, start = position - self._last, self._last
+        self._last = position
+        steps = min(max(way.manhattanLength() // BRUSH_STEP, 1), MOST_BRUSHED)
+        for step in range(1, steps + 1):
+            met = view.met_at(start + way * step / steps)
+            if met is not None:
+                view.brushed.emit(met, view.pixel_size(met.position))
+
+    def _drag(self, step: QtCore.QPoint, modifiers: QtCore.Qt.KeyboardModifiers) -> None:
+        view, button = self._view, QtCore.Qt.MouseButton
+        size = view.width(), view.height()
+        if self._button == button.LeftButton and not modifiers & QtCore.Qt.KeyboardModifier.ShiftModifier:
+            moves.turn(view.camera, step.x(), -step.y(), size, view.upright)
+        elif self._button == button.RightButton:
+            about = np.array(view.camera.GetFocalPoint())
+            moves.zoom(view.camera, float(np.exp(-4 * step.y() / max(size[1], 1))), about)
+        else:
+            moves.shift(view.camera, step.x(), -step.y(), size[1])
+        view.moved.emit()
