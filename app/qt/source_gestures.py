@@ -225,7 +225,7 @@ class SourceGestures:
         corners = faces[[place.face for place in self._stroke]]
         weights = np.array([place.weights for place in self._stroke]).reshape(-1, 3)
         for widget in self._grid.panels:
-            widget.show_stroke(corners, weights)
+            widget.marks.show_stroke(corners, weights)
 
     def _forget_stroke(self) -> None:
         self._stroke = []

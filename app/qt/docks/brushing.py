@@ -157,7 +157,7 @@ class Brushing(QtCore.QObject):
         if len(new):
             self._stroke[new] = True
             for panel in self._grid.panels:
-                panel.show_dabs(new, ERASED if self._is_erasing else PINS[self.colour])
+                panel.marks.show_dabs(new, ERASED if self._is_erasing else PINS[self.colour])
             self.stroked.emit(np.flatnonzero(self._stroke))
 
     def _lift(self) -> None:
@@ -166,7 +166,7 @@ class Brushing(QtCore.QObject):
             return
         stroke, self._stroke = self._stroke, None
         for panel in self._grid.panels:
-            panel.show_dabs(None)
+            panel.marks.show_dabs(None)
         if stroke is not None and self._window.session.surface is self._surface:
             self.select(np.flatnonzero(stroke), "removed" if self._is_erasing else "added")
         self.stroked.emit(np.empty(0, np.int64))

@@ -125,15 +125,15 @@ class Findings(QtCore.QObject):
         for panel in self._window.grid.panels:
             extrema = self.found(panel.id).extrema if self._is_judging else None
             if extrema is None:
-                panel.mark_extrema()
+                panel.marks.mark_extrema()
             else:
-                panel.mark_extrema(extrema.minima, extrema.maxima)
+                panel.marks.mark_extrema(extrema.minima, extrema.maxima)
 
     # ------------------------------------------------------------------ regions
     def _show_regions(self, panel: int) -> None:
         divided = self._dividing.divided(panel)
         if any(shown.id == panel for shown in self._window.grid.panels):
-            self._window.grid.panel(panel).show_regions(None if divided is None else divided.regions)
+            self._window.grid.panel(panel).marks.show_regions(None if divided is None else divided.regions)
         self.regions_changed.emit(panel)
 
     # ------------------------------------------------------------------ threads

@@ -199,7 +199,7 @@ class ProfileDock(Instrument):
     def _put_path(self, places: Places | None) -> None:
         """Over the panels of its surface."""
         for panel in self.window_.grid.panels:
-            panel.show_path(places if panel in self._panels else None)
+            panel.marks.show_path(places if panel in self._panels else None)
 
     def _show_way(self) -> None:
         self.way.setText(self.path.label if self.path is not None else WAYS[self.document.profile.way])

@@ -204,7 +204,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.view.pointer.draw_on(self._is_drawn_on)
         panel.view.over.show_axes(self._session.document.axes)
         panel.show_isolines(self._session.document.isolines)
-        panel.mark_selected(*self._selected)
+        panel.marks.mark_selected(*self._selected)
         panel.view.pointer.set_brush(self._brush)
         panel.show()
 
@@ -239,7 +239,7 @@ class PanelGrid(QtWidgets.QWidget):
             opened = self._session.opened(panel.surface)
             places = [document.point(name).at for name in panel.shows.points]
             start = vertex_at(places[0], opened.surface) if places else None
-            self._panels[panel.id].expect_source(start, [pieces_at(at, opened.surface) for at in places])
+            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, opened.surface) for at in places])
 
     def draw_on(self, is_drawn_on: bool) -> None:
         """Whether the left button draws on the surfaces, and no longer turns them there."""
@@ -257,7 +257,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Put the pins of each panel's surface where they are."""
         for panel in document.panels:
             pins = pinned_on(document, panel.surface, self._session.opened(panel.surface).surface)
-            self._panels[panel.id].show_pins(pins, self._lit)
+            self._panels[panel.id].marks.show_pins(pins, self._lit)
 
     def light_pins(self, points: tuple[str, ...]) -> None:
         """Let the pins at these points stand out."""
@@ -270,7 +270,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Vertices (k,) of selections in all panels, each in a colour (k, 3) uint8."""
         self._selected = vertices, colours
         for panel in self.panels:
-            panel.mark_selected(vertices, colours)
+            panel.marks.mark_selected(vertices, colours)
 
     def set_brush(self, brush: QtGui.QCursor | None) -> None:
         """What a drag paints with in all panels, None if it turns them."""

@@ -1,6 +1,6 @@
 """One panel: its head, its view, and its colour bar.  Gestures become signals; it decides nothing."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -9,9 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from bihdist_core import Surface
 from bihdist_core.analysis.places import Places
-from bihdist_core.analysis.regions import Regions
 from bihdist_core.distances.answers import Answer
-from bihdist_core.sources.pieces import Pieces
 
 from ...document.document import COMPARISON, Zoom
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
@@ -22,20 +20,17 @@ from ...drawing.drawable import drawable
 from ...drawing.picking import LatePicker
 from ...drawing.prepared import Drawn
 from ...drawing.relief import relief, rise
-from ...drawing.source_lines import SourceLine, source_lines
-from ...drawing.style import PINS, Style
-from ...session.anchors import anchor_value
+from ...drawing.style import Style
 from ...session.answering import Shown
 from ...session.opened import Opened
 from ...session.passed import Passed
-from ...session.pinned import PinnedPlace
 from ..look.look import LOOK
 from ..look.numbers import number, share
 from .colour_bar import ColourBar
 from .end_box import EndPopUp
 from .head import PanelHead
 from .overlay import Pointed
-from .pin_marks import PinMark
+from .panel_marks import PanelMarks
 from .view import View
 from .waiting import Waiting
 
@@ -44,8 +39,6 @@ COMPACT_BELOW = 360
 
 ACCENT = 2
 """Height of the line over the panel that the keys go to."""
-
-_NONE = np.empty(0, np.int64), np.empty((0, 3), np.uint8)
 
 NOT_CONNECTED, UNDEFINED = "not connected to the source", "undefined here"
 
@@ -61,6 +54,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.id = -1
         self.head = PanelHead(DistanceFrom(COMPARISON[0]), self)
         self.view = View(board, self)
+        self.marks = PanelMarks(self.view)
         self.bar = ColourBar(self)
         self.bar.end_wanted.connect(self.ask_end)
         self._end = EndPopUp(self)
@@ -81,20 +75,8 @@ class DistancePanel(QtWidgets.QWidget):
         self._shape: Surface | None = None
         self._raised: tuple[int, float, float] | None = None  # the field, its top, and the height
         self._shading, self._drawn = AS_IT_IS, None  # of the surface as it lies
-        self._positions = np.empty((0, 3))
-        self._source: int | None = None
-        self._pieces: tuple[Pieces, ...] = ()
-        self._lines: list[SourceLine] = []
         self._zooms: tuple[Zoom, ...] = ()
-        self._anchors: Sequence[tuple[int, float | None]] = ()
-        self._pins: Sequence[PinnedPlace] = ()
-        self._lit: Collection[str] = ()
-        self._selected = _NONE
         self._isolines = TWENTY_STEPS
-        self._path: Places | None = None
-        self._regions: Regions | None = None
-        self._extrema = np.empty(0, np.int64), np.empty(0, np.int64)
-        self._dots = np.empty((0, 3))  # on isolines through points
         self.answer: Answer | None = None
         self._is_preview = self._is_waiting = self._in_shares = False
         self._paint_accent(False)
@@ -122,15 +104,10 @@ class DistancePanel(QtWidgets.QWidget):
 
     def rest(self) -> None:
         """Show nothing, and keep nothing of what was shown."""
-        self._opened = self.answer = self._source = self._shape = self._raised = self._drawn = None
-        self._positions = np.empty((0, 3))
-        self._anchors, self._zooms, self._pieces, self._pins, self._lines = (), (), (), (), []
-        self._selected, self._dots = _NONE, np.empty((0, 3))
-        self.view.over.show_pins(())
-        self.view.picker, self.view.handles, self.view.over.stroke = None, np.empty((0, 3)), None
-        self._regions = None
-        self.mark_extrema()
-        self.show_path(None)
+        self._opened = self.answer = self._shape = self._raised = self._drawn = None
+        self._zooms = ()
+        self.marks.rest()
+        self.view.picker = None
         self.view.scene.show_surface(vtkPolyData(), (0, 1, 0, 1, 0, 1))
         self.view.show_empty(True)
         self.bar.clear()
@@ -141,7 +118,8 @@ class DistancePanel(QtWidgets.QWidget):
     def show_surface(self, opened: Opened) -> None:
         """Another surface, without a field yet."""
         self.rest()
-        self._opened, self._positions = opened, opened.surface.vertices
+        self._opened = opened
+        self.marks.begin(opened.surface)
         self.view.picker = opened.prepared.picker
         self._drawn = opened.prepared.meshes.usual
         self.view.scene.show_surface(self._drawn.mesh, opened.prepared.bounds)
@@ -161,63 +139,18 @@ class DistancePanel(QtWidgets.QWidget):
         self._shading, self._drawn = shading, drawn
         self.view.redraw()
 
-    def expect_source(self, vertex: int | None, pieces: Sequence[Pieces] = ()) -> None:
-        """Where the field starts, None for one that starts nowhere; marked once that field is there.
-
-        vertex: one that stands for it; pieces: all that it consists of.
-        """
-        self._source, self._pieces = vertex, tuple(pieces)
-        self._lines = [line for each in self._pieces for line in source_lines(each)]
-
-    def mark_source(self) -> None:
-        """Put the mark where the field starts."""
-        places = self._places([pieces.points for pieces in self._pieces])
-        self.view.handles = places
-        has_shape = len(self._positions) > 0
-        lines = [(line.positions(self._positions), line.is_closed) for line in self._lines if has_shape]
-        self.view.scene.mark_source(places, lines)
-        self.view.redraw()
-
-    def show_stroke(self, corners: np.ndarray, weights: np.ndarray) -> None:
-        """What has been drawn so far: places, each in a face with corners (k, 3), whose weights are (k, 3)."""
-        self.view.over.show_stroke(np.einsum("kc,kcx->kx", weights, self._positions[corners]) if len(corners) else None)
-
     def show_insets(self, zooms: tuple[Zoom, ...]) -> None:
         """Enlarge these places."""
         self._zooms = zooms
-        self.view.scene.insets.show(zooms, self._positions)
+        self.view.scene.insets.show(zooms, self.positions)
         self.view.redraw()
 
     def settle_insets(self) -> None:
         """Put the insets where they hide the least."""
         if self._opened is not None and self._zooms:
-            samples = self._opened.prepared.samples if self._raised is None else self._positions
-            marked = [vertex for vertex, _ in self._anchors] + ([] if self._source is None else [self._source])
-            self.view.scene.insets.settle(samples, self._positions[marked])
-
-    def show_regions(self, regions: Regions | None) -> None:
-        """Draw the boundaries of regions, or none."""
-        if regions is not self._regions:
-            self._regions = regions
-            self._put_regions()
-            self.view.redraw()
-
-    def _put_regions(self) -> None:
-        found, segments = self._regions, np.empty((0, 2, 3))
-        if found is not None and self._opened is not None and len(found.faces):
-            corners = self._positions[self._opened.surface.faces[found.faces]]
-            segments = np.einsum("sec,scx->sex", found.weights, corners)
-        self.view.scene.show_regions(segments)
-
-    def mark_extrema(self, minima: Sequence[int] = (), maxima: Sequence[int] = ()) -> None:
-        """Put triangles at these vertices."""
-        self._extrema = np.asarray(minima, np.int64), np.asarray(maxima, np.int64)
-        self._put_extrema()
-
-    def _put_extrema(self) -> None:
-        minima, maxima = self._extrema
-        ups = np.arange(len(minima) + len(maxima)) >= len(minima)
-        self.view.over.extrema.show(self._positions[np.concatenate([minima, maxima])], ups)
+            samples = self._opened.prepared.samples if self._raised is None else self.positions
+            marked = [vertex for vertex, _ in self.marks.anchors] + ([] if self.source is None else [self.source])
+            self.view.scene.insets.settle(samples, self.positions[marked])
 
     def show_isolines(self, isolines: Isolines, through: tuple[Passed, ...] = ()) -> None:
         """These, and one through each of the points, which have dots."""
@@ -225,8 +158,7 @@ class DistancePanel(QtWidgets.QWidget):
         scene = self.view.scene
         scene.show_isolines(isolines, tuple(point.value for point in through))
         lines = scene.levels.values[scene.levels.is_through]
-        self._dots = np.array([point.of(self._positions) for point in through if point.value in lines]).reshape(-1, 3)
-        scene.mark_passed(self._dots)
+        self.marks.mark_passed([point for point in through if point.value in lines])
         self._show_bands()
         self._show_bar()
         self._warn()
@@ -254,59 +186,23 @@ class DistancePanel(QtWidgets.QWidget):
     def marked(self) -> np.ndarray:
         """(k, 3) where marks are."""
         largest = None if self.answer is None else self.answer.largest
-        ids = [vertex for vertex in (self._source, largest) if vertex is not None]
-        return np.concatenate([self._positions[ids + [vertex for vertex, _ in self._anchors]], self._dots])
+        ids = [vertex for vertex in (self.marks.source, largest) if vertex is not None]
+        ids += [vertex for vertex, _ in self.marks.anchors]
+        return np.concatenate([self.positions[ids], self.marks.dots])
 
     def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
         """Vertices with a value each; without one it is the field's own."""
-        self._anchors = anchors
-        values = [anchor_value(value, vertex, self.answer) for vertex, value in anchors]
-        self.view.scene.mark_anchors(self._positions[[vertex for vertex, _ in anchors]], values)
-        self.view.redraw()
-
-    def show_pins(self, pins: Sequence[PinnedPlace], lit: Collection[str] = ()) -> None:
-        """Drops at these places; lit: the names of the points of those that stand out."""
-        self._pins, self._lit = pins, lit
-        self._put_pins()
-
-    def _put_pins(self) -> None:
-        """Where they are in the shape that is shown."""
-        if len(self._positions):
-            self.view.over.show_pins(
-                tuple(
-                    PinMark(each.number, each.position(self._positions), PINS[each.pin.colour], each.point in self._lit)
-                    for each in self._pins
-                )
-            )
-
-    def show_dabs(self, vertices: np.ndarray | None, colour: str = "") -> None:
-        """More vertices (k,) that a brush has touched, None for none; see `MarksOver.show_dabs`."""
-        self.view.over.show_dabs(None if vertices is None else self._positions[vertices], colour)
-
-    def mark_selected(self, vertices: np.ndarray, colours: np.ndarray) -> None:
-        """Vertices (k,) of selections, each in a colour (k, 3) uint8."""
-        self._selected = vertices, colours
-        self.view.scene.mark_selected(self._positions[vertices], colours)
-        self.view.redraw()
+        self.marks.mark_anchors(anchors, self.answer)
 
     @property
     def source(self) -> int | None:
         """Where its field starts."""
-        return self._source
+        return self.marks.source
 
     @property
     def positions(self) -> np.ndarray:
         """(n, 3) where the vertices are drawn."""
-        return self._positions
-
-    def _places(self, points: Sequence[Pieces]) -> np.ndarray:
-        """(k, 3) where points are in the shape that is shown."""
-        if not points or not len(self._positions):
-            return np.empty((0, 3))
-        return np.concatenate([some.positions(self._positions)[0] for some in points])
-
-    def _position(self, vertex: int | None) -> np.ndarray | None:
-        return None if vertex is None else self._positions[vertex]
+        return self.marks.positions
 
     # ------------------------------------------------------------------ answers
     def show_answer(
@@ -324,9 +220,9 @@ class DistancePanel(QtWidgets.QWidget):
         else:
             self.view.scene.show_field(answer.field, maximum, answer.is_signed)
             self._show_bands()
-        self.mark_source()
-        self.mark_anchors(self._anchors)
-        self.view.scene.mark_largest(self._position(answer.largest))
+        self.marks.mark_source()
+        self.mark_anchors(self.marks.anchors)
+        self.view.scene.mark_largest(None if answer.largest is None else self.positions[answer.largest])
         self.show_waiting(None)
         self.show_certificate(shown)
         self._show_bar()
@@ -384,17 +280,12 @@ class DistancePanel(QtWidgets.QWidget):
             bounds = (*others, low - up, high + up)
         # Of a relief it is made when somebody points at it.
         self.view.picker = LatePicker(surface) if is_relief else prepared.picker
-        self._positions = surface.vertices
         self._shape = surface
-        self._put_path()
-        self._put_pins()
         self.view.scene.show_shape(drawable(surface, self._shading) if is_relief else self._drawn.mesh, bounds)
         self.view.scene.take_stand_in(None if is_relief else self._drawn.stand_in)
-        self.mark_selected(*self._selected)
+        self.marks.follow(surface)
         self.show_insets(self._zooms)
         self.settle_insets()
-        self._put_regions()
-        self._put_extrema()
 
     def show_certificate(self, shown: Shown) -> None:
         """How accurate the field is."""
@@ -424,7 +315,7 @@ class DistancePanel(QtWidgets.QWidget):
             self.waiting.show_progress(*progress)
         if changes and is_waiting:
             # It takes a while: let the place be seen meanwhile.
-            self.mark_source()
+            self.marks.mark_source()
         if changes:
             self._show_bar()
 
@@ -436,30 +327,6 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.over.say("Stopped. Click a point to ask again.")
         self._show_bar()
 
-    # ------------------------------------------------------------------ a path
-    def show_path(self, path: Places | None) -> None:
-        """A line through places, in the shape that is shown."""
-        self._path = path
-        self._put_path()
-
-    def _put_path(self) -> None:
-        is_there = self._path is not None and len(self._positions)
-        if self.view.over.path.show(self._path.values(self._positions) if is_there else np.empty((0, 3))):
-            self.view.redraw()
-
-    def echo(self, place: Places | None) -> None:
-        """Put a ring at one place, and its value into the bar: somewhere else the pointer is there."""
-        answer = self.answer
-        if place is None or self._opened is None:
-            self.point_at(None, False)
-            return
-        position = place.values(self._positions)[0]
-        self.view.over.point_at(Pointed(position, False, not self.view.sees(position)))
-        if answer is None or answer.field is None or self._is_waiting:
-            self.bar.show_value(None)
-        else:
-            self.bar.show_value(float(place.values(answer.field)[0]))
-
     # ------------------------------------------------------------------ the pointer
     def point_at(self, vertex: int | None, is_own: bool, is_hidden: bool = False) -> None:
         """Put the ring at a vertex, and its value into the bar and, under the pointer, beside it."""
@@ -468,7 +335,7 @@ class DistancePanel(QtWidgets.QWidget):
             self.view.over.point_at(None)
         else:
             value, part = words if is_own else ("", "")
-            self.view.over.point_at(Pointed(self._positions[vertex], is_own, is_hidden, value, part))
+            self.view.over.point_at(Pointed(self.positions[vertex], is_own, is_hidden, value, part))
         answer = self.answer
         if vertex is None or answer is None or answer.field is None or self._is_waiting:
             self.bar.show_value(None)
@@ -476,6 +343,19 @@ class DistancePanel(QtWidgets.QWidget):
             self.bar.show_words(words[0])
         else:
             self.bar.show_value(float(answer.field[vertex]))
+
+    def echo(self, place: Places | None) -> None:
+        """Put a ring at one place, and its value into the bar: somewhere else the pointer is there."""
+        answer = self.answer
+        if place is None or self._opened is None:
+            self.point_at(None, False)
+            return
+        position = place.values(self.positions)[0]
+        self.view.over.point_at(Pointed(position, False, not self.view.sees(position)))
+        if answer is None or answer.field is None or self._is_waiting:
+            self.bar.show_value(None)
+        else:
+            self.bar.show_value(float(place.values(answer.field)[0]))
 
     def _words_of(self, vertex: int | None) -> tuple[str, str]:
         """A vertex' value and its share of the maximum."""

@@ -1,0 +1,160 @@
+"""What is marked on the surface of a panel: kept as vertices and places, so that it follows the shape that is shown."""
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from bihdist_core import Surface
+from bihdist_core.analysis.places import Places
+from bihdist_core.analysis.regions import Regions
+from bihdist_core.distances.answers import Answer
+from bihdist_core.sources.pieces import Pieces
+
+from ...drawing.source_lines import SourceLine, source_lines
+from ...drawing.style import PINS
+from ...session.anchors import anchor_value
+from ...session.passed import Passed
+from ...session.pinned import PinnedPlace
+from .pin_marks import PinMark
+from .view import View
+
+_NONE = np.empty(0, np.int64), np.empty((0, 3), np.uint8)
+
+
+class PanelMarks:
+    """view: that they are seen in.  positions: (n, 3) where the vertices are drawn, in a relief raised by the field."""
+
+    def __init__(self, view: View) -> None:
+        self._view = view
+        self.positions = np.empty((0, 3))
+        self._faces = np.empty((0, 3), np.int64)
+        self._forget()
+
+    def _forget(self) -> None:
+        self.source: int | None = None  # a vertex that stands for it
+        self._pieces: tuple[Pieces, ...] = ()
+        self._lines: list[SourceLine] = []
+        self.anchors: Sequence[tuple[int, float | None]] = ()
+        self._pins: Sequence[PinnedPlace] = ()
+        self._lit: Collection[str] = ()
+        self._selected = _NONE
+        self._path: Places | None = None
+        self._regions: Regions | None = None
+        self._extrema = np.empty(0, np.int64), np.empty(0, np.int64)
+        self.dots = np.empty((0, 3))  # on isolines through points
+
+    def rest(self) -> None:
+        """Mark nothing, and keep nothing of it."""
+        self.positions, self._faces = np.empty((0, 3)), np.empty((0, 3), np.int64)
+        self._forget()
+        self._view.over.show_pins(())
+        self._view.handles, self._view.over.stroke = np.empty((0, 3)), None
+        self._put_extrema()
+        self._put_path()
+
+    def begin(self, surface: Surface) -> None:
+        """Lie on a surface; nothing is marked there yet."""
+        self.positions, self._faces = surface.vertices, surface.faces
+
+    def follow(self, surface: Surface) -> None:
+        """Lie on another shape of the surface from now on, but for the source and the anchors: see `mark_source`."""
+        self.begin(surface)
+        self._put_path()
+        self._put_pins()
+        self.mark_selected(*self._selected)
+        self._put_regions()
+        self._put_extrema()
+
+    # ------------------------------------------------------------------ the source and the anchors
+    def expect_source(self, vertex: int | None, pieces: Sequence[Pieces] = ()) -> None:
+        """Where the field starts, None for one that starts nowhere; marked once that field is there.
+
+        vertex: one that stands for it; pieces: all that it consists of.
+        """
+        self.source, self._pieces = vertex, tuple(pieces)
+        self._lines = [line for each in self._pieces for line in source_lines(each)]
+
+    def mark_source(self) -> None:
+        """Put the mark where the field starts."""
+        has_shape = len(self.positions) > 0
+        points = [each.points.positions(self.positions)[0] for each in self._pieces if has_shape]
+        places = np.concatenate(points) if points else np.empty((0, 3))
+        lines = [(line.positions(self.positions), line.is_closed) for line in self._lines if has_shape]
+        self._view.handles = places
+        self._view.scene.mark_source(places, lines)
+        self._view.redraw()
+
+    def show_stroke(self, corners: np.ndarray, weights: np.ndarray) -> None:
+        """What has been drawn so far: places, each in a face with corners (k, 3), whose weights are (k, 3)."""
+        stroke = np.einsum("kc,kcx->kx", weights, self.positions[corners]) if len(corners) else None
+        self._view.over.show_stroke(stroke)
+
+    def mark_anchors(self, anchors: Sequence[tuple[int, float | None]], answer: Answer | None) -> None:
+        """Vertices with a value each; without one it is that of the answer's field."""
+        self.anchors = anchors
+        values = [anchor_value(value, vertex, answer) for vertex, value in anchors]
+        self._view.scene.mark_anchors(self.positions[[vertex for vertex, _ in anchors]], values)
+        self._view.redraw()
+
+    # ------------------------------------------------------------------ what measures
+    def show_pins(self, pins: Sequence[PinnedPlace], lit: Collection[str] = ()) -> None:
+        """Drops at these places; lit: the names of the points of those that stand out."""
+        self._pins, self._lit = pins, lit
+        self._put_pins()
+
+    def _put_pins(self) -> None:
+        if len(self.positions):
+            self._view.over.show_pins(
+                tuple(
+                    PinMark(each.number, each.position(self.positions), PINS[each.pin.colour], each.point in self._lit)
+                    for each in self._pins
+                )
+            )
+
+    def mark_selected(self, vertices: np.ndarray, colours: np.ndarray) -> None:
+        """Vertices (k,) of selections, each in a colour (k, 3) uint8."""
+        self._selected = vertices, colours
+        self._view.scene.mark_selected(self.positions[vertices], colours)
+        self._view.redraw()
+
+    def show_dabs(self, vertices: np.ndarray | None, colour: str = "") -> None:
+        """More vertices (k,) that a brush has touched, None for none; see `MarksOver.show_dabs`."""
+        self._view.over.show_dabs(None if vertices is None else self.positions[vertices], colour)
+
+    def show_path(self, path: Places | None) -> None:
+        """A line through places."""
+        self._path = path
+        self._put_path()
+
+    def _put_path(self) -> None:
+        is_there = self._path is not None and len(self.positions)
+        if self._view.over.path.show(self._path.values(self.positions) if is_there else np.empty((0, 3))):
+            self._view.redraw()
+
+    def show_regions(self, regions: Regions | None) -> None:
+        """Draw the boundaries of regions, or none."""
+        if regions is not self._regions:
+            self._regions = regions
+            self._put_regions()
+            self._view.redraw()
+
+    def _put_regions(self) -> None:
+        found, segments = self._regions, np.empty((0, 2, 3))
+        if found is not None and len(found.faces) and len(self._faces):
+            segments = np.einsum("sec,scx->sex", found.weights, self.positions[self._faces[found.faces]])
+        self._view.scene.show_regions(segments)
+
+    def mark_extrema(self, minima: Sequence[int] = (), maxima: Sequence[int] = ()) -> None:
+        """Put triangles at these vertices."""
+        self._extrema = np.asarray(minima, np.int64), np.asarray(maxima, np.int64)
+        self._put_extrema()
+
+    def _put_extrema(self) -> None:
+        minima, maxima = self._extrema
+        is_maximum = np.arange(len(minima) + len(maxima)) >= len(minima)
+        self._view.over.extrema.show(self.positions[np.concatenate([minima, maxima])], is_maximum)
+
+    def mark_passed(self, points: Sequence[Passed]) -> None:
+        """Dots at points that isolines pass through."""
+        self.dots = np.array([point.of(self.positions) for point in points]).reshape(-1, 3)
+        self._view.scene.mark_passed(self.dots)
