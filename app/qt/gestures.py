@@ -128,7 +128,7 @@ class Gestures:
         vertex = self.hovered
         if window.session.surface is None or (vertex is None and before is None):
             return
-        self._grid.point_at(panel, vertex)
+        self._grid.pointing.show(panel, vertex)
         window.docks.pointed(vertex)
         window.status.show_place(vertex, None if vertex is None else window.session.surface.vertices[vertex])
         if self.is_live and met is not None and (last is None or self.sources.at(met) != self.sources.at(last)):
@@ -167,7 +167,7 @@ class Gestures:
         menu = QtWidgets.QMenu(window)
         if met is not None:
             view, vertex = self._grid.panel(panel).view, met.vertex
-            self._grid.point_at(panel, vertex)
+            self._grid.pointing.show(panel, vertex)
             menu.addAction("Source here\tClick", lambda: self._click(panel, met))
             self.sources.offer(menu, panel, met)
             pin = self._pin_at(panel, vertex)

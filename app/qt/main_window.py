@@ -119,7 +119,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid = PanelGrid(self.session)
         self.grid.keys = self.actions_by_word.key_of_view
         self.grid.wheel_factor = -1.0 if self.preferences.wheel_reversed else 1.0
-        self.grid.is_turntable = self.preferences.turntable
+        self.grid.eye.is_turntable = self.preferences.turntable
         self.gestures = Gestures(self)
         self.docks = Docks(self)
         self.grid.chosen.connect(self.gestures.choose)

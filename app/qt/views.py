@@ -46,7 +46,7 @@ class Views:
         follows = document.camera == "source" and document.points != before.points
         if is_other or is_raised or is_stood_otherwise or follows or document.camera != before.camera:
             window.grid.turn_upright()
-            window.grid.look(document.camera)
+            window.grid.eye.look(document.camera)
             self.rest_soon()
         if document.up != before.up and isinstance(document.camera, Camera) and document.camera == before.camera:
             self.see("home")  # undone and done again it would be askew
@@ -64,9 +64,9 @@ class Views:
 
     def see(self, view: View) -> None:
         """Let the camera see something else."""
-        self._window.grid.look(view)
+        self._window.grid.eye.look(view)
         # From where the source is now; the view does not follow it about.
-        self.moved(self._window.grid.seen if view == "source" else view)
+        self.moved(self._window.grid.eye.seen if view == "source" else view)
 
     def back(self) -> None:
         """Look from where one looked before."""
@@ -127,7 +127,7 @@ class Views:
     # ------------------------------------------------------------------ the camera as text
     def copy(self) -> None:
         """The camera, to the clipboard."""
-        QtWidgets.QApplication.clipboard().setText(camera_text(self._window.grid.seen))
+        QtWidgets.QApplication.clipboard().setText(camera_text(self._window.grid.eye.seen))
         self._window.say("The camera is on the clipboard")
 
     def paste(self) -> None:

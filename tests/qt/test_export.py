@@ -36,7 +36,7 @@ def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tm
 
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
-    s.window.grid.camera.Azimuth(40)
+    s.window.grid.eye.camera.Azimuth(40)
     s.panels[0].view.moved.emit()
     exported(s, tmp_path / "window.png", size="600x300")
     assert main(["figure", "--recipe", str(tmp_path / "window.json"), "-o", str(tmp_path / "again.png")]) == 0
@@ -141,7 +141,7 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     assert [p.answer.label for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
     assert s.source == 7
     assert s.document.isolines.count == 12
-    assert np.allclose(s.window.grid.camera.GetPosition(), (3, 1, 2))
+    assert np.allclose(s.window.grid.eye.camera.GetPosition(), (3, 1, 2))
     exported(s, tmp_path / "again.png")
     again = read_recipe(tmp_path / "again.json")
     assert again.page.style == "dark"
@@ -188,7 +188,7 @@ def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, m
     s.settle()
     assert s.window.source_box.value() == Place(3, (0.2, 0.2, 0.6))
     assert s.pictures()[0].std() > 20
-    s.window.grid.point_at(s.panels[0].id, 5)
+    s.window.grid.pointing.show(s.panels[0].id, 5)
     assert s.panels[0].bar.accessibleDescription()
     s.open(mesh_file(grid(4, 4), "other.off"))
     assert [mesh.name for mesh in s.document.surfaces] == ["M"]

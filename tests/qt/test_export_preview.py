@@ -163,7 +163,7 @@ def test_the_picture_on_the_clipboard_is_the_exported_one(screen, mesh_file, tmp
 
 
 def turned(s):
-    s.window.grid.camera.Azimuth(40)
+    s.window.grid.eye.camera.Azimuth(40)
     s.panels[0].view.moved.emit()
 
 

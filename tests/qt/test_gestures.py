@@ -99,7 +99,7 @@ def test_what_is_centred_comes_into_the_middle_and_is_turned_about(opened):
 
 def test_keys_turn_move_and_zoom_all_panels(opened):
     s = opened
-    camera = s.window.grid.camera
+    camera = s.window.grid.eye.camera
 
     def state():
         return np.array([*camera.GetPosition(), *camera.GetFocalPoint()])

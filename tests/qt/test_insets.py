@@ -96,7 +96,7 @@ def test_an_inset_enlarges_what_the_panel_shows(shown):
     assert inset.GetSize()[0] == pytest.approx(0.4 * min(width, height), abs=2)
     assert inset.GetOrigin()[0] < 10
     assert inset.GetOrigin()[1] + inset.GetSize()[1] > height - 10
-    s.window.grid.camera.Azimuth(20)
+    s.window.grid.eye.camera.Azimuth(20)
     s.window.grid.redraw()
     s.settle()
     assert np.abs(seen_at(panel, vertex, inset) - centre).max() <= SIZE

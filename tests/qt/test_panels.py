@@ -100,10 +100,10 @@ def test_undo_brings_back_source_parameters_and_lines_but_not_the_view(screen, m
     s.settle()
     assert all(np.array_equal(a, b) for a, b in zip(before, s.pictures(), strict=True))
     s.window.reset_view("back")
-    turned = s.window.grid.camera.GetPosition()
+    turned = s.window.grid.eye.camera.GetPosition()
     s.session.redo()
     s.settle()
-    assert s.window.grid.camera.GetPosition() == turned
+    assert s.window.grid.eye.camera.GetPosition() == turned
     assert s.source in (5, 9)
 
 
@@ -128,7 +128,7 @@ def test_a_panel_shows_the_difference_of_two_distances_and_names_the_largest(scr
     largest = number((one - other)[vertex], signed=True)
     assert panel.bar._reading.remark == f"largest {largest} at vertex {vertex}"
     assert ends() == pytest.approx((-panel.answer.maximum, panel.answer.maximum))
-    s.window.grid.point_at(panel.id, vertex)
+    s.window.grid.pointing.show(panel.id, vertex)
     assert (panel.view.over.pointed.value, panel.bar._reading.value) == (largest, panel.answer.field[vertex])
     of_commute_time = "Biharmonic − Commute-time", "biharmonic, exact − commute-time, exact"
     assert chosen("Second: Geodesic", "Commute-time") == of_commute_time
@@ -204,14 +204,14 @@ def test_views_have_a_history_of_their_own(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
     s.settle(0.6)
-    cameras = [s.window.grid.camera.GetPosition()]
+    cameras = [s.window.grid.eye.camera.GetPosition()]
     for view in ("left", "top"):
         s.window.reset_view(view)
         s.settle(0.6)
-        cameras.append(s.window.grid.camera.GetPosition())
+        cameras.append(s.window.grid.eye.camera.GetPosition())
 
     def there():
-        return s.window.grid.camera.GetPosition()
+        return s.window.grid.eye.camera.GetPosition()
 
     for step, place in [(-1, 1), (-1, 0), (-1, 0), (1, 1), (1, 2), (1, 2), (-1, 1)]:
         s.window.views.back() if step < 0 else s.window.views.on()

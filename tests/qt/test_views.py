@@ -37,7 +37,7 @@ def hare(screen, home):
 
 def seen_up(s):
     """(3,) what is up in the picture."""
-    return frame(s.window.grid.seen)[:, 1]
+    return frame(s.window.grid.eye.seen)[:, 1]
 
 
 def press(s, key):
@@ -129,11 +129,11 @@ def test_the_view_from_the_source_is_from_outside(hare):
 def test_a_document_that_is_seen_from_its_source_follows_it(hare):
     s = hare
     s.session.show(replace(s.document, camera="source"))
-    before = s.window.grid.seen
+    before = s.window.grid.eye.seen
     s.window.typed_source.choose(3000)
     s.until(lambda: s.session.is_complete)
     assert s.document.camera == "source"
-    assert s.window.grid.seen != before
+    assert s.window.grid.eye.seen != before
     assert s.panels[0].view.sees(s.session.surface.vertices[3000])
 
 
@@ -166,8 +166,8 @@ def test_without_perspective_clicks_zooms_and_shifts_are_where_they_are_seen(har
     view.shift_by(1, 0)
     moved = view.place_of(surface.vertices[target])
     assert np.isclose(moved.x() - back.x(), 0.05 * view.height(), atol=1)
-    camera = s.window.grid.seen
-    s.window.grid.look(camera)
+    camera = s.window.grid.eye.seen
+    s.window.grid.eye.look(camera)
     again = view.place_of(surface.vertices[target])
     assert np.allclose([again.x(), again.y()], [moved.x(), moved.y()], atol=0.5)
     press(s, "o")
@@ -204,19 +204,19 @@ def test_a_drag_on_the_turntable_keeps_what_is_up_upright(hare):
         subprocess.run(["xdotool", *map(str, words), "mouseup", "1"], check=True)
         s.settle(0.3)
 
-    before = frame(s.window.grid.seen)
+    before = frame(s.window.grid.eye.seen)
     drag(120, 40)
-    turned = frame(s.window.grid.seen)
+    turned = frame(s.window.grid.eye.seen)
     assert not np.allclose(before, turned, atol=0.1)
     assert abs(turned[:, 0] @ axis_of("z")) < 1e-6
     drag(0, 400)
     drag(0, 400)
-    steep = frame(s.window.grid.seen)
+    steep = frame(s.window.grid.eye.seen)
     assert np.isclose(np.degrees(np.arcsin(steep[:, 2] @ axis_of("z"))), 89, atol=0.01)
     assert steep[:, 1] @ axis_of("z") > 0
     s.window.actions_by_word["turntable"].trigger()
     drag(90, -200)
-    assert abs(frame(s.window.grid.seen)[:, 0] @ axis_of("z")) > 1e-3
+    assert abs(frame(s.window.grid.eye.seen)[:, 0] @ axis_of("z")) > 1e-3
 
 
 def test_a_turntable_starts_from_the_poles_without_a_jump(hare):
@@ -224,14 +224,14 @@ def test_a_turntable_starts_from_the_poles_without_a_jump(hare):
     s.window.actions_by_word["turntable"].trigger()
     for name, sign in (("top", 1), ("bottom", -1)):
         s.window.reset_view(name)
-        before = frame(s.window.grid.seen)
+        before = frame(s.window.grid.eye.seen)
         view.turn_by(1, 0)
-        level = frame(s.window.grid.seen)
+        level = frame(s.window.grid.eye.seen)
         assert np.isclose(level[:, 2] @ axis_of("z"), sign)
         assert np.isclose(np.degrees(np.arccos(level[:, 1] @ before[:, 1])), 15, atol=0.1)
         s.window.reset_view(name)
         view.turn_by(0, sign)
-        tilted = frame(s.window.grid.seen)
+        tilted = frame(s.window.grid.eye.seen)
         assert tilted[:, 1] @ before[:, 1] > 0.9
         assert 0.9 < sign * tilted[:, 2] @ axis_of("z") < 0.99
 
@@ -265,7 +265,7 @@ def test_a_camera_is_copied_and_pasted(hare):
     s.window.reset_view("left")
     s.window.actions_by_word["paste camera"].trigger()
     assert np.allclose(s.document.camera.position, camera.position)
-    assert np.allclose(s.window.grid.seen.position, camera.position)
+    assert np.allclose(s.window.grid.eye.seen.position, camera.position)
     clipboard.setText("--view top")
     s.window.actions_by_word["paste camera"].trigger()
     assert s.document.camera == "top"
@@ -284,7 +284,7 @@ def test_a_session_without_perspective_is_seen_as_its_figure(hare, tmp_path):
     s.panels[0].view.turn_by(2, -1)
     s.settle(0.1)
     view, surface = s.panels[0].view, read_surface(mesh_path("hare"))
-    seen = Projection(s.document.camera, s.window.grid.aspect, surface.vertices, 0.05, is_parallel=True)
+    seen = Projection(s.document.camera, s.window.grid.eye.aspect, surface.vertices, 0.05, is_parallel=True)
     for vertex in (10, 3000, 8000):
         x, y, _ = seen(surface.vertices[[vertex]])[0]
         place = view.place_of(surface.vertices[vertex])

@@ -126,7 +126,7 @@ def test_a_panel_s_words_do_not_change_the_size_of_its_picture(screen, mesh_file
     s = screen()
     s.open(mesh_file(bumpy(800)))
     before = [panel.view.size() for panel in s.panels]
-    s.window.grid.point_at(0, 5)
+    s.window.grid.pointing.show(0, 5)
     s.panels[1].show_waiting((0.3, "Factoring " * 30))
     s.panels[2].show_stopped()
     s.settle()

@@ -71,7 +71,7 @@ def test_shows_the_same_source_in_three_different_panels(screen, mesh_file):
 def test_what_is_not_connected_is_grey_and_said_to_be(screen, mesh_file):
     s = screen()
     s.open(mesh_file(two_pieces()), 0)
-    s.window.grid.point_at(0, 62)
+    s.window.grid.pointing.show(0, 62)
     assert all("not connected to the source" in panel.bar.accessibleDescription() for panel in s.panels)
     # The small piece alone has no colour: its red, green and blue are nearly equal.
     for picture, panel in zip(s.pictures(), s.panels, strict=True):
@@ -320,7 +320,7 @@ def test_views_turn_all_panels_together(screen, mesh_file):
 def test_what_was_seen_stays_in_view_when_the_window_changes_its_shape(screen, mesh_file, size):
     s = screen()
     s.open(mesh_file(bumpy(800)))
-    camera = s.window.grid.camera
+    camera = s.window.grid.eye.camera
     before = s.window.size(), camera.GetViewAngle(), camera.GetPosition()
     s.window.resize(*size)
     s.settle()

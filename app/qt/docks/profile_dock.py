@@ -158,7 +158,7 @@ class ProfileDock(Instrument):
 
     def seen(self) -> tuple[float, float, float]:
         """(3,) the direction in which the panels are looked at."""
-        seen = self.window_.grid.seen
+        seen = self.window_.grid.eye.seen
         way = np.subtract(seen.focal_point, seen.position)
         x, y, z = (way / np.linalg.norm(way)).tolist()
         return x, y, z
@@ -272,7 +272,7 @@ class ProfileDock(Instrument):
 
     def _unpoint(self) -> None:
         grid = self.window_.grid
-        grid.point_at(grid.panels[0].id, None)
+        grid.pointing.show(grid.panels[0].id, None)
 
     def leaveEvent(self, event: QtCore.QEvent) -> None:
         self._point(None)

@@ -322,7 +322,7 @@ class ScatterDock(Instrument):
         vertex = None if at is None else self.chart.vertex_at(*at)
         self.chart.mark(vertex)
         window = self.window_
-        window.grid.point_at(window.grid.active, vertex)
+        window.grid.pointing.show(window.grid.active, vertex)
         surface = window.session.surface
         window.status.show_place(vertex, None if vertex is None or surface is None else surface.vertices[vertex])
 

@@ -4,17 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
-from vtkmodules.vtkRenderingCore import vtkCamera
 
-from bihdist_core.analysis.upright import axis_of
-
-from ...document.camera import Camera, View
+from ...document.camera import Camera
 from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
-from ...document.quantities import Difference
 from ...drawing.board import Board
-from ...drawing.camera import camera_seen, outwards_at, show_camera, standard_camera
-from ...drawing.relief import rise
 from ...drawing.style import PAPER, Style
 from ...session.anchors import anchors_on
 from ...session.bar_ends import bar_end
@@ -23,9 +17,11 @@ from ...session.pinned import pinned_on
 from ...session.questions import pieces_at, vertex_at
 from ...session.session import Session
 from ..look.look import LOOK
+from .eye import Eye
 from .line_labels import LineLabels
 from .moving import Moving
 from .panel import DistancePanel
+from .pointing import Pointing
 from .shades import Shades
 
 SIDE_BY_SIDE = 3
@@ -71,18 +67,17 @@ class PanelGrid(QtWidgets.QWidget):
         self.labels = LineLabels(lambda: self.panels, self)
         self._shades = Shades(self)
         self._shades.made.connect(self.show_shading)
-        self.camera = vtkCamera()
+        self.eye = Eye(session, lambda: self.panels, self)
+        self.eye.placed.connect(self._placed)
         self.active = -1  # the id of the panel that the keys go to
         self.wheel_factor = 1.0
         self._is_drawn_on = False
-        self.is_turntable = False  # whether what is up stays upright while the surface turns
         self.keys: Callable[[QtGui.QKeyEvent], bool] = lambda event: False  # what a key does on a view
         self._panels: dict[int, DistancePanel] = {}
         self._spare: list[DistancePanel] = []
         self._style = PAPER
         self._is_closed = False
-        self._fitted = QtCore.QSize()  # of the views that the camera was placed for
-        self._pointed: tuple[int, int] | None = None  # panel, vertex
+        self.pointing = Pointing()
         self._lit: tuple[str, ...] = ()  # the points of pins that stand out
         self._selected = np.empty(0, np.int64), np.empty((0, 3), np.uint8)
         self._brush: QtGui.QCursor | None = None
@@ -96,14 +91,6 @@ class PanelGrid(QtWidgets.QWidget):
 
     def panel(self, id: int) -> DistancePanel:
         return self._panels[id]
-
-    @property
-    def aspect(self) -> float:
-        """Width / height of a view."""
-        if not self._panels:
-            return 1.0
-        size = self.panels[0].view.size()
-        return size.width() / max(size.height(), 1)
 
     # ------------------------------------------------------------------ where the panels are
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
@@ -134,7 +121,7 @@ class PanelGrid(QtWidgets.QWidget):
             row, column = divmod(number, columns)
             # The last in a row has what is left over: a pixel or two, no more than a panel has columns.
             panel.setGeometry(column * (width + LINE), row * (height + LINE), width, height)
-        self._keep_in_view()  # panels that were kept for later may have had this size before
+        self.eye.look_again()  # panels that were kept for later may have had this size before
 
     # ------------------------------------------------------------------ the document
     def show_panels(self, document: Document) -> None:
@@ -153,6 +140,7 @@ class PanelGrid(QtWidgets.QWidget):
             fields = [field.name for field in document.fields if field.surface == panel.surface]
             self._panels[id].head.show_quantity(panel.shows, fields)
         self._panels = {id: self._panels[id] for id in wanted}
+        self.pointing.begin(self._panels)
         self._arrange()
         self.update()
         for id, panel in self._panels.items():
@@ -175,7 +163,7 @@ class PanelGrid(QtWidgets.QWidget):
         view.hovered.connect(lambda met: self.hovered.emit(panel.id, met))
         view.moved.connect(self._looked)
         view.let_go.connect(self.moving.rest)
-        view.resized.connect(self._keep_in_view)
+        view.resized.connect(self.eye.look_again)
         view.menu_wanted.connect(lambda met, where: self.menu_wanted.emit(panel.id, met, where))
         view.centred.connect(lambda met: view.centre(met.position))
         view.brushed.connect(self.brushed)
@@ -187,7 +175,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.head.asked.connect(lambda word: self.asked.emit(panel.id, word))
         panel.ended.connect(lambda end: self.ended.emit(panel.id, end))
         panel.cancelled.connect(lambda: self.cancelled.emit(panel.id))
-        view.scene.renderer.SetActiveCamera(self.camera)
+        view.scene.renderer.SetActiveCamera(self.eye.camera)
         panel.show_style(self._style)
         return panel
 
@@ -200,7 +188,7 @@ class PanelGrid(QtWidgets.QWidget):
             panel.show_surface(opened)
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
-        panel.view.upright = self._upright
+        panel.view.upright = self.eye.upright
         panel.view.pointer.draw_on(self._is_drawn_on)
         panel.view.over.show_axes(self._session.document.axes)
         panel.show_isolines(self._session.document.isolines)
@@ -220,7 +208,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Another surface is there."""
         for panel in self.panels:
             panel.show_surface(self._session.opened())
-        self._pointed = None
+        self.pointing.forget()
         self.show_shading()
 
     def show_shading(self) -> None:
@@ -288,12 +276,6 @@ class PanelGrid(QtWidgets.QWidget):
         for panel in self.panels if self._session.surface is not None else ():
             panel.settle_insets()
 
-    @property
-    def _rise(self) -> float:
-        """How far up the panels' reliefs go; 0 if they are none."""
-        opened, height = self._session.opened(), self._session.document.height
-        return rise(opened.prepared.bounds, height) if height and opened and opened.prepared.is_flat else 0.0
-
     def show_isolines(self, document: Document) -> None:
         """Those of the document, through its points, too."""
         for panel in document.panels:
@@ -317,103 +299,44 @@ class PanelGrid(QtWidgets.QWidget):
                 widget.show_answer(shown[other], bar_end(document, shown, other), document.height, in_shares)
                 if document.isolines.through:
                     widget.show_isolines(document.isolines, self._through(document, document.panel(other)))
-        self._point_again()
+        self.pointing.show_again_soon()
 
     def show_certificate(self, id: int) -> None:
         self._panels[id].show_certificate(self._session.shown[id])
 
     # ------------------------------------------------------------------ the camera
-    def look(self, view: View) -> None:
-        """See the surface from a standard view, fitted closely, or as a camera saw it."""
-        self._fitted = self.panels[0].view.size() if self._panels else QtCore.QSize()
-        document = self._session.document
-        is_parallel = document.projection == "orthographic"
-        if not isinstance(view, Camera):
-            points, up = self._session.opened().prepared.points, self._rise
-            if up:
-                signed = any(isinstance(panel.shows, Difference) for panel in document.panels)
-                down = np.array([0, 0, up if signed else 0])
-                points = np.concatenate([points - down, points + np.array([0, 0, up])])
-            name = "relief" if up and view == "home" else view
-            outwards = self._source_seen() if name == "source" else None
-            view = standard_camera(points, self.aspect, name, None, document.up, outwards, is_parallel)
-        show_camera(self.camera, view, self.aspect, None, is_parallel)
+    def _placed(self) -> None:
         self._settle_insets()
         self.redraw()
-
-    def _source_seen(self) -> np.ndarray | None:
-        """(3,) the way out of the surface where the first panel's field starts."""
-        document, surface = self._session.document, self._session.opened().surface
-        sources = document.sources
-        return outwards_at(surface, vertex_at(sources[0], surface)) if sources else None
 
     def show_axes(self, has_axes: bool) -> None:
         for panel in self.panels:
             panel.view.over.show_axes(has_axes)
 
-    @property
-    def seen(self) -> Camera:
-        """What the camera sees now."""
-        return camera_seen(self.camera, self.aspect)
-
-    @property
-    def _upright(self) -> np.ndarray | None:
-        up = self._session.document.up
-        return axis_of(up) if self.is_turntable and up != "auto" else None
-
     def turn_upright(self, is_turntable: bool | None = None) -> None:
         """Let the surface turn as on a turntable, or freely; as it did, about what is up now, if None."""
-        self.is_turntable = self.is_turntable if is_turntable is None else is_turntable
+        self.eye.is_turntable = self.eye.is_turntable if is_turntable is None else is_turntable
         for panel in (*self.panels, *self._spare):
-            panel.view.upright = self._upright
+            panel.view.upright = self.eye.upright
 
     def _looked(self) -> None:
         """The user has moved the camera."""
         if self._session.surface is not None:
             self.moving.moved()
             self.redraw()
-            self.looked.emit(self.seen)
-
-    def _keep_in_view(self) -> None:
-        """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""
-        if self._session.surface is not None and self._panels and self.panels[0].view.size() != self._fitted:
-            self.look(self._session.document.camera)
+            self.looked.emit(self.eye.seen)
 
     def redraw(self) -> None:
         """Draw each panel once more, when Qt paints next."""
         for panel in self.panels:
             panel.view.redraw()
-        self._point_again()
+        self.pointing.show_again_soon()
 
     def draw_in_full(self) -> None:
         """With all that comes only once the camera rests."""
         self.moving.rest()
         for panel in self.panels:
             panel.view.shot()
-
-    # ------------------------------------------------------------------ the pointer
-    def point_at(self, id: int, vertex: int | None) -> None:
-        """Mark a vertex in every panel, and show its values; id: the panel under the pointer."""
-        self._pointed = None if vertex is None else (id, vertex)
-        for other, panel in self._panels.items():
-            # Panels with the same shape show the same of it.
-            is_hidden = (
-                vertex is not None
-                and panel.positions is not self._panels[id].positions
-                and not panel.view.sees(panel.positions[vertex])
-            )
-            panel.point_at(vertex, other == id, is_hidden)
-
-    def _point_again(self) -> None:
-        """The field or the camera has changed under the pointer."""
-        QtCore.QTimer.singleShot(0, self._point_now)
-
-    def _point_now(self) -> None:
-        if self._pointed is not None and self._pointed[0] in self._panels:
-            id, vertex = self._pointed
-            self._panels[id].view.point_again()
-            if self._pointed == (id, vertex):
-                self.point_at(id, vertex)
 
     # ------------------------------------------------------------------ the keys
     def activate(self, id: int) -> None:

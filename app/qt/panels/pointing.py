@@ -1,0 +1,46 @@
+"""The place that is pointed at: a ring in every panel, with its value in each."""
+
+from collections.abc import Mapping
+
+from qtpy import QtCore
+
+from .panel import DistancePanel
+
+
+class Pointing:
+    """At most one place at a time."""
+
+    def __init__(self) -> None:
+        self._panels: Mapping[int, DistancePanel] = {}
+        self._at: tuple[int, int] | None = None  # panel, vertex
+
+    def begin(self, panels: Mapping[int, DistancePanel]) -> None:
+        """These are shown from now on."""
+        self._panels = panels
+
+    def forget(self) -> None:
+        """Another surface is there."""
+        self._at = None
+
+    def show(self, id: int, vertex: int | None) -> None:
+        """Mark a vertex in every panel, and show its values; id: the panel under the pointer."""
+        self._at = None if vertex is None else (id, vertex)
+        for other, panel in self._panels.items():
+            # Panels with the same shape show the same of it.
+            is_hidden = (
+                vertex is not None
+                and panel.positions is not self._panels[id].positions
+                and not panel.view.sees(panel.positions[vertex])
+            )
+            panel.point_at(vertex, other == id, is_hidden)
+
+    def show_again_soon(self) -> None:
+        """The field or the camera has changed under the pointer."""
+        QtCore.QTimer.singleShot(0, self._show_again)
+
+    def _show_again(self) -> None:
+        if self._at is not None and self._at[0] in self._panels:
+            id, vertex = self._at
+            self._panels[id].view.point_again()
+            if self._at == (id, vertex):
+                self.show(id, vertex)
