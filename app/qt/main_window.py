@@ -13,7 +13,7 @@ from ..document.camera import View as CameraView
 from ..document.document import Document
 from ..document.page import Page, Recipe
 from ..drawing.prepared import prepare
-from ..drawing.style import STYLES, Style
+from ..drawing.style import STYLES
 from ..session.opened import Opened
 from ..session.session import Session
 from . import remembered
@@ -21,12 +21,12 @@ from .actions import Actions
 from .bars.menus import Menus
 from .bars.status_bar import StatusBar, unseen
 from .bars.tool_bar import ToolBar
+from .changes import Changes
 from .choices import Choices
 from .files.curve_files import CurveFiles
 from .files.exports import ExportChip, Exports
 from .files.files import Files
 from .files.session_actions import SessionFile
-from .look.canvas import canvas_style
 from .look.look import LOOK
 from .pages.guide import Guide
 from .pages.messages import Notice, tell
@@ -72,7 +72,6 @@ class MainWindow(QtWidgets.QMainWindow):
         self.gestures: Any = None  # what the mouse means in it
         self.docks: Any = None  # the instruments
         self._start_page: Any = None
-        self._opened: Opened | None = None  # the surface in the panels
         self._waiting: list[Callable[[], None]] = []
         self.quiet = False
         self.remembers = True
@@ -85,7 +84,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.addToolBar(self.tool_bar)
         self.status = StatusBar(self, ExportChip(self.exports))
         self.setStatusBar(self.status)
-        self.views = Views(self)
+        self.views, self.changes = Views(self), Changes(self)
         self.waits = Waits(self)
         self.notice = Notice()
         self._opening = QtWidgets.QLabel("Opening …")
@@ -212,39 +211,8 @@ class MainWindow(QtWidgets.QMainWindow):
     # ------------------------------------------------------------------ what the session tells
     def document_changed(self, before: Document) -> None:
         self.build_panels()
-        document, opened = self.session.document, self.session.opened()
         self._stack.setCurrentWidget(self._scroll)
-        is_dressed = self.grid.show_style(self._style)  # in other colours
-        is_other = opened is not self._opened
-        other_panels = is_other or is_dressed or (document.panels, document.fields) != (before.panels, before.fields)
-        if other_panels:
-            self.grid.show_panels(document)
-        if is_other:
-            self._show_surface(opened)
-        elif is_dressed:
-            self.grid.show_surface()
-        if other_panels or document.points != before.points:
-            self.grid.expect_sources(document)
-            self.typed_source.show()
-        if other_panels or (document.points, document.anchors) != (before.points, before.anchors):
-            self.grid.mark_anchors(document)
-        if other_panels or (document.points, document.pins) != (before.points, before.pins):
-            self.grid.show_pins(document)
-        if other_panels or document.zooms != before.zooms:
-            self.grid.show_insets(document)
-        passed = document.isolines.through and document.points != before.points
-        if is_other or is_dressed or passed or document.isolines != before.isolines:
-            self.grid.show_isolines(document)
-        is_raised = document.height != before.height
-        if document.shading != before.shading and not is_other:
-            self.grid.show_shading()
-        if other_panels or is_raised or document.range != before.range:
-            for panel in document.panels:
-                if self.session.is_answered(panel.id) or (is_dressed and panel.id in self.session.shown):
-                    self.answer_changed(panel.id)
-        self.views.document_changed(before, is_other, is_raised)
-        if other_panels or document.selections != before.selections:
-            self.docks.brushing.show(document)
+        self.changes.show(before)
         self._offer_steps()
         self.choices.show()
         self.docks.document_changed()
@@ -255,39 +223,19 @@ class MainWindow(QtWidgets.QMainWindow):
         """Look as figures on this page do, from the next change of the document on."""
         if page != self.page:
             self.page = page
-            if self.grid is not None and self.grid.show_style(self._style):
-                self._opened = None  # all is shown anew
+            self.changes.wear_next()
 
-    def _show_surface(self, opened: Opened) -> None:
-        self._opened = opened
+    def surface_changed(self, opened: Opened) -> None:
+        """Another surface comes into the panels."""
         self._allow(True)
         self.views.begin()
         self.gestures.begin()
         self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
-        self.grid.show_surface()
         recipe = Recipe(self.session.document, self.page)
         self.status.show_surface(opened.surface, unseen(recipe, STYLES[self.page.style]))
         self.leave_boxes()
         if self.remembers and opened.mesh.path and os.path.exists(opened.mesh.path):
             remembered.remember(opened.mesh.path)
-
-    def _show_all_again(self) -> None:
-        """Another style, or other colours of the window."""
-        opened = self.session.opened()
-        if opened is None:
-            return
-        document = self.session.document
-        self.grid.show_surface()
-        self.grid.expect_sources(document)
-        self.grid.show_isolines(document)
-        self.grid.mark_anchors(document)
-        self.grid.show_pins(document)
-        self.grid.show_insets(document)
-        self.docks.brushing.show(document)
-        for id in self.session.shown:
-            self.grid.show_answer(id)
-        self.docks.findings.show_again()
-        self.waits.show()
 
     def answer_changed(self, panel: int) -> None:
         self.grid.show_answer(panel)
@@ -374,13 +322,7 @@ class MainWindow(QtWidgets.QMainWindow):
     # ------------------------------------------------------------------ how it looks
     def wear(self) -> None:
         """Other colours, or another style of the fields."""
-        if self.grid is not None and self.grid.show_style(self._style):
-            self._show_all_again()
-
-    @property
-    def _style(self) -> Style:
-        """What fields look like: that of the page, in the document's colours, on the window's ground."""
-        return canvas_style(self.page.style, LOOK.theme, self.session.document.colours)
+        self.changes.wear()
 
     def _allow(self, has_mesh: bool) -> None:
         self.actions_by_word.allow(has_mesh)

@@ -76,7 +76,7 @@ def _stale(hands: Hands) -> list[str]:
     before = _pictures(window)
     window.grid.redraw()
     found += _differing("drawn again", before, _pictures(window))
-    window._show_all_again()
+    window.changes.show_all_again()
     hands.spin(0.3)
     found += _differing("shown again", before, _pictures(window))
     other = hands.new_window(type(window), window.session.document)

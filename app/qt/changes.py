@@ -1,0 +1,88 @@
+"""From one document to the next: the panels are shown what is another.
+
+`window` is the main window.
+"""
+
+from ..document.document import Document
+from ..drawing.style import Style
+from ..session.opened import Opened
+from .look.canvas import canvas_style
+from .look.look import LOOK
+
+
+class Changes:
+    """What the panels show, kept equal to what the session does."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+        self._opened: Opened | None = None  # the surface in the panels
+
+    @property
+    def _style(self) -> Style:
+        """What fields look like: that of the page, in the document's colours, on the window's ground."""
+        return canvas_style(self._window.page.style, LOOK.theme, self._window.session.document.colours)
+
+    def show(self, before: Document) -> None:
+        """The session's document, where the one before is shown."""
+        window, session, grid = self._window, self._window.session, self._window.grid
+        document, opened = session.document, session.opened()
+        is_dressed = grid.show_style(self._style)  # in other colours
+        is_other = opened is not self._opened
+        other_panels = is_other or is_dressed or (document.panels, document.fields) != (before.panels, before.fields)
+        if other_panels:
+            grid.show_panels(document)
+        if is_other:
+            self._opened = opened
+            window.surface_changed(opened)
+        if is_other or is_dressed:
+            grid.show_surface()
+        if other_panels or document.points != before.points:
+            grid.expect_sources(document)
+            window.typed_source.show()
+        if other_panels or (document.points, document.anchors) != (before.points, before.anchors):
+            grid.mark_anchors(document)
+        if other_panels or (document.points, document.pins) != (before.points, before.pins):
+            grid.show_pins(document)
+        if other_panels or document.zooms != before.zooms:
+            grid.show_insets(document)
+        passed = document.isolines.through and document.points != before.points
+        if is_other or is_dressed or passed or document.isolines != before.isolines:
+            grid.show_isolines(document)
+        is_raised = document.height != before.height
+        if document.shading != before.shading and not is_other:
+            grid.show_shading()
+        if other_panels or is_raised or document.range != before.range:
+            for panel in document.panels:
+                if session.is_answered(panel.id) or (is_dressed and panel.id in session.shown):
+                    window.answer_changed(panel.id)
+        window.views.document_changed(before, is_other, is_raised)
+        if other_panels or document.selections != before.selections:
+            window.docks.brushing.show(document)
+
+    def wear(self) -> None:
+        """Other colours of the window, or another style of the fields."""
+        if self._window.grid is not None and self._window.grid.show_style(self._style):
+            self.show_all_again()
+
+    def wear_next(self) -> None:
+        """The same, with the next change of the document, which then shows all anew."""
+        if self._window.grid is not None and self._window.grid.show_style(self._style):
+            self._opened = None
+
+    def show_all_again(self) -> None:
+        """All that is in the panels, where nothing has changed but how it looks."""
+        window, session, grid = self._window, self._window.session, self._window.grid
+        if session.opened() is None:
+            return
+        document = session.document
+        grid.show_surface()
+        grid.expect_sources(document)
+        grid.show_isolines(document)
+        grid.mark_anchors(document)
+        grid.show_pins(document)
+        grid.show_insets(document)
+        window.docks.brushing.show(document)
+        for id in session.shown:
+            grid.show_answer(id)
+        window.docks.findings.show_again()
+        window.waits.show()
