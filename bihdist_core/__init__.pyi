@@ -87,6 +87,12 @@ from .analysis.quality import (
     OtherExtrema as OtherExtrema,
 )
 from .analysis.quality import (
+    apparent_source as apparent_source,
+)
+from .analysis.quality import (
+    difference_quality as difference_quality,
+)
+from .analysis.quality import (
     field_quality as field_quality,
 )
 from .analysis.quality import (
@@ -97,6 +103,9 @@ from .analysis.quality import (
 )
 from .analysis.quality import (
     triangle_sample as triangle_sample,
+)
+from .analysis.quality import (
+    triangle_samples as triangle_samples,
 )
 from .analysis.region_boundaries import (
     Boundary as Boundary,

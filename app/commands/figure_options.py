@@ -70,6 +70,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     )
     parser.add_argument("--anchors", type=_anchors, metavar="V[=VALUE],…", help="mark vertices, coloured by a value")
     add_pins(parser)
+    _add_switch(parser, "extrema", "triangles at maxima and at minima away from the source (default: no)")
     parser.add_argument(
         "--height", type=float, nargs="?", const=0.35, metavar="SHARE", help="a flat mesh becomes a relief"
     )
@@ -146,7 +147,7 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
 
         # A camera that comes with a recipe would be askew.
         document = stand(document, options.up)
-    document = replace(document, **_given(options, "areas", "height", "up", "projection", "axes"))
+    document = replace(document, **_given(options, "areas", "height", "up", "projection", "axes", "extrema"))
     document = with_isolines(document, options)
     shading = shaded(document.shading, options.shading, options.crease, options.wireframe)
     document = replace(document, shading=shading)

@@ -157,7 +157,8 @@ class Document:
     becomes a relief whose highest point is this share of its extent.  next_id: of the panel that is added next.
     fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
     projection: one of PROJECTIONS.  axes: whether their directions are shown.  regions: the panels, by id, that show
-    the regions of the pins by their distance.  docks: those of DOCKS that are open.
+    the regions of the pins by their distance.  extrema: whether those of the fields are marked.  docks: those of
+    DOCKS that are open.
     snap: whether the pointer puts sources on vertices, and not anywhere in faces.
     """
 
@@ -185,6 +186,7 @@ class Document:
     scatter: Scatter = FIRST_TWO
     selections: tuple[Selection, ...] = ()
     regions: tuple[int, ...] = ()
+    extrema: bool = False
     docks: tuple[str, ...] = ()
     snap: bool = True
 

@@ -29,6 +29,7 @@ LATER: dict[str, Any] = {
     "scatter": {},
     "selections": [],
     "regions": [],
+    "extrema": False,
     "docks": [],
     "snap": True,
 }
@@ -135,6 +136,7 @@ def document_from(data: Any, where: str = "document") -> Document:
         "scatter": _scatter,
         "selections": listed(_selection),
         "regions": listed(whole),
+        "extrema": flag,
         "docks": listed(text),
         "snap": flag,
     }

@@ -130,6 +130,11 @@ def show_dock(document: Document, dock: str, is_open: bool = True) -> Document:
     return replace(document, docks=(*others, dock) if is_open else others)
 
 
+def mark_extrema(document: Document, is_shown: bool = True) -> Document:
+    """Whether extrema away from the source have triangles, in figures too."""
+    return replace(document, extrema=is_shown)
+
+
 def show_regions(document: Document, panel: int, is_shown: bool = True) -> Document:
     """Whether a panel shows the regions of the pins by its distance."""
     others = tuple(id for id in document.regions if id != panel)

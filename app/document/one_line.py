@@ -375,6 +375,7 @@ ROWS = (
     Row(("Document.axes",), _of_document("axes", "--axes", "axes")),
     Row(("Document.height",), _of_document("height", "--height", "height")),
     Row(("Document.pins", "Pin.point", "Pin.colour"), _pins),
+    Row(("Document.extrema",), _of_document("extrema", "--extrema", "extrema")),
     Row(("Document.selections",), _only_usual(lambda recipe: recipe.document.selections, "Vertices are selected.")),
     Row(("Document.regions",), _only_usual(lambda recipe: recipe.document.regions, "Regions of pins are shown.")),
     Row(("Page.columns",), _columns),

@@ -20,6 +20,7 @@ from ..document.page import Recipe
 from ..drawing.source_lines import SourceLine, source_lines
 from ..drawing.style import PINS, style_of
 from ..session.anchors import anchor_value, anchors_on
+from ..session.extrema import extrema_of
 from ..session.given import Given
 from ..session.opened import Opened, open_mesh
 from ..session.passed import Passed, passed
@@ -186,6 +187,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         through=tuple(point.value for point in through),
         views=recipe.views,
         marks=(
+            *_extremum_marks(document, panel, surface, answer),
             *_dots(through, answer),
             *_source_marks(starts, surface),
             *_anchor_marks(document, panel, opened, answer),
@@ -212,6 +214,15 @@ def _region_lines(document: Document, panel: Panel, opened: Opened) -> tuple[Sou
         return ()
     curves = region_boundaries(opened.surface, regions_of(question, opened))
     return tuple(SourceLine(curve.corners, curve.weights, curve.closed) for curve in curves)
+
+
+def _extremum_marks(document: Document, panel: Panel, surface: Surface, answer: Answer) -> list[Mark]:
+    """Where the document says so: the same as the window's."""
+    found = extrema_of(questions(document)[panel.id], surface, answer) if document.extrema else None
+    if found is None:
+        return []
+    minima = [Mark(vertex, extremum="minimum") for vertex in found.minima.tolist()]
+    return minima + [Mark(vertex, extremum="maximum") for vertex in found.maxima.tolist()]
 
 
 def _source_marks(starts: Sequence[Source], surface: Surface) -> list[Mark]:

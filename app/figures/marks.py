@@ -13,6 +13,7 @@ from .boxes import Box, Words
 from .description import Mark
 from .drops import drop_of
 from .shots import Shot
+from .triangles import triangle_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,8 +55,13 @@ def draw_marks(
     insets = [box for box in insets if shot.source is None]
     written: list[Box] = []
     for k, x, y in shot.ghosts:
-        if panel.marks[k].number is None and not any(box.holds(x, y, across / 2) for box in insets):
-            _draw_ghost(axes, x, y, across, style, order)
+        if panel.marks[k].number is not None or any(box.holds(x, y, across / 2) for box in insets):
+            continue
+        if panel.marks[k].extremum:
+            for patch in triangle_of(page, panel.marks[k], x, y, True, order):
+                axes.add_artist(patch)
+            continue
+        _draw_ghost(axes, x, y, across, style, order)
     for k, x, y in shot.marks:
         if any(box.holds(x, y, across / 2) for box in insets):
             continue
@@ -67,6 +73,12 @@ def draw_marks(
                 dot.set_clip_path(frame)
             continue
         if mark.number is not None:
+            continue
+        if mark.extremum:
+            for patch in triangle_of(page, mark, x, y, False, order):
+                axes.add_artist(patch)
+                if shot.source is not None:
+                    patch.set_clip_path(frame)
             continue
         colour = style.largest if mark.is_largest else style.source
         if mark.value is not None:
@@ -239,7 +251,8 @@ def hidden_words(page: Composition) -> list[str]:
         hidden = {mark[0] for shot in shots for mark in shot.ghosts} - shown
         names = " and ".join(view if isinstance(view, str) else "of the camera" for view in panel.views)
         views = f"the view {names}" if len(panel.views) == 1 else f"the views {names}"
-        marks = [panel.marks[number] for number in sorted(hidden)]
+        # Of extrema there may be dozens, on all sides.
+        marks = [mark for mark in map(panel.marks.__getitem__, sorted(hidden)) if not mark.extremum]
         for what in ("ring", "drop"):
             some = [mark for mark in marks if (mark.number is None) == (what == "ring")]
             rest = f"hidden in {views}: a dashed {what}; try --view source or --two-views."

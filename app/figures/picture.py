@@ -103,6 +103,7 @@ def figure(
     zooms: Sequence[int | tuple[int, float] | tuple[int, float, int]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
     pins: Sequence[Source | str] = (),
+    extrema: bool = False,
     height: float = 0.0,
     shading: str | None = None,
     crease: float | None = None,
@@ -129,6 +130,7 @@ def figure(
     with a factor, or with that and a number of steps.  isolines: a number of steps; isoline_spacing, isoline_values:
     where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.  anchors:
     vertices to be marked, perhaps each with a value.  pins: vertices, or places in faces, with numbers, in their order.
+    extrema: triangles at maxima, and at minima away from the source, that persist over a thousandth of the range.
     shading: "smooth", "creased" at more than `crease` degrees, or
     "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
@@ -165,6 +167,7 @@ def figure(
         up=up,
         projection=projection,
         axes=axes,
+        extrema=extrema,
         shading=shaded(AS_IT_IS, shading, crease, wireframe),
         camera=chosen[0] if chosen else "home",
     )

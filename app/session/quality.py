@@ -1,7 +1,10 @@
 """The quality of what panels show, found out in the background: what is cheap first, each once.
 
+Distances have all of it.  A field from Python has what it would have as a distance if it seems to be one, but for
+triangles; it and a difference have extrema and kinks in any case.
+
 `ask` and `found` are called on the view's thread.  There are two lanes: triangles take as long as dozens of fields, and
-say the same of a distance wherever it starts.
+say the same of a distance wherever it starts.  These come for some points first, then for more.
 """
 
 import threading
@@ -12,33 +15,49 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bihdist_core.analysis.diagnostics import TriangleSample
-from bihdist_core.analysis.quality import FieldQuality, OtherExtrema, field_quality, other_extrema, triangle_sample
+from bihdist_core.analysis.quality import (
+    TRIANGLE_POINTS,
+    FieldQuality,
+    OtherExtrema,
+    difference_quality,
+    field_quality,
+    other_extrema,
+    triangle_samples,
+)
 from bihdist_core.distances.answers import Answer, failure_in_words
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import Cancelled
 from bihdist_core.progress import Progress
+from bihdist_core.sources.source import Source
+from bihdist_core.surface import Surface
 
+from .extrema import start_of
 from .lane import Lane
 from .opened import Opened
-from .questions import DistanceQuestion, source_at, vertex_at
+from .questions import DifferenceQuestion, DistanceQuestion, FieldQuestion, Question, vertex_at
 
 GEODESIC = Spec.of("geodesic")
 
 KEPT = 256
 """Of so many answers it is remembered what was found."""
 
+ONE_SOURCE = "A field from Python is known from one source only; triangles need distances from many points."
+NO_DISTANCE = "A difference is no distance; triangles are of distances."
+
 
 @dataclass(frozen=True, eq=False)
 class Found:
     """What is known of an answer so far, None for what is not.
 
-    extrema: those away from the source; whole: with circles and kinks; triangles: of the distance, from anywhere.
-    failure, triangles_failure: why there is no more.
+    extrema: those away from the source; whole: with circles and kinks; triangles: of the distance, from anywhere, by
+    so many points, and more are to come unless it is_sampled.  failure, triangles_failure: why there is no more.
     """
 
     extrema: OtherExtrema | None = None
     whole: FieldQuality | None = None
     triangles: TriangleSample | None = None
+    points: int = 0
+    is_sampled: bool = False
     failure: str = ""
     triangles_failure: str = ""
 
@@ -48,19 +67,25 @@ class Found:
 
     @property
     def is_complete(self) -> bool:
-        return self.is_whole and (self.triangles is not None or bool(self.triangles_failure))
+        return self.is_whole and (self.is_sampled or bool(self.triangles_failure))
 
 
 @dataclass(frozen=True, eq=False)
 class _Judgeable:
     """A question's surface and field (n,)."""
 
-    question: DistanceQuestion
+    question: Question
     opened: Opened
     field: np.ndarray
+    only_extrema: bool
+
+    @property
+    def surface(self) -> Surface:
+        return self.opened.surface
 
 
-_Request = Mapping[DistanceQuestion, _Judgeable]
+_Request = Mapping[Question, _Judgeable]
+_Distances = Mapping[Question, Opened]
 
 
 class Quality:
@@ -68,37 +93,53 @@ class Quality:
 
     def __init__(self, post: Callable[[Callable[[], None]], None], told: Callable[[], None]) -> None:
         self._post, self._told = post, told
-        self._found: OrderedDict[DistanceQuestion, Found] = OrderedDict()
-        self._triangles: dict[Hashable, TriangleSample | str] = {}
+        self._found: OrderedDict[Question, Found] = OrderedDict()
+        self._samples: dict[Hashable, Found] = {}
         self._near: tuple[DistanceQuestion, np.ndarray] | None = None
         self._lock = threading.Lock()
         self._fields: Lane[_Request] = Lane("quality", self._judge, _silent, _unheard)
-        self._samples: Lane[_Request] = Lane("triangles", self._sample, _silent, _unheard)
+        self._triangles: Lane[_Distances] = Lane("triangles", self._sample, _silent, _unheard)
 
-    def ask(self, asked: Mapping[DistanceQuestion, tuple[Opened, Answer]]) -> None:
-        """Find out about these answers, and about no others."""
+    def ask(
+        self,
+        asked: Mapping[Question, tuple[Opened, Answer]],
+        only_extrema: bool = False,
+        on_its_way: Mapping[Question, Opened] | None = None,
+    ) -> None:
+        """Find out about these answers, and about no others; perhaps nothing but the extrema.
+
+        on_its_way: questions without an answer yet, whose triangles go on meanwhile.
+        """
         request = {
-            question: _Judgeable(question, opened, answer.field)
+            question: _Judgeable(question, opened, answer.field, only_extrema)
             for question, (opened, answer) in asked.items()
             if answer.field is not None
         }
-        for lane in (self._fields, self._samples):
-            lane.submit(request or None)
+        self._fields.submit(request or None)
+        distances = {question: each.opened for question, each in request.items()} | dict(on_its_way or {})
+        self._triangles.submit(None if only_extrema else distances or None)
 
-    def found(self, question: DistanceQuestion) -> Found:
+    def found(self, question: Question) -> Found:
         """What is known of an answer."""
         with self._lock:
             found = self._found.get(question, Found())
-            triangles = self._triangles.get(question.about)
-        if isinstance(triangles, str):
-            return replace(found, triangles_failure=triangles)
-        return replace(found, triangles=triangles)
+            sample = self._samples.get(question.about, Found())
+        if not isinstance(question, DistanceQuestion):
+            reason = ONE_SOURCE if isinstance(question, FieldQuestion) else NO_DISTANCE
+            return replace(found, triangles_failure=reason)
+        return replace(
+            found,
+            triangles=sample.triangles,
+            points=sample.points,
+            is_sampled=sample.is_sampled,
+            triangles_failure=sample.triangles_failure,
+        )
 
     def close(self) -> None:
         """Stop, and wait for it."""
-        for lane in (self._fields, self._samples):
+        for lane in (self._fields, self._triangles):
             lane.end()
-        for lane in (self._fields, self._samples):
+        for lane in (self._fields, self._triangles):
             lane.close()
 
     # ------------------------------------------------------------------ on the lanes
@@ -112,22 +153,25 @@ class Quality:
         if found.extrema is not None or found.failure:
             return
         progress(0.0, "extrema")
-        surface = each.opened.surface
         try:
-            found = Found(other_extrema(surface, each.field, source_at(each.question.at, surface)))
+            found = Found(other_extrema(each.surface, each.field, start_of(each.question, each.field, each.surface)))
         except Exception as error:
             found = Found(failure=failure_in_words(error))
         self._remember(each.question, found)
 
     def _find_whole(self, each: _Judgeable, request: _Request, progress: Progress) -> None:
         found = self.found(each.question)
-        if found.is_whole:
+        if found.is_whole or each.only_extrema:
             return
         progress(0.0, "circles and kinks")
-        surface = each.opened.surface
+        surface = each.surface
         try:
-            near = self._nearness(each, request, progress)
-            whole = field_quality(surface, each.field, near, source_at(each.question.at, surface))
+            source = start_of(each.question, each.field, surface)
+            near = None if source is None else self._nearness(each, source, request, progress)
+            if isinstance(each.question, DifferenceQuestion) or source is None or near is None:
+                whole = difference_quality(surface, each.field, near, source)
+            else:
+                whole = field_quality(surface, each.field, near, source)
             found = replace(found, whole=whole)
         except Cancelled:
             raise
@@ -135,39 +179,44 @@ class Quality:
             found = replace(found, failure=failure_in_words(error))
         self._remember(each.question, found)
 
-    def _nearness(self, each: _Judgeable, request: _Request, progress: Progress) -> np.ndarray:
-        """(n,) geodesic distances from the same source; BihdistError where there are none."""
-        asked = replace(each.question, spec=GEODESIC)
+    def _nearness(self, each: _Judgeable, source: Source, request: _Request, progress: Progress) -> np.ndarray:
+        """(n,) geodesic distances from a source; BihdistError where there are none."""
+        asked = DistanceQuestion(each.question.mesh, each.question.areas, GEODESIC, source)
         if asked in request:
             return request[asked].field
         if self._near is None or self._near[0] != asked:
             distance = each.opened.distances(asked.areas).get(GEODESIC, progress)
-            self._near = (asked, distance.from_source(source_at(asked.at, each.opened.surface), progress))
+            self._near = (asked, distance.from_source(source, progress))
         return self._near[1]
 
-    def _sample(self, request: _Request, lane: Lane[_Request]) -> None:
+    def _sample(self, request: _Distances, lane: Lane[_Distances]) -> None:
+        distances = [question for question in request if isinstance(question, DistanceQuestion)]
         # Exact geodesic distances are slow.
-        for each in sorted(request.values(), key=lambda each: each.question.spec.word == "geodesic"):
-            about = each.question.about
-            if about in self._triangles:
-                continue
-            wanted = _wanted_about(lane, about)
-            wanted(0.0, "triangles")
-            surface = each.opened.surface
-            component = int(surface.component_of_vertex[vertex_at(each.question.at, surface)])
-            sampled: TriangleSample | str
-            try:
-                distance = each.opened.distances(each.question.areas).get(each.question.spec, wanted)
-                sampled = triangle_sample(distance, component=component, progress=wanted)
-            except Cancelled:
-                raise
-            except Exception as error:
-                sampled = failure_in_words(error)
-            with self._lock:
-                self._triangles[about] = sampled
-            self._post(self._told)
+        for question in sorted(distances, key=lambda question: question.spec.word == "geodesic"):
+            if not self.found(question).is_sampled:
+                self._sample_one(question, request[question], _wanted_about(lane, question.about))
 
-    def _remember(self, question: DistanceQuestion, found: Found) -> None:
+    def _sample_one(self, question: DistanceQuestion, opened: Opened, wanted: Progress) -> None:
+        wanted(0.0, "triangles")
+        surface = opened.surface
+        component = int(surface.component_of_vertex[vertex_at(question.at, surface)])
+        last = min(TRIANGLE_POINTS, int((surface.component_of_vertex == component).sum()))
+        try:
+            distance = opened.distances(question.areas).get(question.spec, wanted)
+            for points, sample in triangle_samples(distance, component=component, progress=wanted):
+                wanted(0.0, "triangles")
+                self._learn(question, Found(triangles=sample, points=points, is_sampled=points == last))
+        except Cancelled:
+            raise
+        except Exception as error:
+            self._learn(question, Found(is_sampled=True, triangles_failure=failure_in_words(error)))
+
+    def _learn(self, question: DistanceQuestion, sample: Found) -> None:
+        with self._lock:
+            self._samples[question.about] = sample
+        self._post(self._told)
+
+    def _remember(self, question: Question, found: Found) -> None:
         with self._lock:
             self._found[question] = found
             while len(self._found) > KEPT:
@@ -175,12 +224,12 @@ class Quality:
         self._post(self._told)
 
 
-def _wanted(lane: Lane[_Request], question: DistanceQuestion) -> Progress:
+def _wanted(lane: Lane[_Request], question: Question) -> Progress:
     """Work on a question goes on as long as it is among those asked last."""
     return lane.progress(lambda latest: question in latest)
 
 
-def _wanted_about(lane: Lane[_Request], about: Hashable) -> Progress:
+def _wanted_about(lane: Lane[_Distances], about: Hashable) -> Progress:
     return lane.progress(lambda latest: any(question.about == about for question in latest))
 
 
@@ -188,5 +237,5 @@ def _silent(fraction: float | None, text: str) -> None:
     """What is not known yet is told by the table's empty cells."""
 
 
-def _unheard(request: _Request, error: Exception) -> None:
+def _unheard(request: object, error: Exception) -> None:
     """What goes wrong is caught where it does, and told."""

@@ -1,6 +1,7 @@
 """How good a distance field is, in the paper's words as numbers: extrema away from the source, isotropy near it, kinks,
 the triangle inequality."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,13 +9,19 @@ import numpy.typing as npt
 
 from ..distances.distance import Distance
 from ..errors import ParameterError
-from ..progress import Progress
+from ..progress import Progress, part
 from ..sources.pieces import pieces_of
 from ..sources.source import Source
 from ..surface import Surface
 from .diagnostics import GradientJumps, TriangleSample, gradient_jumps, triangle_violations
 from .isoline_tracing import isolines
 from .persistence import extrema
+
+TRIANGLE_POINTS, TRIANGLE_STEP = 40, 8
+"""Points of a sample of triangles, and how many at a time become part of it."""
+
+ZERO = 1e-6
+"""Of a field's maximum."""
 
 CIRCLES = tuple(range(3, 13))
 """Radii of geodesic circles, in mean edge lengths, unless others are given; fewer edges measure the triangulation."""
@@ -157,7 +164,7 @@ def kinks(surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike) -> Kink:
 
 @dataclass(frozen=True, eq=False)
 class OtherExtrema:
-    """The extrema of a distance field but for the minimum at its source: see `FieldQuality`."""
+    """The extrema of a field but for those at its source: see `FieldQuality`."""
 
     minima: np.ndarray
     minima_depth: np.ndarray
@@ -165,37 +172,52 @@ class OtherExtrema:
     maxima_height: np.ndarray
 
 
-def other_extrema(surface: Surface, field: npt.ArrayLike, source: Source, share: float = 1e-3) -> OtherExtrema:
-    """The extrema of a distance field (n,) away from its source that persist over at least `share` of its range.
+def other_extrema(surface: Surface, field: npt.ArrayLike, source: Source | None, share: float = 1e-3) -> OtherExtrema:
+    """The extrema of a field (n,) away from its source that persist over at least `share` of its range.
 
-    Raises VertexError or ParameterError for a bad source, ParameterError for a field of another shape or without a
-    positive value.
+    source: None for a field that starts nowhere, all extrema of which count.  Raises VertexError or ParameterError for
+    a bad source, ParameterError for a field of another shape or with nothing but one value.
     """
     f = np.asarray(field, np.float64)
-    touched = pieces_of(source, surface).touched
+    touched = np.empty(0, np.int64) if source is None else pieces_of(source, surface).touched
     found = extrema(surface, f, share)
     finite = f[np.isfinite(f)]
-    if not len(finite) or not finite.max() > 0:
-        raise ParameterError("The quality of a distance needs a field with a positive value.")
-    largest = float(finite.max())
-    others = ~np.isin(found.minima, touched)
+    if not len(finite) or not np.ptp(finite) > 0:
+        raise ParameterError("The quality of a field needs values that differ.")
+    span = float(np.ptp(finite))
+    low, high = (~np.isin(ids, touched) for ids in (found.minima, found.maxima))
     return OtherExtrema(
-        found.minima[others],
-        found.minima_persistence[others] / largest,
-        found.maxima,
-        found.maxima_persistence / largest,
+        found.minima[low],
+        found.minima_persistence[low] / span,
+        found.maxima[high],
+        found.maxima_persistence[high] / span,
     )
+
+
+def apparent_source(field: npt.ArrayLike) -> int | None:
+    """The vertex that a field (n,) seems to be the distance from: the only one where it is 0, while all others, where
+    it is finite, are positive.  None where there is no such vertex.
+
+    Less than `ZERO` of the maximum is 0.
+    """
+    f = np.asarray(field, np.float64)
+    ids = np.flatnonzero(np.isfinite(f))
+    if len(ids) < 2:
+        return None
+    first, second = ids[np.argpartition(f[ids], 1)[:2]]
+    zero = ZERO * f[ids].max()
+    return int(first) if abs(f[first]) <= zero < f[second] else None
 
 
 @dataclass(frozen=True, eq=False)
 class FieldQuality:
-    """A distance field's faults.
+    """A field's faults, as those of a distance.
 
-    minima, maxima: (k,) vertices at extrema, the source left out of the minima, the most persistent first;
-    minima_depth, maxima_height: (k,) their persistence over the field's maximum (the highest maximum has the range).
+    minima, maxima: (k,) vertices at extrema, the source left out, the most persistent first; minima_depth,
+    maxima_height: (k,) their persistence over the field's range, which is a distance's maximum.
     circles: of growing radius around the source.  isotropy: the greatest over the least value on the circle of the
     small radius (`small_radius`), or the largest circle if that is smaller; NaN where there is none, as around a source
-    of several places.
+    of several places, and for what is no distance.
     kink: the largest jump of the gradient across an edge away from the source, over the gradient's mean length on both
     sides of it, or over its median length on the surface if that is more; no unit.  About 2 on a ridge where it turns
     round; that of a smooth field shrinks with the edges.  kink_edge: (2,) the ends of the edge, -1 where there is none
@@ -203,7 +225,7 @@ class FieldQuality:
     surface's area: long where there is a ridge, next to nothing where a few edges are too long for the field.
     """
 
-    source: Source
+    source: Source | None
     minima: np.ndarray
     minima_depth: np.ndarray
     maxima: np.ndarray
@@ -221,23 +243,46 @@ def field_quality(
     """The quality of a distance field (n,) from a source; geodesic: (n,) geodesic distances from the same.
 
     share: of the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
-    ParameterError for fields of another shape or without a positive value.
+    ParameterError for fields of another shape or with nothing but one value.
     """
     f, near = np.asarray(field, np.float64), np.asarray(geodesic, np.float64)
+    if not np.nanmax(f, initial=0.0) > 0:
+        raise ParameterError("The quality of a distance needs a field with a positive value.")
     found = other_extrema(surface, f, source, share)
     small = small_radius(surface)
     every = geodesic_circles(surface, f, near, source, [small, *surface.mean_edge_length * np.array(CIRCLES)])
     rings = every[1:] if every and every[0].radius == small else every
     chosen = every[:1] if len(rings) < len(every) else rings[-1:]
-    folded = kinks(surface, f, near)
+    isotropy = chosen[0].ratio if chosen else float("nan")
+    return _quality(source, found, tuple(rings), isotropy, kinks(surface, f, near))
+
+
+def difference_quality(
+    surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike | None, source: Source | None, share: float = 1e-3
+) -> FieldQuality:
+    """What of `field_quality` has a meaning for a field (n,) that is no distance, such as the difference of two: its
+    extrema and kinks, but no circles.
+
+    source: from which the distances start that it is made of, near: (n,) geodesic distances from it; both None where it
+    starts nowhere, and then no extremum and no edge is left out but those along the boundary.  The same errors.
+    """
+    f = np.asarray(field, np.float64)
+    found = other_extrema(surface, f, source, share)
+    away = np.full(len(f), np.inf) if near is None else near
+    return _quality(source, found, (), float("nan"), kinks(surface, f, away))
+
+
+def _quality(
+    source: Source | None, found: OtherExtrema, circles: tuple[Circle, ...], isotropy: float, folded: Kink
+) -> FieldQuality:
     return FieldQuality(
         source=source,
         minima=found.minima,
         minima_depth=found.minima_depth,
         maxima=found.maxima,
         maxima_height=found.maxima_height,
-        circles=tuple(rings),
-        isotropy=chosen[0].ratio if chosen else float("nan"),
+        circles=circles,
+        isotropy=isotropy,
         kink=folded.largest,
         kink_edge=folded.edge,
         kink_length=folded.length,
@@ -246,7 +291,7 @@ def field_quality(
 
 def triangle_sample(
     distance: Distance,
-    points: int = 40,
+    points: int = TRIANGLE_POINTS,
     component: int = 0,
     count: int = 100_000,
     seed: int = 0,
@@ -258,10 +303,36 @@ def triangle_sample(
     The distance is asked for all pairs of `points` vertices, or all there are.  Raises ParameterError for a component
     that does not exist or has fewer than three vertices, and for fewer points than three.
     """
+    *_, (_, last) = triangle_samples(distance, points, component, count, seed, progress)
+    return last
+
+
+def triangle_samples(
+    distance: Distance,
+    points: int = TRIANGLE_POINTS,
+    component: int = 0,
+    count: int = 100_000,
+    seed: int = 0,
+    progress: Progress | None = None,
+) -> Iterator[tuple[int, TriangleSample]]:
+    """`triangle_sample` of some of the points and then of more, `TRIANGLE_STEP` at a time: how many, and what they say.
+
+    For distances that take a second for each point.  The same errors, when the first is asked for.
+    """
     ids = np.flatnonzero(distance.surface.component_of_vertex == component) if component >= 0 else np.empty(0, np.int64)
     if min(points, len(ids)) < 3:
         raise ParameterError(
             f"Triangles need three points; {points} were asked for, and component {component} has {len(ids)} vertices."
         )
     some = np.random.default_rng(seed).choice(ids, min(points, len(ids)), replace=False)
-    return triangle_violations(distance.pairwise(some, progress), count, seed)
+    among = np.zeros((len(some), len(some)))
+    # No step of one or two points.
+    ends = [*range(TRIANGLE_STEP, len(some) - 2, TRIANGLE_STEP), len(some)]
+    for start, stop in zip([0, *ends], ends, strict=False):
+        rows, columns = np.tril_indices(stop, -1)
+        new = rows >= start
+        rows, columns = rows[new], columns[new]
+        step = part(progress, start / len(some), stop / len(some))
+        pairs = np.stack([some[rows], some[columns]], 1)
+        among[rows, columns] = among[columns, rows] = distance.of_pairs(pairs, step)
+        yield stop, triangle_violations(among[:stop, :stop], count, seed)

@@ -64,7 +64,9 @@ class BiharmonicDistance(Distance):
         squares = np.diag(green) + np.diag(green)[:, None] - 2 * green
         return root(squares, green.max())
 
-    def _of_pairs(self, component: Component, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+    def _of_pairs(
+        self, component: Component, i: np.ndarray, j: np.ndarray, progress: Progress | None = None
+    ) -> np.ndarray:
         among, place = np.unique(np.stack([i, j]), return_inverse=True)
         if len(among) <= min(len(i), SMALL_SET):
             return self._pairwise(component, among)[tuple(place.reshape(2, -1))]

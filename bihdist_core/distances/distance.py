@@ -241,7 +241,7 @@ class Distance(ABC):
         distances[ids[:, None] == ids] = 0
         return distances
 
-    def of_pairs(self, pairs: npt.ArrayLike | Sequence[Pair]) -> np.ndarray:
+    def of_pairs(self, pairs: npt.ArrayLike | Sequence[Pair], progress: Progress | None = None) -> np.ndarray:
         """(k,) the distances of k pairs of vertices (k, 2), or places in faces; NaN between components.
 
         The mean of both ways where a distance is not symmetric.  ParameterError for another shape, and for places in
@@ -258,8 +258,9 @@ class Distance(ABC):
         for component, mine in self._by_component(i):
             mine = mine[label[i[mine]] == label[j[mine]]]
             if len(mine):
-                self.prepare(component)
-                distances[mine] = self._of_pairs(component, component.local(i[mine]), component.local(j[mine]))
+                self.prepare(component, progress)
+                ends = component.local(i[mine]), component.local(j[mine])
+                distances[mine] = self._of_pairs(component, *ends, progress)
         distances[i == j] = 0
         return distances
 
@@ -282,18 +283,25 @@ class Distance(ABC):
         squares = squares_of_pairs(u, v, self.of_pairs)
         return np.sqrt(np.maximum(squares, 0))
 
-    def _of_pairs(self, component: Component, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+    def _of_pairs(
+        self, component: Component, i: np.ndarray, j: np.ndarray, progress: Progress | None = None
+    ) -> np.ndarray:
         """(k,) distances of local vertices i and j (k,)."""
         if not self.is_symmetric:
-            return (self._one_way(component, i, j) + self._one_way(component, j, i)) / 2
+            there = self._one_way(component, i, j, part(progress, 0, 0.5))
+            return (there + self._one_way(component, j, i, part(progress, 0.5, 1))) / 2
         few, others = sorted((i, j), key=lambda side: len(np.unique(side)))
-        return self._one_way(component, few, others)
+        return self._one_way(component, few, others, progress)
 
-    def _one_way(self, component: Component, sources: np.ndarray, targets: np.ndarray) -> np.ndarray:
+    def _one_way(
+        self, component: Component, sources: np.ndarray, targets: np.ndarray, progress: Progress | None
+    ) -> np.ndarray:
         among, place = np.unique(sources, return_inverse=True)
         distances = np.empty(len(sources))
         for start in range(0, len(among), SOURCES):
-            columns = self._columns(component, among[start : start + SOURCES], None)
+            some = among[start : start + SOURCES]
+            step = part(progress, start / len(among), (start + len(some)) / len(among))
+            columns = self._columns(component, some, step)
             mine = np.flatnonzero((place >= start) & (place < start + SOURCES))
             distances[mine] = columns[targets[mine], place[mine] - start]
         return distances

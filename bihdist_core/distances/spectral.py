@@ -60,7 +60,9 @@ class SpectralDistance(Distance):
         points = self.points(component)[index]
         return point_distances(points, points)
 
-    def _of_pairs(self, component: Component, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+    def _of_pairs(
+        self, component: Component, i: np.ndarray, j: np.ndarray, progress: Progress | None = None
+    ) -> np.ndarray:
         points = self.points(component)
         return np.linalg.norm(points[i] - points[j], axis=1)
 

@@ -115,6 +115,7 @@ EXAMPLES = {
         replace(d, points=(*d.points, Point("anchor", 8)), anchors=(Anchor("anchor", -1e-7), Anchor("source"))),
         p,
     ),
+    "Document.extrema": lambda d, p: (replace(d, extrema=True), p),
     "Document.pins": lambda d, p: (add_pins(d, [9, Place.of(3, 0.2, 0.5)]), p),
     "Pin.point": lambda d, p: (replace(d, pins=(Pin("source"),)), p),
     "Pin.colour": lambda d, p: (replace(d, pins=(Pin("source", colour=4),)), p),

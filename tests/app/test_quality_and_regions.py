@@ -6,14 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import comparison
+from app.document.document import Panel, Point, comparison
 from app.document.edits import PANEL_EDITS, move_source, possible_edits, put_point
-from app.document.measuring import add_pins, remove_pins, show_regions
+from app.document.measuring import add_pins, mark_extrema, remove_pins, show_regions
+from app.document.quantities import OwnField, quantity
 from app.session.quality import Quality
 from app.session.regions import Dividing, regions_questions
 from app.session.sampling import SamplesQuestion, Sampling
 from app.session.session import Session
-from bihdist_core import farthest_points, field_quality, triangle_sample, voronoi_regions
+from bihdist_core import difference_quality, farthest_points, field_quality, triangle_sample, voronoi_regions
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import BoundaryLoop, Place, SourceSet
 
@@ -43,7 +44,8 @@ class Watching:
 
     @property
     def asked(self):
-        return {s.asked: (self.session.opened(), s.answer) for s in self.session.shown.values()}
+        shown = [self.session.shown[id] for id in sorted(self.session.shown)]  # answers come in any order
+        return {s.asked: (self.session.opened(), s.answer) for s in shown}
 
     def distance(self, spec):
         return self.session.opened().distances("voronoi").get(spec)
@@ -94,10 +96,11 @@ def test_quality_is_that_of_python(watching):
         assert found.whole.isotropy == pytest.approx(wanted.isotropy, rel=1e-9)
         assert (found.whole.kink, found.whole.kink_length) == pytest.approx((wanted.kink, wanted.kink_length), rel=1e-9)
         assert found.triangles == triangle_sample(w.distance(question.spec))
-    # Two stages for each panel, and the triangles of each distance.
-    assert len(told) == 9
+        assert (found.points, found.is_sampled) == (40, True)
+    # Two stages for each panel, and the triangles of each distance in five.
+    assert len(told) == 21
     quality.ask(w.asked)
-    assert len(told) == 9
+    assert len(told) == 21
 
 
 def test_what_was_found_is_of_its_own_question(watching):
@@ -125,6 +128,97 @@ def test_sources_that_are_no_vertex_are_judged_too(watching, at):
         assert bool(found.whole.circles) == isinstance(at, Place)
 
 
+def shown_instead(w, *shows, **fields):
+    """The panels of a mesh that is there, with fields from Python."""
+    document = w.session.document
+    arrays = tuple(w.session.given.add_field(name, values) for name, values in fields.items())
+    panels = tuple(Panel(k, each) for k, each in enumerate(shows))
+    w.session.show(replace(document, fields=arrays, panels=panels, next_id=len(panels)))
+    w.until(lambda: w.session.is_complete)
+
+
+def test_differences_and_fields_from_python_are_judged_too(watching):
+    w = watching(7)
+    surface = w.session.surface
+    near = w.distance(Spec.of("geodesic")).from_source(7)
+    own = w.distance(SHOWN[0]).from_source(7)
+    height = surface.vertices[:, 2] - 9
+    apart = quantity("biharmonic - geodesic")
+    shown_instead(w, apart, OwnField("mine"), OwnField("height"), mine=own, height=height)
+    quality, _ = judged(w)
+    asked = dict(zip("abc", w.asked.items(), strict=True))
+    wanted = {
+        "a": difference_quality(surface, asked["a"][1][1].field, near, 7),
+        "b": field_quality(surface, own, near, 7),
+        "c": difference_quality(surface, height, None, None),
+    }
+    for name, (question, _) in asked.items():
+        found = quality.found(question)
+        assert not found.failure
+        assert found.extrema.minima.tolist() == found.whole.minima.tolist() == wanted[name].minima.tolist()
+        assert found.extrema.maxima.tolist() == wanted[name].maxima.tolist()
+        assert found.whole.isotropy == pytest.approx(wanted[name].isotropy, rel=1e-9, nan_ok=True)
+        assert found.whole.kink == pytest.approx(wanted[name].kink, rel=1e-9)
+        assert found.whole.source == {"a": 7, "b": 7, "c": None}[name]
+    words = [quality.found(question).triangles_failure for question, _ in asked.values()]
+    assert "no distance" in words[0]
+    assert "one source only" in words[1] == words[2]
+    # Of two sources both are left out.
+    w.session.show(put_point(with_two_sources(w.session.document), "other", 200))
+    w.until(lambda: w.session.is_complete)
+    quality, _ = judged(w)
+    (question, _), *_ = w.asked.items()
+    assert quality.found(question).whole.source == SourceSet((7, 200))
+
+
+def with_two_sources(document):
+    first, *others = document.panels
+    apart = replace(first.shows, subtrahend=replace(first.shows.subtrahend, point="other"))
+    return replace(
+        document, points=(*document.points, Point("other", 0)), panels=(replace(first, shows=apart), *others)
+    )
+
+
+def test_triangles_go_on_while_a_source_moves(watching):
+    w = watching(7)
+    asked = w.asked
+    quality = Quality(w.posted.put, lambda: None)
+    quality.ask({}, on_its_way={question: opened for question, (opened, _) in asked.items()})
+    w.until(lambda: all(quality.found(question).is_sampled for question in asked))
+    assert all(quality.found(question).extrema is None for question in asked)
+    quality.close()
+
+
+def test_extrema_alone_are_found_without_the_rest(watching):
+    w = watching(7)
+    quality = Quality(w.posted.put, lambda: None)
+    quality.ask(w.asked, only_extrema=True)
+    w.until(lambda: all(quality.found(question).extrema is not None for question in w.asked))
+    quality.close()
+    while not w.posted.empty():
+        w.posted.get()()
+    found = [quality.found(question) for question in w.asked]
+    assert all(each.whole is None and each.triangles is None for each in found)
+
+
+def test_figures_mark_the_extrema_where_the_document_says_so(watching):
+    from app.document.page import Page, Recipe
+    from app.figures.export import figure_of
+
+    w = watching(7)
+    quality, _ = judged(w)
+    opened, answers = w.session.opened(), [w.session.shown[k].answer for k in range(3)]
+    plain = figure_of(Recipe(w.session.document, Page()), {"A": opened}, answers)
+    marked = figure_of(Recipe(mark_extrema(w.session.document), Page()), {"A": opened}, answers)
+    for question, before, after in zip(w.asked, plain.panels, marked.panels, strict=True):
+        found = quality.found(question).extrema
+        assert not any(mark.extremum for mark in before.marks)
+        triangles = [(mark.vertex, mark.extremum) for mark in after.marks if mark.extremum]
+        assert [vertex for vertex, way in triangles if way == "maximum"] == found.maxima.tolist() != []
+        assert [vertex for vertex, way in triangles if way == "minimum"] == found.minima.tolist()
+        assert len(after.marks) == len(before.marks) + len(triangles)
+
+
 def test_why_there_is_no_quality_is_said(watching):
     w = watching(7)
     (question, (opened, answer)), *_ = w.asked.items()
@@ -133,7 +227,7 @@ def test_why_there_is_no_quality_is_said(watching):
     quality.ask({question: (opened, flat)})
     w.until(lambda: quality.found(question).is_complete)
     quality.close()
-    assert "positive value" in quality.found(question).failure
+    assert "values that differ" in quality.found(question).failure
 
 
 def divided(w, dividing):

@@ -12,10 +12,22 @@ from bihdist_core import (
     SourceSet,
     Surface,
     VertexError,
+    apparent_source,
+    difference_quality,
+    extrema,
     gradient_jumps,
     isotropy_ratio,
+    triangle_samples,
 )
-from bihdist_core.analysis.quality import field_quality, geodesic_circles, inner_jumps, small_radius, triangle_sample
+from bihdist_core.analysis.diagnostics import triangle_violations
+from bihdist_core.analysis.quality import (
+    field_quality,
+    geodesic_circles,
+    inner_jumps,
+    kinks,
+    small_radius,
+    triangle_sample,
+)
 from bihdist_core.distances.difference import difference
 from tests.shapes import bumpy, grid, sphere, torus, two_pieces
 
@@ -129,8 +141,8 @@ def test_the_triangle_inequality_on_samples():
         assert (found.triples, found.violations, found.worst) == (100_000, 0, 0)
 
     class Squared(BiharmonicDistance):
-        def pairwise(self, vertices, progress=None):
-            return super().pairwise(vertices, progress) ** 2
+        def of_pairs(self, pairs, progress=None):
+            return super().of_pairs(pairs, progress) ** 2
 
     broken = triangle_sample(Squared(surface), points=40, count=20_000)
     assert broken.violations > 500
@@ -142,10 +154,67 @@ def test_the_triangle_inequality_on_samples():
             triangle_sample(both, points, component)
 
 
-def test_a_difference_is_no_distance_but_has_statistics(ball, geodesic):
+@pytest.mark.parametrize("kind", [GeodesicDistance, BiharmonicDistance, DiffusionDistance])
+def test_a_sample_grows_into_that_of_all_points(kind):
+    surface = bumpy(200)
+    distance = kind(surface, "dijkstra") if kind is GeodesicDistance else kind(surface)
+    told = []
+    grown = list(triangle_samples(distance, 21, count=5000, seed=4, progress=lambda share, _: told.append(share)))
+    assert [points for points, _ in grown] == [8, 16, 21]
+    some = np.random.default_rng(4).choice(200, 21, replace=False)
+    for points, sample in grown:
+        wanted = triangle_violations(distance.pairwise(some[:points]), 5000, 4)
+        assert sample.violations == wanted.violations
+        # Pairs may be summed in another order.
+        assert (sample.worst, sample.tightest) == pytest.approx((wanted.worst, wanted.tightest), abs=1e-9)
+    assert triangle_sample(distance, 21, count=5000, seed=4) == grown[-1][1]
+    assert told == sorted(told)
+    # Never a step too small for triangles.
+    assert [points for points, _ in triangle_samples(distance, 18)] == [8, 18]
+
+
+def test_a_difference_is_no_distance_but_has_extrema_and_kinks(ball, geodesic):
     field = BiharmonicDistance(ball).from_source(3)
+    apart = difference(field, geodesic)
     with pytest.raises(ParameterError, match="positive value"):
-        field_quality(ball, -np.abs(difference(field, geodesic)), geodesic, 3)
+        field_quality(ball, -np.abs(apart), geodesic, 3)
+    found = difference_quality(ball, apart, geodesic, 3)
+    every = extrema(ball, apart)
+    assert found.minima.tolist() == [v for v in every.minima.tolist() if v != 3]
+    assert found.maxima.tolist() == [v for v in every.maxima.tolist() if v != 3]
+    assert found.maxima_height == pytest.approx(
+        [p / np.ptp(apart) for v, p in zip(every.maxima, every.maxima_persistence, strict=True) if v != 3]
+    )
+    assert (found.circles, np.isnan(found.isotropy)) == ((), True)
+    assert found.kink == kinks(ball, apart, geodesic).largest
+    turned = difference_quality(ball, -apart, geodesic, 3)
+    assert (turned.minima.tolist(), turned.kink) == (found.maxima.tolist(), found.kink)
+    with pytest.raises(ParameterError, match="values that differ"):
+        difference_quality(ball, 0 * apart, geodesic, 3)
+
+
+def test_a_field_that_starts_nowhere_is_judged_everywhere(ball):
+    height = ball.vertices[:, 2]
+    found = difference_quality(ball, height, None, None)
+    assert found.source is None
+    assert found.minima.tolist() == [height.argmin()]
+    assert found.maxima.tolist() == [height.argmax()]
+    assert (found.minima_depth[0], found.maxima_height[0]) == pytest.approx((1, 1))
+    # A fold along the equator.
+    folded = difference_quality(ball, np.abs(height), None, None)
+    assert folded.kink > 1.9 > 0.5 > found.kink
+    assert folded.kink_length > 0.9 * 2 * np.pi / np.sqrt(4 * np.pi)
+
+
+def test_where_a_field_seems_to_start(ball, geodesic):
+    assert apparent_source(geodesic) == 3
+    assert apparent_source(np.where(np.arange(2000) < 9, geodesic, np.nan)) == 3
+    # Rounding is 0 too, and two zeros are no start.
+    assert apparent_source(geodesic - 1e-9) == 3
+    two = geodesic.copy()
+    two[50] = 0
+    for nowhere in (two, geodesic - 0.1, geodesic + 0.1, -geodesic, 0 * geodesic, geodesic[3:4], geodesic * np.nan):
+        assert apparent_source(nowhere) is None
 
 
 def test_angles_go_once_around_also_on_a_tip():

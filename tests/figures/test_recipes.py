@@ -43,6 +43,7 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
         scatter=Scatter(2, 0, False),
         selections=(Selection("ear", ((3, 3), (5, 9)), 4),),
         regions=(1,),
+        extrema=True,
         docks=("profile", "pins"),
         camera=Camera((1 / 3, 2.0, 3.0), (0.0, 0.0, 0.1), (0.0, 1.0, 0.0), (0.2, 0.3)),
         zooms=(Zoom(3, 2.5, "top left", 40),),

@@ -77,7 +77,7 @@ def test_quality_opens_by_its_key_and_follows_the_source(opened):
     assert not len(marks.positions)
 
 
-def test_a_difference_is_not_judged(opened):
+def test_a_difference_has_extrema_and_kinks_and_no_more(opened):
     from app.document.edits import show_in
     from app.document.quantities import quantity
 
@@ -86,7 +86,41 @@ def test_a_difference_is_not_judged(opened):
     s.session.show(show_in(s.document, 2, quantity("biharmonic - geodesic")))
     s.until(lambda: s.session.is_complete)
     known(s)
-    assert {line.split("\t")[3] for line in dock(s, "quality").text().splitlines()[1:]} == {"–"}
+    minima, maxima, isotropy, kink, length, triangles = (
+        line.split("\t")[3] for line in dock(s, "quality").text().splitlines()[1:]
+    )
+    extrema = s.window.docks.findings.found(2).extrema
+    assert (minima, maxima) == (str(len(extrema.minima)), str(len(extrema.maxima))) != ("0", "0")
+    assert (isotropy, triangles) == ("–", "–")
+    assert float(kink) > 0 <= float(length)
+    assert len(s.panels[2].view.extrema.positions) == len(extrema.minima) + len(extrema.maxima)
+    table = dock(s, "quality").table
+    assert "single place" in table.item(2, 2).toolTip()
+    assert "no distance" in table.item(5, 2).toolTip()
+
+
+def test_extrema_are_kept_on_the_surfaces_if_that_is_wanted(opened, tmp_path):
+    s = opened
+    key(s, "q")
+    known(s)
+    marks = s.panels[0].view.extrema
+    shown = marks.positions.tolist()
+    press(dock(s, "quality").tick, 8)
+    assert s.document.extrema
+    key(s, "q")
+    assert marks.positions.tolist() == shown != []
+    s.session.show(move_source(s.document, 0, 200))
+    s.until(lambda: s.session.is_complete)
+    known(s)
+    found = s.window.docks.findings.found(0)
+    assert marks.positions.tolist() == s.session.surface.vertices[found.extrema.maxima].tolist()
+    assert found.whole is None
+    s.session.undo()
+    s.session.undo()
+    assert not s.document.extrema
+    assert not len(marks.positions)
+    key(s, "q")
+    assert not dock(s, "quality").tick.isChecked()
 
 
 def test_farthest_points_are_pinned_and_divide_the_panels(opened, tmp_path):

@@ -1,5 +1,5 @@
 """What is found out in the background about what the panels show, and drawn on them: extrema while the dock of quality
-is open, and regions of the pins where the document says.  `window` is the main window."""
+is open or the document says so, and regions of the pins where it does.  `window` is the main window."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -7,7 +7,7 @@ from contextlib import suppress
 from qtpy import QtCore
 
 from ...session.quality import Found, Quality
-from ...session.questions import DistanceQuestion
+from ...session.questions import Question, are_about_the_same, questions
 from ...session.regions import Divided, Dividing, regions_questions
 
 REST_MS = 150
@@ -81,41 +81,56 @@ class Findings(QtCore.QObject):
         if self._rest.isActive() or not self._dividing.is_complete:
             return False
         judged = [panel.id for panel in self._window.session.document.panels if self._judged_question(panel.id)]
-        return not self._is_judging or all(self.found(id).is_complete for id in judged)
+        if self._is_judging:
+            return all(self.found(id).is_complete for id in judged)
+        return not self._is_marking or all(self.found(id).extrema or self.found(id).failure for id in judged)
 
     @property
     def _is_judging(self) -> bool:
-        session = self._window.session
-        return "quality" in session.document.docks and session.surface is not None and not self._is_closed
+        return "quality" in self._window.session.document.docks and self._is_there
 
-    def _judged_question(self, panel: int) -> DistanceQuestion | None:
-        """That which a panel shows the answer to, if it is a distance."""
+    @property
+    def _is_marking(self) -> bool:
+        return self._is_judging or (self._window.session.document.extrema and self._is_there)
+
+    @property
+    def _is_there(self) -> bool:
+        return self._window.session.surface is not None and not self._is_closed
+
+    def _judged_question(self, panel: int) -> Question | None:
+        """That which a panel shows the answer to."""
         session = self._window.session
         shown = session.shown.get(panel)
         if shown is None or not session.is_answered(panel) or shown.answer.field is None:
             return None
-        return shown.asked if isinstance(shown.asked, DistanceQuestion) else None
+        return shown.asked
 
     # ------------------------------------------------------------------ quality
     def _quality_wanted(self) -> None:
-        if self._is_judging:
+        if self._is_marking:
             self._rest.start()
         self._show_extrema()
         self.quality_changed.emit()
 
     def _ask_quality(self) -> None:
-        if not self._is_judging:
+        if not self._is_marking:
             if self._quality is not None:
                 self._quality.ask({})
             return
         if self._quality is None:
             self._quality = Quality(self.post, self._judged)
-        session, asked = self._window.session, {}
+        session, asked, on_its_way = self._window.session, {}, {}
+        now = questions(session.document)
         for panel in session.document.panels:
             question, opened = self._judged_question(panel.id), session.opened(panel.surface)
-            if question is not None and opened is not None:
-                asked[question] = (opened, session.shown[panel.id].answer)
-        self._quality.ask(asked)
+            shown = session.shown.get(panel.id)
+            if opened is None or shown is None:
+                continue
+            if question is not None:
+                asked[question] = (opened, shown.answer)
+            elif are_about_the_same(shown.asked, now[panel.id]):
+                on_its_way[now[panel.id]] = opened
+        self._quality.ask(asked, not self._is_judging, on_its_way)
 
     def _judged(self) -> None:
         self._show_extrema()
@@ -123,7 +138,7 @@ class Findings(QtCore.QObject):
 
     def _show_extrema(self) -> None:
         for panel in self._window.grid.panels:
-            extrema = self.found(panel.id).extrema if self._is_judging else None
+            extrema = self.found(panel.id).extrema if self._is_marking else None
             if extrema is None:
                 panel.marks.mark_extrema()
             else:

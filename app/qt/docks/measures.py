@@ -53,10 +53,18 @@ def _of_whole(value: Callable[[Found], float]) -> Callable[[Found], str]:
     def written(found: Found) -> str:
         if found.whole is None:
             return NONE if found.failure else WAITING
-        # Infinite, too, where the field is 0 beside the source.
+        # Infinite, too, where the field is 0 beside the source; NaN becomes NONE.
         return "∞" if np.isinf(value(found)) else number(value(found))
 
     return written
+
+
+def _isotropy_said(found: Found) -> str:
+    if found.whole is None:
+        return found.failure
+    if found.whole.circles:
+        return ""
+    return "Circles are around a single place that a distance starts from; here is none."
 
 
 def _kink_said(found: Found) -> str:
@@ -67,8 +75,10 @@ def _kink_said(found: Found) -> str:
 
 
 def _triangles(found: Found) -> str:
+    if found.triangles_failure:
+        return NONE
     if found.triangles is None:
-        return NONE if found.triangles_failure else WAITING
+        return WAITING
     if not found.triangles.violations:
         return "0"
     return share(found.triangles.violations / found.triangles.triples)
@@ -77,18 +87,20 @@ def _triangles(found: Found) -> str:
 def _triangles_said(found: Found) -> str:
     sample = found.triangles
     if sample is None:
-        return found.triangles_failure
+        return found.triangles_failure or "It is being measured; exact geodesic distances take their time."
+    so_far = "" if found.is_sampled else f"; so far, among {found.points} points"
     said = f"{sample.violations:,} of {sample.triples:,} triples break it"
     if sample.violations:
-        return f"{said}, the worst by {100 * sample.worst:.2g} % of the largest distance"
-    return f"{said}; the closest has {100 * sample.tightest:.2g} % to spare"
+        return f"{said}, the worst by {100 * sample.worst:.2g} % of the largest distance{so_far}"
+    return f"{said}; the closest has {100 * sample.tightest:.2g} % to spare{so_far}"
 
 
 MEASURES = (
     Measure(
         "Other minima",
         "Minima away from the source that persist over a thousandth of the range or more: places that look like the "
-        "source. White triangles that point down. A distance should have none.",
+        "source. White triangles that point down. A distance should have none. Of a difference or a field that starts "
+        "nowhere, all minima.",
         _minima,
         _minima_said,
     ),
@@ -104,7 +116,7 @@ MEASURES = (
         "The greatest over the least value on the geodesic circle around the source whose radius is 4 % of the root of "
         "the area, or four edges if that is more. 1 where the distance grows equally in all directions.",
         _of_whole(lambda found: found.whole.isotropy),
-        lambda found: found.failure,
+        _isotropy_said,
     ),
     Measure(
         "Largest kink",

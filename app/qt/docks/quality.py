@@ -2,8 +2,10 @@
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.analysis.quality import TRIANGLE_POINTS
+
 from ...document.document import Document
-from ...document.quantities import DistanceFrom
+from ...document.measuring import mark_extrema
 from ...session.quality import Found
 from ..look.look import LOOK
 from ..panels.flat_button import FlatButton
@@ -40,6 +42,11 @@ class QualityDock(Instrument):
         self.table.horizontalHeader().setSectionResizeMode(QtWidgets.QHeaderView.ResizeMode.Stretch)
         self.table.horizontalHeader().setMinimumSectionSize(LEAST_COLUMN)
         self.table.cellDoubleClicked.connect(self._go_to)
+        self.tick = QtWidgets.QCheckBox("Mark extrema in figures, too")
+        self.tick.setToolTip(
+            "<qt>The triangles stay when this dock is closed, and are in figures, movies and recipes.</qt>"
+        )
+        self.tick.clicked.connect(self._keep_marks)
         self._heading = QtWidgets.QLabel("Circles around the source")
         self._heading.setProperty("heading", True)
         self._heading.setToolTip(
@@ -57,6 +64,10 @@ class QualityDock(Instrument):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
         column.addWidget(self.table)
+        row = QtWidgets.QHBoxLayout()
+        row.setContentsMargins(PAD, 0, PAD, 0)
+        row.addWidget(self.tick)
+        column.addLayout(row)
         heading = QtWidgets.QHBoxLayout()
         heading.setContentsMargins(PAD, 4, PAD, 0)
         heading.addWidget(self._heading)
@@ -78,6 +89,7 @@ class QualityDock(Instrument):
     def show_document(self, document: Document, before: Document | None) -> None:
         if before is None or (document.panels, document.points) != (before.panels, before.points):
             self._make_columns(document)
+        self.tick.setChecked(document.extrema)
         self._fill()
 
     def show_answer(self, panel: int) -> None:
@@ -122,20 +134,21 @@ class QualityDock(Instrument):
         document = self.window_.session.document
         if len(document.panels) != self.table.columnCount():
             return  # the document's change is on its way
-        waits = False
+        waits, sampled = False, dict[int, int]()
         for k, panel in enumerate(document.panels):
-            is_distance = isinstance(panel.shows, DistanceFrom)
-            found = self.window_.docks.findings.found(panel.id) if is_distance else Found()
+            found = self.window_.docks.findings.found(panel.id)
             shown = self.window_.session.shown.get(panel.id)
             failed = shown is not None and bool(shown.answer.failure)
             for row, measure in enumerate(MEASURES):
-                text = measure.written(found) if is_distance and not failed else NONE
-                said = measure.said(found) if is_distance else "Only distances are judged, not their differences."
+                text = NONE if failed else measure.written(found)
                 waits |= text == WAITING
                 self.table.item(row, k).setText(text)
-                self.table.item(row, k).setToolTip(said)
+                self.table.item(row, k).setToolTip("" if failed else measure.said(found))
+            sampled |= {} if failed or found.triangles is None or found.is_sampled else {panel.id: found.points}
             self.charts[panel.id].show_circles(found.whole.circles if found.whole is not None else (), curve_colour(k))
-        self.said.emit("measuring …" if waits else "")
+        # Only exact geodesic distances take long enough for it to be seen.
+        share = f"triangles, {min(sampled.values())} of {TRIANGLE_POINTS} points" if sampled else ""
+        self.said.emit("measuring …" if waits else share)
 
     def text(self) -> str:
         """The table, with tabulators."""
@@ -147,6 +160,10 @@ class QualityDock(Instrument):
     def copy(self) -> None:
         QtWidgets.QApplication.clipboard().setText(self.text())
         self.window_.say("The table is in the clipboard")
+
+    def _keep_marks(self, is_on: bool) -> None:
+        session = self.window_.session
+        session.show(mark_extrema(session.document, is_on))
 
     def _go_to(self, row: int, column: int) -> None:
         """To the place that a number is about."""
