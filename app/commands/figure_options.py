@@ -21,6 +21,7 @@ from .options import (
     add_up,
     check_parameters,
     given_parameters,
+    panel_numbers,
     quantities,
     source,
     with_pins,
@@ -71,6 +72,12 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     parser.add_argument("--anchors", type=_anchors, metavar="V[=VALUE],…", help="mark vertices, coloured by a value")
     add_pins(parser)
     _add_switch(parser, "extrema", "triangles at maxima and at minima away from the source (default: no)")
+    parser.add_argument(
+        "--regions",
+        type=panel_numbers,
+        metavar="all|N,…",
+        help="lines around what is nearest to each pin, on all panels or on some, from 1",
+    )
     parser.add_argument(
         "--height", type=float, nargs="?", const=0.35, metavar="SHARE", help="a flat mesh becomes a relief"
     )
@@ -134,6 +141,10 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     if options.anchors is not None:
         document = _with_anchors(document, options.anchors)
     document = with_pins(document, options)
+    if options.regions is not None:
+        from ..document.edits import divide
+
+        document = divide(document, options.regions)
     views = [*(options.view or ()), *(("front", "back") if options.two_views else ())]
     if options.camera is not None:
         views.append(Camera(*options.camera))

@@ -49,6 +49,16 @@ def add_pins(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--pin", type=point, metavar="V", action="append", help=words)
 
 
+def panel_numbers(text: str) -> str | tuple[int, ...]:
+    """ "all", or numbers of panels."""
+    if text == "all":
+        return text
+    try:
+        return tuple(int(word) for word in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not all, or numbers of panels such as 1,3") from None
+
+
 def with_pins(document: Document, options: argparse.Namespace) -> Document:
     """The document with the pins that are named, if any are, and no others."""
     if options.pin is None:

@@ -1,9 +1,10 @@
 """From one document to the next: pure functions, for what `dataclasses.replace` alone does not do."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec, kinds
+from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
 from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
@@ -161,6 +162,32 @@ def can_divide(document: Document, panel: int) -> bool:
     return isinstance(shown.shows, DistanceFrom) and any(
         document.point(pin.point).surface == shown.surface for pin in document.pins
     )
+
+
+def divide(document: Document, which: str | Sequence[int]) -> Document:
+    """Let these panels, by their numbers from 1, and no others show the regions of the pins; "all" that can.
+
+    ParameterError where there are no pins, no such panel, or one that shows no distance.
+    """
+    able = [k for k, panel in enumerate(document.panels, 1) if can_divide(document, panel.id)]
+    numbers = able if isinstance(which, str) else which
+    if isinstance(which, str) and which != "all":
+        raise ParameterError(f"Regions are shown by panels 1,2,… or by all, not by {which!r}.")
+    if not document.pins:
+        raise ParameterError("There are no regions without pins; name some with --pin (in Python, pins=).")
+    for number in numbers:
+        if not 1 <= number <= len(document.panels):
+            raise ParameterError(f"There is no panel {number}; they are numbered from 1 to {len(document.panels)}.")
+        if number not in able:
+            raise ParameterError(f"Panel {number} shows no distance from a point, by which pins could have regions.")
+    return replace(document, regions=tuple(document.panels[number - 1].id for number in dict.fromkeys(numbers)))
+
+
+def divided_panels(document: Document) -> str | tuple[int, ...]:
+    """What `divide` takes to let a document show the regions that it shows; empty if there are none."""
+    able = [k for k, panel in enumerate(document.panels, 1) if can_divide(document, panel.id)]
+    shown = tuple(k for k in able if document.panels[k - 1].id in document.regions)
+    return "all" if shown and len(shown) == len(able) else shown
 
 
 def place_of(document: Document, panel: int) -> int:

@@ -19,6 +19,7 @@ from bihdist_core.sources.words import NONE, words_of
 from ..samples import mesh_path
 from .camera import Camera
 from .document import COMPARISON, Document, Point
+from .edits import divided_panels
 from .instruments import PIN_COLOURS
 from .page import Page, Recipe
 from .quantities import Quantity, from_point, own_fields
@@ -218,6 +219,14 @@ def _pins(recipe: Recipe) -> Said:
     return Said(tuple(("--pin", str(at)) for at in said), {"pins": said})
 
 
+def _regions(recipe: Recipe) -> Said:
+    which = divided_panels(recipe.document)
+    if not which:
+        return NOTHING
+    words = which if isinstance(which, str) else ",".join(map(str, which))
+    return Said((("--regions", words),), {"regions": which})
+
+
 # ---------------------------------------------------------------------- how it looks
 def _isolines(recipe: Recipe) -> Said:
     isolines = recipe.document.isolines
@@ -377,7 +386,7 @@ ROWS = (
     Row(("Document.pins", "Pin.point", "Pin.colour"), _pins),
     Row(("Document.extrema",), _of_document("extrema", "--extrema", "extrema")),
     Row(("Document.selections",), _only_usual(lambda recipe: recipe.document.selections, "Vertices are selected.")),
-    Row(("Document.regions",), _only_usual(lambda recipe: recipe.document.regions, "Regions of pins are shown.")),
+    Row(("Document.regions",), _regions),
     Row(("Page.columns",), _columns),
     Row(("Page.hints",), _of_page("hints", "--hints", "hints")),
     Row(("Page.size",), _of_page("size", "--size", "size")),

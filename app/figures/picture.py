@@ -17,6 +17,7 @@ from bihdist_core.sources.source import Source, checked_source
 
 from ..document.camera import Camera, View
 from ..document.document import Anchor, Document, Point, Zoom, free_names
+from ..document.edits import divide
 from ..document.file import read_recipe
 from ..document.isoline_edits import pass_through
 from ..document.looks import AS_IT_IS, Colours, Isolines, shaded
@@ -104,6 +105,7 @@ def figure(
     anchors: Mapping[int, float | None] | Sequence[int] = (),
     pins: Sequence[Source | str] = (),
     extrema: bool = False,
+    regions: str | Sequence[int] = (),
     height: float = 0.0,
     shading: str | None = None,
     crease: float | None = None,
@@ -131,8 +133,9 @@ def figure(
     where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.  anchors:
     vertices to be marked, perhaps each with a value.  pins: vertices, or places in faces, with numbers, in their order.
     extrema: triangles at maxima, and at minima away from the source, that persist over a thousandth of the range.
-    shading: "smooth", "creased" at more than `crease` degrees, or
-    "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
+    regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin.
+    shading: "smooth", "creased" at more than `crease` degrees, or "flat";
+    "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
     the session or recipe whose ends are taken; shared_range: the same as "shared".  size: "85mm", "1680x640", "column",
     "slide", as the command takes it.  title: names as "heading", as "caption" at the colour bars, or "none".  font: a
@@ -173,6 +176,8 @@ def figure(
     )
     if len(pins):
         document = add_pins(document, [checked_source(at) for at in pins])
+    if len(regions):
+        document = divide(document, regions)
     if len(isoline_through):
         document = pass_through(document, tuple(isoline_through))
     page = Page(

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import Anchor, comparison
-from app.document.edits import open_mesh, remove_panel
+from app.document.document import Anchor, FieldArray, Panel, comparison
+from app.document.edits import divide, divided_panels, open_mesh, remove_panel
 from app.document.instruments import Pin, Profile, Selection
 from app.document.measuring import (
     MOST_PINS,
@@ -20,7 +20,9 @@ from app.document.measuring import (
     show_regions,
     vertices_of,
 )
+from app.document.quantities import OwnField
 from bihdist_core import BoundaryLoop, ParameterError
+from bihdist_core.distances.kinds import Spec
 
 DOCUMENT = comparison("mesh.off", sources=(5,))
 
@@ -111,3 +113,23 @@ def test_another_mesh_has_no_pins_of_the_old_one():
 def test_what_makes_no_sense_is_refused(make, said):
     with pytest.raises(ParameterError, match=said):
         make()
+
+
+def test_panels_show_regions_by_their_numbers():
+    document = comparison("hand", (Spec.of("biharmonic"), Spec.of("geodesic")))
+    panels = (*document.panels, Panel(7, OwnField("own")))
+    document = add_pins(replace(document, panels=panels, next_id=8, fields=(FieldArray("own", ""),)), [3, 9])
+    for which, ids, said in (("all", (0, 1), "all"), ((2,), (1,), (2,)), ((), (), ()), ((2, 1, 2), (1, 0), "all")):
+        divided = divide(document, which)
+        assert divided.regions == ids
+        assert divided_panels(divided) == said
+    for which, words in (
+        ((3,), "Panel 3 shows no distance"),
+        ((4,), "no panel 4; they are numbered from 1 to 3"),
+        ((0,), "no panel 0"),
+        ("every", "not by 'every'"),
+    ):
+        with pytest.raises(ParameterError, match=words):
+            divide(document, which)
+    with pytest.raises(ParameterError, match="no regions without pins"):
+        divide(replace(document, pins=()), "all")

@@ -13,6 +13,7 @@ from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document import one_line
 from app.document.camera import VIEWS, Camera
 from app.document.document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
+from app.document.edits import can_divide, divide
 from app.document.instruments import Pin
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
 from app.document.measuring import add_pins
@@ -91,6 +92,7 @@ def shown(recipe):
         next_id=len(panels),
         anchors=anchors,
         pins=pins,
+        regions=tuple(k for k, panel in enumerate(document.panels) if panel.id in document.regions),
         isolines=isolines,
         camera=recipe.views[0],
     )
@@ -117,6 +119,7 @@ EXAMPLES = {
     ),
     "Document.extrema": lambda d, p: (replace(d, extrema=True), p),
     "Document.pins": lambda d, p: (add_pins(d, [9, Place.of(3, 0.2, 0.5)]), p),
+    "Document.regions": lambda d, p: (divide(add_pins(d, [9, 3]), "all"), p),
     "Pin.point": lambda d, p: (replace(d, pins=(Pin("source"),)), p),
     "Pin.colour": lambda d, p: (replace(d, pins=(Pin("source", colour=4),)), p),
     "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
@@ -171,7 +174,6 @@ ELSEWHERE = {
     "Document.fields": "arrays: see the test of what is said in words",
     "Document.height": "needs a flat mesh: see its test",
     "Document.selections": "figures do not show selections",
-    "Document.regions": "figures do not show regions",
 }
 
 WORDLESS = {"Zoom.corner", "Pin.colour"} | {
@@ -339,6 +341,9 @@ def recipes(draw):
         axes=draw(st.booleans()),
     )
     document = add_pins(document, draw(st.lists(VERTICES, max_size=3)))
+    able = [k for k, panel in enumerate(document.panels, 1) if can_divide(document, panel.id)]
+    if able:
+        document = divide(document, draw(st.lists(st.sampled_from(able), max_size=3)))
     page = Page(
         views=tuple(views) if len(views) > 1 else (),
         size=draw(st.sampled_from(["", "85mm", "1920x1080", "160mm@600dpi"])),
