@@ -1,0 +1,154 @@
+"""What the docks say is what the command line writes: for each instrument, on a mesh of several pieces."""
+
+import numpy as np
+import pytest
+
+from app.document.measuring import add_pins, show_dock, show_regions
+from bihdist_core import Place, field_quality, field_statistics, read_surface
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import MESHES, needs_meshes
+
+pytest.importorskip("qtpy")
+
+EXACT = 1e-9
+"""Of the maximum; what a dock writes with four digits is compared as it is written."""
+
+SHOWN = ("biharmonic", "diffusion", "geodesic(method=dijkstra)")
+SOURCE = 200
+
+
+@pytest.fixture
+def written(tmp_path, capsys):
+    """Runs a command on the mesh and gives the array that it wrote."""
+    from app.main import main
+
+    def run(command, *words, name="out.npy"):
+        main([command, str(MESHES / "suzanne.obj"), *map(str, words), "-o", str(tmp_path / name)])
+        capsys.readouterr()
+        return np.load(tmp_path / name)
+
+    return run
+
+
+@pytest.fixture
+def opened(screen):
+    s = screen([Spec.of("biharmonic"), Spec.of("diffusion"), Spec.of("geodesic", method="dijkstra")])
+    s.open(MESHES / "suzanne.obj", SOURCE)
+    return s
+
+
+def dock(s, word):
+    s.session.show(show_dock(s.document, word))
+    s.settle(0.05)
+    return s.window.docks._docks[word].content
+
+
+def fields(written):
+    return [written("field", "--source", SOURCE, "--distance", spec).ravel() for spec in SHOWN]
+
+
+@needs_meshes
+def test_pins_and_their_distances(opened, written):
+    s, pins = opened, dock(opened, "pins")
+    surface = s.session.surface
+    other = int(np.flatnonzero(surface.component_of_vertex == 1)[0])
+    face = int(np.flatnonzero((surface.faces == 400).any(axis=1))[0])
+    at = [77, 300, other, SOURCE, Place.of(face, 0.2, 0.3)]
+    s.session.show(add_pins(s.document, at))
+    specs = [panel.shows.spec for panel in s.document.panels]
+    s.until(lambda: all(pins.distances.known(spec) is not None for spec in specs))
+    pins.copy_list()
+    from qtpy.QtWidgets import QApplication
+
+    rows = [line.split("\t") for line in QApplication.clipboard().text().splitlines()[1:]]
+    corners = surface.faces[face]
+    for k, field in enumerate(fields(written)):
+        expected = np.append(field[at[:4]], [0.2, 0.3, 0.5] @ field[corners])
+        for row, value in zip(rows, expected, strict=True):
+            value_said, share_said = row[6 + 2 * k : 8 + 2 * k]
+            if np.isnan(value):
+                assert value_said == share_said == ""
+            else:
+                assert float(value_said) == pytest.approx(value, abs=EXACT * np.nanmax(field))
+                assert float(share_said) == pytest.approx(value / np.nanmax(field), abs=EXACT)
+        matrix = written("pairs", "--vertices", ",".join(map(str, at[:4])), "--distance", SHOWN[k])
+        assert np.array_equal(np.isnan(matrix), np.isnan(pins.distances.known(specs[k])[:4, :4]))
+        assert np.nanmax(np.abs(matrix - pins.distances.known(specs[k])[:4, :4])) <= EXACT * np.nanmax(field)
+        place = written("field", "--source", f"f{face}:0.2,0.3", "--distance", SHOWN[k]).ravel()[at[:4]]
+        assert np.array_equal(np.isnan(place), np.isnan(pins.distances.known(specs[k])[4, :4]))
+        assert np.nanmax(np.abs(place - pins.distances.known(specs[k])[4, :4])) <= EXACT * np.nanmax(field)
+
+
+@needs_meshes
+def test_regions_and_farthest_points(opened, written, tmp_path):
+    s, regions = opened, dock(opened, "regions")
+    surface = s.session.surface
+    other = int(np.flatnonzero(surface.component_of_vertex == 1)[0])
+    at = [77, 300, 400, other]
+    s.session.show(add_pins(s.document, at))
+    for panel in s.document.panels:
+        s.session.show(show_regions(s.document, panel.id))
+    s.until(lambda: s.window.docks.findings.is_complete)
+    for panel, spec in zip(s.document.panels, SHOWN, strict=True):
+        cut, lines = tmp_path / "cut.ply", tmp_path / "lines.csv"
+        words = ("--vertices", ",".join(map(str, at)), "--distance", spec, "--mesh-output", cut, "--boundaries", lines)
+        labels = written("regions", *words, name=f"{panel.id}.npy")
+        found = s.window.docks.findings.divided(panel.id).regions
+        assert np.array_equal(np.where(found.labels < 0, np.nan, found.labels + 1), labels, equal_nan=True)
+        mesh = read_surface(cut)
+        assert found.areas.sum() == pytest.approx(mesh.face_areas.sum(), rel=EXACT)
+        for way, ending, theirs in (("mesh", ".ply", cut), ("boundaries", ".csv", lines)):
+            mine = tmp_path / f"mine{ending}"
+            assert regions.save_to(panel.id, way, str(mine))
+            assert mine.read_bytes() == theirs.read_bytes()
+    regions.sampler.count.setValue(9)
+    regions.sampler.save_to(str(tmp_path / "window.npy"))
+    s.until((tmp_path / "window.npy").exists)
+    assert np.array_equal(np.load(tmp_path / "window.npy"), written("samples", "--source", SOURCE, "--count", 9))
+
+
+@needs_meshes
+def test_the_profile(opened, written, tmp_path):
+    s, profile = opened, dock(opened, "profile")
+    surface = s.session.surface
+    face = int(np.flatnonzero((surface.faces == 400).any(axis=1))[0])
+    s.session.show(add_pins(s.document, [77, Place.of(face, 0.2, 0.3), 300]))
+    s.until(lambda: profile.path is not None and len(profile.path.knots) == 3)
+    path, places = profile.path, profile.path.places
+    assert path.label == "shortest path along edges"  # not manifold
+    for panel, field in zip(s.document.panels, fields(written), strict=True):
+        expected = np.einsum("kc,kc->k", places.weights, field[places.corners])
+        assert np.abs(profile.curves[panel.id].values - expected).max() <= EXACT * np.nanmax(field)
+        assert np.abs(profile.curves[panel.id].shares - expected / np.nanmax(field)).max() <= EXACT
+    assert np.allclose(np.einsum("kc,kcx->kx", places.weights, surface.vertices[places.corners]), path.points, 0, 1e-12)
+    assert path.length == pytest.approx(np.linalg.norm(np.diff(path.points, axis=0), axis=1).sum(), rel=1e-12)
+
+
+@needs_meshes
+def test_statistics_scatter_and_quality(opened, written):
+    from scipy.stats import spearmanr
+
+    from app.qt.look.numbers import number, share
+
+    s, (a, b, c) = opened, fields(written)
+    surface = s.session.surface
+    statistics, scatter, quality = (dock(s, word) for word in ("statistics", "scatter", "quality"))
+    s.until(lambda: statistics.facts.facts and len(scatter.facts.facts) > 3 and s.window.docks.findings.is_complete)
+    s.settle(0.1)
+    found = field_statistics(surface, a)
+    facts = dict(fact[:2] for fact in statistics.facts.facts)
+    assert facts["mean, by area"] == number(found.mean)
+    assert facts["standard deviation"] == number(found.deviation)
+    assert facts[f"greatest, at vertex {int(np.nanargmax(a))}"] == number(np.nanmax(a))
+    quantiles = [(number(value), share(value / np.nanmax(a))) for value in found.quantiles]
+    assert [fact[1:] for fact in statistics.quantiles.facts] == quantiles
+    facts = dict(scatter.facts.facts)
+    both = np.isfinite(a) & np.isfinite(b)
+    assert facts["rank correlation"] == number(spearmanr(a[both], b[both]).statistic)
+    # Circles are those of the geodesic distance that the mesh allows.
+    near = written("field", "--source", SOURCE, "--distance", "geodesic").ravel()
+    table = [line.split("\t")[1:] for line in quality.text().splitlines()[1:]]
+    for k, field in enumerate((a, b, c)):
+        judged = field_quality(surface, field, near, SOURCE)
+        assert [row[k] for row in table[:2]] == [str(len(judged.minima)), str(len(judged.maxima))]
+        assert [row[k] for row in table[2:5]] == [number(x) for x in (judged.isotropy, judged.kink, judged.kink_length)]
