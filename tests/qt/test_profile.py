@@ -120,8 +120,9 @@ def test_values_have_a_chart_for_each_unit(screen, mesh_file):
     dock, _ = with_profile(s)
     charts = dock.chart
     assert [len(chart.curves) for chart in charts.shown] == [3]
-    s.session.show(replace(s.document, profile=Profile(shares=False)))
+    dock.scale.buttons["value"].click()
     s.settle()
+    assert s.document.profile == Profile(shares=False)
     left, right = charts.shown
     assert [[curve.name for curve in chart.curves] for chart in (left, right)] == [
         ["Biharmonic", "Geodesic"],

@@ -289,7 +289,7 @@ class ProfileDock(Instrument):
         return arc if np.hypot(apart.x(), apart.y()) <= NEAR else None
 
     def _choose_scale(self, word: str) -> None:
-        self.choices.show(shares=word == "share")
+        self.choices.show(self.document, shares=word == "share")
 
 
 def nearest_arc(path: SurfacePath, point: np.ndarray) -> float:
