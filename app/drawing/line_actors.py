@@ -20,9 +20,9 @@ NEARER = (0.0012, 0.0014)
 
 _LIT = "//VTK::Light::Impl"
 _RIM = """//VTK::Light::Impl
-  fragOutput0.rgb = mix(rimColour, fragOutput0.rgb, smoothstep(0.62, 0.80, normalVCVSOutput.z));
+  fragOutput0.rgb = mix(rimColour, ambientColorUniform, smoothstep(0.62, 0.80, lenZ));
 """
-"""A tube is a band of the shader's: towards its edges the normal turns away from the eye, as in `marks`."""
+"""A tube is a band of the shader's, as high as `lenZ` from its middle to its edges, however the line slants."""
 
 
 class SourceLineActor:
@@ -35,9 +35,7 @@ class SourceLineActor:
         self.actor = line_actor(style.source, (WIDTH + 2 * RIM) * scale, NEARER[1])
         look = self.actor.GetProperty()
         look.RenderLinesAsTubesOn()  # plain lines have no edges, and are thinner the more they slant
-        look.LightingOn()
-        look.SetAmbient(0.45)
-        look.SetDiffuse(0.6)
+        look.LightingOn()  # which has that shader
         shader = self.actor.GetShaderProperty()
         shader.AddFragmentShaderReplacement(_LIT, False, _RIM, False)
         shader.GetFragmentCustomUniforms().SetUniform3f("rimColour", style.mark_edge)
