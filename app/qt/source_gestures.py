@@ -15,6 +15,7 @@ from bihdist_core.sources.words import short_words_of
 
 from ..document.edits import move_source, source_name
 from ..document.sourcing import members_of, place_at, place_in, points_of, with_member, with_moved, without_member
+from ..session.drawn import drawn_source
 from .live_rate import LiveRate
 
 if TYPE_CHECKING:
@@ -38,7 +39,8 @@ class SourceGestures:
         self.is_drawing = False
         self.rate = LiveRate(window)
         self._moved: tuple[str, Source, Member] | None = None  # a point, what it was, and which member moves
-        self._stroke: list[Place] = []
+        self._strokes: list[list[Place]] = []
+        self._is_beside = True  # the pointer is not on the surface, or the button was up
         self._grid.added.connect(self.add_or_remove)
         self._grid.stroked.connect(self._draw)
         self._grid.stroke_ended.connect(self._stroke_ended)
@@ -193,40 +195,45 @@ class SourceGestures:
         self._grid.draw_on(is_drawing)
         self._window.say("Drag over the surface: a curve as source (with Ctrl it is added); Esc ends" * is_drawing)
 
-    def _draw(self, panel: int, met: "Met") -> None:
+    def _draw(self, panel: int, met: "Met | None") -> None:
+        if met is None:
+            self._is_beside = True
+            return
         place = place_in(met.face, met.weights)
-        if not self._stroke or self._stroke[-1] != place:
-            self._stroke.append(place)
-            self._show_stroke()
+        if self._is_beside:
+            self._strokes.append([])
+            self._is_beside = False
+        if place not in self._strokes[-1][-1:]:
+            self._strokes[-1].append(place)
+            self._show_strokes()
 
     def _stroke_ended(self, panel: int, has_ctrl: bool) -> None:
-        places, ends = list(self._stroke), self._on_view(panel)
+        strokes, ends = self._strokes, self._on_view(panel)
         self._forget_stroke()
-        if not places:
+        if not strokes:
             return
-        if len(places) == 1:
-            corners = self._window.session.surface.faces[places[0].face]
-            drawn: Source = place_at(corners, places[0].face, places[0].weights)
-        else:
-            away = np.linalg.norm(ends - ends[0], axis=1)
-            is_closed = len(places) > 3 and away[-1] < CLOSING and away.max() > 2 * CLOSING
-            drawn = Curve(tuple(places), bool(is_closed))
+        away = np.linalg.norm(ends - ends[0], axis=1)
+        is_closed = len(ends) > 3 and away[-1] < CLOSING and away.max() > 2 * CLOSING
+        drawn = drawn_source(strokes, self._window.session.surface, bool(is_closed))
         (self.add if has_ctrl else self.put)(panel, drawn)
 
     def _on_view(self, panel: int) -> np.ndarray:
         """(k, 2) where what has been drawn is seen."""
         widget, faces = self._grid.panel(panel), self._window.session.surface.faces
-        points = [np.array(place.weights) @ widget.positions[faces[place.face]] for place in self._stroke]
+        places = [place for stroke in self._strokes for place in stroke]
+        points = [np.array(place.weights) @ widget.positions[faces[place.face]] for place in places]
         seen = [widget.view.place_of(point) for point in points]
         return np.array([(each.x(), each.y()) for each in seen])
 
-    def _show_stroke(self) -> None:
-        faces = self._window.session.surface.faces if self._stroke else np.empty((0, 3), int)
-        corners = faces[[place.face for place in self._stroke]]
-        weights = np.array([place.weights for place in self._stroke]).reshape(-1, 3)
+    def _show_strokes(self) -> None:
+        surface = self._window.session.surface
+        strokes = [
+            (surface.faces[[place.face for place in stroke]], np.array([place.weights for place in stroke]))
+            for stroke in self._strokes
+        ]
         for widget in self._grid.panels:
-            widget.marks.show_stroke(corners, weights)
+            widget.marks.show_strokes(strokes)
 
     def _forget_stroke(self) -> None:
-        self._stroke = []
-        self._show_stroke()
+        self._strokes, self._is_beside = [], True
+        self._show_strokes()

@@ -52,7 +52,7 @@ class PlaneWalk:
     ) -> tuple[list[Step] | None, float]:
         """The shortest way in a plane with this normal, and its length."""
         p, q = self._position(start), self._position(stop)
-        heights = (self._surface.vertices - p) @ normal
+        heights = _Heights(self._surface.vertices, p, normal)
         shortest, length = None, FURTHEST * float(np.linalg.norm(q - p))
         for face in first:
             for k in range(3):
@@ -62,15 +62,15 @@ class PlaneWalk:
         return shortest, length if shortest else np.inf
 
     def _way(
-        self, start: Place, stop: Place, face: int, corner: int, last: set[int], heights: np.ndarray, most: float
+        self, start: Place, stop: Place, face: int, corner: int, last: set[int], heights: "_Heights", most: float
     ) -> tuple[list[Step] | None, float]:
         """Out of a face over the side from a corner to the next, and on until a face of the end is met; how far."""
         faces, steps, at = self._surface.faces, [], self._weights(start, face)
         # A corner in the plane is on one side of it, so that each face is cut along two sides or not at all.
-        side, seen, far = heights >= 0, {face}, 0.0
+        seen, far = {face}, 0.0
         while far <= most:
             i, j = faces[face, corner], faces[face, (corner + 1) % 3]
-            if side[i] == side[j]:
+            if (heights[i] >= 0) == (heights[j] >= 0):
                 break
             share = heights[i] / (heights[i] - heights[j])
             out = np.zeros(3)
@@ -89,7 +89,7 @@ class PlaneWalk:
             corner = next(
                 k
                 for k in range(3)
-                if side[faces[face, k]] != side[faces[face, (k + 1) % 3]]
+                if (heights[faces[face, k]] >= 0) != (heights[faces[face, (k + 1) % 3]] >= 0)
                 and {faces[face, k], faces[face, (k + 1) % 3]} != {i, j}
             )
         return None, far
@@ -122,6 +122,17 @@ class PlaneWalk:
     def _length(self, step: Step) -> float:
         face, start, stop = step
         return float(np.linalg.norm((stop - start) @ self._surface.vertices[self._surface.faces[face]]))
+
+
+class _Heights(dict[int, float]):
+    """Of vertices over a plane through a point, found when they are asked for: a way meets few of a surface's."""
+
+    def __init__(self, vertices: np.ndarray, point: np.ndarray, normal: np.ndarray) -> None:
+        self._vertices, self._point, self._normal = vertices, point, normal
+
+    def __missing__(self, vertex: int) -> float:
+        height = self[vertex] = float((self._vertices[vertex] - self._point) @ self._normal)
+        return height
 
 
 def joined(walk: PlaneWalk, start: Place, stop: Place, name: str) -> list[Step]:

@@ -283,14 +283,14 @@ def test_what_is_drawn_on_the_surface_becomes_a_curve(opened, tmp_path):
     assert s.window.actions_by_word["draw source"].isChecked()
     start = view.rect().center() - QtCore.QPoint(60, 0)
     drag(s, [start + QtCore.QPoint(8 * k, k) for k in range(16)], end=False)
-    assert all(len(panel.view.over.stroke) > 5 for panel in s.panels), "it is seen while it is drawn"
+    assert all(len(panel.view.over.strokes[0]) > 5 for panel in s.panels), "it is seen while it is drawn"
     QtTest.QTest.mouseRelease(view, QtCore.Qt.MouseButton.LeftButton, pos=start + QtCore.QPoint(120, 15))
     s.until(lambda: s.session.is_complete)
     assert isinstance(s.source, Curve)
     assert not s.source.closed
     assert len(s.source.places) > 5
     assert view.camera.GetPosition() == camera
-    assert all(panel.view.over.stroke is None for panel in s.panels)
+    assert not any(panel.view.over.strokes for panel in s.panels)
     assert s.refusals == []
     path = tmp_path / "c.json"
     path.write_text(curve_text(s.source))
@@ -374,11 +374,50 @@ def test_a_drawn_curve_is_saved_and_the_copied_lines_name_its_file(opened, tmp_p
     assert s.refusals == []
 
 
+def test_a_line_has_its_colour_wherever_it_goes(sheet, tmp_path):
+    s, panel = sheet, sheet.panels[0]
+    path = tmp_path / "c.json"
+    path.write_text(json.dumps({"points": [[13, 0.25, 0.25], [200, 0.5, 0.25], [40, 0.2, 0.2]]}))
+    typed(s, str(path))
+    for _ in range(5):
+        panel.view.turn_by(1, 1)  # so that it leads away from the eye
+    s.settle()
+    (pieces,) = panel._pieces
+    start, stop = pieces.positions(s.session.surface.vertices)
+    places = [panel.view.place_of(point) for point in (start + stop) / 2]
+    picture = panel.view.shot().astype(int)
+    scale = picture.shape[1] / panel.view.width()
+    colours = np.array([picture[int(at.y() * scale), int(at.x() * scale)] for at in places])
+    is_yellow = (colours[:, 0] > 200) & (colours[:, 1] > 170) & (colours[:, 2] < 90)
+    assert is_yellow.mean() > 0.97
+
+
 def test_a_loop_stands_in_the_copied_lines(sheet):
     s = sheet
     typed(s, "loop:0+7")
     assert "--source loop:0+7" in copied(s, "command")
     assert "source='loop:0+7'" in copied(s, "python")
+
+
+def test_a_quick_stroke_follows_the_pointer_and_is_parted_beside_the_surface(opened):
+    from qtpy import QtCore
+
+    s, view = opened, opened.panels[0].view
+    s.window.actions_by_word["draw source"].setChecked(True)
+    s.window.gestures.sources.set_drawing(True)
+    middle = view.rect().center()
+    drag(s, [middle, middle + QtCore.QPoint(90, 0)])
+    assert isinstance(s.source, Curve)
+    assert len(s.source.places) > 15, "between two of the pointer's places, too"
+    beside = QtCore.QPoint(view.width() - 2, middle.y())
+    assert view.met_at(beside) is None
+    drag(s, [middle, beside, middle + QtCore.QPoint(0, 60)])
+    one, two = s.source.members
+    places = [np.array(p.weights) @ s.session.surface.vertices[s.session.surface.faces[p.face]] for p in one.places]
+    seen = [view.place_of(x) for x in places]
+    assert max(abs(each.y() - middle.y()) for each in seen) < 3, "along the line that the pointer went"
+    assert isinstance(two, Curve)
+    assert s.refusals == []
 
 
 def test_a_ring_that_is_drawn_is_closed_and_a_click_is_a_place(opened):

@@ -45,7 +45,7 @@ class PanelGrid(QtWidgets.QWidget):
     added = QtCore.Signal(int, object)  # the same with Ctrl
     dragged = QtCore.Signal(int, int, object)  # panel, a mark of its source by its number, the `Met` it is over
     released = QtCore.Signal()
-    stroked = QtCore.Signal(int, object)  # panel, a `Met`, while the surface is drawn on
+    stroked = QtCore.Signal(int, object)  # panel, a `Met` or None, while the surface is drawn on
     stroke_ended = QtCore.Signal(int, bool)  # panel, whether with Ctrl
     chosen = QtCore.Signal(int, object)  # panel, quantity
     asked = QtCore.Signal(int, str)  # panel, a word of PANEL_EDITS

@@ -1,5 +1,6 @@
 """All that lies over the picture of a view, painted by Qt: the surface is drawn for none of it."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,7 +32,7 @@ class MarksOver:
         self.path = PathMarks()
         self.pointed: Pointed | None = None
         self.sentence = ""
-        self.stroke: np.ndarray | None = None  # (k, 3) what has been drawn
+        self.strokes: Sequence[np.ndarray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
         self._pins: tuple[PinMark, ...] = ()
         self._unseen: frozenset[int] | None = None  # which pins the surface hides; None until it is looked
@@ -63,9 +64,9 @@ class MarksOver:
             self._pins, self._unseen = pins, None
             self._view.update()
 
-    def show_stroke(self, stroke: np.ndarray | None) -> None:
+    def show_strokes(self, strokes: Sequence[np.ndarray]) -> None:
         """What has been drawn so far, points (k, 3)."""
-        self.stroke = stroke
+        self.strokes = strokes
         self._view.update()
 
     def show_dabs(self, points: np.ndarray | None, colour: str = "") -> None:
@@ -101,9 +102,9 @@ class MarksOver:
             paint_pins(painter, self._seen_pins(), self._hidden_pins())
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)
-        if self.stroke is not None and len(self.stroke):
+        for stroke in self.strokes:
             style = view.scene.style
-            overlay.paint_stroke(painter, [view.place_of(x) for x in self.stroke], style.source, style.mark_edge)
+            overlay.paint_stroke(painter, [view.place_of(x) for x in stroke], style.source, style.mark_edge)
         if self.pointed is not None:
             self._paint_pointed(painter, self.pointed)
 

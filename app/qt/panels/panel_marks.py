@@ -48,7 +48,7 @@ class PanelMarks:
         self.positions, self._faces = np.empty((0, 3)), np.empty((0, 3), np.int64)
         self._forget()
         self._view.over.show_pins(())
-        self._view.handles, self._view.over.stroke = np.empty((0, 3)), None
+        self._view.handles, self._view.over.strokes = np.empty((0, 3)), ()
         self._put_extrema()
         self._put_path()
 
@@ -84,10 +84,9 @@ class PanelMarks:
         self._view.scene.mark_source(places, lines)
         self._view.redraw()
 
-    def show_stroke(self, corners: np.ndarray, weights: np.ndarray) -> None:
-        """What has been drawn so far: places, each in a face with corners (k, 3), whose weights are (k, 3)."""
-        stroke = np.einsum("kc,kcx->kx", weights, self.positions[corners]) if len(corners) else None
-        self._view.over.show_stroke(stroke)
+    def show_strokes(self, strokes: Sequence[tuple[np.ndarray, np.ndarray]]) -> None:
+        """What has been drawn so far: of each stroke the corners (k, 3) of faces, and the weights (k, 3) of these."""
+        self._view.over.show_strokes([np.einsum("kc,kcx->kx", w, self.positions[corners]) for corners, w in strokes])
 
     def mark_anchors(self, anchors: Sequence[tuple[int, float | None]], answer: Answer | None) -> None:
         """Vertices with a value each; without one it is that of the answer's field."""

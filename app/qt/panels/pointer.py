@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 STROKE_STEP = 5
 """Pixels from one point of what is drawn to the next."""
+MOST_DRAWN = 200
+"""Points for one movement of the pointer."""
 
 BRUSH_STEP, MOST_BRUSHED = 6, 24
 """Pixels between two places that a brush touches, and how many at most for one movement of the pointer."""
@@ -64,7 +66,10 @@ class Pointer:
         if self._is_brushing:
             self._brush_to(event.pos())
             return
-        self._is_stroke = is_left and self.is_drawn_on and self._draw(event.pos())
+        met = view.met_at(event.pos()) if is_left and self.is_drawn_on else None
+        self._is_stroke = met is not None
+        if self._is_stroke:
+            view.stroked.emit(met)
         self._held = view.mark_at(event.pos()) if is_left and is_plain and not self._is_stroke else -1
         if self._held >= 0:
             view.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
@@ -86,8 +91,7 @@ class Pointer:
             self._is_dragging = True
             view.hovered.emit(None)
         if self._is_stroke:
-            if (event.pos() - self._last).manhattanLength() >= STROKE_STEP and self._draw(event.pos()):
-                self._last = event.pos()
+            self._draw_to(event.pos())
             return
         step, self._last = event.pos() - self._last, event.pos()
         if self._held >= 0:
@@ -114,7 +118,8 @@ class Pointer:
         if held:
             view.unsetCursor()
         if is_stroke:
-            self._draw(event.pos()) if self._is_dragging else None
+            if self._is_dragging and event.pos() != self._last:
+                view.stroked.emit(view.met_at(event.pos()))
             view.stroke_ended.emit(has_ctrl)
         elif self._is_dragging:
             if held:
@@ -150,12 +155,13 @@ class Pointer:
         else:
             self._view.unsetCursor()
 
-    def _draw(self, position: QtCore.QPoint) -> bool:
-        """Go on drawing at a point of the view; whether the surface is there."""
-        met = self._view.met_at(position)
-        if met is not None:
-            self._view.stroked.emit(met)
-        return met is not None
+    def _draw_to(self, position: QtCore.QPoint) -> None:
+        """Go on drawing along the way from where it was last: a quick hand draws what it is seen to draw."""
+        way, start = position - self._last, self._last
+        steps = min(way.manhattanLength() // STROKE_STEP, MOST_DRAWN)
+        for step in range(1, steps + 1):
+            self._view.stroked.emit(self._view.met_at(start + way * step / steps))
+            self._last = position
 
     def _brush_to(self, position: QtCore.QPoint) -> None:
         """Along the way from where it was last: a quick hand leaves no gaps."""

@@ -40,7 +40,7 @@ class View(QtWidgets.QWidget):
     added = QtCore.Signal(object)  # the same with Ctrl
     dragged = QtCore.Signal(int, object)  # a mark of the source by its number, over a `Met`
     released = QtCore.Signal()  # the mark
-    stroked = QtCore.Signal(object)  # over a `Met`, while the surface is drawn on
+    stroked = QtCore.Signal(object)  # over a `Met`, or None beside the surface, while that is drawn on
     stroke_ended = QtCore.Signal(bool)  # the button is up; whether with Ctrl
     let_go = QtCore.Signal()  # the button that has moved the camera
     hovered = QtCore.Signal(object)  # a `Met`, or None beside the surface
