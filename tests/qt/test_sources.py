@@ -382,7 +382,7 @@ def test_a_line_has_its_colour_wherever_it_goes(sheet, tmp_path):
     for _ in range(5):
         panel.view.turn_by(1, 1)  # so that it leads away from the eye
     s.settle()
-    (pieces,) = panel._pieces
+    (pieces,) = panel.marks._pieces
     start, stop = pieces.positions(s.session.surface.vertices)
     places = [panel.view.place_of(point) for point in (start + stop) / 2]
     picture = panel.view.shot().astype(int)
