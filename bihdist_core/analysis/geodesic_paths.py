@@ -22,8 +22,9 @@ from ..distances.edge_geodesic import EdgeGeodesic
 from ..distances.geodesic import EXACT_UP_TO
 from ..errors import ParameterError, SolverError
 from ..progress import Progress, part, silent
+from ..sources.splitting import Split
 from ..surface import Surface
-from .places import Place, Places, Split, split_at
+from .places import Place, Places
 from .surface_paths import Crossings, Stars, SurfacePath, assembled
 
 METHODS = ("auto", "exact", "straightened", "edges")
@@ -77,7 +78,7 @@ class GeodesicPaths:
             raise ParameterError(f"There is no path on {self.surface.name} between places on different components.")
         component, ids, faces = self._component(int(label[0]))
         local = Places(np.searchsorted(faces, found.faces), np.searchsorted(ids, found.corners), found.weights)
-        split = split_at(component, local)
+        split = local.split(component)
         if (split.vertices[1:] == split.vertices[:-1]).any():
             k = int(np.flatnonzero(split.vertices[1:] == split.vertices[:-1])[0])
             raise ParameterError(f"The places {k} and {k + 1} of a path are the same, {places[k]!r}; leave one out.")

@@ -1,4 +1,4 @@
-"""Places on a surface: vertices, or points in faces given by barycentric weights; and the surface split at them."""
+"""Places on a surface: vertices, or points in faces given by barycentric weights."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ParameterError
+from ..sources.splitting import Split, split_at
 from ..surface import Surface
 
 Place = int | Sequence[float]
@@ -15,6 +16,9 @@ rest."""
 
 ON_SIDE = 1e-12
 """A weight below this is 0: the place is on a side of its face, or in a corner."""
+
+APART = 1e-9
+"""Where a surface is split, weights below this are 0, and so places this near to each other are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +44,10 @@ class Places:
 
     def __len__(self) -> int:
         return len(self.faces)
+
+    def split(self, surface: Surface) -> Split:
+        """Their surface with vertices at them."""
+        return split_at(surface, self.faces, self.weights, APART)
 
     def values(self, field: npt.ArrayLike) -> np.ndarray:
         """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated linearly."""
@@ -71,98 +79,3 @@ def _checked(surface: Surface, place: Place) -> tuple[int, np.ndarray]:
         )
     weights = np.where(weights <= ON_SIDE, 0, weights)
     return int(words[0]), weights / weights.sum()
-
-
-@dataclass(frozen=True, eq=False)
-class Split:
-    """A surface with vertices at some places; the same shape, so that lengths and linear fields are the same.
-
-    surface: the vertices of the whole one first, then one for each place that is none of them.  vertices (k,): those at
-    the places.  parents (m,): the face of the whole surface each face is part of.  corners, weights (q, 3): each new
-    vertex as a place among the vertices of the whole surface.
-    """
-
-    whole: Surface
-    surface: Surface
-    vertices: np.ndarray
-    parents: np.ndarray
-    corners: np.ndarray
-    weights: np.ndarray
-
-    def weights_in_parents(self, faces: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        """(k, 3) weights in the faces `parents[faces]` of places with weights (k, 3) in faces (k,) of this surface."""
-        n, into = len(self.whole.vertices), self.whole.faces[self.parents[faces]]
-        found = np.zeros((len(faces), 3))
-        for c in range(3):
-            vertex, share = self.surface.faces[faces, c], weights[:, c, None]
-            old = vertex < n
-            found += np.where(old[:, None] & (into == vertex[:, None]), share, 0)
-            new = np.flatnonzero(~old)
-            for k in range(3):
-                corner, weight = (a[vertex[new] - n, k, None] for a in (self.corners, self.weights))
-                found[new] += np.where(into[new] == corner, share[new] * weight, 0)
-        return found
-
-
-def split_at(surface: Surface, places: Places) -> Split:
-    """The surface with its faces divided so that each place is a vertex."""
-    n, pieces = len(surface.vertices), dict[int, list[tuple[int, ...]]]()
-    new: list[tuple[np.ndarray, np.ndarray]] = []
-    vertices = []
-    for face, corners, weights in zip(places.faces.tolist(), places.corners, places.weights, strict=True):
-        support = np.flatnonzero(weights)
-        if len(support) == 1:
-            vertices.append(int(corners[support[0]]))
-            continue
-        point = _over(surface.faces[face], corners, weights)
-        same = [k for k, (c, w) in enumerate(new) if np.allclose(_over(surface.faces[face], c, w), point, 0, 1e-12)]
-        if same:
-            vertices.append(n + same[0])
-            continue
-        vertex = n + len(new)
-        new.append((corners, weights))
-        vertices.append(vertex)
-        # Through a side, all its faces are split.
-        around = (
-            [face]
-            if len(support) == 3
-            else np.flatnonzero(np.isin(surface.faces, corners[support]).sum(axis=1) == 2).tolist()
-        )
-        for parent in around:
-            triangles = pieces.get(parent, [tuple(surface.faces[parent].tolist())])
-            at = _over(surface.faces[parent], corners, weights)
-            pieces[parent] = [
-                t for triangle in triangles for t in _divided(triangle, vertex, surface.faces[parent], at, n, new)
-            ]
-    whole = np.arange(len(surface.faces))
-    if not new:
-        nothing = np.empty((0, 3))
-        return Split(surface, surface, np.array(vertices, np.int64), whole, nothing.astype(np.int64), nothing)
-    kept = np.delete(whole, list(pieces))
-    parents = np.concatenate([kept, *(np.full(len(t), f) for f, t in pieces.items())]).astype(np.int64)
-    faces = np.concatenate([surface.faces[kept], *(np.array(t) for t in pieces.values())])
-    corners = np.array([c for c, _ in new], np.int64).reshape(-1, 3)
-    weights = np.array([w for _, w in new])
-    points = np.concatenate([surface.vertices, weighted(surface.vertices, corners, weights)])
-    return Split(surface, Surface(points, faces, surface.name), np.array(vertices, np.int64), parents, corners, weights)
-
-
-def _over(face: np.ndarray, corners: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """(3,) the weights of a place at the corners of another face that it lies in; less than 1 in sum if it does not."""
-    return np.where(face[:, None] == corners, weights, 0).sum(axis=1)
-
-
-def _divided(
-    triangle: tuple[int, ...],
-    vertex: int,
-    face: np.ndarray,
-    at: np.ndarray,
-    n: int,
-    new: list[tuple[np.ndarray, np.ndarray]],
-) -> list[tuple[int, ...]]:
-    """A part of a face, divided at a new vertex whose weights in the face are `at`, if that lies in it."""
-    rows = [_over(face, *new[v - n]) if v >= n else (face == v).astype(np.float64) for v in triangle]
-    inside = np.linalg.solve(np.array(rows).T, at)
-    if inside.min() < -1e-9:
-        return [triangle]
-    return [(triangle[k], triangle[(k + 1) % 3], vertex) for k in range(3) if inside[(k + 2) % 3] > 1e-9]

@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ParameterError
+from ..sources.splitting import Split
 from ..surface import Surface
 from .isoline_tracing import Isoline, isolines
-from .places import Place, Places, Split, split_at
+from .places import Place, Places
 from .surface_paths import Crossings, Stars, SurfacePath, assembled
 
 PARTS = {
@@ -43,7 +44,7 @@ def plane_section(
         raise ParameterError(f"A section joins two places or more; {len(places)} were given.")
     if part == "whole" and len(places) > 2:
         raise ParameterError(f"The whole section is that through two places; {len(places)} were given.")
-    split = split_at(surface, Places.of(surface, places))
+    split = Places.of(surface, places).split(surface)
     stars, parts, knots = Stars(split.surface), [], slice(None)
     for k, (start, stop) in enumerate(pairwise(split.vertices.tolist())):
         if start == stop:

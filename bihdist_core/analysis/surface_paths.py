@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ParameterError, SolverError
+from ..sources.splitting import Split
 from ..surface import Surface
-from .places import Places, Split, weighted
+from .places import Places, weighted
 
 OFF = 1e-4
 """Points of a path may be so far from the mesh's edges, in mean edge lengths, before they are put there."""

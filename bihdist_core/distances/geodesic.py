@@ -83,10 +83,11 @@ class GeodesicDistance(Distance):
             own = np.flatnonzero(self.surface.component_of_vertex[self.surface.faces[:, 0]] == component.index)
             mine = np.searchsorted(own, pieces.faces)
             local = replace(pieces, faces=mine, corners=component.local(pieces.corners))
-            divided, ids = split_at(surface, along(local, surface.mean_edge_length / FINENESS, surface))
-            divider = ExactGeodesic(divided)
+            points = along(local, surface.mean_edge_length / FINENESS, surface)
+            split = split_at(surface, points.faces, points.start)
+            divider = ExactGeodesic(split.surface)
             try:
-                return divider.distances(np.unique(ids), progress)[: len(component.vertices)]
+                return divider.distances(np.unique(split.vertices), progress)[: len(component.vertices)]
             finally:
                 divider.close()
         loads, offsets = _spread(pieces, self.surface)
@@ -127,11 +128,11 @@ class GeodesicDistance(Distance):
     def _exactly(self, component: Component, u: Pieces, v: Pieces) -> np.ndarray:
         """(k,) on the component divided at all points."""
         faces, ends = self._local_faces(component, u, v)
-        divided, ids = split_at(component.surface, replace(ends, faces=faces, corners=component.local(ends.corners)))
-        starts, stops = ids[: len(u)], ids[len(u) :]
+        split = split_at(component.surface, faces, ends.start)
+        starts, stops = split.vertices[: len(u)], split.vertices[len(u) :]
         if len(np.unique(stops)) < len(np.unique(starts)):
             starts, stops = stops, starts
-        solver, found = ExactGeodesic(divided), np.empty(len(u))
+        solver, found = ExactGeodesic(split.surface), np.empty(len(u))
         try:
             for start in np.unique(starts):
                 mine = starts == start

@@ -1,5 +1,7 @@
 """A surface with vertices at given places: faces are divided there, and its shape stays what it is."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..surface import Surface
@@ -7,38 +9,67 @@ from .edge_faces import EdgeFaces
 from .pieces import Pieces
 
 SNAP = 1e-6
-"""A place whose weights are below this belongs to the edge or the corner opposite: thinner faces help nobody."""
+"""A weight below this is 0: the place belongs to the edge or the corner opposite, as thinner faces help nobody."""
 
 
-def split_at(surface: Surface, points: Pieces) -> tuple[Surface, np.ndarray]:
-    """The surface divided, and (k,) its vertices at the points; the old vertices keep their numbers.
+@dataclass(frozen=True, eq=False)
+class Split:
+    """A surface with vertices at some places; the same shape, so that lengths and linear fields are the same.
 
-    A point in a face divides it in three, one on an edge the faces at that edge in two each.  Points of one line come
-    best one after another, its ends first: then the line consists of edges.
+    surface: the vertices of the whole one first, then one for each place that is none of them.  vertices (k,): those at
+    the places.  parents (m,): the face of the whole surface that each face is part of.  Faces that are divided come
+    last; corners (p, 3, 3): the weights of the corners of these in their parents.
     """
-    division = _Division(surface)
-    ids = np.array([division.put(*each) for each in zip(points.faces.tolist(), points.start, strict=True)])
-    return division.surface(), ids
+
+    whole: Surface
+    surface: Surface
+    vertices: np.ndarray
+    parents: np.ndarray
+    corners: np.ndarray
+
+    def weights_in_parents(self, faces: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """(k, 3) weights in the faces `parents[faces]` of places with weights (k, 3) in faces (k,) of this surface."""
+        part = faces - (len(self.parents) - len(self.corners))
+        found = weights.copy()
+        divided = np.flatnonzero(part >= 0)
+        found[divided] = np.einsum("kc,kcd->kd", weights[divided], self.corners[part[divided]])
+        return found
+
+
+def split_at(surface: Surface, faces: np.ndarray, weights: np.ndarray, snap: float = SNAP) -> Split:
+    """The surface divided so that the places in faces (k,), with weights (k, 3), are vertices.
+
+    A point in a face divides it in three, one on an edge the faces at that edge in two each.  snap: weights below it
+    are 0.  Points of one line come best one after another, its ends first: then the line consists of edges.
+    """
+    division = _Division(surface, snap)
+    return division.result(np.array([division.put(*each) for each in zip(faces.tolist(), weights, strict=True)]))
 
 
 class _Division:
     """parts: of each face that is divided, its parts, as vertices and the weights (3, 3) of these in the face."""
 
-    def __init__(self, surface: Surface) -> None:
-        self._surface = surface
+    def __init__(self, surface: Surface, snap: float) -> None:
+        self._surface, self._snap = surface, snap
         self._new: list[np.ndarray] = []
         self._parts: dict[int, list[tuple[list[int], np.ndarray]]] = {}
         self._edges = EdgeFaces(surface)
 
-    def surface(self) -> Surface:
-        old, kept = self._surface, np.ones(len(self._surface.faces), bool)
-        kept[list(self._parts)] = False
-        faces = [old.faces[kept], *(np.array([f for f, _ in parts]) for parts in self._parts.values())]
-        return Surface(np.concatenate([old.vertices, *(x[None] for x in self._new)]), np.concatenate(faces), old.name)
+    def result(self, vertices: np.ndarray) -> Split:
+        old = self._surface
+        whole = np.delete(np.arange(len(old.faces)), list(self._parts))
+        if not self._parts:
+            return Split(old, old, vertices, whole, np.empty((0, 3, 3)))
+        parts = [(face, *each) for face, of_face in self._parts.items() for each in of_face]
+        parents, faces, corners = (np.array(each) for each in zip(*parts, strict=True))
+        divided = Surface(
+            np.concatenate([old.vertices, self._new]), np.concatenate([old.faces[whole], faces]), old.name
+        )
+        return Split(old, divided, vertices, np.concatenate([whole, parents]), corners)
 
     def put(self, face: int, weights: np.ndarray) -> int:
         """The vertex at a place, new if there is none."""
-        weights = np.where(weights < SNAP, 0, weights)
+        weights = np.where(weights < self._snap, 0, weights)
         weights = weights / weights.sum()
         corners = self._surface.faces[face]
         used = np.flatnonzero(weights)
@@ -62,7 +93,7 @@ class _Division:
         divided: list[tuple[list[int], np.ndarray]] = []
         for ids, where in parts:
             inside = np.linalg.solve(where.T, at)
-            inside[np.abs(inside) < SNAP] = 0
+            inside[np.abs(inside) < self._snap] = 0
             if (inside < 0).any():
                 divided.append((ids, where))
                 continue

@@ -138,7 +138,8 @@ def test_dividing_the_face_there_gives_nearly_the_same(name):
     distance = BiharmonicDistance(s)
     for face in np.random.default_rng(0).integers(len(s.faces), size=3):
         place = Place.of(int(face), 0.3, 0.45)
-        divided, ids = split_at(s, pieces_of(place, s))
+        split = split_at(s, np.array([place.face]), np.array([place.weights]))
+        divided, ids = split.surface, split.vertices
         expected = BiharmonicDistance(divided).from_source(int(ids[0]))[: len(s.vertices)]
         assert np.abs(distance.from_source(place) - expected).max() <= 1e-3 * expected.max()
 

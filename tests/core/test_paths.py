@@ -20,7 +20,7 @@ from bihdist_core import (
 )
 from bihdist_core.analysis import geodesic_paths
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
-from bihdist_core.analysis.places import Places, split_at
+from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.plane_sections import plane_section
 from bihdist_core.analysis.profile_output import write_profile
 from bihdist_core.errors import Cancelled
@@ -121,7 +121,7 @@ def test_values_that_are_missing_beside_the_path_do_not_count():
 
 def test_a_split_surface_is_the_same_shape(rough):
     places = Places.of(rough, [4, (7, 0.2, 0.3), (7, 0.5, 0.5), (7, 0.1, 0.1), (7, 0.2, 0.3), (9, 0, 0.25)])
-    split = split_at(rough, places)
+    split = places.split(rough)
     assert split.vertices.tolist() == [4, 400, 401, 402, 400, 403]
     assert split.surface.is_manifold
     assert split.surface.genus == 0

@@ -133,7 +133,8 @@ def test_a_divided_surface_has_the_same_shape_with_vertices_at_the_places(rows):
     g = grid(2, 2)
     source = SourceSet((0, *(Place.of(*row) for row in rows)))
     points = pieces_of(source, g)
-    divided, ids = split_at(g, points)
+    split = split_at(g, points.faces, points.start)
+    divided, ids = split.surface, split.vertices
     assert np.abs(divided.vertices[ids] - points.positions(g.vertices)[0]).max() <= ROUNDING
     assert divided.face_areas.sum() == pytest.approx(g.face_areas.sum(), rel=1e-12)
     assert divided.face_areas.min() > 0
@@ -147,7 +148,9 @@ def test_a_divided_surface_has_the_same_shape_with_vertices_at_the_places(rows):
 def test_a_divided_line_consists_of_edges():
     g = grid(5, 4)
     pieces = pieces_of(Curve((Place.of(0, 0.4, 0.3), Place.of(33, 0.2, 0.4))), g)
-    divided, ids = split_at(g, along(pieces, 0.2, g))
+    points = along(pieces, 0.2, g)
+    split = split_at(g, points.faces, points.start)
+    divided, ids = split.surface, split.vertices
     start, stop = pieces.positions(g.vertices)
     line = (stop[-1] - start[0]) / np.linalg.norm(stop[-1] - start[0])
     order = ids[np.argsort((divided.vertices[ids] - start[0]) @ line)]
