@@ -49,7 +49,11 @@ class Place:
                 f"The weights of a place in a face are at least 0 and add up to 1; {first:g} and {second:g} leave "
                 f"{rest:g} for the third corner."
             )
-        return Place(face, (first, second, max(rest, 0.0)))
+        third = max(rest, 0.0)
+        if max(first, second, third) > 1 - 1e-15:
+            # What differs from a corner by rounding alone is the corner.
+            first, second, third = (float(weight > 0.5) for weight in (first, second, third))
+        return Place(face, (first, second, third))
 
 
 @dataclass(frozen=True)

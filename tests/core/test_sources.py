@@ -154,3 +154,12 @@ def test_a_set_has_each_member_once():
 
 def test_curves_are_written_as_json_reads_them():
     assert json.loads(curve_text(Curve((A, B)))) == {"points": [[3, 0.25, 0.5], [9, 0.1, 0.2]]}
+
+
+@pytest.mark.parametrize("corner", [(1, 0), (0, 1), (0, 0)])
+def test_a_place_beside_a_corner_by_rounding_is_the_corner(corner):
+    tiny = 2.0**-53
+    near = [abs(weight - tiny) for weight in corner]
+    assert Place.of(3, *near) == Place.of(3, *corner)
+    assert Place.of(3, *near).weights == (*corner, 1 - sum(corner))
+    assert Place.of(3, 1e-9, 0.5).weights == (1e-9, 0.5, 0.499999999)
