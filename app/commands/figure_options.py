@@ -18,6 +18,7 @@ from .options import (
     add_areas,
     add_distance,
     add_pins,
+    add_selections,
     add_up,
     check_parameters,
     given_parameters,
@@ -25,6 +26,7 @@ from .options import (
     quantities,
     source,
     with_pins,
+    with_selections,
 )
 from .terminal import tell
 
@@ -78,6 +80,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         metavar="all|N,…",
         help="lines around what is nearest to each pin, on all panels or on some, from 1",
     )
+    add_selections(parser)
     parser.add_argument(
         "--height", type=float, nargs="?", const=0.35, metavar="SHARE", help="a flat mesh becomes a relief"
     )
@@ -145,6 +148,7 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
         from ..document.edits import divide
 
         document = divide(document, options.regions)
+    document = with_selections(document, options)
     views = [*(options.view or ()), *(("front", "back") if options.two_views else ())]
     if options.camera is not None:
         views.append(Camera(*options.camera))

@@ -68,6 +68,23 @@ def with_pins(document: Document, options: argparse.Namespace) -> Document:
     return pin_instead(document, options.pin, document.surfaces[0].name)
 
 
+def add_selections(parser: argparse.ArgumentParser) -> None:
+    words = "vertices that stand out: ids and ranges (12,40-77), or a .txt, .npy or .csv file of ids; repeat for more"
+    parser.add_argument("--select", metavar="IDS", action="append", help=words)
+
+
+def with_selections(document: Document, options: argparse.Namespace) -> Document:
+    """The document with the selections that are named, if any are, and no others."""
+    if options.select is None:
+        return document
+    from bihdist_core.analysis.selecting import is_ids_file, read_ids
+
+    from ..document.measuring import runs_from_words, runs_of, select_instead
+
+    chosen = [runs_of(read_ids(word)) if is_ids_file(word) else runs_from_words(word) for word in options.select]
+    return select_instead(document, chosen, document.surfaces[0].name)
+
+
 def spec(options: argparse.Namespace, text: str) -> Spec:
     """The distance that a text means with the options beside it."""
     return Spec.parse(text, **given_parameters(options))

@@ -14,11 +14,13 @@ from .options import (
     add_areas,
     add_distance,
     add_pins,
+    add_selections,
     add_up,
     given_parameters,
     quantities,
     source,
     with_pins,
+    with_selections,
 )
 
 WORDS = "open the viewer"
@@ -37,6 +39,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_colours(parser)
     add_distance(parser, PANELS)
     add_pins(parser)
+    add_selections(parser)
     add_areas(parser)
     add_up(parser, "as it was chosen for this mesh before, or guessed")
 
@@ -60,6 +63,7 @@ def run(options: argparse.Namespace) -> NoReturn:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
         shown = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
         shown = with_pins(with_colours(replace(shown, up=options.up or "auto"), options), options)
+        shown = with_selections(shown, options)
     if is_choice and options.source is not None:
         raise ParameterError("A source needs a mesh; name one.")
     from ..qt.screen import check_screen
@@ -80,7 +84,7 @@ def _refuse_options(options: argparse.Namespace) -> None:
     """ParameterError for what a session says itself."""
     from bihdist_core import ParameterError
 
-    own = ("source", "distance", "areas", "colours", "reversed", "bands", "up", "pin")
+    own = ("source", "distance", "areas", "colours", "reversed", "bands", "up", "pin", "select")
     given = {name: getattr(options, name) for name in own}
     given |= given_parameters(options)
     for name, value in given.items():

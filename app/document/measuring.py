@@ -123,6 +123,41 @@ def vertices_of(runs: Runs) -> np.ndarray:
     return np.concatenate([np.empty(0, np.int64), *(np.arange(first, last + 1) for first, last in runs)])
 
 
+def runs_in_words(runs: Runs) -> str:
+    """ "3,5-9"."""
+    return ",".join(f"{first}" if first == last else f"{first}-{last}" for first, last in runs)
+
+
+def runs_from_words(text: str) -> Runs:
+    """Vertex ids and ranges of them, both ends included, in any order; ParameterError for other words."""
+    runs: list[tuple[int, int]] = []
+    for word in text.split(","):
+        ends = word.strip().split("-")
+        if len(ends) > 2 or not all(end.strip().isdecimal() for end in ends):
+            raise ParameterError(f"{word!r} is no vertex id or range of them, such as 12 or 40-77.")
+        first, last = int(ends[0]), int(ends[-1])
+        if last < first:
+            raise ParameterError(f"The range {word.strip()} ends before it begins.")
+        runs.append((first, last))
+    joined: list[tuple[int, int]] = []
+    for first, last in sorted(runs):
+        if joined and first <= joined[-1][1] + 1:
+            joined[-1] = joined[-1][0], max(joined[-1][1], last)
+        else:
+            joined.append((first, last))
+    return tuple(joined)
+
+
+def select_instead(document: Document, chosen: Iterable[Runs], surface: str = "A") -> Document:
+    """Each of these as a selection, and no others."""
+    found = list(chosen)
+    names = free_names("selection", len(found), [])
+    selections = [
+        Selection(name, runs, k % PIN_COLOURS, surface) for k, (name, runs) in enumerate(zip(names, found, strict=True))
+    ]
+    return replace(document, selections=tuple(selections))
+
+
 def show_dock(document: Document, dock: str, is_open: bool = True) -> Document:
     """Open or close one of DOCKS."""
     one_of(dock, DOCKS, "dock")

@@ -21,11 +21,15 @@ from .camera import Camera
 from .document import COMPARISON, Document, Point
 from .edits import divided_panels
 from .instruments import PIN_COLOURS
+from .measuring import runs_in_words
 from .page import Page, Recipe
 from .quantities import Quantity, from_point, own_fields
 from .starts import Starts, as_argument
 
 USUAL, USUAL_PAGE = Document(), Page()
+
+MOST_LETTERS = 1000
+"""Of selected vertices in a line that somebody is to read."""
 
 
 class _Unsaid(ParameterError):
@@ -227,6 +231,21 @@ def _regions(recipe: Recipe) -> Said:
     return Said((("--regions", words),), {"regions": which})
 
 
+def _selections(recipe: Recipe) -> Said:
+    """In the colours that they get by themselves."""
+    selections = recipe.document.selections
+    if not selections:
+        return NOTHING
+    if any(each.surface != recipe.document.surfaces[0].name for each in selections):
+        raise _Unsaid("Vertices of another mesh are selected.")
+    if [each.colour for each in selections] != [k % PIN_COLOURS for k in range(len(selections))]:
+        raise _Unsaid("Selections have other colours than usual.")
+    words = [runs_in_words(each.runs) for each in selections]
+    if sum(map(len, words)) > MOST_LETTERS:
+        raise _Unsaid("More vertices are selected than a line can name.")
+    return Said(tuple(("--select", each) for each in words), {"selections": words})
+
+
 # ---------------------------------------------------------------------- how it looks
 def _isolines(recipe: Recipe) -> Said:
     isolines = recipe.document.isolines
@@ -385,8 +404,8 @@ ROWS = (
     Row(("Document.height",), _of_document("height", "--height", "height")),
     Row(("Document.pins", "Pin.point", "Pin.colour"), _pins),
     Row(("Document.extrema",), _of_document("extrema", "--extrema", "extrema")),
-    Row(("Document.selections",), _only_usual(lambda recipe: recipe.document.selections, "Vertices are selected.")),
     Row(("Document.regions",), _regions),
+    Row(("Document.selections",), _selections),
     Row(("Page.columns",), _columns),
     Row(("Page.hints",), _of_page("hints", "--hints", "hints")),
     Row(("Page.size",), _of_page("size", "--size", "size")),

@@ -57,20 +57,23 @@ def put_face_look(shader: vtkShaderProperty, has_edges: bool) -> None:
     shader.AddFragmentShaderReplacement(_NORMAL, False, _TOWARDS_THE_EYE + (_EDGES if has_edges else ""), False)
 
 
-def pass_on(shader: vtkShaderProperty, attribute: str, name: str) -> None:
-    """Hand a vertex attribute to the fragment shader as `name`, also past a geometry shader.
+def pass_on(shader: vtkShaderProperty, *attributes: tuple[str, str, str]) -> None:
+    """Hand vertex attributes to the fragment shader, also past a geometry shader: all in one call, as the last counts.
 
-    VTK renames what ends in VSOut where there is one.
+    attributes: each with its name there, and its kind in GLSL.  VTK renames what ends in VSOut where there is one.
     """
-    vertex, fragment = "//VTK::PositionVC::Dec", "//VTK::PositionVC::Impl"
-    shader.AddVertexShaderReplacement(vertex, True, f"{vertex}\nin float {attribute};\nout float {name}VSOut;\n", False)
-    shader.AddVertexShaderReplacement(fragment, True, f"{fragment}\n{name}VSOut = {attribute};\n", False)
-    shader.AddGeometryShaderReplacement(
-        "//VTK::Output::Dec", True, f"//VTK::Output::Dec\nin float {name}VSOut[];\nout float {name}GSOut;\n", False
-    )
-    shader.AddGeometryShaderReplacement(
-        "//VTK::Clip::Impl", True, f"//VTK::Clip::Impl\n{name}GSOut = {name}VSOut[i];\n", False
-    )
-    shader.AddFragmentShaderReplacement(
-        _POSITION, True, f"{_POSITION}\nin float {name}VSOut;\n#define {name} {name}VSOut\n", False
-    )
+    lines: dict[str, list[str]] = {part: [] for part in ("vertex", "set", "geometry", "copy", "fragment")}
+    for attribute, name, kind in attributes:
+        lines["vertex"].append(f"in {kind} {attribute};\nout {kind} {name}VSOut;")
+        lines["set"].append(f"{name}VSOut = {attribute};")
+        lines["geometry"].append(f"in {kind} {name}VSOut[];\nout {kind} {name}GSOut;")
+        lines["copy"].append(f"{name}GSOut = {name}VSOut[i];")
+        lines["fragment"].append(f"in {kind} {name}VSOut;\n#define {name} {name}VSOut")
+    for put, place, part in (
+        (shader.AddVertexShaderReplacement, _POSITION, "vertex"),
+        (shader.AddVertexShaderReplacement, "//VTK::PositionVC::Impl", "set"),
+        (shader.AddGeometryShaderReplacement, "//VTK::Output::Dec", "geometry"),
+        (shader.AddGeometryShaderReplacement, "//VTK::Clip::Impl", "copy"),
+        (shader.AddFragmentShaderReplacement, _POSITION, "fragment"),
+    ):
+        put(place, True, "\n".join([place, *lines[part], ""]), False)

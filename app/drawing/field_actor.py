@@ -14,6 +14,7 @@ from ..document.looks import MOST_ISOLINES, TWENTY_STEPS, Isolines, Shading
 from .drawable import copies_of, has_backs
 from .face_look import pass_on, put_face_look
 from .levels import BOLD, Levels, levels, too_many
+from .selected import PAINT_SELECTED
 from .stand_in import StandInActor
 from .style import Style
 
@@ -32,7 +33,7 @@ CASING = 1.2
 """Pixels, at scale 1, of the dark rim of a line through a point."""
 
 # Values are in order.  Of the two lines nearest in value, one below and one above, the wider is painted last.
-_PAINT = """//VTK::Light::Impl
+_PAINT = """
   float perPixel = length(vec2(dFdx(isolineValue), dFdy(isolineValue)));
   int above = 0, end = isolineCount;
   while (above < end) {
@@ -84,7 +85,8 @@ class FieldActor:
         self._edges = np.empty(0)
         self._own_maximum = 1.0
         self._own = vtkPolyData()
-        self._has_edges, self._followed = False, None
+        self._has_edges, self._has_selected, self._followed = False, False, None
+        self._selected: np.ndarray | None = None
         self._make()
         self.stand_in = StandInActor(self.actor)
         self.show_isolines(self._isolines, self._through)
@@ -113,7 +115,32 @@ class FieldActor:
         self._array.SetName("distance")
         own.GetPointData().AddArray(self._array)
         self._draw(own)
+        is_same = self._selected is not None and len(self._selected) == len(values)
+        self.show_selected(self._selected if is_same else None)
         self.actor.VisibilityOn()
+
+    def show_selected(self, colours: np.ndarray | None) -> None:
+        """Vertices that stand out: (n, 4) uint8, see `selected_colours`; None for no such."""
+        self._selected = colours
+        if colours is not None:
+            # Multiplied by alpha 0, what is not selected has no colour to lend.
+            array = numpy_to_vtk(np.concatenate([colours, colours[self._copies]]).astype(np.float32) / 255, deep=True)
+            array.SetName("selected")
+            self._own.GetPointData().AddArray(array)
+            self._own.Modified()
+        self._pass_selected(colours is not None)
+
+    def _pass_selected(self, has_selected: bool) -> None:
+        """Whether the array of what is selected reaches the shader, and is painted."""
+        if has_selected:
+            self._mapper.MapDataArrayToVertexAttribute(
+                "selectedAttribute", "selected", vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
+            )
+        else:
+            self._mapper.RemoveVertexAttributeMapping("selectedAttribute")
+        if has_selected != self._has_selected:
+            self._has_selected = has_selected
+            self._put_shaders(self._has_edges)
 
     def _draw(self, own: vtkPolyData) -> None:
         self._own = own
@@ -136,6 +163,8 @@ class FieldActor:
             self.actor.SetProperty(look)
             self.stand_in.actor.SetProperty(look)
             self._put_shaders(bool(look.GetEdgeVisibility()))
+        if self._has_selected != other._has_selected:
+            self._pass_selected(other._has_selected)
         if self.stand_in.stand_in is not other.stand_in.stand_in:
             self.stand_in.take(other.stand_in.stand_in)
         self.show_stand_in(bool(other.stand_in.actor.GetVisibility()))
@@ -233,13 +262,18 @@ class FieldActor:
 
     def show_stand_in(self, is_shown: bool) -> None:
         """Draw what `stand_in` has taken instead of the surface, if it has anything, or the surface again."""
-        self.stand_in.show(is_shown, self._array, UNDEFINED)
+        chosen = self._own.GetPointData().GetArray("selected") if self._has_selected else None
+        self.stand_in.show(is_shown, self._array, UNDEFINED, chosen)
 
     def set_scale(self, scale: float) -> None:
         """Device pixels per pixel have changed."""
         self._uniforms.SetUniformf("edgeScale", scale)
         self._uniforms.SetUniformf("isolineCasing", CASING * scale)
         self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale)
+
+    def set_origin(self, x: float, y: float) -> None:
+        """Where the picture begins, in pixels of a whole of which it is a part: hatching goes on from part to part."""
+        self._uniforms.SetUniform2f("hatchOrigin", (x, y))
 
     def _make(self) -> None:
         mapper, actor = self._mapper, self.actor
@@ -265,6 +299,7 @@ class FieldActor:
         surface.SetEdgeOpacity(0.0)
         self._uniforms = actor.GetShaderProperty().GetFragmentCustomUniforms()
         self._uniforms.SetUniformf("hasBacks", 0.0)
+        self.set_origin(0, 0)
         self._uniforms.SetUniform3f("backColour", self.style.back)
         self._uniforms.SetUniform3f("edgeColour", self.style.edge)
         self._uniforms.SetUniform3f("edgeOnDark", self.style.edge_on_dark)
@@ -275,9 +310,13 @@ class FieldActor:
         self._has_edges = has_edges
         shader = self.actor.GetShaderProperty()
         shader.ClearAllShaderReplacements()
-        pass_on(shader, "isolineAttribute", "isolineValue")
+        attributes = [("isolineAttribute", "isolineValue", "float")]
+        if self._has_selected:
+            attributes.append(("selectedAttribute", "selectedAt", "vec4"))
+        pass_on(shader, *attributes)
         put_face_look(shader, has_edges)
-        shader.AddFragmentShaderReplacement(_LIT, False, _PAINT, False)
+        paint = (PAINT_SELECTED if self._has_selected else "") + _PAINT
+        shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{paint}", False)
 
 
 def lookup_table(style: Style, signed: bool = False, edges: np.ndarray | None = None) -> vtkLookupTable:

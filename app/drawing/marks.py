@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
@@ -57,37 +57,3 @@ class Marks:
     def show_one(self, position: np.ndarray | None, colour: Colour) -> None:
         """Mark one place (3,), or none."""
         self.show(np.empty((0, 3)) if position is None else position[None], [] if position is None else [colour])
-
-
-class Dots:
-    """Flat dots of constant size on the screen, on the surface at vertices of it: any number of them.
-
-    size: pixels across.
-    """
-
-    def __init__(self, size: float) -> None:
-        self.actor = vtkActor()
-        mapper = vtkPolyDataMapper()
-        mapper.SetColorModeToDirectScalars()
-        # They lie in the surface, and are to be seen before it.
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyPointOffsetParameter(-60)
-        self.actor.SetMapper(mapper)
-        look = self.actor.GetProperty()
-        look.SetPointSize(size)
-        look.LightingOff()
-        self.actor.VisibilityOff()
-
-    def show(self, positions: np.ndarray, colours: np.ndarray) -> None:
-        """Dots at (k, 3), each in a colour: (k, 3) uint8."""
-        count = len(positions)
-        self.actor.SetVisibility(count > 0)
-        if not count:
-            return
-        points, cells, dots = vtkPoints(), vtkCellArray(), vtkPolyData()
-        points.SetData(numpy_to_vtk(np.ascontiguousarray(positions, np.float32), deep=True))
-        cells.SetData(1, numpy_to_vtkIdTypeArray(np.arange(count, dtype=np.int64), deep=True))
-        dots.SetPoints(points)
-        dots.SetVerts(cells)
-        dots.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(colours, np.uint8), deep=True))
-        self.actor.GetMapper().SetInputData(dots)

@@ -11,13 +11,10 @@ from .field_actor import FieldActor, light
 from .insets import Insets
 from .levels import Levels
 from .line_actors import SourceLineActor
-from .marks import DOT, Dots, Marks
+from .marks import DOT, Marks
 from .region_lines import RegionLines
 from .stand_in import StandIn
 from .style import PAPER, Style
-
-SELECTED = 4.0
-"""Pixels across of a selected vertex."""
 
 
 class PanelScene:
@@ -39,10 +36,9 @@ class PanelScene:
         self._anchored = Marks(style.marker_size * scale, style.mark_edge)
         self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
         self._regions = RegionLines(scale, style.mark_edge, (1.0, 1.0, 1.0))
-        self._selected = Dots(SELECTED * scale)
         marks = (self._source, self._largest, self._anchored, self._passed)
         solid = [self._field.actor, *self._regions.actors, self._lines.actor, *(each.actor for each in marks)]
-        solid += [self._field.stand_in.actor, self._selected.actor]
+        solid += [self._field.stand_in.actor]
         self.insets = Insets(renderer, solid, self._field, style, scale)
         renderer.SetBackground(*style.background)
         # To find out what is out of sight VTK would go over all vertices, and here nothing ever is.
@@ -69,7 +65,7 @@ class PanelScene:
         self.mark_largest(None)
         self.mark_anchors(np.empty((0, 3)), [])
         self.show_regions(np.empty((0, 2, 3)))
-        self.mark_selected(np.empty((0, 3)), np.empty((0, 3), np.uint8))
+        self._field.show_selected(None)
         self.mark_passed(np.empty((0, 3)))
         self.insets.show((), np.empty((0, 3)))
 
@@ -106,6 +102,10 @@ class PanelScene:
     def show_field(self, field: np.ndarray, maximum: float | None = None, signed: bool = False) -> None:
         """Colour the surface by a field (n,), see `FieldActor.show_field`."""
         self._field.show_field(field, maximum, signed)
+
+    def show_selected(self, colours: np.ndarray | None) -> None:
+        """Vertices that stand out, see `selected_colours`."""
+        self._field.show_selected(colours)
 
     def show_bare(self) -> None:
         """The surface without a field."""
@@ -161,10 +161,6 @@ class PanelScene:
     def mark_largest(self, position: np.ndarray | None) -> None:
         """Where a signed field is largest."""
         self._largest.show_one(position, self.style.largest)
-
-    def mark_selected(self, positions: np.ndarray, colours: np.ndarray) -> None:
-        """Vertices of selections at (k, 3), each in a colour (k, 3) uint8."""
-        self._selected.show(positions, colours)
 
     def mark_passed(self, positions: np.ndarray) -> None:
         """Positions (k, 3) of points that isolines pass through."""

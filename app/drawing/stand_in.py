@@ -136,6 +136,7 @@ class StandInActor:
         self._stand_in: StandIn | None = None
         self._values = np.empty(0, np.float32)
         self._array = numpy_to_vtk(self._values)
+        self._chosen: vtkDataArray | None = None
         self._averaged: tuple[int, int] | None = None  # of which array, and when that was last changed
         self._mapper = vtkPolyDataMapper()
         self.actor = vtkActor()
@@ -147,7 +148,7 @@ class StandInActor:
     def take(self, stand_in: StandIn | None) -> None:
         """Stand in for another surface; None if there is nothing that could."""
         self.show(False)
-        self._stand_in, self._averaged = stand_in, None
+        self._stand_in, self._averaged, self._chosen = stand_in, None, None
         if stand_in is None:
             self._mapper.SetInputData(vtkPolyData())
             return
@@ -167,14 +168,21 @@ class StandInActor:
     def can_stand_in(self) -> bool:
         return self._stand_in is not None
 
-    def show(self, is_shown: bool, values: vtkDataArray | None = None, undefined: float = 0.0) -> None:
+    def show(
+        self,
+        is_shown: bool,
+        values: vtkDataArray | None = None,
+        undefined: float = 0.0,
+        selected: vtkDataArray | None = None,
+    ) -> None:
         """Let this be drawn instead of the other actor, or that again.
 
-        values: (n,) of all points of the surface, under the name that they have there.
+        values: (n,) of all points of the surface, under the name that they have there; selected: (n, 4) the same.
         """
         is_shown = is_shown and self._stand_in is not None and values is not None
         if is_shown:
             self._follow(values, undefined)
+            self._follow_selected(selected)
         if is_shown != bool(self.actor.GetVisibility()):
             self.actor.SetVisibility(is_shown)
             self._full.SetVisibility(not is_shown)
@@ -200,3 +208,21 @@ class StandInActor:
         self._averaged = state
         self._values[:] = self._stand_in.averaged(vtk_to_numpy(values), undefined)
         self._array.Modified()
+
+    def _follow_selected(self, selected: vtkDataArray | None) -> None:
+        """A cluster is selected by the share of its points that are."""
+        if selected is self._chosen:
+            return
+        self._chosen = selected
+        if selected is None:
+            self._mapper.RemoveVertexAttributeMapping("selectedAttribute")
+            return
+        means = [self._stand_in.averaged(each, np.nan) for each in vtk_to_numpy(selected).T]
+        array = numpy_to_vtk(np.ascontiguousarray(np.stack(means, 1)), deep=True)
+        array.SetName(selected.GetName())
+        own = self._mapper.GetInput()
+        own.GetPointData().AddArray(array)
+        own.Modified()
+        self._mapper.MapDataArrayToVertexAttribute(
+            "selectedAttribute", selected.GetName(), vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
+        )

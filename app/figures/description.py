@@ -55,7 +55,8 @@ class FigurePanel:
     signed: the field has values on both sides of 0, and its colour bar goes from -maximum to maximum.
     up: which axis is up in standard views.  source: the vertex that the view from the source looks at.  is_parallel:
     nothing gets smaller with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.
-    lines: those that the field starts from; regions: boundaries of the pins' regions.
+    lines: those that the field starts from; regions: boundaries of the pins' regions; selected: (n, 4) uint8 colours of
+    vertices that stand out, see `selected_colours`.
     """
 
     surface: Surface
@@ -80,6 +81,7 @@ class FigurePanel:
     axes: bool = False
     lines: tuple[SourceLine, ...] = ()
     regions: tuple[SourceLine, ...] = ()
+    selected: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

@@ -6,6 +6,8 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from bihdist_core import OutputError, ParameterError, SolverError, Surface
 from bihdist_core.analysis.region_boundaries import region_boundaries
 from bihdist_core.distances.answers import Answer
@@ -16,7 +18,9 @@ from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.document import Document, Panel
+from ..document.measuring import vertices_of
 from ..document.page import Recipe
+from ..drawing.selected import selected_colours
 from ..drawing.source_lines import SourceLine, source_lines
 from ..drawing.style import PINS, style_of
 from ..session.anchors import anchor_value, anchors_on
@@ -204,7 +208,17 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         axes=document.axes,
         lines=tuple(line for start in starts for line in source_lines(pieces_of(start, surface))),
         regions=() if answer.field is None else _region_lines(document, panel, opened),
+        selected=_selected(document, panel, surface),
     )
+
+
+def _selected(document: Document, panel: Panel, surface: Surface) -> np.ndarray | None:
+    """The selections of the panel's surface; VertexError where that has no such vertex."""
+    chosen = [each for each in document.selections if each.surface == panel.surface and each.runs]
+    for each in chosen:
+        if each.runs[-1][1] >= len(surface.vertices):
+            surface.check_vertex(each.runs[-1][1])
+    return selected_colours([(vertices_of(each.runs), each.colour) for each in chosen], len(surface.vertices))
 
 
 def _region_lines(document: Document, panel: Panel, opened: Opened) -> tuple[SourceLine, ...]:

@@ -21,7 +21,7 @@ from ..document.edits import divide
 from ..document.file import read_recipe
 from ..document.isoline_edits import pass_through
 from ..document.looks import AS_IT_IS, Colours, Isolines, shaded
-from ..document.measuring import add_pins
+from ..document.measuring import add_pins, runs_from_words, runs_of, select_instead
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity
 from ..drawing.colour_file import colours_named
@@ -106,6 +106,7 @@ def figure(
     pins: Sequence[Source | str] = (),
     extrema: bool = False,
     regions: str | Sequence[int] = (),
+    selections: Sequence[str | npt.ArrayLike] = (),
     height: float = 0.0,
     shading: str | None = None,
     crease: float | None = None,
@@ -134,6 +135,7 @@ def figure(
     vertices to be marked, perhaps each with a value.  pins: vertices, or places in faces, with numbers, in their order.
     extrema: triangles at maxima, and at minima away from the source, that persist over a thousandth of the range.
     regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin.
+    selections: ids (k,) of vertices that stand out together, or words such as "12,40-77", a colour each.
     shading: "smooth", "creased" at more than `crease` degrees, or "flat";
     "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
@@ -178,6 +180,9 @@ def figure(
         document = add_pins(document, [checked_source(at) for at in pins])
     if len(regions):
         document = divide(document, regions)
+    if len(selections):
+        runs = (runs_from_words(each) if isinstance(each, str) else runs_of(np.asarray(each)) for each in selections)
+        document = select_instead(document, runs)
     if len(isoline_through):
         document = pass_through(document, tuple(isoline_through))
     page = Page(

@@ -92,6 +92,8 @@ class Studio:
                     top - y * per_y,
                 )
                 if projection.meets(seen):
+                    # From below, as OpenGL counts.
+                    self.shown.set_origin(x * self._finer, -(y + tile[1]) * self._finer)
                     picture[y : y + tile[1], x : x + tile[0]] = self._draw(projection, seen)
         report(1.0, "drawing")
         return picture[:height, :width]

@@ -113,6 +113,7 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
             mesh = stage.mesh(surface, shading) if surface is panel.surface else drawable(surface, shading)
             studio.shown.show_surface(mesh)
             studio.shown.show_shading(shading)
+            studio.shown.show_selected(panel.selected)
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
                 studio.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))

@@ -2,6 +2,7 @@
 
 import os
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -9,7 +10,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 from scipy.spatial import cKDTree
 
-from ..errors import ParameterError
+from ..errors import MeshError, ParameterError
 from ..formats.field_output import write_array, write_fields
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
@@ -71,6 +72,33 @@ def write_ids(path: str | os.PathLike[str], vertices: npt.ArrayLike) -> None:
         return
     with whole_file(path) as temporary:
         temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")
+
+
+def is_ids_file(words: str) -> bool:
+    """Whether words name a file that `read_ids` reads."""
+    return os.path.splitext(words)[1].lower() in SELECTION_WAYS["ids"]
+
+
+def read_ids(path: str | os.PathLike[str]) -> np.ndarray:
+    """(k,) int64 vertex ids as `write_ids` has written them, in any order; a .csv may have other columns behind them.
+
+    Raises MeshError for a file that is not there or that holds something else.
+    """
+    file = Path(path)
+    try:
+        if file.suffix.lower() == ".npy":
+            ids = np.load(file, allow_pickle=False)
+        else:
+            words = [line.split(",")[0].strip() for line in file.read_text(encoding="utf-8").splitlines()]
+            has_head = file.suffix.lower() == ".csv" and words[:1] == ["vertex"]
+            ids = np.array([int(word) for word in words[has_head:] if word], np.int64)
+    except OSError as error:
+        raise MeshError(f"{file} cannot be read: {error.strerror}.") from error
+    except (ValueError, EOFError, OverflowError) as error:
+        raise MeshError(f"{file} holds something else than vertex ids.") from error
+    if ids.ndim != 1 or ids.dtype.kind not in "iu" or not len(ids) or ids.min() < 0:
+        raise MeshError(f"{file} holds something else than vertex ids.")
+    return ids.astype(np.int64)
 
 
 def write_selection(

@@ -14,8 +14,11 @@ from app.document.measuring import (
     change_pin,
     move_pin,
     remove_pins,
+    runs_from_words,
+    runs_in_words,
     runs_of,
     select,
+    select_instead,
     show_dock,
     show_regions,
     vertices_of,
@@ -133,3 +136,17 @@ def test_panels_show_regions_by_their_numbers():
             divide(document, which)
     with pytest.raises(ParameterError, match="no regions without pins"):
         divide(replace(document, pins=()), "all")
+
+
+def test_selected_vertices_in_words():
+    runs = runs_of(np.array([3, 5, 6, 7, 12]))
+    assert runs_in_words(runs) == "3,5-7,12"
+    assert runs_from_words("3,5-7,12") == runs
+    assert runs_from_words(" 12, 6-7,3 ,5-6") == runs
+    for words in ("", "ear", "3-", "-3", "1-2-3", "7-5"):
+        with pytest.raises(ParameterError):
+            runs_from_words(words)
+    document = select_instead(comparison("hand"), [runs, ((0, 0),)])
+    assert [each.name for each in document.selections] == ["selection", "selection 2"]
+    assert [each.colour for each in document.selections] == [0, 1]
+    assert select_instead(document, []).selections == ()

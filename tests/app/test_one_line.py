@@ -16,7 +16,7 @@ from app.document.document import Anchor, Document, FieldArray, MeshFile, Panel,
 from app.document.edits import can_divide, divide
 from app.document.instruments import Pin
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
-from app.document.measuring import add_pins
+from app.document.measuring import add_pins, select_instead
 from app.document.page import Page, Recipe
 from app.document.quantities import Difference, DistanceFrom, OwnField
 from app.document.starts import curves_in
@@ -120,6 +120,7 @@ EXAMPLES = {
     "Document.extrema": lambda d, p: (replace(d, extrema=True), p),
     "Document.pins": lambda d, p: (add_pins(d, [9, Place.of(3, 0.2, 0.5)]), p),
     "Document.regions": lambda d, p: (divide(add_pins(d, [9, 3]), "all"), p),
+    "Document.selections": lambda d, p: (select_instead(d, [((3, 3), (5, 9)), ((20, 22),)]), p),
     "Pin.point": lambda d, p: (replace(d, pins=(Pin("source"),)), p),
     "Pin.colour": lambda d, p: (replace(d, pins=(Pin("source", colour=4),)), p),
     "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
@@ -173,7 +174,6 @@ ELSEWHERE = {
     "Document.surfaces": "every line names the mesh",
     "Document.fields": "arrays: see the test of what is said in words",
     "Document.height": "needs a flat mesh: see its test",
-    "Document.selections": "figures do not show selections",
 }
 
 WORDLESS = {"Zoom.corner", "Pin.colour"} | {

@@ -5,6 +5,7 @@ import pytest
 
 from bihdist_core import (
     Brush,
+    MeshError,
     OutputError,
     ParameterError,
     Surface,
@@ -13,6 +14,7 @@ from bihdist_core import (
     read_surface,
     write_selection,
 )
+from bihdist_core.analysis.selecting import is_ids_file, read_ids, write_ids
 from tests.shapes import bumpy
 
 
@@ -84,3 +86,22 @@ def test_what_cannot_be_written_leaves_no_file(tmp_path):
     with pytest.raises(ParameterError, match="No face"):
         write_selection(tmp_path / "a.ply", surface, [1], "mesh")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("extension", [".txt", ".npy", ".csv"])
+def test_ids_are_read_as_they_were_written(extension, tmp_path):
+    path = tmp_path / f"ids{extension}"
+    write_ids(path, [7, 3, 11])
+    assert is_ids_file(str(path))
+    assert read_ids(path).tolist() == [7, 3, 11]
+
+
+def test_what_holds_no_ids_is_refused(tmp_path):
+    (tmp_path / "words.txt").write_text("3\near\n")
+    (tmp_path / "none.csv").write_text("vertex\n")
+    (tmp_path / "less.txt").write_text("3\n-1\n")
+    np.save(tmp_path / "shares.npy", np.array([0.5, 1.5]))
+    for name in ("words.txt", "none.csv", "less.txt", "shares.npy", "not-there.txt"):
+        with pytest.raises(MeshError, match=name):
+            read_ids(tmp_path / name)
+    assert not is_ids_file("12,40-77")

@@ -12,6 +12,7 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document, free_names
 from ...document.measuring import select, vertices_of
+from ...drawing.selected import selected_colours
 from ...drawing.style import PINS
 from .background import Background
 
@@ -61,15 +62,8 @@ class Brushing(QtCore.QObject):
         """The selections of the document on all panels."""
         surface = self._window.session.surface
         count = 0 if surface is None else len(surface.vertices)
-        ids = [vertices_of(each.runs) for each in document.selections]
-        ids = [some[some < count] for some in ids]
-        colours = [each.colour for each in document.selections]
-        shades = [
-            np.broadcast_to(_rgb(PINS[colour]), (len(some), 3)) for colour, some in zip(colours, ids, strict=True)
-        ]
-        self._grid.mark_selected(
-            np.concatenate([np.empty(0, np.int64), *ids]), np.concatenate([np.empty((0, 3), np.uint8), *shades])
-        )
+        chosen = [(vertices_of(each.runs), each.colour) for each in document.selections]
+        self._grid.show_selected(selected_colours(chosen, count))
 
     @property
     def colour(self) -> int:
@@ -176,10 +170,6 @@ def _made(request: tuple[Surface], progress: Progress) -> Iterator[Brush]:
     brush = Brush(request[0])
     brush.near(0, request[0].vertices[request[0].faces[0, 0]], 1e-300)  # its edges, too
     yield brush
-
-
-def _rgb(colour: str) -> np.ndarray:
-    return np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)], np.uint8)
 
 
 def _cursor(radius: int, ratio: float) -> QtGui.QCursor:

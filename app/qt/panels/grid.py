@@ -79,7 +79,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._is_closed = False
         self.pointing = Pointing()
         self._lit: tuple[str, ...] = ()  # the points of pins that stand out
-        self._selected = np.empty(0, np.int64), np.empty((0, 3), np.uint8)
+        self._selected: np.ndarray | None = None
         self._brush: QtGui.QCursor | None = None
         LOOK.changed.connect(self.update)
         self.show_panels(session.document)
@@ -192,7 +192,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.view.pointer.draw_on(self._is_drawn_on)
         panel.view.over.show_axes(self._session.document.axes)
         panel.show_isolines(self._session.document.isolines)
-        panel.marks.mark_selected(*self._selected)
+        panel.marks.show_selected(self._selected)
         panel.view.pointer.set_brush(self._brush)
         panel.show()
 
@@ -208,6 +208,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Another surface is there."""
         for panel in self.panels:
             panel.show_surface(self._session.opened())
+            panel.marks.show_selected(self._selected)
         self.pointing.forget()
         self.show_shading()
 
@@ -254,11 +255,11 @@ class PanelGrid(QtWidgets.QWidget):
             if self._session.surface is not None:
                 self.show_pins(self._session.document)
 
-    def mark_selected(self, vertices: np.ndarray, colours: np.ndarray) -> None:
-        """Vertices (k,) of selections in all panels, each in a colour (k, 3) uint8."""
-        self._selected = vertices, colours
+    def show_selected(self, colours: np.ndarray | None) -> None:
+        """Vertices that stand out in all panels, see `selected_colours`."""
+        self._selected = colours
         for panel in self.panels:
-            panel.marks.mark_selected(vertices, colours)
+            panel.marks.show_selected(colours)
 
     def set_brush(self, brush: QtGui.QCursor | None) -> None:
         """What a drag paints with in all panels, None if it turns them."""

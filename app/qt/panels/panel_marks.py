@@ -18,8 +18,6 @@ from ...session.pinned import PinnedPlace
 from .pin_marks import PinMark
 from .view import View
 
-_NONE = np.empty(0, np.int64), np.empty((0, 3), np.uint8)
-
 
 class PanelMarks:
     """view: that they are seen in.  positions: (n, 3) where the vertices are drawn, in a relief raised by the field."""
@@ -37,7 +35,6 @@ class PanelMarks:
         self.anchors: Sequence[tuple[int, float | None]] = ()
         self._pins: Sequence[PinnedPlace] = ()
         self._lit: Collection[str] = ()
-        self._selected = _NONE
         self._path: Places | None = None
         self._regions: Regions | None = None
         self._extrema = np.empty(0, np.int64), np.empty(0, np.int64)
@@ -61,7 +58,6 @@ class PanelMarks:
         self.begin(surface)
         self._put_path()
         self._put_pins()
-        self.mark_selected(*self._selected)
         self._put_regions()
         self._put_extrema()
 
@@ -110,11 +106,11 @@ class PanelMarks:
                 )
             )
 
-    def mark_selected(self, vertices: np.ndarray, colours: np.ndarray) -> None:
-        """Vertices (k,) of selections, each in a colour (k, 3) uint8."""
-        self._selected = vertices, colours
-        self._view.scene.mark_selected(self.positions[vertices], colours)
-        self._view.redraw()
+    def show_selected(self, colours: np.ndarray | None) -> None:
+        """Vertices that stand out, see `selected_colours`."""
+        if colours is None or len(colours) == len(self.positions):
+            self._view.scene.show_selected(colours)
+            self._view.redraw()
 
     def show_dabs(self, vertices: np.ndarray | None, colour: str = "") -> None:
         """More vertices (k,) that a brush has touched, None for none; see `MarksOver.show_dabs`."""

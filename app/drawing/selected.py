@@ -1,0 +1,49 @@
+"""What is selected on a surface: a rim around it and hatching in it, between whose lines the field stays to be read."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .style import PINS
+
+RIM, CASING = 2.2, 1.1
+"""Pixels, at scale 1, that the rim is wide, and the light line along it."""
+
+HATCH, STEP = 1.5, 10.0
+"""The same of the lines of the hatching, and of their distance."""
+
+LIGHT = 0.85
+"""How much of a light line is seen."""
+
+PAINT_SELECTED = f"""
+  float chosen = selectedAt.a;
+  float chosenSlope = max(length(vec2(dFdx(chosen), dFdy(chosen))), 1e-6);
+  if (chosen > 0.001 && !isBack) {{
+    // Halfway between a vertex that is selected and one that is not.
+    float fromRim = (chosen - 0.5) / chosenSlope;
+    vec3 chosenColour = selectedAt.rgb / chosen;
+    float along = mod((gl_FragCoord.x + hatchOrigin.x + gl_FragCoord.y + hatchOrigin.y) * 0.70711, {STEP} * edgeScale);
+    float fromHatch = abs(along - {STEP / 2} * edgeScale);
+    float halfHatch = {HATCH / 2} * edgeScale, halfRim = {RIM / 2} * edgeScale, casing = {CASING} * edgeScale;
+    float within = smoothstep(-0.6, 0.6, fromRim);
+    float light = within * (1.0 - smoothstep(halfHatch + casing - 0.6, halfHatch + casing + 0.6, fromHatch));
+    light = max(0.4 * light, 1.0 - smoothstep(halfRim + casing - 0.6, halfRim + casing + 0.6, abs(fromRim)));
+    fragOutput0.rgb = mix(fragOutput0.rgb, vec3(1.0), {LIGHT} * light);
+    float dark = within * (1.0 - smoothstep(halfHatch - 0.6, halfHatch + 0.6, fromHatch));
+    dark = max(dark, 1.0 - smoothstep(halfRim - 0.6, halfRim + 0.6, abs(fromRim)));
+    fragOutput0.rgb = mix(fragOutput0.rgb, chosenColour, dark);
+  }}
+"""
+"""For a fragment shader, with the attribute `selectedAt` and the uniforms `hatchOrigin`, in pixels, and `edgeScale`."""
+
+
+def selected_colours(selections: Sequence[tuple[np.ndarray, int]], count: int) -> np.ndarray | None:
+    """(n,) vertices in the colours of their selections, the last on top, as (n, 4) uint8; 0 where there is none.
+
+    selections: vertices (k,), each with the number of a colour.  None if nothing is selected.
+    """
+    colours = np.zeros((count, 4), np.uint8)
+    for vertices, colour in selections:
+        words = PINS[colour]
+        colours[vertices[vertices < count]] = *(int(words[k : k + 2], 16) for k in (1, 3, 5)), 255
+    return colours if colours[:, 3].any() else None
