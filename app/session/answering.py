@@ -3,6 +3,7 @@
 `ask` is called on the view's thread, and answers come back to it through `post`.
 """
 
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
@@ -15,6 +16,10 @@ from .kept import KeptAnswers
 from .lane import Lane
 from .opened import Opened
 from .questions import Question, are_about_the_same
+
+MUCH_LONGER, AT_LEAST = 4.0, 0.2
+"""In a drag, an answer that takes so many times as long as the one before, and so many seconds, gives way to the next:
+it waits for something that is made beside it, such as a longer flow of heat, and the others need not."""
 
 SMALL = 12_000
 """Vertices up to which an exact answer takes no longer than making its stand-in."""
@@ -68,6 +73,7 @@ class Answering:
         self._kept = KeptAnswers()
         self._serial = 0
         self._lanes: dict[int, Lane[_Request]] = {}
+        self._took: dict[int, float] = {}  # seconds, of what was answered last in a drag
 
     # ------------------------------------------------------------------ asking
     def ask(self, asked: Mapping[int, tuple[Question, Opened]], live: bool) -> None:
@@ -138,10 +144,18 @@ class Answering:
 
     def _work(self, id: int, request: _Request, lane: Lane[_Request]) -> None:
         question, opened = request.question, request.opened
+        begun, took = time.monotonic(), self._took.get(id)
 
         def is_wanted(latest: _Request) -> bool:
-            same = are_about_the_same(latest.question, question)
-            return latest.question == question or (latest.live and same)
+            if latest.question == question:
+                return True
+            if not (latest.live and are_about_the_same(latest.question, question)):
+                return False
+            if took is None or time.monotonic() - begun < max(MUCH_LONGER * took, AT_LEAST):
+                return True
+            # Were all to take as long, one of the next is waited for.
+            self._took[id] = max(2 * took, AT_LEAST / MUCH_LONGER)
+            return False
 
         known = self._kept.get(question)
         if known is not None:
@@ -161,10 +175,15 @@ class Answering:
             and self._preview(id, request, quick, preparing, asking)
             and request.live
         ):
+            self._took[id] = time.monotonic() - begun
             return
         answer = opened.answer(question, asking, at_once=lambda first: self._deliver(id, request, first))
         self._kept.put(question, answer)
         self._deliver(id, request, answer)
+        if request.live:
+            self._took[id] = time.monotonic() - begun
+        else:
+            self._took.pop(id, None)
 
     def _is_quicker(self, id: int, request: _Request, quick: Question) -> bool:
         """Whether stand-ins come before the answer: at first, on a small surface, not if they have to be made."""

@@ -77,6 +77,10 @@ class HeatGeodesic:
         self._pattern = matrix.astype(bool)
         self._flow = _FaceFlow(surface)
 
+    def flow(self, loads: np.ndarray) -> np.ndarray:
+        """The heat (n, k) that flows from loads (n, k): the first stage of step I."""
+        return self._solve_heat(loads)
+
     def distances(self, source: int, progress: Progress | None = None) -> np.ndarray:
         """(n,) distances from one vertex, in the mesh's length unit; 0 at the source, never negative.
 

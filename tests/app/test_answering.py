@@ -210,6 +210,31 @@ def test_a_drag_hands_on_what_it_computes_in_order_and_is_one_step(desk, mesh_fi
     assert not session.history.can_undo
 
 
+def test_in_a_drag_what_gets_stuck_gives_way_to_the_next(desk, mesh_file, monkeypatch):
+    d = desk([BIHARMONIC])
+    d.opened(mesh_file(bumpy(200)), source=1)
+    d.click(4, key="drag", live=True)
+    d.until(lambda: d.sources_shown == [4])
+    from_source, asked, is_made = BiharmonicDistance.from_source, [], threading.Event()
+
+    def waiting(distance, source, progress=None):
+        asked.append(source)
+        while source == 5 and not is_made.wait(0.01):
+            progress(0.5, "something is made")
+        return from_source(distance, source, progress)
+
+    monkeypatch.setattr(BiharmonicDistance, "from_source", waiting)
+    d.click(5, key="drag", live=True)
+    d.until(lambda: asked == [5])
+    d.click(6, key="drag", live=True)
+    d.until(lambda: d.sources_shown == [6])
+    d.click(5, key="drag", live=True)
+    d.until(lambda: asked[-1] == 5)
+    is_made.set()
+    d.complete()
+    assert d.sources_shown == [5]
+
+
 def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh_file, monkeypatch):
     d = desk([Spec.of("geodesic", method="exact")])
     session = d.opened(mesh_file(bumpy(200)), source=0)

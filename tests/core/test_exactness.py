@@ -143,7 +143,8 @@ class TestAgainstIndependentPrograms:
         assert error(GeodesicDistance(laplacian, "dijkstra").from_sources(sources), oracle("dijkstra_scipy")) < 1e-12
         heat = GeodesicDistance(laplacian, "heat").from_sources(sources)
         exact = oracle("exactgeo_igl")
-        assert np.abs(heat - exact).mean() / exact.max() < 0.03  # the heat method's own error on coarse meshes
+        # The heat method's own error on coarse meshes, with longer flows among thin faces.
+        assert np.abs(heat - exact).mean() / exact.max() < 0.035
 
 
 @needs_oracle

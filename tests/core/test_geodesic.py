@@ -1,5 +1,6 @@
 """Which geodesic method is taken when, and that the heat method keeps its promise on bad triangles."""
 
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 import bihdist_core.distances.geodesic as geodesic
 import bihdist_core.distances.heat_geodesic as heat_geodesic
 import bihdist_core.distances.heat_times as heat_times
-from bihdist_core import GeodesicDistance, ParameterError, SolverError, Surface, read_surface
+from bihdist_core import Cancelled, GeodesicDistance, ParameterError, SolverError, Surface, read_surface
 from tests.shapes import bumpy, fin
 
 MESHES = Path(__file__).parents[2].parent / "shared" / "meshes"
@@ -68,6 +69,53 @@ def test_each_source_has_the_time_that_serves_it():
     assert np.abs(field - edges).max() < 0.15 * edges.max()
     assert (heat.from_source(0) == before).all()
     assert (GeodesicDistance(surface, "heat").from_source(among) == field).all()
+
+
+def test_a_longer_flow_is_made_once_and_in_nobodys_way(monkeypatch):
+    surface, among = slivers_at_one_vertex()
+    wanted = GeodesicDistance(surface, "heat").from_source(among)
+    heat = GeodesicDistance(surface, "heat")
+    before, flow, gate, made = heat.from_source(0), heat_times.HeatTimes._flow, threading.Event(), []
+
+    def waiting(times, factor, progress):
+        made.append(factor)
+        progress(0.25, "")
+        assert gate.wait(60)
+        return flow(times, factor, progress)
+
+    def impatient(share, text):
+        if "longer flow" in text:
+            raise Cancelled
+
+    monkeypatch.setattr(heat_times.HeatTimes, "_flow", waiting)
+    for _ in range(2):
+        with pytest.raises(Cancelled):
+            heat.from_source(among, impatient)
+    # Others are answered meanwhile.
+    assert (heat.from_source(0) == before).all()
+    told = []
+
+    def open_gate(share, text):
+        told.append((share, text))
+        if "longer flow" in text:
+            gate.set()
+
+    assert (heat.from_source(among, open_gate) == wanted).all()
+    assert (0.25, "heat method, a longer flow") in told
+    assert len(made) == 1
+
+
+def test_why_there_is_no_longer_flow_is_said_each_time(monkeypatch):
+    surface, among = slivers_at_one_vertex()
+    heat = GeodesicDistance(surface, "heat")
+
+    def broken(times, factor, progress):
+        raise SolverError("no factor")
+
+    monkeypatch.setattr(heat_times.HeatTimes, "_flow", broken)
+    for _ in range(2):
+        with pytest.raises(SolverError, match="no factor"):
+            heat.from_source(among)
 
 
 @pytest.mark.skipif(not MESHES.is_dir(), reason="the shared sample meshes are not there")
