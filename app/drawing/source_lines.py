@@ -16,11 +16,13 @@ class SourceLine:
     """Places (k) of a line, whose neighbours share a face.
 
     corners (k, 3): vertices of a face that holds each; weights (k, 3): of these.  is_closed: the last joins the first.
+    name: in sentences, if it is of a source.
     """
 
     corners: np.ndarray
     weights: np.ndarray
     is_closed: bool
+    name: str = ""
 
     def positions(self, vertices: np.ndarray) -> np.ndarray:
         """(k, 3) on a surface whose vertices are at (n, 3)."""
@@ -34,8 +36,8 @@ class SourceLine:
         return np.where(has, self.corners, some)
 
 
-def source_lines(pieces: Pieces) -> list[SourceLine]:
-    """The lines that the parts of lines among some pieces make."""
+def source_lines(pieces: Pieces, name: str = "") -> list[SourceLine]:
+    """The lines that the parts of lines among some pieces make; name: of each."""
     lines = pieces.lines
     corners = np.concatenate([lines.corners, lines.corners])
     weights = np.concatenate([lines.start, lines.stop])
@@ -52,4 +54,4 @@ def source_lines(pieces: Pieces) -> list[SourceLine]:
     segments = segments[segments[:, 0] != segments[:, 1]]
     found = chains(segments) if len(segments) else []
     at = np.array(places, np.int64)
-    return [SourceLine(corners[at[ids]], weights[at[ids]], closed) for ids, closed in found]
+    return [SourceLine(corners[at[ids]], weights[at[ids]], closed, name) for ids, closed in found]

@@ -13,13 +13,14 @@ from bihdist_core.analysis.region_boundaries import region_boundaries
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.pieces import pieces_of
-from bihdist_core.sources.source import Place, Source
+from bihdist_core.sources.source import BoundaryLoop, Curve, Place, Source
 from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.document import Document, Panel
 from ..document.measuring import vertices_of
 from ..document.page import Recipe
+from ..document.sourcing import members_of
 from ..drawing.selected import selected_colours
 from ..drawing.source_lines import SourceLine, source_lines
 from ..drawing.style import PINS, style_of
@@ -206,7 +207,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.projection == "orthographic",
         axes=document.axes,
-        lines=tuple(line for start in starts for line in source_lines(pieces_of(start, surface))),
+        lines=_source_lines(starts, surface),
         regions=() if answer.field is None else _region_lines(document, panel, opened),
         selected=_selected(document, panel, surface),
     )
@@ -237,6 +238,23 @@ def _extremum_marks(document: Document, panel: Panel, surface: Surface, answer: 
         return []
     minima = [Mark(vertex, extremum="minimum") for vertex in found.minima.tolist()]
     return minima + [Mark(vertex, extremum="maximum") for vertex in found.maxima.tolist()]
+
+
+def _source_lines(starts: Sequence[Source], surface: Surface) -> tuple[SourceLine, ...]:
+    """Those of boundary loops and curves."""
+    members = dict.fromkeys(member for start in starts for member in members_of(start))
+    return tuple(
+        line
+        for member in members
+        if isinstance(member, BoundaryLoop | Curve)
+        for line in source_lines(pieces_of(member, surface), _line_in_words(member))
+    )
+
+
+def _line_in_words(member: BoundaryLoop | Curve) -> str:
+    if isinstance(member, BoundaryLoop):
+        return f"Boundary loop {member.number}"
+    return f"The {'closed ' if member.closed else ''}curve of {len(member.places)} points"
 
 
 def _source_marks(starts: Sequence[Source], surface: Surface) -> list[Mark]:

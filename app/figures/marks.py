@@ -243,7 +243,7 @@ def _on_shape(shot: Shot, points: np.ndarray) -> np.ndarray:
 
 
 def hidden_words(page: Composition) -> list[str]:
-    """A sentence on each source or other marked vertex that no picture of its panel shows."""
+    """A sentence on each source or other marked vertex, and each line, that no picture of its panel shows."""
     found: dict[str, None] = {}
     for k, panel in enumerate(page.figure.panels):
         shots = [shot for shot in page.shots if shot.panel == k]
@@ -262,6 +262,9 @@ def hidden_words(page: Composition) -> list[str]:
                 continue
             for mark in some:
                 found[f"{_named(mark)} is {rest}"] = None
+        for name in dict.fromkeys(line.name for line in panel.lines):
+            if not any(name in shot.seen for shot in shots):
+                found[f"{name} is hidden in {views}; try --view source or --two-views."] = None
     return list(found)
 
 

@@ -28,6 +28,9 @@ from .outlines import outlines
 from .raster import FINER, SAMPLES, Rectangle, Studio
 from .sight import Curve, Sight, contours_seen
 
+LEAST_SEEN = 3.0
+"""Units of a line; where less of it is seen, nobody will find it."""
+
 PlacedMark = tuple[int, float, float]
 """The index of a mark in its panel, and its x and y on the page."""
 
@@ -40,7 +43,7 @@ class Shot:
     the panel, and where (x, y) on the page; frame: (3, 3) of the camera, see `drawing.camera.frame`; ghosts: of marks
     that the shape hides, the same; lines, regions: what is seen of those that the field starts from, and of boundaries
     of regions; source: for an inset, what
-    it enlarges.
+    it enlarges.  seen: the names of the lines of which something is seen.
     """
 
     panel: int
@@ -54,6 +57,7 @@ class Shot:
     source: Box | None = None
     lines: list[Line] = field(default_factory=list)
     regions: list[Line] = field(default_factory=list)
+    seen: frozenset[str] = frozenset()
 
 
 class Stage:
@@ -157,7 +161,11 @@ class _Taker:
         self._sight, self._curves = sight, curves
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
-        self._lines, self._regions = (self._visible(lines) for lines in (self._panel.lines, self._panel.regions))
+        of_lines = self._visible(self._panel.lines)
+        self._lines = [part for parts in of_lines for part in parts]
+        named = zip(self._panel.lines, of_lines, strict=True)
+        self._seen = frozenset(line.name for line, parts in named if sum(map(_length, parts)) > LEAST_SEEN)
+        self._regions = [part for parts in self._visible(self._panel.regions) for part in parts]
         self._marks, self._ghosts = self._placed_marks()
 
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
@@ -192,6 +200,7 @@ class _Taker:
             source,
             [(move(p + self._corner), c) for p, c in self._lines],
             [(move(p + self._corner), c) for p, c in self._regions],
+            self._seen,
         )
 
     # ------------------------------------------------------------------ what is seen
@@ -221,11 +230,10 @@ class _Taker:
             raise ParameterError(said)
         return contours_seen(self._sight, panel.field, found)
 
-    def _visible(self, lines: Sequence[SourceLine]) -> list[Line]:
-        """What is seen of lines on the surface."""
+    def _visible(self, lines: Sequence[SourceLine]) -> list[list[Line]]:
+        """What is seen of each of the lines on the surface."""
         x = self._surface.vertices
-        curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
-        return [part for parts in self._sight.visible(curves) for part in parts]
+        return self._sight.visible([Curve(line.positions(x), line.spans, line.is_closed) for line in lines])
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Those that are seen, and those that the shape hides."""
@@ -249,6 +257,11 @@ class _Taker:
         corners = self._surface.vertices[faces[there]]
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
         return normal / max(float(np.linalg.norm(normal)), 1e-300)
+
+
+def _length(part: Line) -> float:
+    """Of a part of a line, in units of the page."""
+    return float(np.linalg.norm(np.diff(part[0], axis=0), axis=1).sum())
 
 
 class _Move:

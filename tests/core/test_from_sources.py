@@ -123,6 +123,55 @@ def test_a_place_on_an_edge_is_the_same_in_both_faces(make):
     assert np.abs(fields[0] - fields[1]).max() <= SMALL * fields[0].max()
 
 
+@pytest.mark.parametrize("shape", ["closed", "with a boundary"])
+def test_the_difference_from_a_divided_face_is_that_of_the_discretization(shape):
+    """A vertex more in a face bends functions there as no linear one can: at the worst place, next to the source, by
+    something that halves as edges do, and on the mean by a quarter.
+
+    Measured on real meshes (the largest of 12 places): 1.4e-3 of the maximum at 810 vertices, then 6.1e-4, 2.8e-4 and
+    1.6e-4 where each face is divided in four; 1.0e-3, 4.5e-4, 2.1e-4 from 3,301 on.
+    """
+    surface = bumpy(500) if shape == "closed" else grid(21, 21)
+    place = Place.of(77, 1 / 3, 1 / 3)
+    worst, mean = [], []
+    for _ in range(3):
+        divided, ids = split_at(surface, pieces_of(place, surface))
+        expected = BiharmonicDistance(divided).from_source(int(ids[0]))[: len(surface.vertices)]
+        apart = np.abs(BiharmonicDistance(surface).from_source(place) - expected) / expected.max()
+        worst.append(apart.max())
+        mean.append(apart.mean())
+        surface, place = in_four(surface), Place.of(3 * len(surface.faces) + place.face, 1 / 3, 1 / 3)
+    assert worst[0] < 1e-2
+    assert np.all(np.divide(worst[1:], worst[:-1]) < 0.6)
+    assert np.all(np.divide(mean[1:], mean[:-1]) < 0.4)
+
+
+def in_four(surface):
+    """The same shape with every edge divided in two; the middle one of the four parts of face f is face 3 m + f."""
+    faces, count = surface.faces, len(surface.vertices)
+    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, number = np.unique(sides, axis=0, return_inverse=True)
+    a, b, c = count + number.reshape(3, -1)
+    i, j, k = faces.T
+    parts = np.concatenate([np.column_stack(part) for part in ((i, a, c), (a, j, b), (c, b, k), (a, b, c))])
+    return Surface(np.concatenate([surface.vertices, surface.vertices[edges].mean(axis=1)]), parts)
+
+
+@pytest.mark.parametrize("corner", [0, 1, 2])
+def test_towards_a_corner_a_place_becomes_the_vertex(corner):
+    distance, face = BiharmonicDistance(BUMPY), 17
+    there = distance.from_source(int(BUMPY.faces[face][corner]))
+    apart = []
+    for share in (1e-3, 1e-6, 0.0):
+        weights = np.full(3, share / 2)
+        weights[corner] = 1 - share
+        field = distance.from_source(Place(face, tuple(weights.tolist())))
+        apart.append(np.abs(field - there).max() / there.max())
+    assert apart[0] < 1e-3
+    assert apart[1] < 1e-6
+    assert apart[2] <= 1e-12
+
+
 @pytest.mark.parametrize("size", [1e-6, 1e-12])
 def test_near_a_corner_the_distance_to_it_has_all_its_digits(size):
     distance = BiharmonicDistance(BUMPY)

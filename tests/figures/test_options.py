@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from app.drawing.camera import Camera
+from app.drawing.source_lines import source_lines
 from app.drawing.style import DARK, PAPER, STYLES
 from app.figures import raster
 from app.figures.draw import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
 from app.figures.layout import lay_out
 from app.figures.size import Size
-from bihdist_core import ParameterError, Surface
+from bihdist_core import Curve, ParameterError, Place, Surface
+from bihdist_core.sources.pieces import pieces_of
 from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces
 
 SIZE = Size(400, 400, dpi=96)
@@ -170,6 +172,20 @@ def test_a_hidden_mark_is_a_ghost_and_is_spoken_of(ball, tmp_path):
             assert said == [
                 f"Vertex {vertex} is hidden in the view back: a dashed ring; try --view source or --two-views."
             ]
+
+
+def test_a_line_that_is_hidden_all_along_is_spoken_of(ball, tmp_path):
+    nearest = np.argsort(-ball.vertices[ball.faces].mean(axis=1)[:, 2])[:20]
+    curve = Curve((Place.of(int(nearest[0]), 0.3, 0.3), Place.of(int(nearest[-1]), 0.3, 0.3)))
+    lines = tuple(source_lines(pieces_of(curve, ball), "The curve of 2 points"))
+    field = ball.vertices[:, 1] + 2
+    for views, said in (
+        (("front",), []),
+        (("back", "front"), []),
+        (("back",), ["The curve of 2 points is hidden in the view back; try --view source or --two-views."]),
+    ):
+        panel = FigurePanel(ball, field, views=views, lines=lines, heading="a name")
+        assert save_figure(Figure((panel,), size=SIZE), tmp_path / "f.png") == said
 
 
 def test_rows_and_columns(ball):
