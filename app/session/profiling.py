@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
-from bihdist_core.analysis.places import Place as PathPlace
 from bihdist_core.analysis.plane_sections import plane_section
 from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.distances.answers import failure_in_words
@@ -23,13 +22,13 @@ FEW = "A profile goes from point to point: pin two points, or choose its ends ab
 
 @dataclass(frozen=True, eq=False)
 class PathWanted:
-    """A path through places (see `places.Place`) of a surface, in one of the document's WAYS.
+    """A path through vertices and places in faces of a surface, in one of the document's WAYS.
 
     across: (3,) in the plane of a section.
     """
 
     surface: Surface
-    places: tuple[PathPlace, ...]
+    places: tuple[int | Place, ...]
     way: str
     across: tuple[float, float, float] | None = None
 
@@ -84,16 +83,14 @@ def point_words(document: Document, name: str) -> str:
     return name if number is None else f"pin {number}"
 
 
-def _vertex(surface: Surface, place: PathPlace) -> int:
+def _vertex(surface: Surface, place: int | Place) -> int:
     """A vertex of the component that a place is on."""
-    return place if isinstance(place, int) else int(surface.faces[int(place[0]), 0])
+    return place if isinstance(place, int) else int(surface.faces[place.face, 0])
 
 
-def _place(at: Source | None, name: str) -> PathPlace:
-    if isinstance(at, int):
+def _place(at: Source | None, name: str) -> int | Place:
+    if isinstance(at, int | Place):
         return at
-    if isinstance(at, Place):
-        return (at.face, *at.weights)
     raise ParameterError(f"A profile goes through vertices and places in faces; {name!r} is neither.")
 
 

@@ -22,9 +22,10 @@ from ..distances.edge_geodesic import EdgeGeodesic
 from ..distances.geodesic import EXACT_UP_TO
 from ..errors import ParameterError, SolverError
 from ..progress import Progress, part, silent
+from ..sources.source import Place
 from ..sources.splitting import Split
 from ..surface import Surface
-from .places import Place, Places
+from .places import Places, component_of, place_words
 from .surface_paths import Crossings, Stars, SurfacePath, assembled
 
 METHODS = ("auto", "exact", "straightened", "edges")
@@ -57,8 +58,12 @@ class GeodesicPaths:
         self._components: dict[int, tuple[Surface, np.ndarray, np.ndarray]] = {}
         self._stars: tuple[Surface, Stars] | None = None
 
-    def path(self, places: Sequence[Place], method: str = "auto", progress: Progress | None = None) -> SurfacePath:
-        """The path through two or more places, in order; its `method` and `label` say how each of its parts was made.
+    def path(
+        self, places: Sequence[int | Place | str], method: str = "auto", progress: Progress | None = None
+    ) -> SurfacePath:
+        """The path through two or more vertices or places in faces, or their words, in order.
+
+        Its `method` and `label` say how each of its parts was made.
 
         method: "exact"; "straightened"; "edges"; or "auto": the first of these that the mesh allows, exact up to 20,000
         vertices and without flat faces, the first two where it is manifold (and, for the second, its faces are
@@ -73,15 +78,13 @@ class GeodesicPaths:
         if len(places) < 2:
             raise ParameterError(f"A path leads through two places or more; {len(places)} were given.")
         found = Places.of(self.surface, places)
-        label = self.surface.component_of_vertex[found.corners[:, 0]]
-        if (label != label[0]).any():
-            raise ParameterError(f"There is no path on {self.surface.name} between places on different components.")
-        component, ids, faces = self._component(int(label[0]))
+        component, ids, faces = self._component(component_of(self.surface, places, found))
         local = Places(np.searchsorted(faces, found.faces), np.searchsorted(ids, found.corners), found.weights)
         split = local.split(component)
         if (split.vertices[1:] == split.vertices[:-1]).any():
             k = int(np.flatnonzero(split.vertices[1:] == split.vertices[:-1])[0])
-            raise ParameterError(f"The places {k} and {k + 1} of a path are the same, {places[k]!r}; leave one out.")
+            same = place_words(places[k])
+            raise ParameterError(f"The places {k} and {k + 1} of a path are the same, {same}; leave one out.")
         made = self._made(split, method, progress or silent)
         if len(ids) == len(self.surface.vertices):
             return made

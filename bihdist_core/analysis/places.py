@@ -7,12 +7,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ParameterError
+from ..sources.pieces import pieces_of
+from ..sources.source import Place, checked_source
 from ..sources.splitting import Split, split_at
+from ..sources.words import short_words_of
 from ..surface import Surface
-
-Place = int | Sequence[float]
-"""A vertex id, or (face, b0, b1): a point of a face by the weights of its first two corners; the third's is the
-rest."""
 
 ON_SIDE = 1e-12
 """A weight below this is 0: the place is on a side of its face, or in a corner."""
@@ -30,17 +29,21 @@ class Places:
     weights: np.ndarray
 
     @classmethod
-    def of(cls, surface: Surface, places: Sequence[Place]) -> "Places":
-        """Vertex ids and points in faces, checked.
+    def of(cls, surface: Surface, places: Sequence[int | Place | str]) -> "Places":
+        """Vertices and places in faces, or their words, checked.
 
-        Raises VertexError for a bad vertex; ParameterError for a face that does not exist, or weights that are not
-        three numbers of at least 0 and of sum 1.
+        Raises VertexError for a bad vertex; ParameterError for other sources, and for a face that does not exist.
         """
         if not len(places):
             raise ParameterError("No places were given; at least one is needed.")
-        found = [_checked(surface, place) for place in places]
-        faces = np.array([face for face, _ in found], np.int64)
-        return cls(faces, surface.faces[faces], np.array([weights for _, weights in found]))
+        found = [pieces_of(_single(place), surface) for place in places]
+        weights = np.concatenate([pieces.start for pieces in found])
+        weights = np.where(weights <= ON_SIDE, 0, weights)
+        return cls(
+            np.concatenate([pieces.faces for pieces in found]),
+            np.concatenate([pieces.corners for pieces in found]),
+            weights / weights.sum(axis=1, keepdims=True),
+        )
 
     def __len__(self) -> int:
         return len(self.faces)
@@ -60,22 +63,22 @@ def weighted(at: np.ndarray, corners: np.ndarray, weights: np.ndarray) -> np.nda
     return (w * np.where(w > 0, at[corners], 0)).sum(axis=1)
 
 
-def _checked(surface: Surface, place: Place) -> tuple[int, np.ndarray]:
-    if np.ndim(place) == 0:
-        vertex = surface.check_vertex(place)  # type: ignore[arg-type]
-        face = int(np.flatnonzero((surface.faces == vertex).any(axis=1))[0])
-        return face, (surface.faces[face] == vertex).astype(np.float64)
-    words = np.asarray(place, np.float64)
-    m = len(surface.faces)
-    if words.shape not in ((3,), (4,)) or not np.isfinite(words).all():
-        raise ParameterError(f"{place!r} is no place; one is a vertex id, or (face, b0, b1), or (face, b0, b1, b2).")
-    if not 0 <= words[0] < m or words[0] % 1:
-        raise ParameterError(f"{surface.name} has no face {words[0]:g}; faces run from 0 to {m - 1}.")
-    weights = words[1:] if len(words) == 4 else np.append(words[1:], 1 - words[1] - words[2])
-    if (weights < -ON_SIDE).any() or abs(weights.sum() - 1) > 1e-9:
-        raise ParameterError(
-            f"The weights of a place in face {words[0]:g} are {', '.join(f'{w:g}' for w in weights)}; "
-            "they must be at least 0, with the sum 1."
-        )
-    weights = np.where(weights <= ON_SIDE, 0, weights)
-    return int(words[0]), weights / weights.sum()
+def place_words(place: int | Place | str) -> str:
+    """How a sentence names a place."""
+    return short_words_of(checked_source(place))
+
+
+def component_of(surface: Surface, places: Sequence[int | Place | str], found: Places) -> int:
+    """The component that places are on, as they were given and as found; ParameterError if they are on several."""
+    label = surface.component_of_vertex[found.corners[:, 0]]
+    if (label != label[0]).any():
+        first, other = place_words(places[0]), place_words(places[int((label != label[0]).argmax())])
+        raise ParameterError(f"Nothing on {surface.name} joins {first} and {other}: they are on different components.")
+    return int(label[0])
+
+
+def _single(place: int | Place | str) -> int | Place:
+    source = checked_source(place)
+    if not isinstance(source, int | Place):
+        raise ParameterError(f"A vertex or a place in a face is one place; {short_words_of(source)} is not.")
+    return source

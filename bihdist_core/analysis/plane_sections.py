@@ -8,10 +8,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ParameterError
+from ..sources.source import Place
 from ..sources.splitting import Split
 from ..surface import Surface
 from .isoline_tracing import Isoline, isolines
-from .places import Place, Places
+from .places import Places, component_of, place_words
 from .surface_paths import Crossings, Stars, SurfacePath, assembled
 
 PARTS = {
@@ -23,7 +24,7 @@ PARTS = {
 
 
 def plane_section(
-    surface: Surface, places: Sequence[Place], direction: npt.ArrayLike, part: str = "shorter"
+    surface: Surface, places: Sequence[int | Place | str], direction: npt.ArrayLike, part: str = "shorter"
 ) -> SurfacePath:
     """The parts of the surface's sections that join two or more places in order.
 
@@ -31,9 +32,9 @@ def plane_section(
     of two places, the "whole" curve on which both lie, from the first by the shorter way to the second and back to the
     first, or from end to end where it is open.
 
-    Raises ParameterError for another part, fewer than two places, the same place twice in a row, more than two for the
-    whole, for a direction that is not three finite numbers or is that from one place to the next, and where the section
-    does not join them, or in one way only; VertexError for a bad vertex.
+    Raises ParameterError for another part, fewer than two places, the same place twice in a row, places on different
+    components, more than two for the whole, for a direction that is not three finite numbers or is that from one place
+    to the next, and where the section does not join them, or in one way only; VertexError for a bad vertex.
     """
     d = np.asarray(direction, np.float64)
     if d.shape != (3,) or not np.isfinite(d).all():
@@ -44,11 +45,14 @@ def plane_section(
         raise ParameterError(f"A section joins two places or more; {len(places)} were given.")
     if part == "whole" and len(places) > 2:
         raise ParameterError(f"The whole section is that through two places; {len(places)} were given.")
-    split = Places.of(surface, places).split(surface)
+    at = Places.of(surface, places)
+    component_of(surface, places, at)
+    split = at.split(surface)
     stars, parts, knots = Stars(split.surface), [], slice(None)
     for k, (start, stop) in enumerate(pairwise(split.vertices.tolist())):
         if start == stop:
-            raise ParameterError(f"The places {k} and {k + 1} of a section are the same, {places[k]!r}; leave one out.")
+            same = place_words(places[k])
+            raise ParameterError(f"The places {k} and {k + 1} of a section are the same, {same}; leave one out.")
         found = _ways(split, start, stop, d)
         if part == "whole":
             pieces, knots = found[0].whole()

@@ -12,6 +12,7 @@ from bihdist_core import (
     GeodesicDistance,
     OutputError,
     ParameterError,
+    Place,
     SolverError,
     Surface,
     VertexError,
@@ -24,6 +25,7 @@ from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.plane_sections import plane_section
 from bihdist_core.analysis.profile_output import write_profile
 from bihdist_core.errors import Cancelled
+from bihdist_core.sources.words import places_from
 from tests.shapes import (
     MESHES,
     bumpy,
@@ -83,7 +85,7 @@ def test_is_as_long_as_geodesic_distance(rough, paths, method):
 
 @pytest.mark.parametrize("method", ["exact", "straightened", "edges"])
 def test_leads_through_places_in_faces_and_on_edges(rough, paths, method):
-    places = [5, (10, 0.2, 0.5), (300, 0.5, 0.5), (300, 0.2, 0.2, 0.6), 77]
+    places = [5, Place.of(10, 0.2, 0.5), Place.of(300, 0.5, 0.5), Place.of(300, 0.2, 0.2), 77]
     path = paths.path(places, method)
     check(rough, path)
     assert np.allclose(path.points[path.knots], Places.of(rough, places).values(rough.vertices), 0, 1e-12)
@@ -94,8 +96,8 @@ def test_leads_through_places_in_faces_and_on_edges(rough, paths, method):
 
 def test_on_a_plane_the_path_is_the_segment():
     plane = grid(5, 4)
-    path = GeodesicPaths(plane).path([(0, 0.3, 0.3), 29], "exact")
-    a = Places.of(plane, [(0, 0.3, 0.3)]).values(plane.vertices)[0]
+    path = GeodesicPaths(plane).path([Place.of(0, 0.3, 0.3), 29], "exact")
+    a = Places.of(plane, [Place.of(0, 0.3, 0.3)]).values(plane.vertices)[0]
     assert path.length == pytest.approx(np.linalg.norm(plane.vertices[29] - a), rel=ROUNDING)
     # A linear field is linear in arc length.
     assert np.allclose(path.along(plane.vertices[:, 0]), a[0] + path.arcs / path.length * (5 - a[0]), 0, 1e-6)
@@ -120,7 +122,17 @@ def test_values_that_are_missing_beside_the_path_do_not_count():
 
 
 def test_a_split_surface_is_the_same_shape(rough):
-    places = Places.of(rough, [4, (7, 0.2, 0.3), (7, 0.5, 0.5), (7, 0.1, 0.1), (7, 0.2, 0.3), (9, 0, 0.25)])
+    places = Places.of(
+        rough,
+        [
+            4,
+            Place.of(7, 0.2, 0.3),
+            Place.of(7, 0.5, 0.5),
+            Place.of(7, 0.1, 0.1),
+            Place.of(7, 0.2, 0.3),
+            Place.of(9, 0, 0.25),
+        ],
+    )
     split = places.split(rough)
     assert split.vertices.tolist() == [4, 400, 401, 402, 400, 403]
     assert split.surface.is_manifold
@@ -134,7 +146,7 @@ def test_a_split_surface_is_the_same_shape(rough):
 
 
 def test_profiles_are_written_and_read_back(rough, paths, tmp_path):
-    path, field = paths.path([3, (10, 0.2, 0.5), 200], "straightened"), rough.vertices[:, 0]
+    path, field = paths.path([3, Place.of(10, 0.2, 0.5), 200], "straightened"), rough.vertices[:, 0]
     for name in ("a.csv", "a.npy", "a.json", "a.vtp"):
         write_profile(tmp_path / name, path, {"x of it": field})
     table = np.loadtxt(tmp_path / "a.csv", delimiter=",", skiprows=1)
@@ -143,7 +155,7 @@ def test_profiles_are_written_and_read_back(rough, paths, tmp_path):
     assert np.array_equal(table[:, 0], path.arcs)
     assert np.array_equal(table[:, 8], path.along(field))
     said = json.loads((tmp_path / "a.json").read_text())
-    again = Places.of(rough, said["points"])
+    again = Places.of(rough, places_from(said["points"], "points"))
     assert np.allclose(again.values(rough.vertices), path.points, 0, 1e-12)
     assert said["fields"]["x of it"] == path.along(field).tolist()
     io = pytest.importorskip("vtkmodules.vtkIOXML", reason="VTK is not installed")
@@ -191,8 +203,10 @@ def test_stays_on_its_component_and_keeps_the_ids():
     path = GeodesicPaths(both).path([61, 63], "exact")
     check(both, path)
     assert set(path.corners.ravel()) <= {61, 62, 63, 64}
-    with pytest.raises(ParameterError, match="different components"):
+    with pytest.raises(ParameterError, match="joins 0 and 63: they are on different components"):
         GeodesicPaths(both).path([0, 63])
+    with pytest.raises(ParameterError, match=r"joins f0:0\.2,0\.2 and 63: they are on different components"):
+        plane_section(both, ["f0:0.2,0.2", 63], [0, 0, 1])
     with pytest.raises(VertexError, match="vertex 60"):
         GeodesicPaths(both).path([0, 60])
 
@@ -202,9 +216,11 @@ def test_bad_requests_are_refused(paths):
         ([3], "two places or more; 1"),
         ([], "two places or more; 0"),
         ([3, 5, 5], "places 1 and 2 of a path are the same, 5"),
-        ([3, (1, 0.5)], "is no place"),
-        ([3, (99999, 0.2, 0.2)], "no face 99999"),
-        ([3, (0, 0.7, 0.7)], "0.7, 0.7, -0.4"),
+        ([3, (1, 0.5)], "A source is a vertex id, a Place"),
+        ([3, "loop:0"], "one place; loop:0 is not"),
+        ([3, Place.of(99999, 0.2, 0.2)], "no face 99999"),
+        ([3, "f0:0.7,0.7"], "0.7 and 0.7 leave -0.4"),
+        ([3, "f17:0.2,0.5", Place.of(17, 0.2, 0.5)], "places 1 and 2 of a path are the same, f17:0.2,0.5"),
     ]:
         with pytest.raises(ParameterError, match=match):
             paths.path(places)
@@ -254,7 +270,7 @@ def test_what_takes_for_ever_is_given_up(monkeypatch, rough):
 
 
 def test_a_section_lies_in_its_plane_and_ends_in_its_places(rough):
-    places = [(8, 0.2, 0.3), 250]
+    places = [Place.of(8, 0.2, 0.3), 250]
     path = plane_section(rough, places, [0.3, 0.2, 1])
     check(rough, path)
     ends = Places.of(rough, places).values(rough.vertices)
@@ -278,7 +294,7 @@ def test_a_section_through_vertices_of_a_plane():
 
 
 def test_both_ways_of_a_section_make_the_whole(rough):
-    places = [(8, 0.2, 0.3), 250]
+    places = [Place.of(8, 0.2, 0.3), 250]
     short, long, whole = (plane_section(rough, places, [0.3, 0.2, 1], part) for part in ("shorter", "longer", "whole"))
     ends = Places.of(rough, places).values(rough.vertices)
     normal = np.cross(ends[1] - ends[0], [0.3, 0.2, 1])
@@ -303,7 +319,7 @@ def test_the_whole_of_an_open_section_goes_from_end_to_end():
 
 
 def test_sections_are_led_from_place_to_place(rough):
-    places, d = [3, (8, 0.2, 0.3), 250, 120], [0.3, 0.2, 1]
+    places, d = [3, Place.of(8, 0.2, 0.3), 250, 120], [0.3, 0.2, 1]
     path = plane_section(rough, places, d)
     check(rough, path)
     assert np.allclose(path.points[path.knots], Places.of(rough, places).values(rough.vertices), 0, 1e-12)
