@@ -5,14 +5,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import ParameterError
 from bihdist_core.sources.source import Source
 
 from ..document.edits import move_source, show_in
-from ..document.measuring import add_pins, remove_pins
 from ..document.quantities import Quantity
-from ..session.pinned import PinnedPlace, pinned_on
 from .look.numbers import number
+from .pin_gestures import PinGestures
 from .source_gestures import SourceGestures
 
 if TYPE_CHECKING:
@@ -29,7 +27,10 @@ LEAST_TOWARDS = 0.3
 
 
 class Gestures:
-    """See the module.  is_live: whether the source follows the pointer; sources: what else is done to it."""
+    """See the module.
+
+    is_live: whether the source follows the pointer; sources: what else is done to it; pins: the same of pins.
+    """
 
     def __init__(self, window) -> None:
         self._window = window
@@ -38,10 +39,10 @@ class Gestures:
         self._met_in = -1  # in which panel
         self.is_live = self.is_dragging = False
         self.sources = SourceGestures(window)
+        self.pins = PinGestures(window, self.sources)
         self._rest_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
         self._rest_soon.timeout.connect(self._release)
         grid.clicked.connect(self._click)
-        grid.pinned.connect(self._pin)
         grid.dragged.connect(self._drag)
         grid.released.connect(self._release)
         grid.hovered.connect(self._hover)
@@ -67,19 +68,6 @@ class Gestures:
     def _move(self, panel: int, at: Source, **how: object) -> None:
         session = self._window.session
         session.show(move_source(session.document, panel, at), **how)
-
-    def _pin(self, panel: int, met: "Met") -> None:
-        """A pin there; one that is there already stays."""
-        session = self._window.session
-        surface = session.document.panel(panel).surface
-        try:
-            session.show(add_pins(session.document, [self.sources.at(met)], surface))
-        except ParameterError as error:  # there are too many
-            self._window.failed(str(error))
-
-    def _unpin(self, point: str) -> None:
-        session = self._window.session
-        session.show(remove_pins(session.document, [point]))
 
     def _drag(self, panel: int, mark: int, met: "Met") -> None:
         self.is_dragging = True
@@ -170,11 +158,7 @@ class Gestures:
             self._grid.pointing.show(panel, vertex)
             menu.addAction("Source here\tClick", lambda: self._click(panel, met))
             self.sources.offer(menu, panel, met)
-            pin = self._pin_at(panel, vertex)
-            if pin is None:
-                menu.addAction("Pin here\tShift+click", lambda: self._pin(panel, met))
-            else:
-                menu.addAction(f"Remove pin {pin.number}", lambda: self._unpin(pin.point))
+            self.pins.offer(menu, panel, met, where)
             menu.addSeparator()
             menu.addAction("Isoline through here", lambda: window.choices.isoline.pass_through(panel, vertex))
             if window.session.document.isolines.through:
@@ -187,6 +171,8 @@ class Gestures:
             menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(vertex))))
             menu.addAction("Copy values", lambda: _copy(self._values(vertex)))
         else:
+            self.pins.offer(menu, panel, None, where)
+            menu.addSeparator()
             for word in ("reset", "view before", "view after"):
                 menu.addAction(actions[word])
             menu.addSeparator()
@@ -194,13 +180,6 @@ class Gestures:
                 menu.addAction(actions[word])
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(where)
-
-    def _pin_at(self, panel: int, vertex: int) -> "PinnedPlace | None":
-        session = self._window.session
-        document = session.document
-        surface = document.panel(panel).surface
-        pins = pinned_on(document, surface, session.opened(surface).surface)
-        return next((pin for pin in pins if pin.vertex == vertex), None)
 
     def _place(self, vertex: int) -> np.ndarray:
         return self._window.session.surface.vertices[vertex]

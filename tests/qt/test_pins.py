@@ -99,6 +99,93 @@ def test_the_walk_through_sources_leaves_pins(opened):
     assert (s.source, ids(s)) == (70, pinned)
 
 
+def head_of(s, panel, vertex):
+    """The middle of the drop of a pin."""
+    from qtpy import QtCore
+
+    from app.qt.panels.pin_marks import RISE
+
+    return s.point_of(s.panels[panel], vertex) - QtCore.QPoint(0, round(RISE))
+
+
+def test_a_drop_that_is_clicked_selects_its_row(opened):
+    from qtpy import QtCore, QtTest
+
+    s = opened
+    first, second = seen_vertices(s, 2)
+    shift_click(s, first)
+    shift_click(s, second)
+    left, control = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.KeyboardModifier.ControlModifier
+    points = [pin.point for pin in s.document.pins]
+
+    def click(vertex, panel=0, *modifiers):
+        QtTest.QTest.mouseClick(s.panels[panel].view, left, *modifiers, pos=head_of(s, panel, vertex))
+        s.settle(0.05)
+
+    # As long as the list is closed, it stands out.
+    click(first)
+    assert s.window.grid.lit == (points[0],)
+    click(first)
+    assert s.window.grid.lit == ()
+    dock = dock_of(s)
+    click(second, 2)
+    assert dock.table.points == (points[1],)
+    click(first, 0, control)
+    assert set(dock.table.points) == set(points)
+    click(first)
+    assert dock.table.points == (points[0],)
+    assert s.window.grid.lit == (points[0],)
+    click(first)
+    assert dock.table.points == ()
+    assert s.source == 5  # which stays where it is
+    # With Shift, the place under the drop is pinned.
+    met = s.panels[0].view.met_at(head_of(s, 0, first))
+    QtTest.QTest.mouseClick(s.panels[0].view, left, QtCore.Qt.KeyboardModifier.ShiftModifier, pos=head_of(s, 0, first))
+    assert ids(s) == [first, second, met.vertex]
+
+
+def test_a_drop_is_dragged_in_one_step_and_the_matrix_follows(opened):
+    from qtpy import QtCore, QtTest
+
+    s = opened
+    first, second = seen_vertices(s, 2)
+    shift_click(s, first)
+    shift_click(s, second)
+    dock = dock_of(s)
+    s.until(lambda: dock.distances.is_known)
+    view, left = s.panels[0].view, QtCore.Qt.MouseButton.LeftButton
+    for _ in range(2):
+        head, before = head_of(s, 0, ids(s)[0]), ids(s)
+        QtTest.QTest.mousePress(view, left, pos=head)
+        for step in range(1, 9):
+            _move(view, head + QtCore.QPoint(0, 5 * step))
+            s.settle(0.01)
+        QtTest.QTest.mouseRelease(view, left, pos=head + QtCore.QPoint(0, 40))
+        s.settle(0.05)
+        assert ids(s)[0] not in before
+        assert ids(s)[1] == second
+        tip = s.point_of(s.panels[0], before[0]) + QtCore.QPoint(0, 40)
+        assert ids(s)[0] == view.met_at(tip).vertex
+    s.until(lambda: dock.distances.is_known)
+    spec = dock.distances.spec
+    assert dock.distances.matrix()[0, 1] == s.session.opened().distances("voronoi").get(spec).between(*ids(s))
+    s.session.undo()
+    assert ids(s) == before
+    s.session.undo()
+    assert ids(s) == [first, second]
+    assert s.source == 5
+
+
+def _move(view, place):
+    """The pointer, with the left button down."""
+    from qtpy import QtCore, QtGui, QtWidgets
+
+    button = QtCore.Qt.MouseButton
+    kind, none = QtCore.QEvent.Type.MouseMove, QtCore.Qt.KeyboardModifier.NoModifier
+    event = QtGui.QMouseEvent(kind, QtCore.QPointF(place), button.NoButton, button.LeftButton, none)
+    QtWidgets.QApplication.sendEvent(view, event)
+
+
 # ---------------------------------------------------------------------- the dock
 def dock_of(s):
     s.window.actions_by_word["dock pins"].trigger()
@@ -263,7 +350,7 @@ def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(opened):
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
     select_row(s, dock, 0)
-    assert s.window.grid._lit == (s.document.pins[0].point,)
+    assert s.window.grid.lit == (s.document.pins[0].point,)
     press(s, dock.table, QtCore.Qt.Key.Key_F2)
     editor = next(box for box in dock.table.findChildren(QtWidgets.QLineEdit) if box.isVisible())
     QtTest.QTest.keyClicks(editor, "nose")
@@ -279,7 +366,7 @@ def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(opened):
     assert s.document.pins[1].colour == 8
     press(s, dock.table, QtCore.Qt.Key.Key_Delete)
     assert ids(s) == [40, 700]
-    assert s.window.grid._lit == ()
+    assert s.window.grid.lit == ()
     for _ in range(4):
         s.session.undo()
     assert ids(s) == [12, 40, 700]

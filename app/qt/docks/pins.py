@@ -68,6 +68,7 @@ class PinsDock(Instrument):
         self.wrong.setProperty("error", True)
         self.table = PinTable(self)
         self.table.chosen.connect(window.grid.light_pins)
+        window.grid.pin_clicked.connect(self._choose)
         self.table.rows.named.connect(self.rename)
         self.table.moved.connect(self.move_to)
         self.table.removed.connect(self.remove)
@@ -149,6 +150,13 @@ class PinsDock(Instrument):
 
     def show_answer(self, panel: int) -> None:
         self._soon.start()
+
+    def _choose(self, panel: int, number: int, is_more: bool) -> None:
+        """A drop has been clicked: its row is selected, or only it is no longer; is_more: besides the others."""
+        point = self.window_.session.document.pins[number - 1].point
+        if "pins" in self.window_.session.document.docks:
+            chosen = set(self.table.points)
+            self.table.select(tuple(chosen ^ {point}) if is_more else () if chosen == {point} else (point,))
 
     def end(self) -> None:
         self.distances.end()

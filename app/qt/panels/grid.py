@@ -42,6 +42,9 @@ class PanelGrid(QtWidgets.QWidget):
 
     clicked = QtCore.Signal(int, object)  # panel, where the surface is met
     pinned = QtCore.Signal(int, object)  # the same with Shift
+    pin_clicked = QtCore.Signal(int, int, bool)  # panel, a pin by its number, whether with Ctrl
+    pin_dragged = QtCore.Signal(int, int, object)  # panel, a pin by its number, the `Met` where its tip is
+    pin_released = QtCore.Signal()
     added = QtCore.Signal(int, object)  # the same with Ctrl
     dragged = QtCore.Signal(int, int, object)  # panel, a mark of its source by its number, the `Met` it is over
     released = QtCore.Signal()
@@ -78,7 +81,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._style = PAPER
         self._is_closed = False
         self.pointing = Pointing()
-        self._lit: tuple[str, ...] = ()  # the points of pins that stand out
+        self.lit: tuple[str, ...] = ()  # the points of pins that stand out
         self._selected: np.ndarray | None = None
         self._brush: QtGui.QCursor | None = None
         LOOK.changed.connect(self.update)
@@ -156,6 +159,9 @@ class PanelGrid(QtWidgets.QWidget):
         view.clicked.connect(lambda met: self.clicked.emit(panel.id, met))
         view.pinned.connect(lambda met: self.pinned.emit(panel.id, met))
         view.added.connect(lambda met: self.added.emit(panel.id, met))
+        view.pin_clicked.connect(lambda number, is_more: self.pin_clicked.emit(panel.id, number, is_more))
+        view.pin_dragged.connect(lambda number, met: self.pin_dragged.emit(panel.id, number, met))
+        view.pin_released.connect(self.pin_released)
         view.dragged.connect(lambda mark, met: self.dragged.emit(panel.id, mark, met))
         view.released.connect(self.released)
         view.stroked.connect(lambda met: self.stroked.emit(panel.id, met))
@@ -246,12 +252,12 @@ class PanelGrid(QtWidgets.QWidget):
         """Put the pins of each panel's surface where they are."""
         for panel in document.panels:
             pins = pinned_on(document, panel.surface, self._session.opened(panel.surface).surface)
-            self._panels[panel.id].marks.show_pins(pins, self._lit)
+            self._panels[panel.id].marks.show_pins(pins, self.lit)
 
     def light_pins(self, points: tuple[str, ...]) -> None:
         """Let the pins at these points stand out."""
-        if points != self._lit:
-            self._lit = points
+        if points != self.lit:
+            self.lit = points
             if self._session.surface is not None:
                 self.show_pins(self._session.document)
 

@@ -14,7 +14,7 @@ from . import overlay
 from .extremum_marks import ExtremumMarks
 from .overlay import Pointed
 from .path_marks import PathMarks
-from .pin_marks import PinMark, paint_pins
+from .pin_marks import PinMark, drop_under, paint_pins
 
 if TYPE_CHECKING:
     from .view import View
@@ -63,6 +63,15 @@ class MarksOver:
         if pins != self._pins:
             self._pins, self._unseen = pins, None
             self._view.update()
+
+    def pin_at(self, position: QtCore.QPoint) -> int:
+        """The number of the pin whose drop is under a point of the view; 0 for none."""
+        return drop_under(QtCore.QPointF(position), self._seen_pins(), self._hidden_pins()) if self._pins else 0
+
+    def tip_of(self, number: int) -> QtCore.QPoint:
+        """The pixel of the place of a pin that is seen."""
+        at = self._seen_pins()[number][1]
+        return QtCore.QPoint(int(np.floor(at.x())), int(np.floor(at.y())))
 
     def show_strokes(self, strokes: Sequence[np.ndarray]) -> None:
         """What has been drawn so far, points (k, 3)."""

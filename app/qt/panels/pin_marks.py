@@ -42,12 +42,28 @@ def paint_pins(
 ) -> None:
     """Drops at their places, by number: those that are hidden under the others, the first and what is lit on top."""
 
+    for pin, at in _upwards(pins, hidden):
+        paint_drop(painter, at, pin, pin.number in hidden)
+
+
+def drop_under(
+    place: QtCore.QPointF, pins: Mapping[int, tuple[PinMark, QtCore.QPointF]], hidden: Collection[int]
+) -> int:
+    """The number of the pin whose drop is seen at a place; 0 for none."""
+    over = [pin.number for pin, at in _upwards(pins, hidden) if drop_at(at).contains(place)]
+    return over[-1] if over else 0
+
+
+def _upwards(
+    pins: Mapping[int, tuple[PinMark, QtCore.QPointF]], hidden: Collection[int]
+) -> list[tuple[PinMark, QtCore.QPointF]]:
+    """What lies lowest first."""
+
     def height(each: tuple[PinMark, QtCore.QPointF]) -> tuple[bool, bool, int]:
         pin, _ = each
         return pin.number not in hidden, pin.is_lit, -pin.number
 
-    for pin, at in sorted(pins.values(), key=height):
-        paint_drop(painter, at, pin, pin.number in hidden)
+    return sorted(pins.values(), key=height)
 
 
 def paint_drop(painter: QtGui.QPainter, tip: QtCore.QPointF, pin: PinMark, is_hidden: bool) -> None:

@@ -1,4 +1,5 @@
-"""What the mouse does in a view: it turns, holds a mark of the source, draws or paints; each becomes a signal."""
+"""What the mouse does in a view: it turns, holds a mark of the source or a pin, draws or paints;
+each becomes a signal."""
 
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ MOST_DRAWN = 200
 BRUSH_STEP, MOST_BRUSHED = 6, 24
 """Pixels between two places that a brush touches, and how many at most for one movement of the pointer."""
 
+_CTRL = QtCore.Qt.KeyboardModifier.ControlModifier
 _NONE = QtCore.Qt.MouseButton.NoButton
 
 
@@ -33,6 +35,7 @@ class Pointer:
         self._last = QtCore.QPoint()
         self._is_dragging = self._is_stroke = self._is_brushing = False
         self._held = -1  # which mark
+        self._pin, self._grip = 0, QtCore.QPoint()  # which pin is held, and from where to its tip
 
     @property
     def is_up(self) -> bool:
@@ -70,8 +73,11 @@ class Pointer:
         self._is_stroke = met is not None
         if self._is_stroke:
             view.stroked.emit(met)
-        self._held = view.mark_at(event.pos()) if is_left and is_plain and not self._is_stroke else -1
-        if self._held >= 0:
+        may_hold = is_left and not self._is_stroke and (is_plain or event.modifiers() == _CTRL)
+        self._pin = view.over.pin_at(event.pos()) if may_hold else 0
+        self._grip = view.over.tip_of(self._pin) - event.pos() if self._pin else QtCore.QPoint()
+        self._held = view.mark_at(event.pos()) if may_hold and is_plain and not self._pin else -1
+        if self._held >= 0 or self._pin:
             view.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
 
     def move(self, event: QtGui.QMouseEvent) -> None:
@@ -94,7 +100,11 @@ class Pointer:
             self._draw_to(event.pos())
             return
         step, self._last = event.pos() - self._last, event.pos()
-        if self._held >= 0:
+        if self._pin:
+            met = view.met_at(event.pos() + self._grip)
+            if met is not None:
+                view.pin_dragged.emit(self._pin, met)
+        elif self._held >= 0:
             met = view.met_at(event.pos())
             if met is not None:
                 view.dragged.emit(self._held, met)
@@ -113,20 +123,25 @@ class Pointer:
             view.point_again()
             return
         held, self._held = self._held >= 0, -1
+        pin, self._pin = self._pin, 0
         is_stroke, self._is_stroke = self._is_stroke, False
-        has_ctrl = bool(event.modifiers() & QtCore.Qt.KeyboardModifier.ControlModifier)
-        if held:
+        has_ctrl = bool(event.modifiers() & _CTRL)
+        if held or pin:
             view.unsetCursor()
         if is_stroke:
             if self._is_dragging and event.pos() != self._last:
                 view.stroked.emit(view.met_at(event.pos()))
             view.stroke_ended.emit(has_ctrl)
         elif self._is_dragging:
-            if held:
+            if pin:
+                view.pin_released.emit()
+            elif held:
                 view.released.emit()
             else:
                 view.let_go.emit()
             view.point_again()
+        elif pin:
+            view.pin_clicked.emit(pin, has_ctrl)
         elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
             view.menu_wanted.emit(view.met_at(press), view.mapToGlobal(press))
         elif press is not None and event.button() == QtCore.Qt.MouseButton.LeftButton and not held:
@@ -136,8 +151,8 @@ class Pointer:
                 (view.pinned if has_shift else view.added if has_ctrl else view.clicked).emit(met)
 
     def double_click(self, event: QtGui.QMouseEvent) -> None:
-        """The first click has moved the source there."""
-        if event.button() == QtCore.Qt.MouseButton.LeftButton:
+        """The first click has moved the source there, or has chosen a pin."""
+        if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._view.over.pin_at(event.pos()):
             met = self._view.met_at(event.pos())
             if met is not None:
                 self._view.centred.emit(met)
@@ -150,7 +165,7 @@ class Pointer:
             self._view.setCursor(self.brush)
         elif self.is_drawn_on:
             self._view.setCursor(QtCore.Qt.CursorShape.CrossCursor)
-        elif self._view.mark_at(position) >= 0:
+        elif self._view.over.pin_at(position) or self._view.mark_at(position) >= 0:
             self._view.setCursor(QtCore.Qt.CursorShape.OpenHandCursor)
         else:
             self._view.unsetCursor()

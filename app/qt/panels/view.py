@@ -38,6 +38,9 @@ class View(QtWidgets.QWidget):
     clicked = QtCore.Signal(object)  # a `Met`, clicked without dragging
     pinned = QtCore.Signal(object)  # the same with Shift
     added = QtCore.Signal(object)  # the same with Ctrl
+    pin_clicked = QtCore.Signal(int, bool)  # its drop, by its number; whether with Ctrl
+    pin_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Met`
+    pin_released = QtCore.Signal()
     dragged = QtCore.Signal(int, object)  # a mark of the source by its number, over a `Met`
     released = QtCore.Signal()  # the mark
     stroked = QtCore.Signal(object)  # over a `Met`, or None beside the surface, while that is drawn on

@@ -1,0 +1,100 @@
+"""What is done to pins on the panels: put, chosen, dragged, removed.  `window` is the main window."""
+
+from typing import TYPE_CHECKING
+
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core import ParameterError
+from bihdist_core.sources.source import Source
+
+from ..document.edits import move_source, put_point
+from ..document.instruments import Pin
+from ..document.measuring import add_pins, remove_pins
+
+if TYPE_CHECKING:
+    from ..drawing.picking import Met
+    from .source_gestures import SourceGestures
+
+
+class PinGestures:
+    """sources: which say where on the surface a place is."""
+
+    def __init__(self, window, sources: "SourceGestures") -> None:
+        self._window, self._grid, self._sources = window, window.grid, sources
+        self._grid.pinned.connect(self.put)
+        self._grid.pin_clicked.connect(self._choose)
+        self._grid.pin_dragged.connect(self._drag)
+        self._grid.pin_released.connect(self._arrive)
+
+    def put(self, panel: int, met: "Met") -> None:
+        """A pin there; one that is there already stays."""
+        session = self._window.session
+        surface = session.document.panel(panel).surface
+        try:
+            session.show(add_pins(session.document, [self._sources.at(met)], surface))
+        except ParameterError as error:  # there are too many
+            self._window.failed(str(error))
+
+    def offer(self, menu: QtWidgets.QMenu, panel: int, met: "Met | None", where: QtCore.QPoint) -> None:
+        """In the menu that is opened there: what can be done with the drop under the pointer, or with the place."""
+        view = self._grid.panel(panel).view
+        number = view.over.pin_at(view.mapFromGlobal(where))
+        if not number and met is not None:
+            number = self._number_at(panel, self._sources.at(met))
+        if number:
+            pin = self._pin(number)
+            menu.addAction(f"Source at {_name(pin, number)}", lambda: self._move_source(panel, pin.point))
+            menu.addAction(f"Remove {_name(pin, number)}", lambda: self._remove(pin.point))
+        elif met is not None:
+            menu.addAction("Pin here\tShift+click", lambda: self.put(panel, met))
+
+    # ------------------------------------------------------------------ what it does
+    def _pin(self, number: int) -> Pin:
+        return self._window.session.document.pins[number - 1]
+
+    def _number_at(self, panel: int, at: Source) -> int:
+        """Of the pin at a place, 0 for none."""
+        document = self._window.session.document
+        surface = document.panel(panel).surface
+        points = [document.point(pin.point) for pin in document.pins]
+        return next((k for k, point in enumerate(points, 1) if (point.at, point.surface) == (at, surface)), 0)
+
+    def _choose(self, panel: int, number: int, is_more: bool) -> None:
+        """Where the list of pins is closed, it stands out, until it is clicked again, and is named."""
+        if "pins" in self._window.session.document.docks:
+            return  # the list does it
+        pin, lit = self._pin(number), set(self._grid.lit)
+        chosen = lit ^ {pin.point} if is_more else {pin.point} - lit
+        self._grid.light_pins(tuple(chosen))
+        if pin.point in chosen:
+            where = self._window.session.document.point(pin.point).at
+            self._window.say(f"{_name(pin, number).capitalize()}: {_place(where)}")
+
+    def _drag(self, panel: int, number: int, met: "Met") -> None:
+        """All the way is one step; a place that another pin has is passed."""
+        session = self._window.session
+        document, at = session.document, self._sources.at(met)
+        pin = self._pin(number)
+        point = document.point(pin.point)
+        if at != point.at and not self._number_at(panel, at):
+            session.show(put_point(document, point.name, at, point.surface), key=f"drag of {point.name}", live=True)
+
+    def _arrive(self) -> None:
+        """The next drag is a step of its own."""
+        self._window.session.show(self._window.session.document)
+
+    def _remove(self, point: str) -> None:
+        session = self._window.session
+        session.show(remove_pins(session.document, [point]))
+
+    def _move_source(self, panel: int, point: str) -> None:
+        session = self._window.session
+        session.show(move_source(session.document, panel, session.document.point(point).at))
+
+
+def _name(pin: Pin, number: int) -> str:
+    return f"pin {number}{f', {pin.name}' if pin.name else ''}"
+
+
+def _place(at: Source | None) -> str:
+    return f"vertex {at}" if isinstance(at, int) else "in a face"
