@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 FINENESS = 0.03
 """Units by which a curve may differ from its exact course to need fewer points."""
 
+DOT = 0.05
+"""Widths that a dot of a dotted line is long, besides its round ends; without any length PNG shows none."""
+
 EDGE_FINENESS = 0.1
 """The same for the edge of the shape, which is found from pixels."""
 
@@ -137,8 +140,10 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         )
         axes.add_artist(curve)
         curve.set_clip_path(frame)
-    for name, lines, colour, width in strokes_on(shot, style):
-        curve = _curve(lines, colour, width * stroke, "round", order + 3, f"{name}-{number}")
+    for line in strokes_on(shot, style):
+        curve = _curve(line.lines, line.colour, line.width * stroke, "round", order + 3, f"{line.name}-{number}")
+        if line.dots:
+            curve.set_linestyle((0, (DOT, line.dots / line.width - DOT)))
         axes.add_artist(curve)
         curve.set_clip_path(frame)
     put = partial(write, axes, page)

@@ -56,7 +56,7 @@ class FigurePanel:
     up: which axis is up in standard views.  source: the vertex that the view from the source looks at.  is_parallel:
     nothing gets smaller with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.
     lines: those that the field starts from; regions: boundaries of the pins' regions; selected: (n, 4) uint8 colours of
-    vertices that stand out, see `selected_colours`.
+    vertices that stand out, see `selected_colours`; path: that of a profile.
     """
 
     surface: Surface
@@ -82,6 +82,7 @@ class FigurePanel:
     lines: tuple[SourceLine, ...] = ()
     regions: tuple[SourceLine, ...] = ()
     selected: np.ndarray | None = None
+    path: tuple[SourceLine, ...] = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -126,7 +127,7 @@ class Figure:
     and with "shares" each is drawn in shares of its own.  crop: without empty space around shapes and at the edges.
     title: where panels have their names, one of TITLES; font: a family, "" for the usual one; text: the size of labels
     in points, all other words in proportion, the usual one if None; is_moving: one of the pictures of a movie, in all
-    of which insets stand in the same places.
+    of which insets stand in the same places; remarks: sentences on what could not be shown.
     """
 
     panels: tuple[FigurePanel, ...]
@@ -140,6 +141,7 @@ class Figure:
     font: str = ""
     text: float | None = None
     is_moving: bool = False
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.panels:

@@ -67,7 +67,7 @@ def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress
                 write_vector(page, temporary)
             except ValueError as error:  # matplotlib's word for a page it cannot make
                 raise OutputError(f"{path} could not be written: {error}.") from error
-    return hidden_words(page)
+    return [*figure.remarks, *hidden_words(page)]
 
 
 def check_transparency(transparent: bool, path: str | os.PathLike[str]) -> None:

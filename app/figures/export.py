@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bihdist_core import OutputError, ParameterError, SolverError, Surface
+from bihdist_core import BihdistError, OutputError, ParameterError, SolverError, Surface
 from bihdist_core.analysis.region_boundaries import region_boundaries
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
@@ -30,6 +30,7 @@ from ..session.given import Given
 from ..session.opened import Opened, open_mesh
 from ..session.passed import Passed, passed
 from ..session.pinned import pinned_on
+from ..session.profiling import path_of, shows_path
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from ..session.regions import regions_of, regions_questions
@@ -94,12 +95,14 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
     style = style_of(page.style, document.colours)
     if not document.panels:
         raise ParameterError("The recipe has no panels.")
+    path, remarks = _path(document, surfaces)
     panels = tuple(
-        _figure_panel(recipe, panel, surfaces[panel.surface], answer)
+        replace(_figure_panel(recipe, panel, surfaces[panel.surface], answer), path=path.get(panel.surface, ()))
         for panel, answer in zip(document.panels, answers, strict=True)
     )
     return Figure(
         panels,
+        remarks=remarks,
         columns=page.columns,
         size=Size.parse(page.size) if page.size else Size(),
         style=style,
@@ -220,6 +223,18 @@ def _selected(document: Document, panel: Panel, surface: Surface) -> np.ndarray 
         if each.runs[-1][1] >= len(surface.vertices):
             surface.check_vertex(each.runs[-1][1])
     return selected_colours([(vertices_of(each.runs), each.colour) for each in chosen], len(surface.vertices))
+
+
+def _path(document: Document, surfaces: Surfaces) -> tuple[dict[str, tuple[SourceLine, ...]], tuple[str, ...]]:
+    """The path of the profile by the name of its surface, or a sentence on why there is none."""
+    if not shows_path(document):
+        return {}, ()
+    try:
+        name, path = path_of(document, surfaces)
+    except BihdistError as error:
+        return {}, (f"No path is drawn: {error}",)
+    places = path.places
+    return {name: (SourceLine(places.corners, places.weights, is_closed=False),)}, ()
 
 
 def _region_lines(document: Document, panel: Panel, opened: Opened) -> tuple[SourceLine, ...]:

@@ -42,8 +42,8 @@ class Shot:
     image: (h, w, 4) uint8, colours multiplied by alpha; isolines: in the order of their values; marks: their index in
     the panel, and where (x, y) on the page; frame: (3, 3) of the camera, see `drawing.camera.frame`; ghosts: of marks
     that the shape hides, the same; lines, regions: what is seen of those that the field starts from, and of boundaries
-    of regions; source: for an inset, what
-    it enlarges.  seen: the names of the lines of which something is seen.
+    of regions; source: for an inset, what it enlarges; seen: the names of the lines of which something is seen; path:
+    what is seen of a profile's; course: all of that.
     """
 
     panel: int
@@ -58,6 +58,8 @@ class Shot:
     lines: list[Line] = field(default_factory=list)
     regions: list[Line] = field(default_factory=list)
     seen: frozenset[str] = frozenset()
+    path: list[Line] = field(default_factory=list)
+    course: list[Line] = field(default_factory=list)
 
 
 class Stage:
@@ -161,11 +163,15 @@ class _Taker:
         self._sight, self._curves = sight, curves
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
-        of_lines = self._visible(self._panel.lines)
+        panel = self._panel
+        of_lines = self._visible(panel.lines)
         self._lines = [part for parts in of_lines for part in parts]
-        named = zip(self._panel.lines, of_lines, strict=True)
+        named = zip(panel.lines, of_lines, strict=True)
         self._seen = frozenset(line.name for line, parts in named if sum(map(_length, parts)) > LEAST_SEEN)
-        self._regions = [part for parts in self._visible(self._panel.regions) for part in parts]
+        self._regions, self._path = (
+            [part for parts in self._visible(lines) for part in parts] for lines in (panel.regions, panel.path)
+        )
+        self._course = self._sight.outlined(self._curves_of(panel.path))
         self._marks, self._ghosts = self._placed_marks()
 
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
@@ -201,6 +207,8 @@ class _Taker:
             [(move(p + self._corner), c) for p, c in self._lines],
             [(move(p + self._corner), c) for p, c in self._regions],
             self._seen,
+            [(move(p + self._corner), c) for p, c in self._path],
+            [(move(p + self._corner), c) for p, c in self._course],
         )
 
     # ------------------------------------------------------------------ what is seen
@@ -232,8 +240,11 @@ class _Taker:
 
     def _visible(self, lines: Sequence[SourceLine]) -> list[list[Line]]:
         """What is seen of each of the lines on the surface."""
+        return self._sight.visible(self._curves_of(lines))
+
+    def _curves_of(self, lines: Sequence[SourceLine]) -> list[Curve]:
         x = self._surface.vertices
-        return self._sight.visible([Curve(line.positions(x), line.spans, line.is_closed) for line in lines])
+        return [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Those that are seen, and those that the shape hides."""

@@ -99,6 +99,11 @@ class Sight:
             result[k] += _parts(at[first:end, :2], length[first:end], bounds[inside], curve.closed)
         return result
 
+    def outlined(self, curves: Iterable[Curve]) -> list[Part]:
+        """Curves in the picture, seen or not."""
+        parts = [part for curve in curves for part in self._before_the_camera(curve)]
+        return [(self.pixels(part.points)[:, :2], part.closed) for part in parts]
+
     def _hidden(self, at: np.ndarray, segments: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, ...]:
         """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden.
 

@@ -1,21 +1,23 @@
 """The path of a document's profile: what it is led through, and the path itself, computed in the background."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
+from weakref import WeakKeyDictionary
 
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.analysis.plane_sections import plane_section
 from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.errors import ParameterError
-from bihdist_core.progress import Progress
+from bihdist_core.progress import Progress, silent
 from bihdist_core.sources.source import Place, Source
 from bihdist_core.surface import Surface
 
 from ..document.document import Document
 from ..document.instruments import SECTIONS
 from .lane import Lane
+from .opened import Opened
 
 FEW = "A profile goes from point to point: pin two points, or choose its ends above."
 
@@ -77,6 +79,22 @@ def wanted_path(
     return PathWanted(surface, places, profile.way, across)
 
 
+def shows_path(document: Document) -> bool:
+    """Whether the path is drawn on the panels: where the profile is open, and has two points."""
+    return "profile" in document.docks and len(points_along(document)) > 1
+
+
+def path_of(document: Document, surfaces: Mapping[str, Opened]) -> tuple[str, SurfacePath]:
+    """The path of a document's profile, waited for, and the name of its surface; the last of each surface is kept.
+
+    Raises ParameterError, as `wanted_path` does, and what making the path raises.
+    """
+    wanted = wanted_path(document, lambda name: surfaces[name].surface)
+    name = document.point(points_along(document)[0]).surface
+    maker = _makers.setdefault(surfaces[name], PathMaker())
+    return name, maker.path(wanted, silent)
+
+
 def point_words(document: Document, name: str) -> str:
     """How a sentence names a point: a pin by its number."""
     number = next((k for k, pin in enumerate(document.pins, 1) if pin.point == name), None)
@@ -94,6 +112,33 @@ def _place(at: Source | None, name: str) -> int | Place:
     raise ParameterError(f"A profile goes through vertices and places in faces; {name!r} is neither.")
 
 
+class PathMaker:
+    """Makes paths one after another; the last one is kept, and what paths on its surface need."""
+
+    def __init__(self) -> None:
+        self._paths: GeodesicPaths | None = None
+        self._last: tuple[PathWanted, SurfacePath] | None = None
+
+    def path(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
+        if self._last is None or not wanted.is_as(self._last[0]):
+            self._last = wanted, self._made(wanted, progress)
+        return self._last[1]
+
+    def _made(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
+        if wanted.way in SECTIONS:
+            if wanted.across is None:
+                raise ParameterError("A section needs a direction that lies in its plane; none is given.")
+            return plane_section(wanted.surface, wanted.places, wanted.across, SECTIONS[wanted.way])
+        if self._paths is None or self._paths.surface is not wanted.surface:
+            if self._paths is not None:
+                self._paths.close()
+            self._paths = GeodesicPaths(wanted.surface)
+        return self._paths.path(wanted.places, wanted.way, progress)
+
+
+_makers: WeakKeyDictionary[Opened, PathMaker] = WeakKeyDictionary()
+
+
 class PathLane:
     """Computes the latest path that was asked for, on a thread of its own.
 
@@ -109,7 +154,7 @@ class PathLane:
     ) -> None:
         self._post, self._found, self._going = post, found, going
         self._wanted: PathWanted | None = None
-        self._paths: GeodesicPaths | None = None
+        self._maker = PathMaker()
         self._lane: Lane[PathWanted] | None = None
 
     def ask(self, wanted: PathWanted | None) -> None:
@@ -128,19 +173,8 @@ class PathLane:
 
     # ------------------------------------------------------------------ on the lane's thread
     def _work(self, wanted: PathWanted, lane: Lane[PathWanted]) -> None:
-        path = self._path(wanted, lane.progress(lambda latest: latest is wanted))
+        path = self._maker.path(wanted, lane.progress(lambda latest: latest is wanted))
         self._post(lambda: self._tell(wanted, path))
-
-    def _path(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
-        if wanted.way in SECTIONS:
-            if wanted.across is None:
-                raise ParameterError("A section needs a direction; choose it again in the way's menu.")
-            return plane_section(wanted.surface, wanted.places, wanted.across, SECTIONS[wanted.way])
-        if self._paths is None or self._paths.surface is not wanted.surface:
-            if self._paths is not None:
-                self._paths.close()
-            self._paths = GeodesicPaths(wanted.surface)
-        return self._paths.path(wanted.places, wanted.way, progress)
 
     def _failed(self, wanted: PathWanted, error: Exception) -> None:
         said = failure_in_words(error)

@@ -5,14 +5,9 @@ from qtpy import QtCore, QtGui
 
 from ...drawing.board import Board
 from ...drawing.lines_of_sight import seen_in
+from ...drawing.path_lines import DOTS, NARROW, THINNER, WIDE
 from ...drawing.scene import PanelScene
 from .overlay import BRIGHT, DARK
-
-WIDE, NARROW = 4.5, 2.0
-"""Logical pixels of the white line, and of the dark one on it."""
-
-DOTS = 6.0
-"""From one dot to the next."""
 
 
 class PathMarks:
@@ -57,7 +52,7 @@ class PathMarks:
                 pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
                 pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
                 if not seen:
-                    pen.setWidthF(width - 0.5)
+                    pen.setWidthF(width - THINNER)
                     pen.setDashPattern([0.01, DOTS / pen.widthF()])
                 painter.setPen(pen)
                 for line in lines:
