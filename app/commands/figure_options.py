@@ -18,6 +18,7 @@ from .options import (
     add_areas,
     add_distance,
     add_pins,
+    add_profile,
     add_selections,
     add_up,
     check_parameters,
@@ -25,6 +26,7 @@ from .options import (
     panel_numbers,
     quantities,
     source,
+    with_path,
     with_pins,
     with_selections,
 )
@@ -81,6 +83,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         help="lines around what is nearest to each pin, on all panels or on some, from 1",
     )
     add_selections(parser)
+    add_profile(parser)
     parser.add_argument(
         "--height", type=float, nargs="?", const=0.35, metavar="SHARE", help="a flat mesh becomes a relief"
     )
@@ -144,6 +147,7 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     if options.anchors is not None:
         document = _with_anchors(document, options.anchors)
     document = with_pins(document, options)
+    document = with_path(document, options)
     if options.regions is not None:
         from ..document.edits import divide
 

@@ -9,6 +9,7 @@ from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import source_from_words
 
 from ..document.document import AREAS, COMPARISON, Document
+from ..document.instruments import WAYS
 from ..document.looks import UPS
 from ..document.quantities import Quantity, quantity
 
@@ -47,6 +48,45 @@ def add_up(parser: argparse.ArgumentParser, default: str = "guessed") -> None:
 def add_pins(parser: argparse.ArgumentParser) -> None:
     words = "a drop with a number at a vertex or a place in a face (f311:0.2,0.5); repeat for more, in their order"
     parser.add_argument("--pin", type=point, metavar="V", action="append", help=words)
+
+
+def add_profile(parser: argparse.ArgumentParser) -> None:
+    """The path of a profile, as figures draw it."""
+    parser.add_argument(
+        "--profile",
+        nargs="?",
+        const="",
+        metavar="V,W,…",
+        help="the path through points: vertices, places in faces, source, pin:1 (nothing: through the pins in order)",
+    )
+    add_way(parser)
+
+
+def add_way(parser: argparse.ArgumentParser) -> None:
+    words = "from point to point by auto, exact, straightened or edges; or by a section, section-longer, section-whole"
+    parser.add_argument("--way", choices=WAYS, metavar="NAME", help=f"{words} (default: auto)")
+    parser.add_argument("--across", type=direction, metavar="X,Y,Z", help="a direction that lies in a section's plane")
+
+
+def direction(text: str) -> tuple[float, ...]:
+    try:
+        found = tuple(float(word) for word in text.split(","))
+    except ValueError:
+        found = ()
+    if len(found) != 3:
+        raise argparse.ArgumentTypeError(f"{text!r} is no direction such as 0,0,1")
+    return found
+
+
+def with_path(document: Document, options: argparse.Namespace) -> Document:
+    """The document with the path that is named, if one is."""
+    if options.profile is None:
+        if options.way is not None or options.across is not None:
+            raise ParameterError("--way and --across go with --profile, the path that is drawn.")
+        return document
+    from ..document.profile_words import with_profile, words_in
+
+    return with_profile(document, words_in(options.profile), options.way or "auto", options.across)
 
 
 def panel_numbers(text: str) -> str | tuple[int, ...]:

@@ -78,6 +78,15 @@ def move_pin(document: Document, point: str, place: int) -> Document:
     return replace(document, pins=(*others[:place], *moved, *others[place:]))
 
 
+def points_along(document: Document) -> tuple[str, ...]:
+    """The names of the points that the profile goes through; of one pin alone, from the source to it."""
+    if document.profile.points:
+        return document.profile.points
+    pins = tuple(pin.point for pin in document.pins)
+    known = [point.name for point in document.points]
+    return ("source", *pins) if len(pins) == 1 and "source" in known and "source" not in pins else pins
+
+
 def select(document: Document, name: str, vertices: np.ndarray, surface: str = "A") -> Document:
     """Vertices (k,) as the selection of a name, instead of the old one of that name; none at all remove it."""
     before = document.selections

@@ -20,9 +20,10 @@ from ..samples import mesh_path
 from .camera import Camera
 from .document import COMPARISON, Document, Point
 from .edits import divided_panels
-from .instruments import PIN_COLOURS
+from .instruments import PIN_COLOURS, SECTIONS
 from .measuring import runs_in_words
 from .page import Page, Recipe
+from .profile_words import profile_words, shows_path
 from .quantities import Quantity, from_point, own_fields
 from .starts import Starts, as_argument
 
@@ -223,6 +224,28 @@ def _pins(recipe: Recipe) -> Said:
     return Said(tuple(("--pin", str(at)) for at in said), {"pins": said})
 
 
+def _profile(recipe: Recipe) -> Said:
+    """Of a path that is drawn: through which points, and how."""
+    document, profile = recipe.document, recipe.document.profile
+    if not shows_path(document):
+        return NOTHING
+    try:
+        words = profile_words(document)
+    except ParameterError as error:
+        raise _Unsaid(str(error)) from error
+    options = [("--profile", ",".join(map(str, words)) or None)]
+    arguments: dict[str, Any] = {"profile": words or True}
+    if profile.way != "auto":
+        options.append(("--way", profile.way))
+        arguments["way"] = profile.way
+    if profile.way in SECTIONS:
+        if profile.across is None:
+            raise _Unsaid("The plane of the section turns with the view.")
+        options.append(("--across", ",".join(map(_number, profile.across))))
+        arguments["across"] = profile.across
+    return Said(tuple(options), arguments)
+
+
 def _regions(recipe: Recipe) -> Said:
     which = divided_panels(recipe.document)
     if not which:
@@ -406,6 +429,7 @@ ROWS = (
     Row(("Document.extrema",), _of_document("extrema", "--extrema", "extrema")),
     Row(("Document.regions",), _regions),
     Row(("Document.selections",), _selections),
+    Row(("Document.profile", "Document.docks", "Profile.points", "Profile.way", "Profile.across"), _profile),
     Row(("Page.columns",), _columns),
     Row(("Page.hints",), _of_page("hints", "--hints", "hints")),
     Row(("Page.size",), _of_page("size", "--size", "size")),
@@ -420,11 +444,10 @@ ROWS = (
 UNSEEN = {
     "Document.tool": "what a click does in the window",
     "Document.next_id": "for panels that are still to come",
-    "Document.docks": "instruments of the window",
     "Document.snap": "what the pointer does in the window",
     "Document.pin_list": "for the window's list",
-    "Document.profile": "for the window's chart",
     "Document.scatter": "for the window's chart",
+    "Profile.shares": "for the window's chart",
     "Pin.name": "figures show numbers",
     "Panel.id": "for the window and the history",
     "Panel.surface": "with one mesh all panels are of it",

@@ -20,6 +20,7 @@ from bihdist_core.whole_file import check_output, whole_file
 from ..document.document import Document, Panel
 from ..document.measuring import vertices_of
 from ..document.page import Recipe
+from ..document.profile_words import shows_path
 from ..document.sourcing import members_of
 from ..drawing.selected import selected_colours
 from ..drawing.source_lines import SourceLine, source_lines
@@ -30,7 +31,7 @@ from ..session.given import Given
 from ..session.opened import Opened, open_mesh
 from ..session.passed import Passed, passed
 from ..session.pinned import pinned_on
-from ..session.profiling import path_of, shows_path
+from ..session.profiling import path_of
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from ..session.regions import regions_of, regions_questions

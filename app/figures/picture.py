@@ -23,6 +23,7 @@ from ..document.isoline_edits import pass_through
 from ..document.looks import AS_IT_IS, Colours, Isolines, shaded
 from ..document.measuring import add_pins, runs_from_words, runs_of, select_instead
 from ..document.page import Page, Recipe
+from ..document.profile_words import with_profile
 from ..document.quantities import Quantity
 from ..drawing.colour_file import colours_named
 from ..session.given import Given, Mesh, given_comparison
@@ -107,6 +108,9 @@ def figure(
     extrema: bool = False,
     regions: str | Sequence[int] = (),
     selections: Sequence[str | npt.ArrayLike] = (),
+    profile: bool | Sequence[Source | str] = False,
+    way: str = "auto",
+    across: Sequence[float] | None = None,
     height: float = 0.0,
     shading: str | None = None,
     crease: float | None = None,
@@ -136,6 +140,9 @@ def figure(
     extrema: triangles at maxima, and at minima away from the source, that persist over a thousandth of the range.
     regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin.
     selections: ids (k,) of vertices that stand out together, or words such as "12,40-77", a colour each.
+    profile: True for the path through the pins, or the points it goes through: vertices, places in faces, "source" and
+    "pin:1"; way: how it goes from one to the next, "auto", "exact", "straightened" or "edges", or by a "section" whose
+    plane holds the direction `across`, "section-longer" or "section-whole".
     shading: "smooth", "creased" at more than `crease` degrees, or "flat";
     "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
@@ -178,6 +185,8 @@ def figure(
     )
     if len(pins):
         document = add_pins(document, [checked_source(at) for at in pins])
+    if profile is not False:
+        document = with_profile(document, () if profile is True else profile, way, across)
     if len(regions):
         document = divide(document, regions)
     if len(selections):

@@ -12,10 +12,12 @@ from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.errors import ParameterError
 from bihdist_core.progress import Progress, silent
 from bihdist_core.sources.source import Place, Source
+from bihdist_core.sources.words import words_of
 from bihdist_core.surface import Surface
 
 from ..document.document import Document
 from ..document.instruments import SECTIONS
+from ..document.measuring import points_along
 from .lane import Lane
 from .opened import Opened
 
@@ -38,15 +40,6 @@ class PathWanted:
         """Whether that is the same path."""
         mine = self.places, self.way, self.across
         return other is not None and self.surface is other.surface and mine == (other.places, other.way, other.across)
-
-
-def points_along(document: Document) -> tuple[str, ...]:
-    """The names of the points that the profile goes through; of one pin alone, from the source to it."""
-    if document.profile.points:
-        return document.profile.points
-    pins = tuple(pin.point for pin in document.pins)
-    known = [point.name for point in document.points]
-    return ("source", *pins) if len(pins) == 1 and "source" in known and "source" not in pins else pins
 
 
 def wanted_path(
@@ -79,11 +72,6 @@ def wanted_path(
     return PathWanted(surface, places, profile.way, across)
 
 
-def shows_path(document: Document) -> bool:
-    """Whether the path is drawn on the panels: where the profile is open, and has two points."""
-    return "profile" in document.docks and len(points_along(document)) > 1
-
-
 def path_of(document: Document, surfaces: Mapping[str, Opened]) -> tuple[str, SurfacePath]:
     """The path of a document's profile, waited for, and the name of its surface; the last of each surface is kept.
 
@@ -96,9 +84,13 @@ def path_of(document: Document, surfaces: Mapping[str, Opened]) -> tuple[str, Su
 
 
 def point_words(document: Document, name: str) -> str:
-    """How a sentence names a point: a pin by its number."""
+    """How a sentence names a point: a pin by its number, what is neither pin nor source by its place."""
     number = next((k for k, pin in enumerate(document.pins, 1) if pin.point == name), None)
-    return name if number is None else f"pin {number}"
+    if number is not None:
+        return f"pin {number}"
+    at = document.point(name).at
+    shown = {point for panel in document.panels for point in panel.shows.points}
+    return name if name in shown or at is None else f"vertex {at}" if isinstance(at, int) else words_of(at)
 
 
 def _vertex(surface: Surface, place: int | Place) -> int:

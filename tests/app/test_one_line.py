@@ -14,10 +14,11 @@ from app.document import one_line
 from app.document.camera import VIEWS, Camera
 from app.document.document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
 from app.document.edits import can_divide, divide
-from app.document.instruments import Pin
+from app.document.instruments import Pin, Profile
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
-from app.document.measuring import add_pins, select_instead
+from app.document.measuring import add_pins, points_along, select_instead
 from app.document.page import Page, Recipe
+from app.document.profile_words import shows_path, with_profile
 from app.document.quantities import Difference, DistanceFrom, OwnField
 from app.document.starts import curves_in
 from bihdist_core import BoundaryLoop, Curve, ParameterError, Place, SourceSet
@@ -84,10 +85,15 @@ def shown(recipe):
     numbered = marks[len(anchors) : len(anchors) + len(document.pins)]
     pins = tuple(Pin(mark, "", pin.colour) for pin, mark in zip(document.pins, numbered, strict=True))
     isolines = replace(document.isolines, through=tuple(marks[len(anchors) + len(pins) :]))
+    through = points_along(document) if shows_path(document) else ()
+    along = tuple(Point(f"path {k}", document.point(name).at) for k, name in enumerate(through))
+    way = replace(document.profile, points=tuple(point.name for point in along)) if along else Profile()
     drawn = replace(
         document,
+        profile=way,
+        docks=("profile",) if along else (),
         surfaces=(MeshFile("A", document.surfaces[0].path),),
-        points=points,
+        points=(*points, *along),
         panels=tuple(panels),
         next_id=len(panels),
         anchors=anchors,
@@ -121,6 +127,11 @@ EXAMPLES = {
     "Document.pins": lambda d, p: (add_pins(d, [9, Place.of(3, 0.2, 0.5)]), p),
     "Document.regions": lambda d, p: (divide(add_pins(d, [9, 3]), "all"), p),
     "Document.selections": lambda d, p: (select_instead(d, [((3, 3), (5, 9)), ((20, 22),)]), p),
+    "Document.profile": lambda d, p: (with_profile(d, ["source", Place.of(3, 0.2, 0.5), 9]), p),
+    "Document.docks": lambda d, p: (replace(add_pins(d, [9, 3]), docks=("profile",)), p),
+    "Profile.points": lambda d, p: (with_profile(add_pins(d, [9, 3, 4]), ["pin:3", "pin:1"]), p),
+    "Profile.way": lambda d, p: (with_profile(d, ["source", 9], "edges"), p),
+    "Profile.across": lambda d, p: (with_profile(d, ["source", 9], "section-longer", (0.1, -1e-7, 1 / 3)), p),
     "Pin.point": lambda d, p: (replace(d, pins=(Pin("source"),)), p),
     "Pin.colour": lambda d, p: (replace(d, pins=(Pin("source", colour=4),)), p),
     "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
@@ -185,7 +196,7 @@ WORDLESS = {"Zoom.corner", "Pin.colour"} | {
 
 PARTS = [
     f"{part.__name__}.{f.name}"
-    for part in (Document, Panel, Zoom, Anchor, Pin, Isolines, Colours, Shading, Page)
+    for part in (Document, Panel, Zoom, Anchor, Pin, Profile, Isolines, Colours, Shading, Page)
     for f in fields(part)
 ]
 

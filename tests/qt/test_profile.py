@@ -10,8 +10,8 @@ import pytest
 from app.document.document import Document, Point, comparison
 from app.document.edits import move_source
 from app.document.instruments import Pin, Profile
-from app.document.measuring import add_pins
-from app.session.profiling import points_along, wanted_path
+from app.document.measuring import add_pins, points_along
+from app.session.profiling import wanted_path
 from bihdist_core import Laplacian, ParameterError
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.distances.answers import Distances
@@ -338,7 +338,7 @@ def test_what_makes_no_path_is_named():
     for wrong, said in (
         (replace(document, profile=Profile(("source", "loop"))), "'loop' is neither"),
         (section, "that through two points"),
-        (same, "From pin 1 to other there is no path: they are at the same place"),
+        (same, "From pin 1 to vertex 2 there is no path: they are at the same place"),
         (Document(), "pin two points"),
     ):
         with pytest.raises(ParameterError, match=said):

@@ -10,8 +10,7 @@ from bihdist_core.analysis.plane_sections import PARTS
 
 from ...document.document import Document
 from ...document.instruments import SECTIONS
-from ...document.measuring import pinned_at
-from ...session.profiling import points_along
+from ...document.measuring import pinned_at, points_along
 from ..look.text_box import TextBox
 from .badges import badge_of
 

@@ -11,8 +11,9 @@ from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.surface_paths import SurfacePath
 
 from ...document.document import Document
+from ...document.measuring import points_along
 from ...document.quantities import Difference
-from ...session.profiling import PathLane, PathWanted, points_along, wanted_path
+from ...session.profiling import PathLane, PathWanted, wanted_path
 from ..look.look import LOOK
 from ..look.segments import Segments
 from ..panels.flat_button import FlatButton

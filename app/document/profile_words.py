@@ -1,0 +1,92 @@
+"""The path of a profile in words: `source`, `pin:2`, a vertex or a place in a face; and back."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import Place, Source, checked_source
+from bihdist_core.sources.words import words_of
+
+from .document import Document, Point, free_names
+from .instruments import SECTIONS
+from .measuring import points_along, show_dock
+
+_ONE = re.compile(r"f[0-9]+:[^,\s]+,[^,\s]+|[^,\s]+")
+_POINT = re.compile(r"(source|pin)(?::([0-9]{1,9}))?")
+
+
+def words_in(text: str) -> list[str]:
+    """`pin:1,f311:0.2,0.5 40` as words."""
+    return _ONE.findall(text)
+
+
+def with_profile(
+    document: Document,
+    through: Sequence[Source | str] = (),
+    way: str = "auto",
+    across: Sequence[float] | None = None,
+) -> Document:
+    """The document with the path through these points drawn on its panels; through all pins in their order if none.
+
+    through: vertices and places in faces, "source" or "source:2", and "pin:1".  way: one of WAYS.  across: the
+    direction (3,) in the planes of sections.  ParameterError for what is none of these, and for fewer than two points.
+    """
+    if way in SECTIONS and across is None:
+        raise ParameterError("A section needs a direction that lies in its plane, such as 0,0,1: --across, or across=.")
+    if across is not None and (len(across) != 3 or way not in SECTIONS):
+        raise ParameterError("A direction across is three numbers, and goes with the way of a section.")
+    names = []
+    for word in through:
+        known = _POINT.fullmatch(word) if isinstance(word, str) else None
+        if known:
+            names.append(_named(document, known[1], int(known[2] or 1)))
+            continue
+        at = checked_source(word)
+        if not isinstance(at, int | Place):
+            raise ParameterError(f"A profile goes through vertices and places in faces, not {word}.")
+        name = free_names("path", 1, [point.name for point in document.points])[0]
+        document = replace(document, points=(*document.points, Point(name, at, document.surfaces[0].name)))
+        names.append(name)
+    x = None if across is None else (float(across[0]), float(across[1]), float(across[2]))
+    profile = replace(document.profile, points=tuple(names), way=way, across=x)
+    document = show_dock(replace(document, profile=profile), "profile")
+    if len(points_along(document)) < 2:
+        raise ParameterError("A profile goes through two points or more; name them, or pins.")
+    return document
+
+
+def shows_path(document: Document) -> bool:
+    """Whether the path is drawn on the panels: where the profile is open, and has two points."""
+    return "profile" in document.docks and len(points_along(document)) > 1
+
+
+def profile_words(document: Document) -> list[int | str]:
+    """What `with_profile` takes for the points of a document's path; ParameterError where it cannot be said."""
+    return [_word(document, name) for name in document.profile.points]
+
+
+def _named(document: Document, what: str, number: int) -> str:
+    """The name of a source or a pin, by its number from 1."""
+    points = _sources(document) if what == "source" else [pin.point for pin in document.pins]
+    if not 1 <= number <= len(points):
+        raise ParameterError(f"There is no {what} {number} for a profile to go through; there are {len(points)}.")
+    return points[number - 1]
+
+
+def _sources(document: Document) -> list[str]:
+    """The points that panels show fields of, in order."""
+    return list(dict.fromkeys(name for panel in document.panels for name in panel.shows.points))
+
+
+def _word(document: Document, name: str) -> int | str:
+    pins, sources, at = [pin.point for pin in document.pins], _sources(document), document.point(name).at
+    if name in pins:
+        return f"pin:{pins.index(name) + 1}"
+    if name in sources:
+        return f"source:{sources.index(name) + 1}" if len(sources) > 1 else "source"
+    if isinstance(at, int):
+        return at
+    if isinstance(at, Place):
+        return words_of(at)
+    raise ParameterError("The path goes through what is no point.")
