@@ -8,6 +8,7 @@ import importlib.util
 import sys
 import threading
 import time
+from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -57,7 +58,7 @@ class ExactGeodesic:
         # 0.6 s for 16,000 vertices and 31 s for 112,000: about the square.  Replaced by what the last source took.
         self._expected_seconds = 0.3 + (len(surface.vertices) / 20_000) ** 2
         self._child: ChildProcess | None = None
-        self._lock = threading.Lock()
+        self._changed, self._waiting = threading.Condition(), deque[object]()
 
     def distances(self, sources: npt.ArrayLike, progress: Progress | None = None) -> np.ndarray:
         """(n,) distances from one vertex, or the nearest of several (k,), in the mesh's length unit; NaN where none was
@@ -100,9 +101,18 @@ class ExactGeodesic:
 
     @contextmanager
     def _my_turn(self, report: Progress) -> Iterator[None]:
-        while not self._lock.acquire(timeout=REPORT_EVERY):
-            report(0.0, "exact geodesic, waiting for another source")
+        """In the order of asking: who asks for one source after another is in nobody's way for longer than one."""
+        me = object()
+        with self._changed:
+            self._waiting.append(me)
         try:
+            while True:
+                with self._changed:
+                    if self._changed.wait_for(lambda: self._waiting[0] is me, REPORT_EVERY):
+                        break
+                report(0.0, "exact geodesic, waiting for another source")
             yield
         finally:
-            self._lock.release()
+            with self._changed:
+                self._waiting.remove(me)
+                self._changed.notify_all()

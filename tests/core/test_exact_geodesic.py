@@ -145,6 +145,27 @@ def test_two_objects_and_many_threads():
         assert np.array_equal(d, solvers[k].distances(v))
 
 
+def test_who_waits_comes_before_who_asks_again():
+    solver, order, has_begun = ExactGeodesic(grid(3)), [], threading.Event()
+
+    def waits(share, text):
+        has_begun.set()
+
+    def ask():
+        with solver._my_turn(waits):
+            order.append("other")
+
+    other = threading.Thread(target=ask)
+    with solver._my_turn(waits):
+        assert not has_begun.is_set()
+        other.start()
+        assert has_begun.wait(30)
+    with solver._my_turn(waits):
+        order.append("again")
+    other.join(30)
+    assert order == ["other", "again"]
+
+
 def test_cancelling_kills_the_process_and_the_next_call_works(monkeypatch):
     # 4098 vertices take some 50 times longer, so the report comes while the process is at work.
     monkeypatch.setattr(exact_geodesic, "REPORT_EVERY", 0.001)
