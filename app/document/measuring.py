@@ -124,12 +124,15 @@ def runs_of(vertices: np.ndarray) -> Runs:
         return ()
     breaks = np.flatnonzero(np.diff(ids) > 1)
     firsts, lasts = ids[np.append(0, breaks + 1)], ids[np.append(breaks, len(ids) - 1)]
-    return tuple((int(first), int(last)) for first, last in zip(firsts, lasts, strict=True))
+    return tuple(zip(firsts.tolist(), lasts.tolist(), strict=True))
 
 
 def vertices_of(runs: Runs) -> np.ndarray:
     """(k,) the vertex ids of runs."""
-    return np.concatenate([np.empty(0, np.int64), *(np.arange(first, last + 1) for first, last in runs)])
+    firsts, lasts = np.array(runs, np.int64).reshape(-1, 2).T
+    counts = lasts - firsts + 1
+    # A scattered selection has as many runs as vertices.
+    return np.arange(counts.sum()) + np.repeat(firsts - np.cumsum(counts) + counts, counts)
 
 
 def runs_in_words(runs: Runs) -> str:

@@ -6,12 +6,18 @@ import numpy as np
 import numpy.typing as npt
 
 from ..distances.biharmonic import BiharmonicDistance
-from ..distances.spectral import checked_count
+from ..distances.spectral import TruncatedBiharmonicDistance, checked_count
 from ..errors import ParameterError
 from ..laplacian import Laplacian, as_laplacian
 from ..progress import Progress, part, silent
 from ..solver.tall import over_rows
+from ..sources.pieces import pieces_of
+from ..sources.source import Source, checked_source
+from ..sources.words import short_words_of
 from ..surface import Surface
+
+LINE_COUNTS = (1, 2, 3, 5, 8, 12, 18, 25, 35, 50, 70, 100, 140, 200)
+"""For lines, and for sources on several components, where each count costs a field of its own; and so on by 1.4."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,7 +25,7 @@ class TruncationLoss:
     """counts (q,): how many eigenpairs; means, largest (q,): |d_k - d| over max d, by area and at worst; at (q,): the
     vertex where it is worst.  No unit."""
 
-    source: int
+    source: Source
     counts: np.ndarray
     means: np.ndarray
     largest: np.ndarray
@@ -28,20 +34,28 @@ class TruncationLoss:
 
 def truncation_loss(
     laplacian: Laplacian | Surface,
-    source: int,
+    source: Source | str,
     most: int = 200,
     counts: npt.ArrayLike | None = None,
     progress: Progress | None = None,
 ) -> TruncationLoss:
-    """The loss of the truncated biharmonic distance (paper, Eq. 11) from a vertex, with 1 to `most` eigenpairs.
+    """The loss of the truncated biharmonic distance (paper, Eq. 11) from a source, with 1 to `most` eigenpairs.
 
-    counts: (q,) those wanted, ascending, instead of all.  The Laplacian keeps the eigenpairs, so
-    that another source costs a field and a pass over them.  No more are used than the source's component has.
-    Raises ParameterError for bad numbers, VertexError for a bad source.
+    source: a vertex or any other, or its words.  counts: (q,) those wanted, ascending, instead of all; of a boundary
+    loop, a curve, or a set on several components not all are computed, but some (`LINE_COUNTS`).  The Laplacian keeps
+    the eigenpairs, so that another source costs a field and a pass over them.  No more are used than the source's
+    component has.
+    Raises ParameterError for bad numbers, VertexError or ParameterError for a bad source.
     """
     laplacian = as_laplacian(laplacian)
-    component = laplacian.component_of(source)
-    wanted = np.arange(1, checked_count(most) + 1) if counts is None else np.asarray(counts)
+    at = checked_source(source)
+    pieces = pieces_of(at, laplacian.surface)
+    components = [
+        laplacian.components[k] for k in np.unique(laplacian.surface.component_of_vertex[pieces.corners[:, 0]])
+    ]
+    is_simple = len(components) == 1 and not pieces.along.any()
+    usual = np.arange(1, checked_count(most) + 1) if is_simple else _some_counts(checked_count(most))
+    wanted = usual if counts is None else np.asarray(counts)
     if (
         wanted.ndim != 1
         or not len(wanted)
@@ -49,57 +63,92 @@ def truncation_loss(
         or not (np.diff(wanted, prepend=0) > 0).all()
     ):
         raise ParameterError(f"counts are whole numbers of at least 1, ascending, not {counts!r}.")
-    wanted = wanted[wanted <= component.most_eigenpairs]
+    highest = max(component.most_eigenpairs for component in components)
+    wanted = wanted[wanted <= highest]
     if not len(wanted):
-        raise ParameterError(f"{laplacian.surface.name} has {component.most_eigenpairs} eigenpairs at vertex {source}.")
+        raise ParameterError(f"{laplacian.surface.name} has {highest} eigenpairs at {_words(at)}.")
     report = progress or silent
     distance = BiharmonicDistance(laplacian, part(report, 0, 0.2))
-    exact = distance.from_source(source, part(report, 0.2, 0.3))[component.vertices]
-    spectrum = component.spectrum(int(wanted[-1]), part(report, 0.3, 0.9))
-    report(0.9, "sums over eigenpairs")
-    largest = exact.max()
+    exact = distance.from_source(at, part(report, 0.2, 0.3))
+    largest = np.nanmax(exact)
     if not largest > 0:
-        raise ParameterError(f"{laplacian.surface.name} has no second point beside vertex {source}.")
-    means, worst, at = _losses(
+        raise ParameterError(f"{laplacian.surface.name} has no second point beside {_words(at)}.")
+    for k, component in enumerate(components):
+        step = part(report, 0.3 + 0.6 * k / len(components), 0.3 + 0.6 * (k + 1) / len(components))
+        spectrum = component.spectrum(int(wanted[-1]), step)
+    report(0.9, "sums over eigenpairs")
+    if not is_simple:
+        return TruncationLoss(at, wanted, *_losses_of_fields(laplacian, at, exact, wanted, part(report, 0.9, 1)))
+    (component,) = components
+    local = component.local(pieces.touched)
+    means, worst, places = _losses(
         spectrum.eigenvectors,
         1 / spectrum.eigenvalues,
-        int(component.local(np.array([source]))[0]),
-        exact / largest,
+        np.einsum("kc,kcj->kj", pieces.start, spectrum.eigenvectors[local]),
+        exact[component.vertices] / largest,
         component.areas / component.areas.sum(),
         wanted,
         largest,
     )
     report(1.0, "sums over eigenpairs")
-    return TruncationLoss(int(source), wanted, means, worst, component.vertices[at])
+    return TruncationLoss(at, wanted, means, worst, component.vertices[places])
+
+
+def _words(source: Source) -> str:
+    return f"vertex {source}" if isinstance(source, int) else short_words_of(source)
+
+
+def _some_counts(most: int) -> np.ndarray:
+    found = list(LINE_COUNTS)
+    while found[-1] < most:
+        found.append(round(1.4 * found[-1]))
+    return np.array([count for count in found if count < most] + [most])
+
+
+def _losses_of_fields(
+    laplacian: Laplacian, source: Source, exact: np.ndarray, counts: np.ndarray, report: Progress
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """As `_losses`, a field for each count."""
+    means, worst, at = np.empty(len(counts)), np.empty(len(counts)), np.empty(len(counts), np.int64)
+    there = np.flatnonzero(np.isfinite(exact))
+    for k, count in enumerate(counts.tolist()):
+        report(k / len(counts), "sums over eigenpairs")
+        lost = (
+            np.abs(TruncatedBiharmonicDistance(laplacian, count).from_source(source) - exact)[there]
+            / exact[there].max()
+        )
+        means[k] = np.average(lost, weights=laplacian.areas[there])
+        worst[k], at[k] = lost.max(), there[lost.argmax()]
+    return means, worst, at
 
 
 def _losses(
     vectors: np.ndarray,
     scale: np.ndarray,
-    source: int,
+    here: np.ndarray,
     exact: np.ndarray,
     areas: np.ndarray,
     counts: np.ndarray,
     unit: float,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """here: (m, K) the eigenvectors at the points of the source, of which the nearest counts."""
     last = int(counts[-1])
-    here = vectors[source, :last]
     factor = (scale[:last] / unit) ** 2
 
     def one(rows: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        sums = np.zeros(rows.stop - rows.start)
+        sums = np.zeros((len(here), rows.stop - rows.start))
         mean, worst, at = np.empty(len(counts)), np.empty(len(counts)), np.empty(len(counts), np.int64)
         first = 0
         # Eigenvector by eigenvector, so that all stays in the cache.
         terms = np.ascontiguousarray(vectors[rows, :last].T)
         for k, count in enumerate(counts.tolist()):
             for j in range(first, count):
-                term = np.subtract(terms[j], here[j], out=terms[j])
+                term = terms[j] - here[:, j, None]
                 term *= term
                 term *= factor[j]
                 sums += term
             first = count
-            lost = np.sqrt(sums)
+            lost = np.sqrt(sums.min(axis=0))
             lost -= exact[rows]
             np.abs(lost, out=lost)
             at[k] = lost.argmax()

@@ -170,17 +170,19 @@ class Distance(ABC):
                 index = component.local(vertices[start : start + SOURCES])
                 np.minimum(least, self._columns(component, index, step).min(axis=1), out=least)
             return least
-        groups = blocks(pieces, SOURCES)
+        groups, size = blocks(pieces, SOURCES), 0.0
         for number, group in enumerate(groups):
             (progress or silent)(number / len(groups), self.label)
             some = pieces.some(group)
             index, local = np.unique(component.local(some.touched), return_inverse=True)
             squares = self._columns(component, index, None) ** 2
+            size = max(size, float(squares.max()))
             among = self._pairwise(component, index) ** 2
             each = squares_from(squares, (among + among.T) / 2, index, local.reshape(-1, 3), some)
             for one in each:
                 np.minimum(least, one, out=least)
-        return root(least, least.max())
+        # What is nearest may be at no distance everywhere.
+        return root(least, size)
 
     def from_sources(
         self, sources: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None

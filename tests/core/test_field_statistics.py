@@ -156,3 +156,29 @@ def test_truncation_on_small_and_other_components():
             truncation_loss(both, 0, counts=counts)
     with pytest.raises(ParameterError, match="3 eigenpairs at vertex 62"):
         truncation_loss(both, 62, counts=[7])
+
+
+@pytest.mark.parametrize("words", ["7+90+3", "f31:0.2,0.5", "f31:0.2,0.5+12", "loop:0", "7+loop:0"])
+def test_truncation_from_sources_of_other_kinds(words):
+    surface = grid(12, 10)
+    laplacian = Laplacian(surface)
+    exact = BiharmonicDistance(laplacian).from_source(words)
+    loss = truncation_loss(laplacian, words, most=40)
+    assert loss.counts[-1] == 40
+    assert len(loss.counts) == 40 or "loop" in words
+    for k in (0, 5, len(loss.counts) - 1):
+        truncated = TruncatedBiharmonicDistance(laplacian, int(loss.counts[k])).from_source(words)
+        apart = np.abs(truncated - exact) / exact.max()
+        assert loss.largest[k] == pytest.approx(apart.max(), rel=1e-6)
+        assert loss.at[k] == apart.argmax()
+        assert loss.means[k] == pytest.approx(np.average(apart, weights=laplacian.areas), rel=1e-6)
+
+
+def test_truncation_from_a_set_on_two_components():
+    both = two_pieces()
+    laplacian = Laplacian(both)
+    loss = truncation_loss(laplacian, "62+3", most=20)
+    exact = BiharmonicDistance(laplacian).from_source("62+3")
+    assert np.isfinite(exact).sum() > 60
+    apart = np.abs(TruncatedBiharmonicDistance(laplacian, 20).from_source("62+3") - exact) / np.nanmax(exact)
+    assert loss.largest[-1] == pytest.approx(np.nanmax(apart), rel=1e-6)

@@ -8,6 +8,7 @@ from app.document.quantities import quantity
 from bihdist_core import band, field_statistics, rank_correlation, read_surface
 from bihdist_core.analysis.truncation import truncation_loss
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.sources.source import checked_source
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -123,3 +124,15 @@ def test_the_histogram_is_saved_and_copied(opened, tmp_path):
     assert np.array_equal(rows["to"], dock.statistics.bins[1:])
     dock.copy()
     assert s.application.clipboard().text().splitlines()[1].startswith("greatest, at vertex")
+
+
+def test_truncation_follows_sources_of_other_kinds(opened):
+    from app.document.edits import put_point
+
+    s, box = opened, opened.dock.truncation
+    box.button.click()
+    s.until(lambda: box.loss is not None)
+    for words in ("5+900", "f31:0.2,0.5"):
+        s.session.show(put_point(s.document, "source", checked_source(words)))
+        s.until(lambda words=words: box.loss is not None and box.loss.source == checked_source(words))
+        assert np.allclose(box.loss.largest, truncation_loss(s.session.surface, words).largest, atol=1e-9)

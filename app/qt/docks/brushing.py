@@ -135,6 +135,7 @@ class Brushing(QtCore.QObject):
         if surface is None:
             return
         self._is_lifted = False
+        self._grid.moving.go_on()
         if surface is not self._surface:
             self._take()
         if self._brush is None:

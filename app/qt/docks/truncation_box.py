@@ -9,6 +9,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core.analysis.truncation import TruncationLoss, truncation_loss
 from bihdist_core.progress import Progress
+from bihdist_core.sources.source import Source
 
 from ...session.opened import Opened
 from ...session.questions import DistanceQuestion, Question
@@ -30,7 +31,7 @@ CURVES = 64
 class _Request:
     opened: Opened
     areas: str
-    source: int
+    source: Source
 
 
 def _lost(request: _Request, progress: Progress) -> Iterator[TruncationLoss]:
@@ -77,8 +78,8 @@ class TruncationBox(QtWidgets.QWidget):
         self._wanted = None
         if opened is None or not is_meant:
             self._rest("For a panel with the biharmonic distance.")
-        elif not isinstance(source, int):
-            self._rest("For a source that is a single vertex.")
+        elif source is None:
+            self._rest("For a source that is there.")
         else:
             before = self._request
             same = before is not None and (before.opened, before.areas, before.source) == (

@@ -33,6 +33,9 @@ LEAST_WIDTH, LEAST_HEIGHT = 280, 220
 BRUSH_KEY = QtCore.Qt.Key.Key_B
 """Held, a drag paints a selection."""
 
+SELECTED_MS = 600
+"""After a selection has changed, until large surfaces are drawn with it in full; the next stroke may begin before."""
+
 LINE = 1
 """Pixels between panels."""
 
@@ -266,6 +269,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._selected = colours
         for panel in self.panels:
             panel.marks.show_selected(colours)
+        self.moving.moved(SELECTED_MS)
 
     def set_brush(self, brush: QtGui.QCursor | None) -> None:
         """What a drag paints with in all panels, None if it turns them."""

@@ -23,12 +23,20 @@ class Moving(QtCore.QObject):
         self._timer = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
         self._timer.timeout.connect(self.rest)
 
-    def moved(self) -> None:
-        """The user has moved the camera; nothing has been drawn since."""
+    def moved(self, rest_ms: int = REST_MS) -> None:
+        """The user has moved the camera, or changed what all panels show; nothing has been drawn since.
+
+        rest_ms: all is drawn so long after.
+        """
         views = self._views()
         if any(view.scene.can_stand_in for view in views) and sum(view.scene.seconds for view in views) > self.fluent:
             for view in views:
                 view.scene.show_stand_in(True)
+            self._timer.start(rest_ms)
+
+    def go_on(self) -> None:
+        """The user is busy: what is to be drawn waits a little longer."""
+        if self._timer.isActive():
             self._timer.start()
 
     def rest(self) -> None:
