@@ -26,7 +26,7 @@ from bihdist_core.analysis.quality import (
 )
 from bihdist_core.distances.answers import Answer, failure_in_words
 from bihdist_core.distances.kinds import Spec
-from bihdist_core.errors import Cancelled
+from bihdist_core.errors import BihdistError, Cancelled
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 from bihdist_core.surface import Surface
@@ -94,7 +94,9 @@ class Quality:
     def __init__(self, post: Callable[[Callable[[], None]], None], told: Callable[[], None]) -> None:
         self._post, self._told = post, told
         self._found: OrderedDict[Question, Found] = OrderedDict()
-        self._samples: dict[Hashable, Found] = {}
+        # Triangles of a distance are those of a component; of which, is found out on the lane.
+        self._samples: dict[tuple[Hashable, int], Found] = {}
+        self._components: OrderedDict[Hashable, int] = OrderedDict()
         self._near: tuple[DistanceQuestion, np.ndarray] | None = None
         self._lock = threading.Lock()
         self._fields: Lane[_Request] = Lane("quality", self._judge, _silent, _unheard)
@@ -123,7 +125,9 @@ class Quality:
         """What is known of an answer."""
         with self._lock:
             found = self._found.get(question, Found())
-            sample = self._samples.get(question.about, Found())
+            # Of a question that is new, those that the distance was last asked for.
+            component = self._components.get(question, self._components.get(question.about, 0))
+            sample = self._samples.get((question.about, component), Found())
         if not isinstance(question, DistanceQuestion):
             reason = ONE_SOURCE if isinstance(question, FieldQuestion) else NO_DISTANCE
             return replace(found, triangles_failure=reason)
@@ -193,27 +197,43 @@ class Quality:
         distances = [question for question in request if isinstance(question, DistanceQuestion)]
         # Exact geodesic distances are slow.
         for question in sorted(distances, key=lambda question: question.spec.word == "geodesic"):
+            surface = request[question].surface
+            try:
+                component = int(surface.component_of_vertex[vertex_at(question.at, surface)])
+            except BihdistError:
+                continue  # its answer says so
+            self._note(question, component)
             if not self.found(question).is_sampled:
-                self._sample_one(question, request[question], _wanted_about(lane, question.about))
+                self._sample_one(question, component, request[question], _wanted_about(lane, question.about))
 
-    def _sample_one(self, question: DistanceQuestion, opened: Opened, wanted: Progress) -> None:
+    def _note(self, question: DistanceQuestion, component: int) -> None:
+        with self._lock:
+            before = self._components.get(question.about, component)
+            for key in (question, question.about):
+                self._components[key] = component
+                self._components.move_to_end(key)
+            while len(self._components) > KEPT:
+                self._components.popitem(last=False)
+        if component != before:
+            self._post(self._told)
+
+    def _sample_one(self, question: DistanceQuestion, component: int, opened: Opened, wanted: Progress) -> None:
         wanted(0.0, "triangles")
-        surface = opened.surface
-        component = int(surface.component_of_vertex[vertex_at(question.at, surface)])
-        last = min(TRIANGLE_POINTS, int((surface.component_of_vertex == component).sum()))
+        key = (question.about, component)
+        last = min(TRIANGLE_POINTS, int((opened.surface.component_of_vertex == component).sum()))
         try:
             distance = opened.distances(question.areas).get(question.spec, wanted)
             for points, sample in triangle_samples(distance, component=component, progress=wanted):
                 wanted(0.0, "triangles")
-                self._learn(question, Found(triangles=sample, points=points, is_sampled=points == last))
+                self._learn(key, Found(triangles=sample, points=points, is_sampled=points == last))
         except Cancelled:
             raise
         except Exception as error:
-            self._learn(question, Found(is_sampled=True, triangles_failure=failure_in_words(error)))
+            self._learn(key, Found(is_sampled=True, triangles_failure=failure_in_words(error)))
 
-    def _learn(self, question: DistanceQuestion, sample: Found) -> None:
+    def _learn(self, key: tuple[Hashable, int], sample: Found) -> None:
         with self._lock:
-            self._samples[question.about] = sample
+            self._samples[key] = sample
         self._post(self._told)
 
     def _remember(self, question: Question, found: Found) -> None:

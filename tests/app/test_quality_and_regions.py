@@ -116,6 +116,25 @@ def test_what_was_found_is_of_its_own_question(watching):
     assert all(quality.found(question).whole is not None for question in before)
 
 
+def test_triangles_are_those_of_the_component_of_the_source(tmp_path):
+    from bihdist_core.formats.field_output import write_fields
+    from tests.shapes import two_pieces
+
+    surface = two_pieces()
+    write_fields(tmp_path / "two.ply", surface, {"zero": np.zeros(len(surface.vertices))})
+    w = Watching(tmp_path / "two.ply", 7)
+    quality = Quality(w.posted.put, lambda: None)
+    for at, component in ((7, 0), (62, 1), (8, 0)):
+        w.session.show(move_source(w.session.document, 0, at))
+        w.until(lambda: w.session.is_complete)
+        quality.ask(w.asked)
+        for question in w.asked:
+            wanted = triangle_sample(w.distance(question.spec), component=component)
+            w.until(lambda question=question, wanted=wanted: quality.found(question).triangles == wanted)
+    quality.close()
+    w.session.close()
+
+
 @pytest.mark.parametrize("at", [Place(3, (0.2, 0.5, 0.3)), SourceSet((3, 200))], ids=["place", "set"])
 def test_sources_that_are_no_vertex_are_judged_too(watching, at):
     w = watching(at)
