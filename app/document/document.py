@@ -12,7 +12,18 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, checked_source, whole_number
 
 from .camera import View, checked_view
-from .instruments import ALONG_ALL_PINS, AS_LISTED, DOCKS, FIRST_TWO, Pin, PinList, Profile, Scatter, Selection
+from .instruments import (
+    ALONG_ALL_PINS,
+    AS_LISTED,
+    DOCKS,
+    FIRST_TWO,
+    DockPlaces,
+    Pin,
+    PinList,
+    Profile,
+    Scatter,
+    Selection,
+)
 from .looks import (
     AS_IT_IS,
     LARGEST,
@@ -158,7 +169,7 @@ class Document:
     fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
     projection: one of PROJECTIONS.  axes: whether their directions are shown.  regions: the panels, by id, that show
     the regions of the pins by their distance.  extrema: whether those of the fields are marked.  docks: those of
-    DOCKS that are open.
+    DOCKS that are open; dock_places: where they were when this was saved, None for where docks are at first.
     snap: whether the pointer puts sources on vertices, and not anywhere in faces.
     """
 
@@ -188,6 +199,7 @@ class Document:
     regions: tuple[int, ...] = ()
     extrema: bool = False
     docks: tuple[str, ...] = ()
+    dock_places: DockPlaces | None = None
     snap: bool = True
 
     def __post_init__(self) -> None:
@@ -291,7 +303,7 @@ def free_names(base: str, count: int, taken: list[str]) -> list[str]:
 
 def content(document: Document) -> Document:
     """What two documents have in common that differ in nothing but the camera, open docks and snapping."""
-    return replace(document, camera="home", docks=(), snap=True)
+    return replace(document, camera="home", docks=(), dock_places=None, snap=True)
 
 
 def _unlike(names: list, what: str) -> set:

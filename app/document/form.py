@@ -10,7 +10,7 @@ from bihdist_core.sources.words import curve_rows, places_from
 
 from .camera import Camera, View
 from .document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom
-from .instruments import ALONG_ALL_PINS, AS_LISTED, FIRST_TWO, Pin, PinList, Profile, Scatter, Selection
+from .instruments import ALONG_ALL_PINS, AS_LISTED, FIRST_TWO, DockPlaces, Pin, PinList, Profile, Scatter, Selection
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
 from .quantities import Difference, DistanceFrom, OwnField, Part, Quantity
@@ -31,6 +31,7 @@ LATER: dict[str, Any] = {
     "regions": [],
     "extrema": False,
     "docks": [],
+    "dock_places": None,
     "snap": True,
 }
 """Parts of a document that it need not have, and what then holds: as it was before there were any."""
@@ -56,6 +57,7 @@ def document_data(document: Document) -> dict[str, Any]:
         "selections": [plain(selection) for selection in document.selections],
         "regions": list(document.regions),
         "docks": list(document.docks),
+        "dock_places": document.dock_places and plain(document.dock_places),
     }
     data = {f.name: own.get(f.name, getattr(document, f.name)) for f in fields(document)}
     # What came later is written where it differs from what was before.
@@ -138,6 +140,7 @@ def document_from(data: Any, where: str = "document") -> Document:
         "regions": listed(whole),
         "extrema": flag,
         "docks": listed(text),
+        "dock_places": _dock_places,
         "snap": flag,
     }
     values = record(data, where, readers, readers.keys() - LATER.keys() - {"shared_range"})
@@ -252,6 +255,11 @@ def _profile(data: Any, where: str) -> Profile:
 def _scatter(data: Any, where: str) -> Scatter:
     readers = {"across": or_none(whole), "up": or_none(whole), "shares": flag}
     return placed(Scatter, where, **record(data, where, readers, set()))
+
+
+def _dock_places(data: Any, where: str) -> DockPlaces | None:
+    readers = {"width": whole, "height": whole, "state": text}
+    return None if data is None else placed(DockPlaces, where, **record(data, where, readers, set(readers)))
 
 
 def _selection(data: Any, where: str) -> Selection:

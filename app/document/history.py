@@ -127,5 +127,5 @@ class Trail(Generic[Place]):
 
 
 def _seen_from(document: Document, present: Document) -> Document:
-    document = replace(document, docks=present.docks, snap=present.snap)
+    document = replace(document, docks=present.docks, dock_places=present.dock_places, snap=present.snap)
     return replace(document, camera=present.camera) if document.surfaces == present.surfaces else document

@@ -1,5 +1,6 @@
 """What a document says of measuring: pins, the profile, the scatter, selections, regions, and which docks are open."""
 
+from base64 import b64decode
 from dataclasses import dataclass
 
 from bihdist_core.distances.kinds import Spec
@@ -82,6 +83,26 @@ class Scatter:
     across: int | None = None
     up: int | None = None
     shares: bool = True
+
+
+@dataclass(frozen=True)
+class DockPlaces:
+    """Where open docks are in the window, and how large.
+
+    width, height: of the window, in logical pixels.  state: what Qt says of the docks, as base64.
+    """
+
+    width: int
+    height: int
+    state: str
+
+    def __post_init__(self) -> None:
+        if min(self.width, self.height) < 1:
+            raise ParameterError(f"A window has a size of 1 or more, not {self.width} x {self.height}.")
+        try:
+            b64decode(self.state, validate=True)
+        except ValueError:
+            raise ParameterError(f"The places of docks are base64, not {self.state[:20]!r}.") from None
 
 
 @dataclass(frozen=True)

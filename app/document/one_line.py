@@ -444,6 +444,7 @@ ROWS = (
 UNSEEN = {
     "Document.tool": "what a click does in the window",
     "Document.next_id": "for panels that are still to come",
+    "Document.dock_places": "where instruments stand in the window",
     "Document.snap": "what the pointer does in the window",
     "Document.pin_list": "for the window's list",
     "Document.scatter": "for the window's chart",

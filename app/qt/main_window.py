@@ -158,7 +158,11 @@ class MainWindow(QtWidgets.QMainWindow):
             if page is not None:
                 self.take_page(page)
 
-        self.session.show_instead(document, arriving, arrived)
+        def restoring() -> None:
+            self.once_built(lambda: self.docks.restore(document.dock_places))
+            arrived()
+
+        self.session.show_instead(document, arriving, restoring)
 
     def once_built(self, function: Callable[[], None]) -> None:
         if self.grid is None:

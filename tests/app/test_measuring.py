@@ -7,7 +7,7 @@ import pytest
 
 from app.document.document import Anchor, FieldArray, Panel, comparison
 from app.document.edits import divide, divided_panels, open_mesh, remove_panel
-from app.document.instruments import Pin, Profile, Selection
+from app.document.instruments import DockPlaces, Pin, Profile, Selection
 from app.document.measuring import (
     MOST_PINS,
     add_pins,
@@ -111,6 +111,8 @@ def test_another_mesh_has_no_pins_of_the_old_one():
         (lambda: Selection("a", ((3, 2),)), "go up"),
         (lambda: Profile(("a",)), "two points or more"),
         (lambda: Profile(way="guess"), "no way 'guess'"),
+        (lambda: DockPlaces(0, 600, ""), "not 0 x 600"),
+        (lambda: DockPlaces(900, 600, "no/base*64"), "base64, not 'no/base"),
     ],
 )
 def test_what_makes_no_sense_is_refused(make, said):

@@ -243,6 +243,10 @@ def test_the_key_opens_the_dock_and_typed_ids_are_pinned(opened):
     assert dock.wrong.text() == "Vertex 40 has a pin already."
     QtTest.QTest.keyClicks(dock.box, "p")
     assert s.document.docks == ("pins",)  # it was typed
+    type_ids(s, dock, "20000")
+    QtTest.QTest.keyClick(dock.box, QtCore.Qt.Key.Key_Escape)
+    s.settle(0.1)
+    assert (dock.box.text(), dock.wrong.isVisible(), dock.box.hasFocus()) == ("", False, False)
 
 
 def test_the_list_says_what_every_panel_has_there(opened):

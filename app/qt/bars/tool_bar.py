@@ -26,6 +26,7 @@ class ToolBar(QtWidgets.QToolBar):
 
     def __init__(self, window, actions: Actions, menus: Menus) -> None:
         super().__init__("Tools", window)
+        self.setObjectName("tools")  # the places of docks are kept with it
         self.setMovable(False)
         self.setFloatable(False)
         self.setContextMenuPolicy(QtCore.Qt.ContextMenuPolicy.PreventContextMenu)

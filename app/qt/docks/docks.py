@@ -5,6 +5,7 @@ from collections.abc import Callable
 from qtpy import QtCore, QtWidgets
 
 from ...document.document import Document
+from ...document.instruments import DockPlaces
 from .brushing import Brushing
 from .dock import Dock
 from .findings import Findings
@@ -127,6 +128,22 @@ class Docks:
         return self._docks[word].content
 
     # ------------------------------------------------------------------ where they are
+    def places(self) -> DockPlaces | None:
+        """Of those that are open; None if none are."""
+        window = self._window
+        if not self._open():
+            return None
+        return DockPlaces(window.width(), window.height(), bytes(window.saveState().toBase64()).decode())
+
+    def restore(self, places: DockPlaces | None) -> None:
+        """Put those that are open where they were, unless they were tabs of one and now need not be, or the reverse."""
+        window = self._window
+        if places is None or (places.width < NARROW) != (window.width() < NARROW):
+            return
+        window.restoreState(QtCore.QByteArray.fromBase64(places.state.encode()))
+        for word, dock in self._docks.items():
+            dock.setVisible(word in window.session.document.docks)
+
     def _new(self, word: str) -> Dock:
         title, make = _kinds()[word]
         instrument = make(self._window)

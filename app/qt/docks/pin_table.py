@@ -190,17 +190,27 @@ class PinTable(QtWidgets.QTableView):
         scale = LOOK.scale
         self.verticalHeader().setDefaultSectionSize(round(ROW * scale))
         font, head = LOOK.font(13), QtGui.QFontMetrics(LOOK.font(12))
-        widths = {BADGE: round(28 * scale)}
+        widths, cut = {BADGE: round(28 * scale)}, {}
         for column in range(VERTEX, self.rows.columnCount()):
             texts = [self.rows.text(row, column) for row in self.rows.rows]
             title = self.rows.headerData(column, QtCore.Qt.Orientation.Horizontal)
             wide = max([number_width(font, text) for text in texts], default=0)
-            title_wide = head.horizontalAdvance(str(title)) + 24
+            title_wide = whole = head.horizontalAdvance(str(title)) + 24
             if column > VERTEX:
                 title_wide = min(title_wide, WIDEST * scale)  # its tip says it in full
             widths[column] = round(max(wide + 2 * PAD, title_wide) + 0.5)
+            cut[column] = max(round(whole + 0.5) - widths[column], 0)
         room = self.viewport().width() - sum(widths.values())
-        widths[NAME] = max(room, round(LEAST_NAME * scale))
+        names = [QtGui.QFontMetrics(font).horizontalAdvance(row.name) for row in self.rows.rows]
+        least = max(round(LEAST_NAME * scale), head.horizontalAdvance("Name") + 24)
+        room -= max([least, *(name + 2 * PAD for name in names)])
+        for column, missing in sorted(cut.items(), key=lambda each: each[1]):
+            # Where names need less, titles have more.
+            more = min(missing, max(room, 0))
+            widths[column] += more
+            room -= more
+        left = self.viewport().width() - sum(widths.values())
+        widths[NAME] = max(left, least)
         for column, width in widths.items():
             if column < self.rows.columnCount():
                 self.setColumnWidth(column, width)

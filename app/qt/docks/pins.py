@@ -38,9 +38,16 @@ class IdBox(TextBox):
 
     left = QtCore.Signal()
 
+    def event(self, event: QtCore.QEvent) -> bool:
+        if event.type() == QtCore.QEvent.Type.ShortcutOverride and event.key() == QtCore.Qt.Key.Key_Escape:
+            event.accept()  # before the window takes it
+            return True
+        return super().event(event)
+
     def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
         if event.key() == QtCore.Qt.Key.Key_Escape:
             self.clear()
+            self.textEdited.emit("")  # what was wrong is gone
             self.left.emit()
         else:
             super().keyPressEvent(event)

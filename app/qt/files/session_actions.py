@@ -43,15 +43,22 @@ class SessionFile:
     # ------------------------------------------------------------------ saving
     def recipe(self) -> Recipe:
         """What the window shows, on the page of the recipe that was opened last."""
-        return Recipe(self._window.session.document, self._window.page)
+        window, document = self._window, self._window.session.document
+        if window.docks is not None:
+            document = replace(document, dock_places=window.docks.places())
+        return Recipe(document, window.page)
 
     @property
     def is_changed(self) -> bool:
-        """Whether something was saved or opened, and what is shown has changed since; the camera does not count."""
+        """Whether something was saved or opened, and what is shown has changed since.
+
+        The camera does not count, nor do the places of docks.
+        """
         if self._saved is None:
             return False
         now, then = self.recipe(), self._saved
-        return (replace(now.document, camera=then.document.camera), now.page) != (then.document, then.page)
+        seen = replace(now.document, camera=then.document.camera, dock_places=then.document.dock_places)
+        return (seen, now.page) != (then.document, then.page)
 
     def save(self, path: str | None = None) -> None:
         """Into a file, the one it was saved in or opened from if none is given; OutputError if that cannot be."""
