@@ -71,24 +71,26 @@ def _member(word: str, whole: str) -> Member:
         return Place.of(int(found[1]), first, second)
     if _is_file(word):
         return read_curve(word)
-    meant = _meant(word)
     among = "" if word == whole else f" in {_shown(whole)}"
-    raise ParameterError(f"{_shown(word)}{among} is no source{meant}; {HOW}.")
+    if not word and among:
+        raise ParameterError(f"A plus{among} has nothing beside it; write several as 12+40+7.")
+    meant = _meant(word)
+    raise ParameterError(f"{_shown(word)}{among} is no source{meant or f'; {HOW}.'}")
 
 
 def _meant(word: str) -> str:
-    """What may have been meant, as part of a sentence."""
+    """What may have been meant, as the end of a sentence; "" if that cannot be told."""
     head, colon, rest = word.lower().partition(":")
     if colon and rest.isdigit() and get_close_matches(head, ["loop"], 1, 0.5):
-        return f", did you mean loop:{rest}?"
+        return f"; did you mean loop:{rest}?"
     if re.fullmatch(r"f?[0-9]+[:,][^,]*,[^,]*,[^,]*", word):
-        return " (a place has the weights of the face's first two corners; the third's is the rest)"
+        return "; a place has the weights of the face's first two corners, the third's is the rest: f311:0.2,0.5."
     if re.fullmatch(r"f[0-9]+(:[^,]*)?", word):
-        return " (a place in a face has two weights)"
+        return "; a place in a face has two weights: f311:0.2,0.5."
     if re.fullmatch(r"[0-9]+([,; ]+[0-9]+)+", word):
-        return f", did you mean {'+'.join(re.findall('[0-9]+', word))[:LONGEST]}?"
+        return f"; did you mean {'+'.join(re.findall('[0-9]+', word))[:LONGEST]}?"
     if re.fullmatch(r"-[0-9]+", word):
-        return " (vertex ids start at 0)"
+        return "; vertex ids start at 0."
     return ""
 
 

@@ -249,4 +249,6 @@ def test_what_is_hidden_is_said_in_few_sentences(mesh_file, tmp_path, capsys):
     assert f"Vertex {back[0]} and 4 other marked places are hidden" in line
     way = tmp_path / "way.json"
     way.write_text(f'{{"points": [[{face}, 0.3, 0.3], [{face}, 0.1, 0.1]]}}')
-    assert said(str(way)) == []
+    assert said(str(way)) == [
+        "bihdist: The curve of 2 points is hidden in the view front; try --view source or --two-views."
+    ]
