@@ -122,6 +122,16 @@ def test_words_of_no_source_are_refused_under_the_box(sheet, words, said):
     assert s.source == 84
 
 
+def test_a_short_sentence_after_a_long_one_has_a_low_box(sheet):
+    box = sheet.window.source_box
+    typed(sheet, "9999")
+    low = box.wrong.height()
+    typed(sheet, "banana")
+    assert box.wrong.height() > low
+    typed(sheet, "9999")
+    assert box.wrong.height() == low
+
+
 # ---------------------------------------------------------------------- places
 def test_without_snapping_a_click_puts_the_source_into_the_face(opened, tmp_path):
     from qtpy import QtCore

@@ -86,6 +86,7 @@ class SourceBox(TextBox):
         self.wrong.setText(sentence)
         asked = self.wrong.fontMetrics().horizontalAdvance(sentence) + 20
         self.wrong.setFixedWidth(min(asked, round(WIDEST_SENTENCE * LOOK.scale)))
+        self.wrong.setMinimumHeight(0)  # what a longer sentence needed
         self.wrong.setFixedHeight(self.wrong.heightForWidth(self.wrong.width()))
         self.wrong.move(self.mapToGlobal(QtCore.QPoint(0, self.height() + 4)))
         self.wrong.setVisible(self.isVisible())
