@@ -212,17 +212,16 @@ class Distance(ABC):
         One of them may be any source if the other is a vertex.  ParameterError for what this distance does not know.
         """
         u, v = (checked_source(each) if isinstance(each, str) else each for each in (u, v))
-        if not isinstance(u, ELSEWHERE) and not isinstance(v, ELSEWHERE):
+        are_single = [isinstance(each, Place) or not isinstance(each, ELSEWHERE) for each in (u, v)]
+        if all(are_single):
             return float(self.pairwise([u, v])[0, 1])
         if not isinstance(v, ELSEWHERE):
             return float(self.from_source(u)[self.surface.check_vertex(v)])
         if not isinstance(u, ELSEWHERE):
             return float(self.from_source(v)[self.surface.check_vertex(u)])
-        if not (isinstance(u, Place) and isinstance(v, Place)):
-            raise ParameterError(
-                f"{self.label} is not known between {short_words_of(u)} and {short_words_of(v)}; let one be a vertex."
-            )
-        return float(self.of_pairs([(u, v)])[0])
+        raise ParameterError(
+            f"{self.label} is not known between {short_words_of(u)} and {short_words_of(v)}; let one be a vertex."
+        )
 
     def pairwise(
         self, vertices: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None

@@ -32,7 +32,9 @@ def test_a_matrix_has_what_pairs_have(make):
     i, j = np.triu_indices(len(AT), 1)
     pairs = [(AT[a], AT[b]) for a, b in zip(i, j, strict=True)]
     assert np.abs(distance.of_pairs(pairs) - found[i, j]).max() <= 1e-9 * found.max()
-    assert distance.between(AT[1], AT[2]) == pytest.approx(found[1, 2], rel=1e-9)
+    # Also of a distance that is not the same both ways, between a place and a vertex.
+    for a, b in ((1, 2), (0, 1), (1, 0)):
+        assert distance.between(AT[a], AT[b]) == pytest.approx(found[a, b], rel=1e-9)
     # Vertices among places have the very numbers that they have alone.
     assert distance.pairwise([5, "f17:0.2,0.5", 77])[0, 2] == distance.of_pairs([[5, 77]])[0]
     # One corner with all the weight is a vertex.
