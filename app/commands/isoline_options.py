@@ -2,13 +2,15 @@
 
 import argparse
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..document.document import Document
+    from ..document.looks import Isolines
 
 
-def add_isolines(parser: argparse.ArgumentParser) -> None:
+def add_levels(parser: argparse.ArgumentParser) -> None:
+    """Where isolines are."""
     parser.add_argument("--isolines", type=int, metavar="N", help="number of steps, 0 for none (default: 20)")
     parser.add_argument(
         "--isoline-spacing", type=float, metavar="STEP", help="isolines at multiples of this, in the field's unit"
@@ -17,6 +19,11 @@ def add_isolines(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--isoline-through", type=int, action="append", metavar="V", help="one more through a vertex; repeat for more"
     )
+
+
+def add_isolines(parser: argparse.ArgumentParser) -> None:
+    """Where they are, and how they look."""
+    add_levels(parser)
     parser.add_argument(
         "--bold-isolines", type=int, nargs="?", const=5, metavar="N", help="every fifth, or Nth, is bolder"
     )
@@ -25,13 +32,17 @@ def add_isolines(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def with_isolines(document: "Document", options: argparse.Namespace) -> "Document":
-    """With the lines that are asked for; ParameterError for what there is not."""
+def isolines_of(options: argparse.Namespace) -> "Isolines":
+    """Where they are, but for those through vertices; ParameterError for two ways to say it."""
+    from ..document.looks import TWENTY_STEPS
+
+    return replace(TWENTY_STEPS, **_where(options, TWENTY_STEPS))
+
+
+def _where(options: argparse.Namespace, now: "Isolines") -> dict[str, Any]:
+    """What is asked for of `Isolines`."""
     from bihdist_core import ParameterError
 
-    from ..document.isoline_edits import pass_through, pass_through_none
-
-    now, given = document.isolines, {}
     asked = {
         "--isolines": options.isolines,
         "--isoline-spacing": options.isoline_spacing,
@@ -40,10 +51,20 @@ def with_isolines(document: "Document", options: argparse.Namespace) -> "Documen
     named = [name for name, value in asked.items() if value is not None]
     if len(named) > 1:
         raise ParameterError(f"{' and '.join(named)} are two ways to say where isolines are; choose one.")
-    if named:
-        values = options.isoline_values or ()
-        given = {"spacing": options.isoline_spacing, "values": values}
-        given["count"] = now.count if options.isolines is None else options.isolines
+    if not named:
+        return {}
+    count = now.count if options.isolines is None else options.isolines
+    return {"spacing": options.isoline_spacing, "values": options.isoline_values or (), "count": count}
+
+
+def with_isolines(document: "Document", options: argparse.Namespace) -> "Document":
+    """With the lines that are asked for; ParameterError for what there is not."""
+    from bihdist_core import ParameterError
+
+    from ..document.isoline_edits import pass_through, pass_through_none
+
+    now = document.isolines
+    given = _where(options, now)
     if options.bold_isolines is not None:
         given["bold"] = options.bold_isolines
     if options.isoline_labels is not None:

@@ -9,7 +9,7 @@ from .style import PINS
 RIM, CASING = 2.2, 1.1
 """Pixels, at scale 1, that the rim is wide, and the light line along it."""
 
-HATCH, STEP = 1.5, 10.0
+HATCH, STEP = 1.6, 7.5
 """The same of the lines of the hatching, and of their distance."""
 
 LIGHT = 0.85
@@ -27,7 +27,7 @@ PAINT_SELECTED = f"""
     float halfHatch = {HATCH / 2} * edgeScale, halfRim = {RIM / 2} * edgeScale, casing = {CASING} * edgeScale;
     float within = smoothstep(-0.6, 0.6, fromRim);
     float light = within * (1.0 - smoothstep(halfHatch + casing - 0.6, halfHatch + casing + 0.6, fromHatch));
-    light = max(0.4 * light, 1.0 - smoothstep(halfRim + casing - 0.6, halfRim + casing + 0.6, abs(fromRim)));
+    light = max(0.3 * light, 1.0 - smoothstep(halfRim + casing - 0.6, halfRim + casing + 0.6, abs(fromRim)));
     fragOutput0.rgb = mix(fragOutput0.rgb, vec3(1.0), {LIGHT} * light);
     float dark = within * (1.0 - smoothstep(halfHatch - 0.6, halfHatch + 0.6, fromHatch));
     dark = max(dark, 1.0 - smoothstep(halfRim - 0.6, halfRim + 0.6, abs(fromRim)));

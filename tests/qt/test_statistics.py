@@ -136,3 +136,18 @@ def test_truncation_follows_sources_of_other_kinds(opened):
         s.session.show(put_point(s.document, "source", checked_source(words)))
         s.until(lambda words=words: box.loss is not None and box.loss.source == checked_source(words))
         assert np.allclose(box.loss.largest, truncation_loss(s.session.surface, words).largest, atol=1e-9)
+
+
+def test_isolines_are_saved_from_the_menu_of_a_place_too(opened, tmp_path):
+    s = opened
+    s.window.docks.writing.save_isolines(s.document.panels[1].id, str(tmp_path / "lines.csv"))
+    s.until((tmp_path / "lines.csv").exists)
+    rows = np.genfromtxt(tmp_path / "lines.csv", delimiter=",", names=True)
+    assert np.allclose(np.unique(rows["value"]), s.panels[1].view.scene.isolines)
+    from qtpy.QtWidgets import QMenu
+
+    middle = s.panels[1].view.rect().center()
+    s.window.gestures._open_menu(s.document.panels[1].id, s.panels[1].view.met_at(middle), middle)
+    (menu,) = [each for each in s.application.topLevelWidgets() if isinstance(each, QMenu) and each.isVisible()]
+    assert "Save isolines …" in [action.text() for action in menu.actions()]
+    menu.hide()

@@ -10,6 +10,7 @@ from .brushing import Brushing
 from .dock import Dock
 from .findings import Findings
 from .instrument import Instrument
+from .isoline_files import Writing
 
 NARROW = 1_100
 """Logical pixels of the window's width under which the docks at the right are tabs of one."""
@@ -55,7 +56,7 @@ class Docks:
         self._docks: dict[str, Dock] = {}
         self._shown: Document | None = None
         self.findings = Findings(window)
-        self.brushing = Brushing(window)
+        self.brushing, self.writing = Brushing(window), Writing(window)
         window.setDockNestingEnabled(True)
         window.setTabPosition(QtCore.Qt.DockWidgetArea.RightDockWidgetArea, QtWidgets.QTabWidget.TabPosition.North)
         for corner, area in (

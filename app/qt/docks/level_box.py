@@ -1,49 +1,29 @@
 """Isolines as objects: saved as coordinates, and the region between two values as vertices, a mesh or a selection."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import Surface
 from bihdist_core.analysis.bands import Band, band
-from bihdist_core.analysis.isoline_output import ISOLINE_FORMATS, write_isolines
-from bihdist_core.analysis.isoline_tracing import isolines
+from bihdist_core.analysis.level_words import value_from_words
 from bihdist_core.analysis.selecting import write_ids
 from bihdist_core.errors import ParameterError
 from bihdist_core.formats.field_output import write_fields
 from bihdist_core.progress import Progress
 
-from ..look.numbers import MINUS, number, share
+from ..look.numbers import share
 from ..look.text_box import TextBox, mark_wrong
 from ..panels.flat_button import FlatButton
 from .background import Background
-from .saving import ask_path, vertices_in_words
+from .isoline_files import Levels
+from .saving import vertices_in_words
 
 REST_MS = 250
 """After the last letter, until the region is looked for."""
 
 REGION_FORMATS = {"ids": (".txt", ".npy", ".csv"), "mesh": (".ply", ".vtp")}
-
-
-@dataclass(frozen=True, eq=False)
-class Levels:
-    """What can be saved of a panel: its surface, its field (n,) with the end of its bar, and the isolines' values."""
-
-    surface: Surface
-    field: np.ndarray
-    label: str
-    maximum: float
-    values: np.ndarray
-
-
-def write_levels(path: str, levels: Levels) -> None:
-    """The isolines that the panel shows; see `write_isolines`."""
-    if not len(levels.values):
-        raise ParameterError("This panel shows no isolines; choose some in the menu Isolines first.")
-    write_isolines(path, isolines(levels.surface, levels.field, levels.values))
 
 
 def write_region(path: str, levels: Levels, found: Band, way: str) -> None:
@@ -52,21 +32,6 @@ def write_region(path: str, levels: Levels, found: Band, way: str) -> None:
         write_ids(path, found.vertices)
     else:
         write_fields(path, found.surface, {levels.label or "field": found.along(levels.field)})
-
-
-def level_of(text: str, maximum: float, otherwise: float) -> float:
-    """A value as it is typed: "0.25", "20 %" of the maximum; nothing means `otherwise`.  ParameterError for others."""
-    words = text.strip().replace(MINUS, "-")
-    if not words:
-        return otherwise
-    scale = maximum / 100 if words.endswith("%") else 1.0
-    try:
-        value = float(words.removesuffix("%").replace(",", "")) * scale
-    except ValueError:
-        value = np.nan
-    if np.isnan(value):
-        raise ParameterError(f"{text.strip()!r} is no value; type one such as {number(maximum / 4)}, or 25 %.")
-    return value
 
 
 def _done(request: tuple[Callable[[], object]], progress: Progress) -> Iterator[object]:
@@ -116,9 +81,6 @@ class LevelBox(QtWidgets.QWidget):
         self._background = Background("region", _done, window)
         self._background.answered.connect(self._take)
         self._background.failed.connect(self._refuse)
-        self._writing = Background("isolines", _done, window)
-        self._writing.answered.connect(self._say_written)
-        self._writing.failed.connect(self._say_failed)
 
     def show_levels(self, levels: Levels | None) -> None:
         """Of another panel, or another field."""
@@ -135,7 +97,8 @@ class LevelBox(QtWidgets.QWidget):
     def ends(self) -> tuple[float, float]:
         """The two values; ParameterError for what is none."""
         top = self._levels.maximum if self._levels is not None else 1.0
-        return level_of(self.low.text(), top, -np.inf), level_of(self.high.text(), top, np.inf)
+        low, high = (value_from_words(box.text(), top) for box in (self.low, self.high))
+        return -np.inf if low is None else low, np.inf if high is None else high
 
     def _look(self) -> None:
         levels = self._levels
@@ -172,14 +135,7 @@ class LevelBox(QtWidgets.QWidget):
 
     def save_isolines(self, *_: object, path: str = "") -> None:
         """path: asks for one if it is empty."""
-        levels = self._levels
-        if levels is None:
-            return
-
-        def write(path: str) -> None:
-            write_levels(path, levels)
-
-        self._save("Save isolines", f"{levels.surface.name} isolines", ISOLINE_FORMATS, write, path)
+        self._window.docks.writing.save_isolines(self._window.grid.active, path)
 
     def save_ids(self, path: str = "") -> None:
         self._save_region("ids", path)
@@ -195,22 +151,5 @@ class LevelBox(QtWidgets.QWidget):
         def write(path: str) -> None:
             write_region(path, levels, found, way)
 
-        self._save("Save a region", f"{levels.surface.name} region", REGION_FORMATS[way], write, path)
-
-    def _save(
-        self, title: str, name: str, formats: tuple[str, ...], write: Callable[[str], None], path: str = ""
-    ) -> None:
-        path = path or ask_path(self._window, title, name, formats)
-
-        def work() -> str:
-            write(path)
-            return path
-
-        if path:
-            self._writing.ask((work,))
-
-    def _say_written(self, request: object, path: str) -> None:
-        self._window.say(f"Saved {QtCore.QFileInfo(path).fileName()}")
-
-    def _say_failed(self, request: object, sentence: str) -> None:
-        self._window.failed(sentence)
+        name = f"{levels.surface.name} region"
+        self._window.docks.writing.save("Save a region", name, REGION_FORMATS[way], write, path)

@@ -26,7 +26,8 @@ from .chart_files import save_figure
 from .fact_table import FactTable
 from .histogram import Histogram
 from .instrument import Instrument
-from .level_box import LevelBox, Levels
+from .isoline_files import levels_of
+from .level_box import LevelBox
 from .saving import save, written
 from .truncation_box import TruncationBox
 
@@ -169,12 +170,7 @@ class StatisticsDock(Instrument):
         else:
             self._show()
         self._asked = (key[:2], key[3], lines)
-        field = shown.answer.field
-        self.levels.show_levels(
-            None
-            if field is None
-            else Levels(opened.surface, field, shown.answer.label, shown.answer.maximum, np.array(scene.isolines))
-        )
+        self.levels.show_levels(levels_of(window, id))
 
     def _refuse(self, request: object, sentence: str) -> None:
         self.statistics = None

@@ -1,0 +1,137 @@
+"""`bihdist isolines`: the isolines of a distance as coordinates, and the region between two values, into files."""
+
+import argparse
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .isoline_options import add_levels, isolines_of
+from .mesh import read_laplacian
+from .options import SOURCE, add_areas, add_distance, quantities, source
+from .terminal import accuracy, counted, progress_line
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from bihdist_core import Surface
+    from bihdist_core.progress import Progress
+
+WORDS = "isolines of a distance as coordinates, and the region between two values"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
+    parser.add_argument("-o", "--output", metavar="OUT", help="the isolines: a .csv, .obj, .vtp or .json file")
+    add_levels(parser)
+    parser.add_argument("--region", metavar="LOW:HIGH", help="between two values, or shares of the maximum: 20%%:40%%")
+    parser.add_argument("--region-ids", metavar="OUT", help="its vertices: a .txt, .npy or .csv file")
+    parser.add_argument("--region-mesh", metavar="OUT", help="cut out along its isolines: a .ply or .vtp file")
+    add_distance(parser)
+    add_areas(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    from bihdist_core.analysis.bands import band
+    from bihdist_core.analysis.isoline_output import ISOLINE_FORMATS, write_isolines
+    from bihdist_core.analysis.isoline_tracing import isolines
+    from bihdist_core.analysis.level_words import region_from_words
+    from bihdist_core.analysis.selecting import SELECTION_WAYS, write_ids
+    from bihdist_core.errors import ParameterError
+    from bihdist_core.formats.field_output import write_fields
+    from bihdist_core.whole_file import check_output
+
+    outputs = (
+        (options.output, ISOLINE_FORMATS),
+        (options.region_ids, SELECTION_WAYS["ids"]),
+        (options.region_mesh, SELECTION_WAYS["mesh"]),
+    )
+    if not (options.output or options.region):
+        raise ParameterError("There is nothing to do; name a file of isolines with -o, or values with --region.")
+    if (options.region_ids or options.region_mesh) and not options.region:
+        raise ParameterError("Which region? Name its values with --region, such as 20%:40%.")
+    for path, formats in outputs:
+        if path:
+            check_output(path, formats)
+    wanted = isolines_of(options)
+    with progress_line() as progress:
+        it = _computed(options, progress)
+    top = it.top
+    if options.output:
+        values = _values(it, wanted, options.isoline_through or ())
+        lines = isolines(it.surface, it.field, values)
+        write_isolines(options.output, lines)
+        length = sum(line.length for line in lines)
+        size = f"{counted(len(lines), 'curve')} at {counted(len(values), 'value')}, together {length:.6g} long"
+        print(f"{options.output}: {it.label}, {size}{it.said}")
+    if options.region:
+        found = band(it.surface, it.field, *region_from_words(options.region, top))
+        if options.region_ids:
+            write_ids(options.region_ids, found.vertices)
+            print(f"{options.region_ids}: {_vertices(len(found.vertices))}")
+        if options.region_mesh:
+            write_fields(options.region_mesh, found.surface, {it.word: found.along(it.field)})
+            print(f"{options.region_mesh}: {counted(len(found.surface.faces), 'face')}")
+        part = found.area / it.surface.face_areas.sum()
+        print(f"region {options.region}: area {found.area:.6g}, {part:.1%}, {_vertices(len(found.vertices))}")
+
+
+def _vertices(count: int) -> str:
+    return "1 vertex" if count == 1 else f"{count} vertices"
+
+
+@dataclass(frozen=True, eq=False)
+class _Computed:
+    surface: "Surface"
+    field: "np.ndarray"
+    label: str
+    word: str
+    said: str
+    is_signed: bool
+
+    @property
+    def top(self) -> float:
+        """The field's maximum, of its size if it is signed."""
+        import numpy as np
+
+        return float(np.nanmax(np.abs(self.field)))
+
+
+def _computed(options: argparse.Namespace, progress: "Progress") -> _Computed:
+    from bihdist_core.distances.answers import Distances
+    from bihdist_core.distances.difference import check_units, difference
+    from bihdist_core.sources.pieces import pieces_of
+
+    from ..document.quantities import Difference
+
+    (chosen,) = quantities(options, [options.distance])
+    laplacian = read_laplacian(options)
+    pieces, distances = pieces_of(options.source, laplacian.surface), Distances(laplacian)
+    known = [distances.get(spec, progress) for spec in chosen.specs]
+    fields = [distance.from_source(options.source, progress) for distance in known]
+    is_signed = isinstance(chosen, Difference)
+    if isinstance(chosen, Difference) and chosen.raw:
+        check_units(*(distance.unit for distance in known))
+    field = difference(*fields, raw=chosen.raw) if isinstance(chosen, Difference) else fields[0]
+    return _Computed(
+        laplacian.surface,
+        field,
+        " − ".join(distance.label_from(pieces) for distance in known),
+        "_minus_".join(spec.word for spec in chosen.specs),
+        "".join(dict.fromkeys(accuracy(distance) for distance in known)),
+        is_signed,
+    )
+
+
+def _values(it: _Computed, wanted, through) -> "np.ndarray":
+    """Those that a figure would have lines at."""
+    from bihdist_core.errors import ParameterError
+
+    from ..drawing.levels import levels, too_many
+
+    it.surface.check_vertices(list(through))
+    found = levels(wanted, it.top, it.top, it.is_signed, [float(it.field[vertex]) for vertex in through])
+    if said := too_many(found, wanted, it.top):
+        raise ParameterError(said)
+    if not len(found.values):
+        raise ParameterError("There are no isolines; name a number of steps with --isolines.")
+    return found.values

@@ -1,0 +1,29 @@
+"""Values of a field as they are typed: numbers, or shares of its maximum."""
+
+import math
+
+from ..errors import ParameterError
+
+
+def value_from_words(text: str, maximum: float) -> float | None:
+    """ "0.25", or "20 %" of the maximum; None for nothing.  ParameterError for other words."""
+    words = text.strip().replace("\N{MINUS SIGN}", "-")
+    if not words:
+        return None
+    scale = maximum / 100 if words.endswith("%") else 1.0
+    try:
+        value = float(words.removesuffix("%").replace(",", "")) * scale
+    except ValueError:
+        value = math.nan
+    if math.isnan(value):
+        raise ParameterError(f"{text.strip()!r} is no value; type one such as {maximum / 4:.4g}, or 25 %.")
+    return value
+
+
+def region_from_words(text: str, maximum: float) -> tuple[float, float]:
+    """ "0.1:0.25", "20%:40%"; an end that is left out is infinite.  ParameterError for other words."""
+    ends = text.split(":")
+    if len(ends) != 2 or not text.strip(": "):
+        raise ParameterError(f"{text!r} is no region between two values, such as 0.1:0.2, 20%:40% or 50%:.")
+    low, high = (value_from_words(end, maximum) for end in ends)
+    return -math.inf if low is None else low, math.inf if high is None else high

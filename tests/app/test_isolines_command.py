@@ -1,0 +1,91 @@
+"""`bihdist isolines`: curves and regions as Python has them, by the same words as figures."""
+
+import numpy as np
+import pytest
+
+from app.main import main
+from bihdist_core import BiharmonicDistance, GeodesicDistance, band, difference, isolines, read_surface
+from bihdist_core.analysis.level_words import region_from_words, value_from_words
+from bihdist_core.errors import ParameterError
+from tests.shapes import bumpy
+
+
+@pytest.fixture
+def surface():
+    return bumpy(300)
+
+
+@pytest.fixture
+def mesh(mesh_file, surface):
+    return mesh_file(surface)
+
+
+def rows(path):
+    return np.genfromtxt(path, delimiter=",", names=True)
+
+
+def test_curves_are_those_of_python(mesh, tmp_path, capsys):
+    surface = read_surface(mesh)
+    field = BiharmonicDistance(surface).from_source(7)
+    out = str(tmp_path / "lines.csv")
+    assert main(["isolines", mesh, "--source", "7", "--isolines", "5", "-o", out]) == 0
+    expected = isolines(surface, field, field.max() * np.arange(1, 5) / 5)
+    found = rows(out)
+    points = np.concatenate([line.points for line in expected])
+    assert np.allclose(np.column_stack([found[k] for k in "xyz"]), points, atol=1e-12)
+    assert f"{len(expected)} curve" in capsys.readouterr().out
+
+
+def test_values_may_be_named_and_lie_on_both_sides_of_0(mesh, tmp_path):
+    surface, out = read_surface(mesh), str(tmp_path / "lines.csv")
+    words = ["isolines", mesh, "--source", "7+90", "--distance", "biharmonic - geodesic", "-o", out]
+    assert main([*words, "--isoline-values", "-0.01,0.01"]) == 0
+    fields = [kind(surface).from_source("7+90") for kind in (BiharmonicDistance, GeodesicDistance)]
+    expected = isolines(surface, difference(*fields), [-0.01, 0.01])
+    assert len(rows(out)) == sum(len(line.points) for line in expected)
+    assert main([*words, "--isolines", "0", "--isoline-through", "12"]) == 0
+    assert np.unique(rows(out)["value"]) == pytest.approx(difference(*fields)[12], abs=1e-12)
+
+
+def test_a_region_between_two_values(mesh, tmp_path, capsys):
+    surface = read_surface(mesh)
+    field = BiharmonicDistance(surface).from_source(7)
+    ids, part = tmp_path / "ids.txt", tmp_path / "part.ply"
+    words = ["isolines", mesh, "--source", "7", "--region", "20%:40%"]
+    assert main([*words, "--region-ids", str(ids), "--region-mesh", str(part)]) == 0
+    expected = band(surface, field, 0.2 * field.max(), 0.4 * field.max())
+    assert np.loadtxt(ids, dtype=int).tolist() == expected.vertices.tolist()
+    assert read_surface(part).face_areas.sum() == pytest.approx(expected.area, rel=1e-12)
+    assert f"area {expected.area:.6g}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ([], "nothing to do"),
+        (["--region", "5"], "no region"),
+        (["--region", "a:b"], "'a' is no value"),
+        (["--region", "40%:20%"], "smaller first"),
+        (["--region-ids", "ids.txt", "-o", "l.csv"], "Which region"),
+        (["-o", "l.png"], ".csv"),
+        (["-o", "l.csv", "--isolines", "0"], "no isolines"),
+        (["-o", "l.csv", "--isolines", "3", "--isoline-spacing", "1"], "two ways"),
+        (["-o", "l.csv", "--isoline-through", "300"], "300"),
+    ],
+)
+def test_what_cannot_be_done_says_why(mesh, words, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["isolines", mesh, "--source", "7", *words]) == 2
+    assert said in capsys.readouterr().err
+    assert not list(tmp_path.glob("l.*"))
+
+
+def test_values_in_words():
+    assert value_from_words(" −20 % ", 5) == -1
+    assert value_from_words("1,250.5", 5) == 1250.5
+    assert value_from_words("  ", 5) is None
+    assert region_from_words("0.5:", 2) == (0.5, np.inf)
+    assert region_from_words(":25%", 2) == (-np.inf, 0.5)
+    for words in ("", ":", "1:2:3"):
+        with pytest.raises(ParameterError):
+            region_from_words(words, 2)
