@@ -1,7 +1,9 @@
 """The path of a document's profile: what it is led through, and the path itself, computed in the background."""
 
+import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from weakref import WeakKeyDictionary
 
@@ -9,7 +11,8 @@ from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.analysis.plane_sections import plane_section
 from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.distances.answers import failure_in_words
-from bihdist_core.errors import ParameterError
+from bihdist_core.distances.geodesic import EXACT_UP_TO
+from bihdist_core.errors import ParameterError, SolverError
 from bihdist_core.progress import Progress, silent
 from bihdist_core.sources.source import Place, Source
 from bihdist_core.sources.words import words_of
@@ -22,6 +25,9 @@ from .lane import Lane
 from .opened import Opened
 
 FEW = "A profile goes from point to point: pin two points, or choose its ends above."
+
+REST = 0.25
+"""Seconds without a move after which the places of a path rest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +46,11 @@ class PathWanted:
         """Whether that is the same path."""
         mine = self.places, self.way, self.across
         return other is not None and self.surface is other.surface and mine == (other.places, other.way, other.across)
+
+    def is_alike(self, other: "PathWanted | None") -> bool:
+        """Whether the two differ in places only, as where one of them is dragged."""
+        mine = self.way, len(self.places)
+        return other is not None and self.surface is other.surface and mine == (other.way, len(other.places))
 
 
 def wanted_path(
@@ -136,6 +147,9 @@ class PathLane:
 
     found: called by way of `post` with what was wanted and a `SurfacePath`, or a sentence that says why there is none;
     what is no longer wanted is dropped.  going: called the same way with what a path that takes long is at.
+
+    Where places move, paths follow them as fast as they are found, straightened ones where exact ones would take long;
+    these come once the places rest.
     """
 
     def __init__(
@@ -147,6 +161,7 @@ class PathLane:
         self._post, self._found, self._going = post, found, going
         self._wanted: PathWanted | None = None
         self._maker = PathMaker()
+        self._before: PathWanted | None = None  # on the lane's thread
         self._lane: Lane[PathWanted] | None = None
 
     def ask(self, wanted: PathWanted | None) -> None:
@@ -165,7 +180,23 @@ class PathLane:
 
     # ------------------------------------------------------------------ on the lane's thread
     def _work(self, wanted: PathWanted, lane: Lane[PathWanted]) -> None:
-        path = self._maker.path(wanted, lane.progress(lambda latest: latest is wanted))
+        is_moving, self._before = wanted.is_alike(self._before), wanted
+        is_quick = wanted.way != "exact" and (wanted.way != "auto" or len(wanted.surface.vertices) > EXACT_UP_TO)
+        if is_quick:
+            self._make(wanted, lane.progress(wanted.is_alike))
+            return
+        if is_moving and wanted.way == "auto":
+            with suppress(ParameterError, SolverError):
+                self._make(wanted, lane.progress(wanted.is_alike), "straightened")
+        end = time.monotonic() + (REST if is_moving else 0)
+        while time.monotonic() < end and self._wanted is wanted:
+            time.sleep(0.02)
+        # To give an exact path up, its process is ended: the next would wait for another.
+        if self._wanted is wanted:
+            self._make(wanted, lane.progress(lambda latest: latest is wanted))
+
+    def _make(self, wanted: PathWanted, progress: Progress, way: str = "") -> None:
+        path = self._maker.path(replace(wanted, way=way or wanted.way), progress)
         self._post(lambda: self._tell(wanted, path))
 
     def _failed(self, wanted: PathWanted, error: Exception) -> None:
@@ -176,5 +207,6 @@ class PathLane:
         self._post(lambda: self._going(text))
 
     def _tell(self, wanted: PathWanted, found: SurfacePath | str) -> None:
-        if wanted is self._wanted:
+        is_on_its_way = isinstance(found, SurfacePath) and wanted.is_alike(self._wanted)
+        if wanted is self._wanted or is_on_its_way:
             self._found(wanted, found)
