@@ -267,7 +267,7 @@ TOOLS = (
         "&Live: the source follows the pointer",
         lambda w: w.gestures.set_live(w.actions_by_word["live"].isChecked()),
         ("L",),
-        "The source follows the pointer until this is switched off",
+        "The source follows the pointer while the key is held, or until this is switched off",
         "live",
         needs_mesh=True,
         is_check=True,
@@ -344,6 +344,7 @@ class Actions:
         action = QtWidgets.QAction(act.text, self._window)
         action.setShortcuts([QtGui.QKeySequence(key) for key in act.keys])
         action.setCheckable(act.is_check)
+        action.setAutoRepeat(not act.is_check)  # or it would flicker while its key is held
         action.setChecked(act.is_on)
         shown = action.shortcut().toString(QtGui.QKeySequence.SequenceFormat.NativeText)
         words = act.tip or act.text.replace("&", "").replace(" …", "")

@@ -38,14 +38,18 @@ class Gestures:
         self._met: Met | None = None  # what is under the pointer
         self._met_in = -1  # in which panel
         self.is_live = self.is_dragging = False
+        self._has_followed = False  # the source, since it became live
         self.sources = SourceGestures(window)
         self.pins = PinGestures(window, self.sources)
         self._rest_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
         self._rest_soon.timeout.connect(self._release)
+        self._stepped_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
+        self._stepped_soon.timeout.connect(self._stepped)
         grid.clicked.connect(self._click)
         grid.dragged.connect(self._drag)
         grid.released.connect(self._release)
         grid.hovered.connect(self._hover)
+        grid.live_key_up.connect(self._live_key_up)
         grid.menu_wanted.connect(self._open_menu)
 
     def begin(self) -> None:
@@ -53,6 +57,7 @@ class Gestures:
         self._met = None
         self.is_dragging = False
         self._rest_soon.stop()
+        self._stepped_soon.stop()
         self.sources.begin()
 
     @property
@@ -84,7 +89,12 @@ class Gestures:
         """Let the source follow the pointer, or no longer."""
         if self.is_live and not is_live:
             self._release()
-        self.is_live = is_live
+        self.is_live, self._has_followed = is_live, False
+
+    def _live_key_up(self) -> None:
+        """A key that was held while the source followed ends that; one that was tapped does not."""
+        if self.is_live and self._has_followed:
+            self._window.actions_by_word["live"].trigger()
 
     def step_source(self, right: int, up: int) -> None:
         """Along the edge that leads most nearly to where a direction of the screen points."""
@@ -107,7 +117,17 @@ class Gestures:
         ways = np.array(ways)
         towards = ways @ (right, up) / np.maximum(np.linalg.norm(ways, axis=1), 1e-9)
         if towards.max() > LEAST_TOWARDS:
-            self._move(id, int(others[towards.argmax()]), key=f"steps in {id}")
+            # Held, the key is a drag: stand-ins will do.
+            is_held = self._stepped_soon.isActive()
+            self._move(id, int(others[towards.argmax()]), key=f"steps in {id}", live=is_held)
+            if is_held:
+                self.sources.rate.begin()
+            self._stepped_soon.start()
+
+    def _stepped(self) -> None:
+        """The last of several steps along edges was taken."""
+        self.sources.rest()
+        self._window.session.show(self._window.session.document, key=f"steps in {self._grid.active}")
 
     # ------------------------------------------------------------------ the pointer
     def _hover(self, panel: int, met: "Met | None") -> None:
@@ -120,7 +140,7 @@ class Gestures:
         window.docks.pointed(vertex)
         window.status.show_place(vertex, None if vertex is None else window.session.surface.vertices[vertex])
         if self.is_live and met is not None and (last is None or self.sources.at(met) != self.sources.at(last)):
-            self.is_dragging = True
+            self.is_dragging = self._has_followed = True
             self.sources.rate.begin()
             self._move(panel, self.sources.at(met), key="live", live=True)
             self._rest_soon.start()

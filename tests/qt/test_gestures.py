@@ -152,6 +152,46 @@ def test_the_source_goes_along_edges_where_the_keys_point(opened):
     assert s.source == begun, "steps in a row are one of the history"
 
 
+def test_steps_that_follow_fast_are_a_drag_that_ends_exact(opened):
+    s, live = opened, []
+    show = s.session.show
+    s.session.show = lambda document, key="", live_=live, **how: (
+        live_.append(how.get("live", False)),
+        show(document, key, **how),
+    )
+    for _ in range(3):
+        s.window.gestures.step_source(1, 0)
+    assert live == [False, True, True]
+    s.until(lambda: len(live) == 4)
+    assert live[-1] is False
+    s.until(lambda: s.session.is_complete)
+    s.session.undo()
+    assert s.source == 5
+
+
+def test_a_held_key_lets_the_source_follow_and_a_tap_switches_that_on(opened):
+    from qtpy import QtTest
+
+    s, view, live = opened, opened.panels[0].view, opened.window.actions_by_word["live"]
+    s.window.activateWindow()
+    view.setFocus()
+    s.until(view.hasFocus)
+    target, key = front(s), QtTest.QTest
+    key.keyPress(view, "l")
+    s.until(live.isChecked)
+    key.mouseMove(view, s.point_of(s.panels[0], target))
+    s.until(lambda: s.source == target)
+    key.keyRelease(view, "l")
+    assert not live.isChecked()
+    s.until(lambda: s.session.is_complete)
+    assert s.source == target
+    key.keyClick(view, "l")
+    assert live.isChecked()
+    key.keyClick(view, "l")
+    assert not live.isChecked()
+    key.mouseMove(view, view.rect().topLeft())  # where the next move is one
+
+
 def test_a_live_source_follows_the_pointer_until_escape(opened):
     from qtpy import QtTest
 

@@ -93,7 +93,7 @@ def test_a_difference_has_extrema_and_kinks_and_no_more(opened):
     assert (minima, maxima) == (str(len(extrema.minima)), str(len(extrema.maxima))) != ("0", "0")
     assert (isotropy, triangles) == ("–", "–")
     assert float(kink) > 0 <= float(length)
-    assert len(s.panels[2].view.extrema.positions) == len(extrema.minima) + len(extrema.maxima)
+    assert len(s.panels[2].view.over.extrema.positions) == len(extrema.minima) + len(extrema.maxima)
     table = dock(s, "quality").table
     assert "single place" in table.item(2, 2).toolTip()
     assert "no distance" in table.item(5, 2).toolTip()
@@ -103,7 +103,7 @@ def test_extrema_are_kept_on_the_surfaces_if_that_is_wanted(opened, tmp_path):
     s = opened
     key(s, "q")
     known(s)
-    marks = s.panels[0].view.extrema
+    marks = s.panels[0].view.over.extrema
     shown = marks.positions.tolist()
     press(dock(s, "quality").tick, 8)
     assert s.document.extrema

@@ -54,6 +54,7 @@ class QualityDock(Instrument):
             "from the middle as it is large. Grey: the same, were it equal in all directions.</qt>"
         )
         self.charts: dict[int, PolarChart] = {}
+        self._before: dict[int, Found] = {}  # what was found of a panel's quantity from another source
         self._names: dict[int, QtWidgets.QLabel] = {}
         self._charts = QtWidgets.QWidget()
         self._grid = QtWidgets.QGridLayout(self._charts)
@@ -87,7 +88,11 @@ class QualityDock(Instrument):
 
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document, before: Document | None) -> None:
-        if before is None or (document.panels, document.points) != (before.panels, before.points):
+        if before is None or document.panels != before.panels or document.surfaces != before.surfaces:
+            shows = {} if before is None else {panel.id: panel.shows for panel in before.panels}
+            same = {panel.id for panel in document.panels if shows.get(panel.id) == panel.shows}
+            is_same_mesh = before is not None and document.surfaces == before.surfaces
+            self._before = {id: found for id, found in self._before.items() if id in same and is_same_mesh}
             self._make_columns(document)
         self.tick.setChecked(document.extrema)
         self._fill()
@@ -137,24 +142,46 @@ class QualityDock(Instrument):
         waits, sampled = False, dict[int, int]()
         for k, panel in enumerate(document.panels):
             found = self.window_.docks.findings.found(panel.id)
-            shown = self.window_.session.shown.get(panel.id)
-            failed = shown is not None and bool(shown.answer.failure)
+            failed = self._failed(panel.id)
+            old = self._before.get(panel.id, Found())
+            if found.whole is not None:
+                self._before[panel.id] = found
             for row, measure in enumerate(MEASURES):
-                text = NONE if failed else measure.written(found)
-                waits |= text == WAITING
-                self.table.item(row, k).setText(text)
-                self.table.item(row, k).setToolTip("" if failed else measure.said(found))
+                text, said = (NONE, "") if failed else (measure.written(found), measure.said(found))
+                is_old = text == WAITING
+                waits |= is_old
+                # Until there are new ones the old numbers stay, so that one sees how they change.
+                cell = self.table.item(row, k)
+                cell.setText(measure.written(old) if is_old else text)
+                cell.setToolTip("From where the source was; it is being measured." if is_old else said)
+                cell.setForeground(QtGui.QColor(LOOK.theme.disabled if is_old else LOOK.theme.text))
             sampled |= {} if failed or found.triangles is None or found.is_sampled else {panel.id: found.points}
-            self.charts[panel.id].show_circles(found.whole.circles if found.whole is not None else (), curve_colour(k))
+            whole = found.whole or (None if failed or found.failure else old.whole)
+            colour = curve_colour(k) if found.whole is not None else LOOK.theme.disabled
+            self.charts[panel.id].show_circles(whole.circles if whole is not None else (), colour)
         # Only exact geodesic distances take long enough for it to be seen.
         share = f"triangles, {min(sampled.values())} of {TRIANGLE_POINTS} points" if sampled else ""
         self.said.emit("measuring …" if waits else share)
 
+    def _failed(self, panel: int) -> bool:
+        shown = self.window_.session.shown.get(panel)
+        return shown is not None and bool(shown.answer.failure)
+
     def text(self) -> str:
         """The table, with tabulators."""
-        columns = range(self.table.columnCount())
-        lines = [["", *(self.table.horizontalHeaderItem(k).text() for k in columns)]]
-        lines += [[each.name, *(self.table.item(row, k).text() for k in columns)] for row, each in enumerate(MEASURES)]
+        panels = self.window_.session.document.panels
+        found = [self.window_.docks.findings.found(panel.id) for panel in panels]
+        lines = [["", *(quantity_name(panel.shows) for panel in panels)]]
+        lines += [
+            [
+                each.name,
+                *(
+                    NONE if self._failed(panel.id) else each.written(of)
+                    for panel, of in zip(panels, found, strict=True)
+                ),
+            ]
+            for each in MEASURES
+        ]
         return "\n".join("\t".join(line) for line in lines)
 
     def copy(self) -> None:

@@ -30,7 +30,7 @@ SIDE_BY_SIDE = 3
 LEAST_WIDTH, LEAST_HEIGHT = 280, 220
 """Of a panel, in logical pixels; where there is less room panels stand below each other, and the grid is scrolled."""
 
-BRUSH_KEY = QtCore.Qt.Key.Key_B
+BRUSH_KEY, LIVE_KEY = QtCore.Qt.Key.Key_B, QtCore.Qt.Key.Key_L
 """Held, a drag paints a selection."""
 
 SELECTED_MS = 600
@@ -64,6 +64,7 @@ class PanelGrid(QtWidgets.QWidget):
     brushed = QtCore.Signal(object, float)  # a `Met`, and how long a pixel is there
     brush_lifted = QtCore.Signal()
     brush_held = QtCore.Signal(bool)  # the key for it, down or up
+    live_key_up = QtCore.Signal()
 
     def __init__(self, session: Session, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -372,6 +373,8 @@ class PanelGrid(QtWidgets.QWidget):
                 self.brush_held.emit(event.type() == kinds.KeyPress)
         elif event.type() == kinds.FocusOut:
             self.brush_held.emit(False)
+        elif event.type() == kinds.KeyRelease and event.key() == LIVE_KEY and not event.isAutoRepeat():
+            self.live_key_up.emit()
         if event.type() == kinds.KeyPress and self.keys(event):
             return True
         return super().eventFilter(watched, event)
