@@ -11,9 +11,12 @@ from bihdist_core.sources.source import Curve, Member, Place, Source
 
 from ..document.sourcing import place_at, source_from
 
-FARTHEST = 3.0
-"""A way on the surface between two points drawn one after another is at most so many times as long as the straight
+ROUNDABOUT = 3.0
+"""A way on the surface between two places drawn one after another is at most so many times as long as the straight
 line; otherwise the pointer has come from one part of the surface to another behind it."""
+LEAP, DIRECT = 6.0, 1.2
+"""The same of steps so many times as long as most: the surface is seen from the side there, or there is another behind
+it or in a hole."""
 
 
 def drawn_source(strokes: Sequence[Sequence[Place]], surface: Surface, is_closed: bool = False) -> Source:
@@ -21,17 +24,16 @@ def drawn_source(strokes: Sequence[Sequence[Place]], surface: Surface, is_closed
 
     Places that no way on the surface joins are parted.  is_closed: the only stroke comes back to where it began.
     """
-    walk = PlaneWalk(surface)
+    joins = _Joins(strokes, surface)
     runs: list[list[Place]] = []
     for stroke in strokes:
         runs.append([stroke[0]])
         for start, stop in pairwise(stroke):
-            if _are_joined(walk, start, stop, surface):
+            if joins.has(start, stop):
                 runs[-1].append(stop)
             else:
                 runs.append([stop])
-    is_ring = is_closed and len(runs) == 1 and len(runs[0]) > 2
-    is_ring = is_ring and _are_joined(walk, runs[0][-1], runs[0][0], surface)
+    is_ring = is_closed and len(runs) == 1 and len(runs[0]) > 2 and joins.has(runs[0][-1], runs[0][0])
     return source_from([_member(run, surface, is_ring) for run in runs])
 
 
@@ -41,10 +43,24 @@ def _member(run: Sequence[Place], surface: Surface, is_ring: bool) -> Member:
     return Curve(tuple(run), is_ring)
 
 
-def _are_joined(walk: PlaneWalk, start: Place, stop: Place, surface: Surface) -> bool:
-    way = walk.between(start, stop)
-    if way is None:
-        return False
-    ends = [(there - here) @ surface.vertices[surface.faces[face]] for face, here, there in way]
-    p, q = (np.array(place.weights) @ surface.vertices[surface.faces[place.face]] for place in (start, stop))
-    return float(np.linalg.norm(ends, axis=1).sum()) <= FARTHEST * max(float(np.linalg.norm(q - p)), 1e-300)
+class _Joins:
+    """Which places of strokes a way on the surface joins."""
+
+    def __init__(self, strokes: Sequence[Sequence[Place]], surface: Surface) -> None:
+        self._surface, self._walk = surface, PlaneWalk(surface)
+        steps = [self._straight(*pair) for stroke in strokes for pair in pairwise(stroke)]
+        self._usual = float(np.median(steps)) if steps else 0.0
+
+    def has(self, start: Place, stop: Place) -> bool:
+        way = self._walk.between(start, stop)
+        if way is None:
+            return False
+        corners = self._surface.vertices[self._surface.faces[[face for face, _, _ in way]]]
+        steps = np.einsum("kc,kcx->kx", np.array([there - here for _, here, there in way]), corners)
+        straight = self._straight(start, stop)
+        most = DIRECT if straight > LEAP * self._usual else ROUNDABOUT
+        return float(np.linalg.norm(steps, axis=1).sum()) <= most * max(straight, 1e-300)
+
+    def _straight(self, start: Place, stop: Place) -> float:
+        p, q = (np.array(x.weights) @ self._surface.vertices[self._surface.faces[x.face]] for x in (start, stop))
+        return float(np.linalg.norm(q - p))

@@ -53,3 +53,18 @@ def test_from_a_fold_to_what_is_behind_it_curves_are_parted():
     behind = [centre(face) for face in over]
     drawn = drawn_source([[one, two, three, *behind]], surface)
     assert drawn == SourceSet((Curve((one, two, three)), Curve(tuple(behind))))
+
+
+def test_a_leap_through_a_hole_parts_a_stroke_and_a_leap_along_the_surface_does_not():
+    """Around a bend, twice as far as straight: near places are joined there, far ones only where the way is direct."""
+    flat = grid(41, 5)
+    x, y = flat.vertices[:, 0] / flat.vertices[:, 0].max(), flat.vertices[:, 1] / flat.vertices[:, 1].max()
+    turn = np.pi * x
+    surface = Surface(np.column_stack([np.cos(turn), 0.3 * y, np.sin(turn)]), flat.faces)
+    centres = surface.vertices[surface.faces].mean(axis=1)
+    level = np.flatnonzero(np.abs(centres[:, 1] - 0.14) < 0.03)
+    along = level[np.argsort(-centres[level, 0])]
+    small = [centre(int(face)) for face in along[:8]]
+    opposite, near = centre(int(along[-1])), centre(int(along[25]))
+    assert drawn_source([[*small, opposite]], surface) == SourceSet((Curve(tuple(small)), opposite))
+    assert drawn_source([[*small, near]], surface) == Curve((*small, near))
