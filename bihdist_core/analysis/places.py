@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ParameterError
-from ..sources.pieces import pieces_of
+from ..sources.pieces import points_on
 from ..sources.source import Place, checked_source
 from ..sources.splitting import Split, split_at
 from ..sources.words import short_words_of
@@ -36,14 +36,9 @@ class Places:
         """
         if not len(places):
             raise ParameterError("No places were given; at least one is needed.")
-        found = [pieces_of(_single(place), surface) for place in places]
-        weights = np.concatenate([pieces.start for pieces in found])
-        weights = np.where(weights <= ON_SIDE, 0, weights)
-        return cls(
-            np.concatenate([pieces.faces for pieces in found]),
-            np.concatenate([pieces.corners for pieces in found]),
-            weights / weights.sum(axis=1, keepdims=True),
-        )
+        found = points_on(surface, places)
+        weights = np.where(found.start <= ON_SIDE, 0, found.start)
+        return cls(found.faces, found.corners, weights / weights.sum(axis=1, keepdims=True))
 
     def __len__(self) -> int:
         return len(self.faces)
@@ -75,10 +70,3 @@ def component_of(surface: Surface, places: Sequence[int | Place | str], found: P
         first, other = place_words(places[0]), place_words(places[int((label != label[0]).argmax())])
         raise ParameterError(f"Nothing on {surface.name} joins {first} and {other}: they are on different components.")
     return int(label[0])
-
-
-def _single(place: int | Place | str) -> int | Place:
-    source = checked_source(place)
-    if not isinstance(source, int | Place):
-        raise ParameterError(f"A vertex or a place in a face is one place; {short_words_of(source)} is not.")
-    return source

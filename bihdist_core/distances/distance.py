@@ -9,13 +9,13 @@ import numpy.typing as npt
 from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress, part, silent
-from ..sources.pieces import Pieces, pieces_of
+from ..sources.pieces import Pieces, pieces_of, points_on
 from ..sources.source import BoundaryLoop, Curve, Place, Source, SourceSet, checked_source
 from ..sources.words import short_words_of
 from ..surface import Surface
 from .accuracy import REFUSE, Certificate, rounded_up
 from .in_faces import blocks, squares_from
-from .place_pairs import Pair, are_of_places, are_same, has_places, points_on, squares_of_pairs
+from .place_pairs import Pair, are_of_places, are_same, has_places, squares_of_pairs
 
 ROUNDING = 1e-7
 """Squared distances below zero by less than this share of their terms are rounding; more is a broken operator."""

@@ -7,9 +7,8 @@ from typing import TypeGuard
 import numpy as np
 
 from ..errors import ParameterError
-from ..sources.pieces import Pieces, pieces_of
-from ..sources.source import Place, Source, checked_source
-from ..sources.words import short_words_of
+from ..sources.pieces import Pieces
+from ..sources.source import Place, Source
 from ..surface import Surface
 
 Point = Source | str
@@ -28,23 +27,6 @@ def are_of_places(pairs: object) -> TypeGuard[Sequence[Pair]]:
     if any(len(pair) != 2 for pair in pairs):
         raise ParameterError("Pairs of points must be two each.")
     return True
-
-
-def points_on(surface: Surface, points: Sequence[Point]) -> Pieces:
-    """Each of them, a vertex or a place in a face.
-
-    Raises VertexError and ParameterError for what is not on the surface or is more than a point.
-    """
-    found = []
-    for each in points:
-        source = checked_source(each)
-        if not isinstance(source, int | Place):
-            raise ParameterError(f"Pairs are of vertices and places in faces, not of {short_words_of(source)}.")
-        found.append(pieces_of(source, surface))
-    faces, corners, start = (
-        np.concatenate([getattr(each, name) for each in found]) for name in ("faces", "corners", "start")
-    )
-    return Pieces(faces, corners, start, start, np.zeros(len(found), bool))
 
 
 def squares_of_pairs(u: Pieces, v: Pieces, of_pairs: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:

@@ -1,6 +1,7 @@
 """A source on a surface: points in faces and straight pieces across them, as arrays."""
 
 from collections import OrderedDict
+from collections.abc import Sequence
 from dataclasses import dataclass
 from threading import Lock
 from weakref import WeakKeyDictionary
@@ -12,7 +13,8 @@ from ..surface import Surface
 from .boundary import boundary_loops
 from .edge_faces import EdgeFaces
 from .plane_walk import PlaneWalk, joined
-from .source import BoundaryLoop, Curve, Place, Source, SourceSet
+from .source import BoundaryLoop, Curve, Place, Source, SourceSet, checked_source
+from .words import short_words_of
 
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray, bool]
 """Faces, weights at both ends, and whether they are parts of a line."""
@@ -103,6 +105,23 @@ def pieces_of(source: Source, surface: Surface) -> Pieces:
         while len(known) > MOST_KEPT:
             known.popitem(last=False)
     return pieces
+
+
+def points_on(surface: Surface, points: Sequence[Source | str]) -> Pieces:
+    """Vertices and places in faces, or their words, each for itself.
+
+    Raises VertexError and ParameterError for what is not on the surface, or is more than a point.
+    """
+    found = []
+    for each in points:
+        source = checked_source(each)
+        if not isinstance(source, int | Place):
+            raise ParameterError(f"A vertex or a place in a face is one point; {short_words_of(source)} is not.")
+        found.append(pieces_of(source, surface))
+    faces, corners, weights = (
+        np.concatenate([getattr(each, name) for each in found]) for name in ("faces", "corners", "start")
+    )
+    return Pieces(faces, corners, weights, weights, np.zeros(len(found), bool))
 
 
 def _pieces(source: Source, surface: Surface) -> Pieces:

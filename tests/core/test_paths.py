@@ -217,7 +217,7 @@ def test_bad_requests_are_refused(paths):
         ([], "two places or more; 0"),
         ([3, 5, 5], "places 1 and 2 of a path are the same, 5"),
         ([3, (1, 0.5)], "A source is a vertex id, a Place"),
-        ([3, "loop:0"], "one place; loop:0 is not"),
+        ([3, "loop:0"], "one point; loop:0 is not"),
         ([3, Place.of(99999, 0.2, 0.2)], "no face 99999"),
         ([3, "f0:0.7,0.7"], "0.7 and 0.7 leave -0.4"),
         ([3, "f17:0.2,0.5", Place.of(17, 0.2, 0.5)], "places 1 and 2 of a path are the same, f17:0.2,0.5"),

@@ -84,7 +84,7 @@ def test_between_components_there_is_none():
 
 def test_what_is_no_pair_of_points_is_refused():
     distance = BiharmonicDistance(BUMPY)
-    with pytest.raises(ParameterError, match="of vertices and places in faces, not of loop:0"):
+    with pytest.raises(ParameterError, match="place in a face is one point; loop:0 is not"):
         distance.of_pairs([("loop:0", "f17:0.2,0.5")])
     with pytest.raises(ParameterError, match="two each"):
         distance.of_pairs([("f17:0.2,0.5", 3, 4)])
