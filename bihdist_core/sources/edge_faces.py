@@ -1,8 +1,14 @@
 """Which faces meet at an edge."""
 
+from threading import Lock
+from weakref import WeakKeyDictionary
+
 import numpy as np
 
 from ..surface import Surface
+
+_known: WeakKeyDictionary[Surface, "EdgeFaces"] = WeakKeyDictionary()
+_lock = Lock()
 
 
 class EdgeFaces:
@@ -26,3 +32,11 @@ class EdgeFaces:
         wanted = edges.min(axis=1) * self._count + edges.max(axis=1)
         faces = self._order[np.searchsorted(self._key, wanted)] % len(self._faces)
         return faces, np.argmax(self._faces[faces][:, None, :] == edges[:, :, None], axis=2)
+
+
+def edge_faces(surface: Surface) -> EdgeFaces:
+    """Those of a surface, found once: sorting takes longer than a curve on it."""
+    with _lock:
+        if surface not in _known:
+            _known[surface] = EdgeFaces(surface)
+        return _known[surface]

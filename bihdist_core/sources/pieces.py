@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import ParameterError
 from ..surface import Surface
 from .boundary import boundary_loops
-from .edge_faces import EdgeFaces
+from .edge_faces import edge_faces
 from .plane_walk import PlaneWalk, joined
 from .source import BoundaryLoop, Curve, Place, Source, SourceSet, checked_source
 from .words import short_words_of
@@ -164,7 +164,7 @@ def _loop(loop: BoundaryLoop, loops: list[np.ndarray], surface: Surface) -> Rows
     if loop.number >= len(loops):
         known = "its only one is loop:0" if len(loops) == 1 else f"they run from loop:0 to loop:{len(loops) - 1}"
         raise ParameterError(f"{surface.name} has no boundary loop {loop.number}; {known}, the longest first.")
-    face, corner = EdgeFaces(surface).one_at(surface.boundary_edges[loops[loop.number]])
+    face, corner = edge_faces(surface).one_at(surface.boundary_edges[loops[loop.number]])
     ends = np.eye(3)
     return face, ends[corner[:, 0]], ends[corner[:, 1]], True
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..errors import ParameterError
 from ..surface import Surface
-from .edge_faces import EdgeFaces
+from .edge_faces import edge_faces
 from .source import Place
 
 FURTHEST = 10
@@ -21,7 +21,7 @@ class PlaneWalk:
 
     def __init__(self, surface: Surface) -> None:
         self._surface = surface
-        self._edges = EdgeFaces(surface)
+        self._edges = edge_faces(surface)
 
     def between(self, start: Place, stop: Place) -> list[Step] | None:
         """The shorter of the ways in the plane through both that is upright on the surface.
