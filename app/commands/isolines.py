@@ -1,19 +1,18 @@
 """`bihdist isolines`: the isolines of a distance as coordinates, and the region between two values, into files."""
 
 import argparse
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from .field_of import FieldOf, field_of
 from .isoline_options import add_levels, isolines_of
-from .mesh import read_laplacian
-from .options import SOURCE, add_areas, add_distance, quantities, source
-from .terminal import accuracy, counted, progress_line
+from .options import SOURCE, add_areas, add_distance, source
+from .terminal import counted, progress_line
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from bihdist_core import Surface
-    from bihdist_core.progress import Progress
+    from ..document.looks import Isolines
 
 WORDS = "isolines of a distance as coordinates, and the region between two values"
 
@@ -54,7 +53,7 @@ def run(options: argparse.Namespace) -> None:
             check_output(path, formats)
     wanted = isolines_of(options)
     with progress_line() as progress:
-        it = _computed(options, progress)
+        it = field_of(options, options.distance, progress)
     top = it.top
     if options.output:
         values = _values(it, wanted, options.isoline_through or ())
@@ -79,50 +78,7 @@ def _vertices(count: int) -> str:
     return "1 vertex" if count == 1 else f"{count} vertices"
 
 
-@dataclass(frozen=True, eq=False)
-class _Computed:
-    surface: "Surface"
-    field: "np.ndarray"
-    label: str
-    word: str
-    said: str
-    is_signed: bool
-
-    @property
-    def top(self) -> float:
-        """The field's maximum, of its size if it is signed."""
-        import numpy as np
-
-        return float(np.nanmax(np.abs(self.field)))
-
-
-def _computed(options: argparse.Namespace, progress: "Progress") -> _Computed:
-    from bihdist_core.distances.answers import Distances
-    from bihdist_core.distances.difference import check_units, difference
-    from bihdist_core.sources.pieces import pieces_of
-
-    from ..document.quantities import Difference
-
-    (chosen,) = quantities(options, [options.distance])
-    laplacian = read_laplacian(options)
-    pieces, distances = pieces_of(options.source, laplacian.surface), Distances(laplacian)
-    known = [distances.get(spec, progress) for spec in chosen.specs]
-    fields = [distance.from_source(options.source, progress) for distance in known]
-    is_signed = isinstance(chosen, Difference)
-    if isinstance(chosen, Difference) and chosen.raw:
-        check_units(*(distance.unit for distance in known))
-    field = difference(*fields, raw=chosen.raw) if isinstance(chosen, Difference) else fields[0]
-    return _Computed(
-        laplacian.surface,
-        field,
-        " − ".join(distance.label_from(pieces) for distance in known),
-        "_minus_".join(spec.word for spec in chosen.specs),
-        "".join(dict.fromkeys(accuracy(distance) for distance in known)),
-        is_signed,
-    )
-
-
-def _values(it: _Computed, wanted, through) -> "np.ndarray":
+def _values(it: FieldOf, wanted: "Isolines", through: Sequence[int]) -> "np.ndarray":
     """Those that a figure would have lines at."""
     from bihdist_core.errors import ParameterError
 

@@ -1,4 +1,4 @@
-"""A scatter as a picture: how many points lie in each cell of a grid, and the cells of what is selected."""
+"""A scatter as a picture: where its axes end, how many points lie in each cell of a grid, and what is selected."""
 
 from collections.abc import Sequence
 
@@ -11,6 +11,9 @@ FAINTEST = 0.22
 
 COARSE = ((3_000, 3), (60_000, 2))
 """Up to so many points a cell is so many pixels wide: few points are to be seen, too."""
+
+SLACK = 0.03
+"""Room beside the outermost points, as a share of the axis."""
 
 RGB = tuple[int, int, int]
 
@@ -44,3 +47,16 @@ def density_picture(
         is_chosen[vertices] = True
         pixels[cell[is_chosen[ids]]] = *colour, 255
     return np.ascontiguousarray(pixels.reshape(rows, columns, 4)[::-1])
+
+
+def axis_ends(scatter: FieldScatter, is_common: bool) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Where both axes end, with room beside the outermost points; is_common: at the same values."""
+    across, up = scatter.ends
+    if is_common:
+        across = up = min(across[0], up[0]), max(across[1], up[1])
+    return _with_room(*across), _with_room(*up)
+
+
+def _with_room(low: float, high: float) -> tuple[float, float]:
+    room = SLACK * ((high - low) or 1)
+    return (low - room if low < 0 else low), high + room

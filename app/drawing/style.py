@@ -71,6 +71,11 @@ class Style:
         """(k, 3) colours of values given as shares (k,) of the maximum, 0 to 1, or -1 to 1 if signed."""
         return colours_at(self.diverging if signed else self.stops, shares)
 
+    def bin_colours(self, ends: np.ndarray, top: float, signed: bool = False) -> np.ndarray:
+        """(b, 3) of the bins of a histogram with ends (b + 1,), each that of its middle, where colours end at `top`."""
+        middle = (ends[1:] + ends[:-1]) / 2
+        return self.colours_at(np.clip(middle / top if top > 0 else 0 * middle, -1 if signed else 0, 1), signed)
+
     def colour_of(self, value: float, top: float, signed: bool = False) -> Colour | np.ndarray:
         """The colour of one value where `top` is the end of the colour bar; what is undefined is grey."""
         if np.isnan(value):

@@ -11,7 +11,7 @@ import numpy as np
 from bihdist_core.analysis.field_scatter import FieldScatter
 from bihdist_core.progress import Progress
 
-from ..drawing.density import cell_size, density_picture
+from ..drawing.density import axis_ends, cell_size, density_picture
 from .chart_page import ChartLook, dress, save_chart
 
 if TYPE_CHECKING:
@@ -58,6 +58,16 @@ class ScatterFigure:
     correlation: float | None = None
     largest: int | None = None
     look: ChartLook = COLUMN_LOOK
+
+
+def axes_of(
+    scatter: FieldScatter, names: tuple[str, str], units: tuple[str, str], in_shares: bool
+) -> tuple[ScatterAxis, ScatterAxis]:
+    """Both axes, named by fields with such units."""
+    ends = axis_ends(scatter, in_shares or units[0] == units[1])
+    words = ("% of the maximum", "% of the maximum") if in_shares else units
+    across, up = (ScatterAxis(*each, *end) for *each, end in zip(names, words, ends, strict=True))
+    return across, up
 
 
 def save_scatter_figure(figure: ScatterFigure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:

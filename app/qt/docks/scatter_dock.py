@@ -16,6 +16,7 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document
 from ...document.measuring import vertices_of
+from ...drawing.density import axis_ends
 from ...drawing.style import PINS, style_of
 from ..look.icons import put_icon
 from ..look.look import LOOK
@@ -37,9 +38,6 @@ if TYPE_CHECKING:
 
 SIDE = 250
 """Logical pixels for the numbers and the selections."""
-
-SLACK = 0.03
-"""Room beside the outermost points, as a share of the axis."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -239,15 +237,12 @@ class ScatterDock(Instrument):
         ids = [panel.id for panel in document.panels]
         curves = LOOK.theme.curves
         names = tuple((self._name(document, id), curves[ids.index(id) % len(curves)]) for id in self._pair(document))
-        ends = scatter.ends
-        if request.has_common_unit:
-            both = min(end[0] for end in ends), max(end[1] for end in ends)
-            ends = both, both
-        axes = []
-        for (low, high), unit in zip(ends, (request.across.unit, request.up.unit), strict=True):
-            room = SLACK * ((high - low) or 1)
-            low = low - room if low < 0 else low
-            axes.append(Axis(low, high + room, "" if request.shares else unit, request.shares))
+        axes = [
+            Axis(low, high, "" if request.shares else answer.unit, request.shares)
+            for (low, high), answer in zip(
+                axis_ends(scatter, request.has_common_unit), (request.across, request.up), strict=True
+            )
+        ]
         self._found = None
         self._save.setEnabled(True)
         self.chart.show_scatter(scatter, names, tuple(axes), request.has_common_unit)

@@ -14,7 +14,7 @@ from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress, part
 
 from ...document.document import Document
-from ...drawing.style import Style, style_of
+from ...drawing.style import style_of
 from ...session.opened import Opened
 from ...session.questions import DifferenceQuestion, Question
 from ..look.look import LOOK
@@ -196,7 +196,7 @@ class StatisticsDock(Instrument):
         answer = self._request.answer
         scene = self.window_.grid.panel(self._panel).view.scene
         top, signed = scene.maximum, answer.is_signed
-        colours = bin_colours(found, scene.style, top, signed)
+        colours = scene.style.bin_colours(found.bins, top, signed)
         in_shares = answer.unit == DIFFERENCE_OF_SHARES
         self.histogram.show_bins(found.bins, found.areas, colours, in_shares, signed)
         self._unit.setText("share of the area")
@@ -252,7 +252,7 @@ class StatisticsDock(Instrument):
         return HistogramFigure(
             found.bins,
             found.areas / found.areas.sum(),
-            bin_colours(found, style, top, answer.is_signed),
+            style.bin_colours(found.bins, top, answer.is_signed),
             self.name.text(),
             "" if in_shares else answer.unit,
             in_shares,
@@ -284,9 +284,3 @@ class StatisticsDock(Instrument):
         facts = [(self.name.text(),), *self.facts.facts, *self.quantiles.facts]
         QtWidgets.QApplication.clipboard().setText("".join("\t".join(fact) + "\n" for fact in facts))
         self.window_.say("The statistics are on the clipboard")
-
-
-def bin_colours(found: FieldStatistics, style: Style, top: float, signed: bool) -> np.ndarray:
-    """(b, 3) those of the bins' middles, where the colour bar ends at `top`."""
-    middle = (found.bins[1:] + found.bins[:-1]) / 2
-    return style.colours_at(np.clip(middle / top if top > 0 else 0 * middle, -1 if signed else 0, 1), signed)

@@ -1,0 +1,74 @@
+"""One field for a command: of a distance, or of the difference of two, from a source."""
+
+import argparse
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .mesh import read_laplacian
+from .options import quantities
+from .terminal import accuracy
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from bihdist_core import Laplacian, Surface
+    from bihdist_core.progress import Progress
+
+
+@dataclass(frozen=True, eq=False)
+class FieldOf:
+    """field: (n,), NaN where there is none; word: of letters, digits and `_`; said: how accurate it is.
+
+    is_signed: it has values on both sides of 0.  of_shares: they are differences of shares.
+    """
+
+    laplacian: "Laplacian"
+    field: "np.ndarray"
+    label: str
+    word: str
+    unit: str
+    said: str
+    is_signed: bool
+    of_shares: bool
+
+    @property
+    def surface(self) -> "Surface":
+        return self.laplacian.surface
+
+    @property
+    def top(self) -> float:
+        """The maximum of its size."""
+        import numpy as np
+
+        return float(np.nanmax(np.abs(self.field)))
+
+
+def field_of(
+    options: argparse.Namespace, words: str, progress: "Progress", laplacian: "Laplacian | None" = None
+) -> FieldOf:
+    """What `words` say, from the source, with the options beside them; laplacian: of the mesh if it is there."""
+    from bihdist_core.distances.answers import Distances
+    from bihdist_core.distances.difference import check_units, difference
+    from bihdist_core.sources.pieces import pieces_of
+
+    from ..document.quantities import Difference
+
+    (chosen,) = quantities(options, [words])
+    laplacian = read_laplacian(options) if laplacian is None else laplacian
+    pieces, distances = pieces_of(options.source, laplacian.surface), Distances(laplacian)
+    known = [distances.get(spec, progress) for spec in chosen.specs]
+    fields = [distance.from_source(options.source, progress) for distance in known]
+    is_signed = isinstance(chosen, Difference)
+    of_shares = isinstance(chosen, Difference) and not chosen.raw
+    if is_signed and not of_shares:
+        check_units(*(distance.unit for distance in known))
+    return FieldOf(
+        laplacian,
+        difference(*fields, raw=not of_shares) if is_signed else fields[0],
+        " − ".join(distance.label_from(pieces) for distance in known),
+        "_minus_".join(spec.word for spec in chosen.specs),
+        "" if of_shares else known[0].unit,
+        "".join(dict.fromkeys(accuracy(distance) for distance in known)),
+        is_signed,
+        of_shares,
+    )
