@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bihdist_core import Place, Surface
+from bihdist_core.analysis.places import weighted
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats.pins import Pins
 from bihdist_core.sources.words import words_of
@@ -60,7 +61,7 @@ class PinnedPlace:
 
     def value(self, field: np.ndarray) -> float:
         """That of a field (n,), linear in the face; NaN where it is undefined."""
-        return float(field[self.vertex] if self.vertex is not None else self.weights @ field[self.corners])
+        return float(weighted(field, self.corners[None], self.weights[None])[0])
 
 
 def pinned_on(document: Document, name: str, surface: Surface) -> tuple[PinnedPlace, ...]:

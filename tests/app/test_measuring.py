@@ -24,8 +24,10 @@ from app.document.measuring import (
     vertices_of,
 )
 from app.document.quantities import OwnField
-from bihdist_core import BoundaryLoop, ParameterError
+from app.session.pinned import pinned_on
+from bihdist_core import BoundaryLoop, ParameterError, Place
 from bihdist_core.distances.kinds import Spec
+from tests.shapes import grid
 
 DOCUMENT = comparison("mesh.off", sources=(5,))
 
@@ -152,3 +154,16 @@ def test_selected_vertices_in_words():
     assert [each.name for each in document.selections] == ["selection", "selection 2"]
     assert [each.colour for each in document.selections] == [0, 1]
     assert select_instead(document, []).selections == ()
+
+
+def test_a_pin_on_a_side_has_its_value_whatever_the_third_corner_has():
+    surface = grid(3, 3)
+    document = add_pins(comparison("mesh.off", ()), [4, Place.of(2, 0.25, 0.75)])
+    vertex, place = pinned_on(document, "A", surface)
+    i, j, k = surface.faces[2]
+    field = np.arange(16.0)
+    field[k] = np.nan
+    assert vertex.value(field) == 4
+    assert place.value(field) == 0.25 * field[i] + 0.75 * field[j]
+    field[i] = np.nan
+    assert np.isnan(place.value(field))

@@ -79,6 +79,12 @@ def test_pins_and_their_distances(opened, written):
         assert np.nanmax(np.abs(place - pins.distances.known(specs[k])[4, :4])) <= EXACT * np.nanmax(field)
 
 
+def labels_of(path, count):
+    """The field that a file in PLY has beside its (count) vertices."""
+    _, body = path.read_bytes().split(b"end_header\n", 1)
+    return np.frombuffer(body, "<f8", 4 * count).reshape(count, 4)[:, 3]
+
+
 @needs_meshes
 def test_regions_and_farthest_points(opened, written, tmp_path):
     s, regions = opened, dock(opened, "regions")
@@ -97,6 +103,12 @@ def test_regions_and_farthest_points(opened, written, tmp_path):
         assert np.array_equal(np.where(found.labels < 0, np.nan, found.labels + 1), labels, equal_nan=True)
         mesh = read_surface(cut)
         assert found.areas.sum() == pytest.approx(mesh.face_areas.sum(), rel=EXACT)
+        of_face = labels_of(cut, len(mesh.vertices))[mesh.faces[:, 0]].astype(int)
+        areas = np.bincount(of_face, mesh.face_areas, minlength=5)[1:]
+        for unit, whole in (("area", 1), ("share", surface.face_areas.sum())):
+            regions.unit.buttons[unit].click()
+            copied = [float(line.split("\t")[1 + panel.id]) for line in regions.text().splitlines()[1:]]
+            assert copied == pytest.approx(areas / whole, rel=EXACT)
         for way, ending, theirs in (("mesh", ".ply", cut), ("boundaries", ".csv", lines)):
             mine = tmp_path / f"mine{ending}"
             assert regions.save_to(panel.id, way, str(mine))

@@ -31,6 +31,9 @@ ROW, HEAD = 30, 32
 LEAST_COLUMN = 68
 """Logical pixels of a panel's column."""
 
+NUMBER = QtCore.Qt.ItemDataRole.UserRole
+"""Of a cell: the area that it shows, or the share."""
+
 WAYS = ("labels", "mesh", "boundaries")
 """What regions are saved as."""
 
@@ -185,6 +188,7 @@ class RegionsDock(Instrument):
                 text = "…" if area is None else number(area) if self.unit.choice() == "area" else share(area / total)
                 item = self.table.item(row, column)
                 item.setText(text)
+                item.setData(NUMBER, None if area is None else area if self.unit.choice() == "area" else area / total)
                 item.setToolTip("" if area is None else f"{number(area)}, {share(area / total)} of the surface")
         if failure:
             self._words.setText(failure)
@@ -193,10 +197,12 @@ class RegionsDock(Instrument):
         self.said.emit("dividing …" if is_on_its_way else "")
 
     def text(self) -> str:
-        """The areas, with tabulators; pins by their numbers."""
+        """The areas, or their shares of the whole, with tabulators and all digits; pins by their numbers."""
         columns, rows = range(self.table.columnCount()), range(self.table.rowCount())
         lines = [["pin", *(self.table.horizontalHeaderItem(k).text() for k in columns)]]
-        lines += [[str(row + 1), *(self.table.item(row, k).text() for k in columns)] for row in rows]
+        for row in rows:
+            areas = [self.table.item(row, k).data(NUMBER) for k in columns]
+            lines.append([str(row + 1), *("" if area is None else repr(area) for area in areas)])
         return "\n".join("\t".join(line) for line in lines)
 
     def copy(self) -> None:
