@@ -90,6 +90,10 @@ class Style:
         return self.far_isoline if abs(share) > self.turn else self.signed_isoline
 
 
+CURVES = ("#0A7358", "#B45309", "#6D4AC7", "#1D2125", "#8A3A78", "#5F6B00")
+CURVES_ON_DARK = ("#52CFA6", "#F0A45A", "#B79CFF", "#E8EAED", "#E59BD3", "#C9CC5A")
+"""The colours of curves in charts, in the order of panels, on light and on dark grounds."""
+
 PINS = (
     "#1F7A3D",
     "#A84A00",
@@ -145,6 +149,11 @@ DARK = Style(
 
 STYLES = {"paper": PAPER, "uniform": UNIFORM, "lines": LINES, "dark": DARK}
 """The words of the command line and of recipes."""
+
+
+def curve_colours(style: Style) -> tuple[str, ...]:
+    """The colours of curves that go with a style's ground."""
+    return CURVES if sum(style.background) > 1.5 else CURVES_ON_DARK
 
 
 def style_of(word: str, colours: Colours = OF_THE_STYLE) -> Style:

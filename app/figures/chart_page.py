@@ -59,6 +59,11 @@ class ChartLook:
 USUAL_LOOK = ChartLook()
 
 
+def faded(style: Style, share: float) -> list[float]:
+    """The colour of quiet text with only a share of its contrast; EPS knows no transparency."""
+    return [share * a + (1 - share) * b for a, b in zip(style.quiet_text, style.background, strict=True)]
+
+
 def save_chart(
     path: str | os.PathLike[str],
     look: ChartLook,
@@ -109,7 +114,7 @@ def dress(axes: Axes, look: ChartLook, across: str = "", up: str = "") -> None:
         axes.spines[side].set_color(style.quiet_text)
         axes.spines[side].set_linewidth(RULE)
     # Mixed, not transparent, which EPS cannot be.
-    quiet = [FAINT * a + (1 - FAINT) * b for a, b in zip(style.quiet_text, style.background, strict=True)]
+    quiet = faded(style, FAINT)
     axes.grid(axis="y", color=quiet, linewidth=0.5)
     axes.set_axisbelow(True)
     axes.tick_params(labelsize=points, colors=style.quiet_text, width=RULE, length=TICK)

@@ -13,7 +13,7 @@ import numpy as np
 from bihdist_core import ParameterError
 from bihdist_core.progress import Progress
 
-from .chart_page import USUAL_LOOK, ChartLook, dress, save_chart
+from .chart_page import USUAL_LOOK, ChartLook, dress, faded, save_chart
 
 LEAST_ACROSS = 2.8
 """Inches that each of several plots side by side has at least; else they stand below each other."""
@@ -32,7 +32,7 @@ LINE = 1.4
 class ProfileCurve:
     """values: (k,) at the points of the path, NaN where there are none; colour: as #rrggbb.
 
-    is_share: the values are shares of 1, written in percent; else in `unit`.
+    is_share: the values are shares of 1, written in percent; else in `unit`.  is_whole: 1 is the most there can be.
     """
 
     name: str
@@ -40,12 +40,14 @@ class ProfileCurve:
     colour: str
     unit: str = ""
     is_share: bool = True
+    is_whole: bool = True
     is_dashed: bool = False
 
 
 @dataclass(frozen=True)
 class ProfileKnot:
-    """A point that the path goes through, at a length along it: a disc in a colour with a number, "" for a source."""
+    """A point that the path goes through, at a length along it: a disc in a colour with a number, "" for a source;
+    without a colour no disc."""
 
     arc: float
     number: str
@@ -107,9 +109,9 @@ def _draw(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], is_lowest
         line = axes.plot(figure.arcs, scale * curve.values, dashes, color=curve.colour, linewidth=LINE)[0]
         line.set_gid(f"curve-{figure.curves.index(curve)}")
     axes.set_xlim(0, figure.arcs[-1] or 1.0)
-    if in_shares and min(axes.get_ylim()) > -5:
+    if in_shares and min(axes.get_ylim()) > -5 and any(curve.is_whole for curve in curves):
         axes.set_ylim(0, max(100.0, axes.get_ylim()[1] if axes.get_ylim()[1] > 106 else 100.0))
-    elif not in_shares and axes.dataLim.ymin >= 0:
+    elif axes.dataLim.ymin >= 0:
         axes.set_ylim(bottom=0)
     words = "% of the maximum" if in_shares else curves[0].unit or "value"
     dress(axes, figure.look, f"length along the path ({figure.unit})" if is_lowest else "", words)
@@ -125,8 +127,8 @@ def _mark(axes, figure: ProfileFigure, has_discs: bool) -> None:
     taken: list[float] = []
     ends = figure.knots[:1] + figure.knots[-1:]
     for knot in (*ends, *figure.knots[1:-1]):
-        axes.axvline(knot.arc, color=style.quiet_text, alpha=0.4, linewidth=0.5, zorder=0)
-        if not has_discs or any(abs(knot.arc - other) < apart for other in taken):
+        axes.axvline(knot.arc, color=faded(style, 0.4), linewidth=0.5, zorder=0)
+        if not has_discs or not knot.colour or any(abs(knot.arc - other) < apart for other in taken):
             continue
         taken.append(knot.arc)
         disc = {"boxstyle": "circle,pad=0.25", "facecolor": knot.colour, "edgecolor": "none"}

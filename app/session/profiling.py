@@ -8,6 +8,7 @@ from itertools import pairwise
 from weakref import WeakKeyDictionary
 
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
+from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.plane_sections import plane_section
 from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.distances.answers import failure_in_words
@@ -72,10 +73,11 @@ def wanted_path(
     if SECTIONS.get(profile.way) == "whole" and len(places) > 2:
         raise ParameterError("The whole section is that through two points; choose them above.")
     surface, said = surfaces(points[0].surface), [point_words(document, point.name) for point in points]
-    for (before, a), (after, b) in pairwise(zip(said, places, strict=True)):
+    components = surface.component_of_vertex[Places.of(surface, places).corners[:, 0]].tolist()
+    for (before, a, one), (after, b, other) in pairwise(zip(said, places, components, strict=True)):
         if a == b:
             raise ParameterError(f"From {before} to {after} there is no path: they are at the same place.")
-        if len({surface.component_of_vertex[_vertex(surface, place)] for place in (a, b)}) > 1:
+        if one != other:
             raise ParameterError(
                 f"From {before} to {after} there is no path: they are on components of the mesh that do not meet."
             )
@@ -102,11 +104,6 @@ def point_words(document: Document, name: str) -> str:
     at = document.point(name).at
     shown = {point for panel in document.panels for point in panel.shows.points}
     return name if name in shown or at is None else f"vertex {at}" if isinstance(at, int) else words_of(at)
-
-
-def _vertex(surface: Surface, place: int | Place) -> int:
-    """A vertex of the component that a place is on."""
-    return place if isinstance(place, int) else int(surface.faces[place.face, 0])
 
 
 def _place(at: Source | None, name: str) -> int | Place:

@@ -100,13 +100,14 @@ class ProfileChart(Chart):
 
     def _fit(self) -> None:
         """The axes hold all curves, the names at the right have room."""
-        ends = [(0.0, 1.0 if self.in_shares else 0.0)]
+        is_whole = self.in_shares and not (self.curves and all(curve.is_share for curve in self.curves))
+        ends = [(0.0, 1.0 if is_whole else 0.0)]
         for curve in self.curves:
             found = self.plotted(curve)
             if np.isfinite(found).any():
                 ends.append((float(np.nanmin(found)), float(np.nanmax(found))))
         low, high = min(low for low, _ in ends), max(high for _, high in ends)
-        high = high if self.in_shares and high <= 1 else high + ROOM * (high - low)
+        high = high if is_whole and high <= 1 else high + ROOM * (high - low)
         low = low if low >= 0 else low - ROOM * (high - low)
         font = LOOK.font(12, bold=True)
         names = max((number_width(font, curve.name) for curve in self.curves), default=0.0)

@@ -11,10 +11,8 @@ from qtpy import QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
 from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
+from bihdist_core.distances.answers import Answer
 from bihdist_core.whole_file import check_output
-
-from ...drawing.style import style_of
-from .chart_files import paper_theme
 
 if TYPE_CHECKING:
     from ...figures.profile_figure import ProfileFigure
@@ -79,28 +77,10 @@ class ProfileFiles:
 
     def figure(self) -> "ProfileFigure":
         """What the chart shows, in the style of the page and the colours that go with its ground."""
-        from ...figures.chart_page import ChartLook
-        from ...figures.profile_figure import ProfileCurve, ProfileFigure, ProfileKnot
+        from ...figures.profile_curves import profile_figure
 
-        self._there()
-        dock = self._dock
-        chart, page, document = dock.chart, dock.window_.page, dock.window_.session.document
-        colours = paper_theme(dock.window_).curves
-        places = {panel.id: k for k, panel in enumerate(document.panels)}
-        in_shares, curves = document.profile.shares, []
-        for id, curve in dock.curves.items():
-            is_share = in_shares or curve.is_share
-            values = curve.shares if is_share else curve.values
-            colour = colours[places[id] % len(colours)]
-            if np.isfinite(values).any():
-                curves.append(ProfileCurve(curve.name, values, colour, curve.unit, is_share, curve.is_dashed))
-        return ProfileFigure(
-            chart.arcs,
-            tuple(curves),
-            "mesh units",
-            tuple(ProfileKnot(arc, badge.text, badge.colour, badge.name) for arc, badge in chart.knots),
-            ChartLook.of(page, style_of(page.style, document.colours)),
-        )
+        window = self._dock.window_
+        return profile_figure(window.session.document, window.page, self._there(), self._answers)
 
     def copy(self) -> None:
         """A table with tabs, as spreadsheets read it."""
@@ -118,17 +98,12 @@ class ProfileFiles:
             raise ParameterError("There is no path yet; wait until it has been found.")
         return self._dock.path
 
+    @property
+    def _answers(self) -> dict[int, Answer]:
+        """Of the panels that have a curve."""
+        return {id: self._dock.window_.session.shown[id].answer for id in self._dock.curves}
+
     def _fields(self) -> dict[str, np.ndarray]:
-        """By names that differ: the fields of the panels that have one."""
-        session, found = self._dock.window_.session, {}
-        for panel in session.document.panels:
-            if panel.id in self._dock.curves:
-                base = name = str(panel.shows)
-                if (point := (*panel.shows.points, "source")[0]) != "source":
-                    base = name = f"{base} from {point}"
-                count = 1
-                while name in found:
-                    count += 1
-                    name = f"{base} {count}"
-                found[name] = session.shown[panel.id].answer.field
-        return found
+        from ...figures.profile_curves import profile_fields
+
+        return profile_fields(self._dock.window_.session.document, self._answers)

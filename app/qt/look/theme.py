@@ -1,4 +1,5 @@
-"""The colours of the window, light and dark; the one place where they are defined.
+"""The colours of the window, light and dark; the one place where they are defined, but for those of fields and curves,
+which figures have, too.
 
 Text has a contrast of at least 4.5 : 1 with each ground it stands on, except where it is disabled.
 """
@@ -6,6 +7,8 @@ Text has a contrast of at least 4.5 : 1 with each ground it stands on, except wh
 from dataclasses import dataclass
 
 from qtpy import QtGui
+
+from ...drawing.style import CURVES, CURVES_ON_DARK
 
 
 @dataclass(frozen=True)
@@ -72,7 +75,7 @@ LIGHT = Theme(
     label="#1D2125",
     label_text="#FFFFFF",
     label_quiet="#C3C9D0",
-    curves=("#0A7358", "#B45309", "#6D4AC7", "#1D2125", "#8A3A78", "#5F6B00"),
+    curves=CURVES,
     cells=("#F6F7F8", "#CFD3D7"),
 )
 
@@ -99,7 +102,7 @@ DARK = Theme(
     label="#F1F3F5",
     label_text="#16181B",
     label_quiet="#5B626B",
-    curves=("#52CFA6", "#F0A45A", "#B79CFF", "#E8EAED", "#E59BD3", "#C9CC5A"),
+    curves=CURVES_ON_DARK,
     cells=("#1E2125", "#4A5159"),
 )
 

@@ -8,6 +8,9 @@ from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Kind, Spec, kind_of, kinds
 
 from ...document.quantities import Difference, DistanceFrom, OwnField, Part, Quantity
+from ...document.quantity_names import kind_name as kind_name
+from ...document.quantity_names import part_name as part_name
+from ...document.quantity_names import quantity_name as quantity_name
 from .parameters import tick
 
 RAW_WORDS = {False: "shares of the maximum", True: "in units"}
@@ -23,20 +26,6 @@ def offered_kinds() -> list[Kind]:
         except ParameterError:
             continue  # somebody else's that cannot be loaded; asked for by its word it says why
     return found
-
-
-def kind_name(kind: Kind) -> str:
-    """With the power of the family's weights as a raised letter."""
-    return kind.name.replace("^α", "ᵅ")
-
-
-def part_name(part: Part) -> str:
-    return part.name if isinstance(part, OwnField) else kind_name(part.spec.kind)
-
-
-def quantity_name(shows: Quantity) -> str:
-    """Its name in the head: "Biharmonic", "Biharmonic − Geodesic", "1/λᵅ"."""
-    return " − ".join(part_name(part).removesuffix(" family") for part in shows.parts)
 
 
 class Choices:

@@ -1,0 +1,19 @@
+"""What quantities are called in heads and charts."""
+
+from bihdist_core.distances.kinds import Kind
+
+from .quantities import OwnField, Part, Quantity
+
+
+def kind_name(kind: Kind) -> str:
+    """With the power of the family's weights as a raised letter."""
+    return kind.name.replace("^α", "ᵅ")
+
+
+def part_name(part: Part) -> str:
+    return part.name if isinstance(part, OwnField) else kind_name(part.spec.kind)
+
+
+def quantity_name(shows: Quantity) -> str:
+    """Its name in the head: "Biharmonic", "Biharmonic − Geodesic", "1/λᵅ"."""
+    return " − ".join(part_name(part).removesuffix(" family") for part in shows.parts)

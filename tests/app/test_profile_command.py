@@ -1,0 +1,92 @@
+"""`bihdist profile`, against the library."""
+
+import json
+
+import numpy as np
+import pytest
+
+from app.main import main
+from app.samples import mesh_path
+from bihdist_core import Laplacian, read_surface
+from bihdist_core.analysis.geodesic_paths import GeodesicPaths
+from bihdist_core.analysis.plane_sections import plane_section
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.kinds import Spec
+
+TWO = ["--distance", "biharmonic", "--distance", "geodesic(method=dijkstra)"]
+
+
+@pytest.fixture(scope="module")
+def surface():
+    return read_surface(mesh_path("part"))
+
+
+def field(surface, spec):
+    return Distances(Laplacian(surface)).answer(spec, 17).field
+
+
+def test_numbers_are_the_fields_along_the_path(surface, tmp_path, capsys):
+    csv, array = tmp_path / "p.csv", tmp_path / "p.npy"
+    options = ["--source", "17", "--through", "source,f40:0.2,0.5,300", *TWO]
+    assert main(["profile", "part", *options, "-o", str(csv), "-o", str(array)]) == 0
+    path = GeodesicPaths(surface).path([17, "f40:0.2,0.5", 300])
+    assert f"{path.label}, {len(path.points)} points, {path.length:.6g} long" in capsys.readouterr().out
+    assert csv.read_text().startswith("arc,x,y,z,face,b0,b1,b2,biharmonic,geodesic(method=dijkstra)\n")
+    table = np.load(array)
+    assert np.array_equal(table, np.loadtxt(csv, delimiter=",", skiprows=1))
+    assert np.array_equal(table[:, 0], path.arcs)
+    assert np.array_equal(table[:, 1:4], path.points)
+    for column, spec in zip(
+        table[:, 8:].T, (Spec.of("biharmonic"), Spec.of("geodesic", method="dijkstra")), strict=True
+    ):
+        # Not by the same sums as in the file: corners and weights from the table itself.
+        values = field(surface, spec)
+        corners, weights = surface.faces[table[:, 4].astype(int)], table[:, 5:8]
+        assert np.abs(column - (values[corners] * weights).sum(axis=1)).max() <= 1e-9 * values.max()
+
+
+def test_pins_from_a_file_and_sections(surface, tmp_path):
+    (tmp_path / "pins.csv").write_text("id,vertex,x,y,z,name\n4,17,,,,a\n9,6000,,,,b\n")
+    out = tmp_path / "p.json"
+    words = ["--pins", str(tmp_path / "pins.csv"), "--way", "section-whole", "--across", "-0.5,1,0.2"]
+    assert main(["profile", "part", *words, "--distance", "biharmonic", "-o", str(out)]) == 0
+    said = json.loads(out.read_text())
+    path = plane_section(surface, [17, 6000], (-0.5, 1, 0.2), "whole")
+    assert said["method"] == path.label
+    assert said["arcs"] == path.arcs.tolist()
+
+
+@pytest.mark.parametrize("extension", [".svg", ".pdf", ".eps", ".png"])
+def test_charts(tmp_path, extension, capsys):
+    files = [tmp_path / f"{name}{extension}" for name in ("shares", "values")]
+    for file, words in zip(files, ([], ["--values", "--size", "column"]), strict=True):
+        options = ["--source", "17", "--through", "source,300", *TWO, *words]
+        assert main(["profile", "part", *options, "-o", str(file)]) == 0
+    assert files[0].read_bytes() != files[1].read_bytes()
+    assert capsys.readouterr().err == ""
+    if extension == ".svg":
+        assert ">% of the maximum</text>" in files[0].read_text()
+        assert ">mesh units</text>" in files[1].read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ([], "two points or more; name them, or pins"),
+        (["--through", "3"], "two points or more"),
+        (["--through", "3,3"], "From vertex 3 to vertex 3 there is no path"),
+        (["--through", "3,900000"], "900000"),
+        (["--through", "3,pin:1"], "no pin 1"),
+        (["--through", "3,4", "--way", "section"], "--across"),
+    ],
+)
+def test_what_makes_no_path_is_refused(tmp_path, capsys, words, said):
+    out = tmp_path / "p.csv"
+    assert main(["profile", "part", "--source", "17", "--distance", "biharmonic", *words, "-o", str(out)]) == 2
+    assert said in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_another_extension_is_refused_first(tmp_path, capsys):
+    assert main(["profile", "nowhere", "--through", "3,4", "-o", str(tmp_path / "p.txt")]) == 2
+    assert ".csv" in capsys.readouterr().err
