@@ -84,5 +84,5 @@ class Changes:
         window.docks.brushing.show(document)
         for id in session.shown:
             grid.show_answer(id)
-        window.docks.findings.show_again()
+        window.docks.show_again()
         window.waits.show()

@@ -21,6 +21,7 @@ class DockHead(QtWidgets.QWidget):
         self._title, self._note = QtWidgets.QLabel(title), QtWidgets.QLabel()
         self._title.setProperty("heading", True)
         self._note.setProperty("quiet", True)
+        self._note.setMinimumWidth(1)  # cut rather than that the dock is wider
         self.close_button = FlatButton(self, "close")
         self.close_button.setToolTip(f"Close {title.lower()}")
         self.close_button.setAccessibleName(f"Close {title.lower()}")

@@ -118,6 +118,12 @@ class Docks:
         for instrument in self._open():
             instrument.show_answer(panel)
 
+    def show_again(self) -> None:
+        """The panels have forgotten what was drawn on them."""
+        self.findings.show_again()
+        for instrument in self._open():
+            instrument.show_again()
+
     def pointed(self, vertex: int | None) -> None:
         for instrument in self._open():
             instrument.show_pointed(vertex)
@@ -154,26 +160,42 @@ class Docks:
         for widget in instrument.head_widgets():
             dock.head.add(widget)
         instrument.said.connect(dock.head.say)
+        for button in dock.findChildren(QtWidgets.QAbstractButton):
+            # Its outline is for keys.
+            button.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
         dock.wants_closed.connect(self.close)
         dock.hide()
         self._docks[word] = dock
         return dock
 
     def _place(self, dock: Dock) -> None:
-        """Where it was, or at first at the end of its area; tabs where the window is narrow."""
+        """Where it was, or at first at the end of its area; a tab where there are enough beside each other."""
         window, area = self._window, AREAS[dock.content.area]
-        if window.dockWidgetArea(dock) == QtCore.Qt.DockWidgetArea.NoDockWidgetArea:
-            others = [
-                other
-                for other in self._docks.values()
-                if other is not dock and not other.isHidden() and window.dockWidgetArea(other) == area
-            ]
+        is_new = window.dockWidgetArea(dock) == QtCore.Qt.DockWidgetArea.NoDockWidgetArea
+        if is_new:
             window.addDockWidget(area, dock)
-            is_full = len(others) >= STACKED or dock.content.area == "below" or window.width() < NARROW
-            if others and is_full:
-                window.tabifyDockWidget(others[-1], dock)
-            is_right = dock.content.area == "right"
+        others = [
+            other
+            for other in self._docks.values()
+            if other is not dock and not (other.isHidden() or other.isFloating())
+            if window.dockWidgetArea(other) == window.dockWidgetArea(dock)
+        ]
+        is_right = window.dockWidgetArea(dock) != AREAS["below"]
+        most = STACKED if is_right and window.width() >= NARROW else 1
+        if not dock.isFloating() and self._apart(others) >= most and not self._is_tab(dock, others):
+            window.tabifyDockWidget(others[-1], dock)
+        if is_new:
             way = QtCore.Qt.Orientation.Horizontal if is_right else QtCore.Qt.Orientation.Vertical
             window.resizeDocks([dock], [(WIDER if window.width() >= WIDE else WIDTH) if is_right else HEIGHT], way)
         dock.show()
         dock.raise_()
+
+    def _apart(self, docks: list[Dock]) -> int:
+        """How many places they take: tabs of each other take one."""
+        firsts = [dock for k, dock in enumerate(docks) if not self._is_tab(dock, docks[:k])]
+        return len(firsts)
+
+    def _is_tab(self, dock: Dock, others: list[Dock]) -> bool:
+        """Whether it shares its place with one of the others."""
+        beside = self._window.tabifiedDockWidgets(dock)
+        return any(other in beside for other in others)

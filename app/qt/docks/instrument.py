@@ -42,6 +42,9 @@ class Instrument(QtWidgets.QWidget):
     def show_answer(self, panel: int) -> None:
         """Another field is there, or what is known of it has changed."""
 
+    def show_again(self) -> None:
+        """The panels have forgotten what was drawn on them."""
+
     def end(self) -> None:
         """The window closes: stop what is being computed."""
 

@@ -15,8 +15,11 @@ PAD = 7
 LEAST_NAME = 44
 """Logical pixels of a name at least; where there is no room for it the table is scrolled."""
 
-WIDEST = 60
+WIDEST = 58
 """Of a column that only its title needs."""
+
+TITLE = 22
+"""Logical pixels beside the words of a title, together."""
 
 BADGE, NAME, VERTEX = range(3)
 ROLE = QtCore.Qt.ItemDataRole
@@ -195,14 +198,14 @@ class PinTable(QtWidgets.QTableView):
             texts = [self.rows.text(row, column) for row in self.rows.rows]
             title = self.rows.headerData(column, QtCore.Qt.Orientation.Horizontal)
             wide = max([number_width(font, text) for text in texts], default=0)
-            title_wide = whole = head.horizontalAdvance(str(title)) + 24
+            title_wide = whole = head.horizontalAdvance(str(title)) + TITLE
             if column > VERTEX:
                 title_wide = min(title_wide, WIDEST * scale)  # its tip says it in full
             widths[column] = round(max(wide + 2 * PAD, title_wide) + 0.5)
             cut[column] = max(round(whole + 0.5) - widths[column], 0)
         room = self.viewport().width() - sum(widths.values())
         names = [QtGui.QFontMetrics(font).horizontalAdvance(row.name) for row in self.rows.rows]
-        least = max(round(LEAST_NAME * scale), head.horizontalAdvance("Name") + 24)
+        least = max(round(LEAST_NAME * scale), head.horizontalAdvance("Name") + TITLE)
         room -= max([least, *(name + 2 * PAD for name in names)])
         for column, missing in sorted(cut.items(), key=lambda each: each[1]):
             # Where names need less, titles have more.

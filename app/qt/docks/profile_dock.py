@@ -61,6 +61,7 @@ class ProfileDock(Instrument):
             button.menu().aboutToShow.connect(partial(self.choices.fill_ends, k))
         self.way = FlatButton(self, quiet=True)
         self.way.setAccessibleName("Way of the profile")
+        self.way.setSizePolicy(QtWidgets.QSizePolicy.Policy.Preferred, QtWidgets.QSizePolicy.Policy.Fixed)
         self.way.setMenu(QtWidgets.QMenu(self.way))
         self.way.menu().aboutToShow.connect(self.choices.fill_ways)
         self.scale = Segments({"Value": "value", "% of max": "share"}, "Profile in")
@@ -125,6 +126,10 @@ class ProfileDock(Instrument):
         surface = self.window_.session.surface
         arc = None if vertex is None else self._arc_near(surface.vertices[vertex])
         self.chart.show_at(arc, "" if vertex is None else f"vertex {vertex}")
+
+    def show_again(self) -> None:
+        if self._has_path:
+            self._show_path()
 
     def show_closed(self) -> None:
         self._lane.ask(None)

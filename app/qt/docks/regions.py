@@ -22,7 +22,7 @@ from ..panels.pin_marks import paint_badge
 from ..panels.quantity_menu import quantity_name
 from .dock import PAD
 from .instrument import Instrument
-from .panel_dots import curve_colour, dot
+from .panel_dots import SIDE, curve_colour, dot
 from .plain import fill, lie_on_dock
 from .sampler import Sampler
 from .saving import save, written
@@ -129,6 +129,7 @@ class RegionsDock(Instrument):
         for k, panel in enumerate(document.panels):
             if panel.id not in self.ticks:
                 tick = self.ticks[panel.id] = QtWidgets.QCheckBox()
+                tick.setIconSize(QtCore.QSize(SIDE, SIDE))
                 tick.clicked.connect(partial(self._tick, panel.id))
             tick = self.ticks[panel.id]
             self._ticks.removeWidget(tick)

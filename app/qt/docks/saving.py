@@ -9,7 +9,6 @@ from typing import Any
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError
-from bihdist_core.formats.polygons import counted
 
 NAMES = {
     ".txt": "Text, an id on each line",
@@ -62,4 +61,4 @@ def written(window: Any, path: str, write: Callable[[str], object]) -> bool:
 
 def vertices_in_words(count: int) -> str:
     """ "1 vertex", "12,345 vertices"."""
-    return counted(count, "vertex", "vertices")
+    return f"{count:,} {'vertex' if count == 1 else 'vertices'}"

@@ -47,7 +47,7 @@ QPushButton {{ background: {theme.raised}; color: {theme.text}; border: 1px soli
   padding: 5px 12px; min-height: 20px; icon-size: 20px; }}
 QPushButton:hover {{ background: {theme.hover}; }}
 QPushButton:pressed {{ background: {theme.pressed}; }}
-QPushButton:focus {{ border: 2px solid {theme.accent}; padding: 4px 11px; }}
+QPushButton:focus {{ border: 2px solid {theme.accent}; padding: 4px 11px; outline: none; }}
 QPushButton:disabled {{ color: {theme.disabled}; border-color: {theme.border}; }}
 QPushButton:default, QPushButton#fill, QToolButton#fill {{ background: {theme.fill}; color: {theme.on_fill};
   border: 1px solid {theme.fill}; }}
@@ -100,7 +100,7 @@ QScrollArea {{ background: transparent; border: none; }}
 QHeaderView {{ background: {theme.window}; border: none; }}
 QTableCornerButton::section {{ background: {theme.window}; border: none; }}
 QHeaderView::section {{ font-weight: 400; background: {theme.window}; color: {theme.quiet}; border: none;
-  border-bottom: 1px solid {theme.border}; padding: 4px 8px; font-size: {small}px; }}
+  border-bottom: 1px solid {theme.border}; padding: 4px 7px; font-size: {small}px; }}
 QTableView, QTableWidget, QListView, QTreeView {{ background: {theme.raised}; color: {theme.text};
   border: 1px solid {theme.border}; gridline-color: {theme.border}; selection-background-color: {theme.selection};
   selection-color: {theme.text}; alternate-background-color: {theme.window}; outline: none; }}

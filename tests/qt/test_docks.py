@@ -1,0 +1,84 @@
+"""Where docks stand in the window, and what they do there with keys and room."""
+
+import numpy as np
+from qtpy import QtCore, QtWidgets
+
+from tests.shapes import bumpy
+
+WORDS = ("statistics", "quality", "regions", "pins", "scatter", "profile")
+
+
+def places(s, area):
+    """Of the open docks in an area: how many beside each other, as sets of tabs."""
+    docks = s.window.docks._docks
+    there = [word for word, dock in docks.items() if not dock.isHidden() and s.window.dockWidgetArea(dock) == area]
+    tabs = {word: {word, *(each.word for each in s.window.tabifiedDockWidgets(docks[word]))} for word in there}
+    return {frozenset(tabs[word] & set(there)) for word in there}
+
+
+def test_docks_that_have_been_alone_become_tabs_when_all_are_opened(screen, mesh_file):
+    s = screen()
+    s.window.resize(1400, 900)
+    s.open(mesh_file(bumpy(200)), 5)
+    for word in WORDS:
+        s.window.docks.toggle(word)
+        s.settle(0.1)
+        s.window.docks.toggle(word)
+    for word in WORDS:
+        s.window.docks.toggle(word)
+        s.settle(0.1)
+    areas = QtCore.Qt.DockWidgetArea
+    assert len(places(s, areas.RightDockWidgetArea)) == 2
+    assert sum(map(len, places(s, areas.RightDockWidgetArea))) == 4
+    assert places(s, areas.BottomDockWidgetArea) == {frozenset(("scatter", "profile"))}
+
+
+def test_a_narrow_window_has_room_for_pins_beside_a_profile(screen, mesh_file):
+    from app.document.measuring import add_pins
+
+    s = screen()
+    s.window.resize(900, 600)
+    s.open(mesh_file(bumpy(200)), 5)
+    s.session.show(add_pins(s.document, range(10, 70, 10)))
+    for word in ("pins", "profile"):
+        s.window.docks.toggle(word)
+    s.settle(0.5)
+    pins, profile = (s.window.docks._docks[word] for word in ("pins", "profile"))
+    assert pins.width() >= 320
+    assert profile.geometry().right() < pins.geometry().left()
+    for button in (profile.head.close_button, profile.content.save):
+        assert profile.rect().contains(QtCore.QRect(button.mapTo(profile, QtCore.QPoint()), button.size()))
+
+
+def test_a_profile_stays_on_the_panels_whatever_they_look_like(screen, mesh_file):
+    from app.document.measuring import add_pins
+    from app.qt.look.look import LOOK
+
+    s = screen()
+    s.open(mesh_file(bumpy(200)), 5)
+    s.session.show(add_pins(s.document, (7, 90)))
+    s.window.docks.toggle("profile")
+    paths = [panel.view.over.path for panel in s.panels]
+    s.until(lambda: all(len(path.points) for path in paths))
+    before = paths[0].points
+    theme = LOOK.theme
+    try:
+        LOOK.choose("dark" if not theme.is_dark else "light")
+        s.settle(0.2)
+        assert all(np.array_equal(path.points, before) for path in paths)
+        s.window.choices.style("lines")
+        s.settle(0.2)
+        assert all(np.array_equal(path.points, before) for path in paths)
+    finally:
+        LOOK.choose("dark" if theme.is_dark else "light")
+
+
+def test_a_click_leaves_no_outline_on_a_button_of_a_dock(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(200)), 5)
+    for word in WORDS:
+        s.window.docks.toggle(word)
+    clicks = QtCore.Qt.FocusPolicy.ClickFocus
+    for dock in s.window.docks._docks.values():
+        for button in dock.content.findChildren(QtWidgets.QPushButton):
+            assert not button.focusPolicy() & clicks
