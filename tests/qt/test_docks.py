@@ -73,6 +73,24 @@ def test_a_profile_stays_on_the_panels_whatever_they_look_like(screen, mesh_file
         LOOK.choose("dark" if theme.is_dark else "light")
 
 
+def test_the_quality_of_other_panels_comes_while_its_dock_is_closed(screen, mesh_file):
+    from app.document.edits import add_panel, remove_panel
+
+    s = screen()
+    s.open(mesh_file(bumpy(200)), 5)
+    for _ in range(2):
+        s.window.docks.toggle("quality")
+        s.settle(0.1)
+    shows = s.document.panels[0].shows
+    s.session.show(add_panel(remove_panel(s.document, s.document.panels[1].id), shows))
+    s.window.docks.findings.quality_changed.emit()
+    s.window.docks.toggle("quality")
+    s.until(lambda: s.session.is_complete)
+    dock = s.window.docks._docks["quality"].content
+    assert list(dock.charts) == [panel.id for panel in s.document.panels]
+    assert dock.table.columnCount() == 3
+
+
 def test_a_click_leaves_no_outline_on_a_button_of_a_dock(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(200)), 5)

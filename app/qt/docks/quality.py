@@ -53,6 +53,7 @@ class QualityDock(Instrument):
             "<qt>The distance along geodesic circles of 3 to 12 mean edges around the source, seen from above: as far "
             "from the middle as it is large. Grey: the same, were it equal in all directions.</qt>"
         )
+        self._columns: list[int] = []  # the panels, by id
         self.charts: dict[int, PolarChart] = {}
         self._before: dict[int, Found] = {}  # what was found of a panel's quantity from another source
         self._names: dict[int, QtWidgets.QLabel] = {}
@@ -103,6 +104,7 @@ class QualityDock(Instrument):
     # ------------------------------------------------------------------ the table
     def _make_columns(self, document: Document) -> None:
         panels = document.panels
+        self._columns = [panel.id for panel in panels]
         self.table.setColumnCount(len(panels))
         for k, panel in enumerate(panels):
             item = QtWidgets.QTableWidgetItem(quantity_name(panel.shows))
@@ -137,7 +139,7 @@ class QualityDock(Instrument):
 
     def _fill(self) -> None:
         document = self.window_.session.document
-        if len(document.panels) != self.table.columnCount():
+        if self._columns != [panel.id for panel in document.panels]:
             return  # the document's change is on its way
         waits, sampled = False, dict[int, int]()
         for k, panel in enumerate(document.panels):
