@@ -26,7 +26,11 @@ def faults(hands: Hands) -> list[str]:
     hands.window.session.show(hands.window.session.document)  # what was stopped is asked again
     if not hands.settle():
         return [f"never complete: {hands.window.session.progress}, {hands.done[-10:]}"]
-    return [*_untrue(hands), *_stale(hands)]
+    found = _untrue(hands)
+    for word in hands.window.session.document.docks:  # a new window has them elsewhere, and its panels other sizes
+        hands.window.docks.close(word)
+    hands.settle()
+    return [*found, *_stale(hands)]
 
 
 def _untrue(hands: Hands) -> list[str]:

@@ -12,7 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from .faults import faults
-from .hands import Hands, rss
+from .hands import rss
+from .instrument_actions import InstrumentHands
 
 QUANTITIES = (
     "biharmonic",
@@ -27,7 +28,7 @@ QUANTITIES = (
 DIALOGS_OF_FILES = {"open", "save", "save as", "screenshot", "quit"}
 
 
-class RandomHands(Hands):
+class RandomHands(InstrumentHands):
     """Each of its actions is one of CHOICES."""
 
     def move(self) -> None:
@@ -224,6 +225,7 @@ class RandomHands(Hands):
         (move, 14), (click, 12), (double_click, 2), (drag, 10), (drag_mark, 5), (wheel, 7), (press_key, 24),
         (menu, 6), (head_menu, 6), (resize, 5), (choose, 6), (isolines, 6), (range, 5), (colours, 5), (shading, 4),
         (camera, 5), (export_dialog, 2), (style, 3), (theme, 3), (edit_panels, 6), (undo, 6), (open, 2),
+        *InstrumentHands.INSTRUMENTS,
     )  # fmt: skip
 
     def act(self) -> None:
@@ -249,6 +251,12 @@ class RandomHands(Hands):
         self.spin(0.1)
         while len(session.document.panels) > count:
             self.window.choices.edit_panel(session.document.panels[-1].id, "Remove it")
+        for word in self.window.docks.words():
+            self.window.docks.toggle(word)
+            self.spin(0.2)
+        self.until(lambda: session.is_complete)
+        for word in session.document.docks:
+            self.window.docks.close(word)
         self.window.resize(size)
         self.spin(0.1)
 

@@ -1,0 +1,162 @@
+"""What random hands do with the instruments: pins, brushes, drawn and typed sources, and all that is in docks."""
+
+from dataclasses import replace
+
+from .hands import Hands
+
+SOURCES = ("12+40", "f3:0.2,0.5", "loop:0", "5+f9:0.3,0.3", "7", "f1:2,2", "nowhere")
+ASKING = ("save", "read", "…")
+"""Buttons and menus whose words hold this ask for a file."""
+
+
+class InstrumentHands(Hands):
+    def pin(self) -> None:
+        self._click_with("shift")
+
+    def add_source(self) -> None:
+        self._click_with("ctrl")
+
+    def _click_with(self, key: str) -> None:
+        self.tool("mousemove", *self.place(), "keydown", key, "click", 1, "keyup", key)
+
+    def brush(self) -> None:
+        """With the key held, or Ctrl besides."""
+        keys = ["b", *(["ctrl"] if self.chance.random() < 0.3 else [])]
+        self.window.activateWindow()
+        self._drag([word for key in keys for word in ("keydown", key)], [w for key in keys for w in ("keyup", key)])
+
+    def live(self) -> None:
+        """The source follows the pointer, for a while."""
+        self.key("L")
+        for _ in range(4):
+            self.tool("mousemove", *self.place())
+        self.key("L")
+
+    def draw_source(self) -> None:
+        self.window.actions_by_word["draw source"].trigger()
+        self._drag([], [])
+        self.key("Esc")
+        if self.window.gestures.sources.is_drawing:
+            self.window.actions_by_word["draw source"].trigger()
+
+    def _drag(self, before: list, after: list) -> None:
+        (x, y), (to_x, to_y) = self.place(), self.place()
+        self.tool("mousemove", x, y, *before, "mousedown", 1)
+        for k in range(1, 7):
+            self.tool("mousemove", x + (to_x - x) * k // 6, y + (to_y - y) * k // 6)
+        self.tool("mouseup", 1, *after)
+
+    def type_source(self) -> None:
+        text = self.chance.choice(SOURCES)
+        self.key("G")
+        self.tool("type", "--delay", 4, text)
+        self.tool("key", self.chance.choice(["Return", "Escape"]), "key", "Escape")
+
+    # ------------------------------------------------------------------ docks
+    def _dock(self):
+        """One that is open, or is now."""
+        docks = self.window.docks
+        opened = self.window.session.document.docks
+        if not opened or (len(opened) < 3 and self.chance.random() < 0.5):
+            docks.toggle(self.chance.choice([word for word in docks.words() if word not in opened]))
+            self.spin(0.05)
+        opened = self.window.session.document.docks
+        return docks._docks[self.chance.choice(opened)] if opened else None
+
+    def toggle_dock(self) -> None:
+        self.window.docks.toggle(self.chance.choice(list(self.window.docks.words())))
+
+    def in_dock(self) -> None:
+        """The pointer goes somewhere in a dock, and clicks, drags or turns the wheel there."""
+        from qtpy import QtCore, QtWidgets
+
+        dock = self._dock()
+        if dock is None or not dock.isVisible():
+            return
+        dock.raise_()
+        x, y = self.place(dock)
+        self.done[-1] += f" {dock.word}"
+        at = dock.mapFromGlobal(QtCore.QPoint(x, y))
+        under = dock.childAt(at)
+        said = f"{under.toolTip()} {under.accessibleName()} {getattr(under, 'text', str)()}".lower() if under else ""
+        way = self.chance.choice(["click", "click", "move", "drag", "wheel", "right"])
+        self.tool("mousemove", x, y)
+        if way == "drag" and not isinstance(under, QtWidgets.QAbstractButton):
+            to_x, to_y = self.place(dock)
+            self.tool("mousedown", 1)
+            for corner in ((to_x, y), (to_x, to_y), (x, to_y)):
+                self.tool("mousemove", *corner)
+            self.tool("mouseup", 1)
+        elif way == "wheel":
+            self.tool("click", self.chance.choice([4, 5]))
+        elif way in ("click", "right") and not any(word in said for word in ASKING):
+            # A menu has a loop of its own meanwhile.
+            self.tool("click", 1 if way == "click" else 3, "sleep", 0.05, "key", "--delay", 20, "Escape", "Escape")
+        self.shut()
+
+    def dock_menu(self) -> None:
+        """Something of the menus in a dock, but what asks for a file."""
+        from qtpy import QtWidgets
+
+        dock = self._dock()
+        if dock is None:
+            return
+        found = [menu for menu in dock.findChildren(QtWidgets.QMenu) if menu.isEnabled()]
+        if not found:
+            return
+        menu = self.chance.choice(found)
+        menu.aboutToShow.emit()
+        actions = [a for a in menu.actions() if a.isEnabled() and a.text() and not a.menu() and "…" not in a.text()]
+        if actions:
+            action = self.chance.choice(actions)
+            self.done[-1] += f" {dock.word}: {action.text()}"
+            action.trigger()
+        self.shut()
+
+    def move_dock(self) -> None:
+        from qtpy import QtCore
+
+        dock = self._dock()
+        if dock is None:
+            return
+        areas, way = QtCore.Qt.DockWidgetArea, self.chance.choice(["float", "left", "right", "below", "size"])
+        if way == "float":
+            dock.setFloating(not dock.isFloating())
+        elif way == "size":
+            self.window.resizeDocks([dock], [self.chance.randint(150, 500)], QtCore.Qt.Orientation.Horizontal)
+        else:
+            dock.setFloating(False)
+            area = {"left": areas.LeftDockWidgetArea, "right": areas.RightDockWidgetArea}
+            self.window.addDockWidget(area.get(way, areas.BottomDockWidgetArea), dock)
+            dock.show()
+
+    def profile(self) -> None:
+        from app.document.instruments import WAYS
+
+        session = self.window.session
+        document = session.document
+        names = [pin.point for pin in document.pins]
+        points = tuple(self.chance.sample(names, 2)) if len(names) > 1 and self.chance.random() < 0.5 else ()
+        across = (1.0, 0.2, 0.1) if self.chance.random() < 0.5 else None
+        profile = replace(document.profile, points=points, way=self.chance.choice(WAYS), across=across)
+        session.show(replace(document, profile=profile))
+
+    def regions(self) -> None:
+        from app.document.measuring import show_regions
+
+        session = self.window.session
+        if len(session.document.pins) > 1:
+            panel = self.panel()
+            session.show(show_regions(session.document, panel, panel not in session.document.regions))
+
+    def farthest(self) -> None:
+        dock = self._dock() and self.window.docks._docks.get("regions")
+        if dock is not None and not dock.isHidden():
+            dock.content.sampler.count.setValue(self.chance.randint(2, 6))
+            if dock.content.sampler.pin.isEnabled():
+                dock.content.sampler.pin.click()
+
+    INSTRUMENTS = (
+        (pin, 8), (add_source, 5), (brush, 4), (live, 2), (draw_source, 3), (type_source, 3), (toggle_dock, 5),
+        (in_dock, 14), (dock_menu, 6), (move_dock, 4), (profile, 4), (regions, 3), (farthest, 2),
+    )  # fmt: skip
