@@ -16,6 +16,7 @@ import tempfile
 from pathlib import Path
 
 from .driver import Driver, Look
+from .instrument_scenes import instruments
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -30,11 +31,12 @@ def main() -> None:
     parser.add_argument("--meshes", type=Path)
     parser.add_argument("--beside", type=Path)
     parser.add_argument("--only", default="", help="looks whose names hold this")
+    parser.add_argument("--scenes", default="", help="scenes whose names hold this, such as instruments")
     parser.add_argument("--drive", help=argparse.SUPPRESS)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     if options.drive:
-        drive(next(look for look in LOOKS if look.word == options.drive), options.out, options.meshes)
+        drive(next(look for look in LOOKS if look.word == options.drive), options)
         return
     for look in LOOKS:
         if options.only in look.word:
@@ -47,7 +49,8 @@ def main() -> None:
 def _on_a_screen_of_its_own(look: Look, options: argparse.Namespace) -> None:
     screen = f"-screen 0 {look.width * look.scale}x{look.height * look.scale}x24 -dpi 96"
     command = ["xvfb-run", "-a", "-s", screen, sys.executable, "-m", "tests.qt.contact_sheet", str(options.out)]
-    command += ["--drive", look.word, *(["--meshes", str(options.meshes)] if options.meshes else [])]
+    command += ["--drive", look.word, "--scenes", options.scenes]
+    command += ["--meshes", str(options.meshes)] if options.meshes else []
     with tempfile.TemporaryDirectory() as home:
         scale = {"QT_SCALE_FACTOR": str(look.scale)} if look.scale > 1 else {}
         subprocess.run(command, cwd=ROOT, check=True, env={**os.environ, **scale, "XDG_DATA_HOME": home})
@@ -74,11 +77,14 @@ def _write_page(out: Path, beside: Path | None) -> None:
 
 
 # ---------------------------------------------------------------------- one look
-def drive(look: Look, out: Path, meshes: Path | None) -> None:
+def drive(look: Look, options: argparse.Namespace) -> None:
     """Through all there is to see."""
-    driver = Driver(look, out)
-    for scene in (_beginning, _pointing, _heads, _bars_and_menus, _looks, _panels, _waiting, _dialogs, _help, _talk):
-        scene(driver)
+    driver, meshes = Driver(look, options.out), options.meshes
+    for scene in (
+        _beginning, _pointing, _heads, _bars_and_menus, _looks, _panels, _waiting, _dialogs, _help, _talk, instruments,
+    ):  # fmt: skip
+        if options.scenes in scene.__name__:
+            scene(driver)
     for path in sorted(meshes.glob("*.o[bf][jf]")) if meshes else ():
         driver.open(path)
         driver.point_at_surface(1)

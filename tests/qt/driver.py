@@ -54,6 +54,7 @@ class Driver:
         end = time.monotonic() + PATIENCE
         while not condition():
             if time.monotonic() > end:
+                self.shot("not ready")
                 raise RuntimeError("The window did not get ready.")
             self.spin(0.02)
 
@@ -73,8 +74,12 @@ class Driver:
         screen = self.application.primaryScreen()
         screen.grabWindow(0).save(str(self._out / f"{self._count:02}_{name.replace(' ', '_')}.png"))
 
-    def pointer(self, *words: object) -> None:
+    @staticmethod
+    def tool(*words: object) -> None:
         subprocess.run(["xdotool", *map(str, words)], check=True)
+
+    def pointer(self, *words: object) -> None:
+        self.tool(*words)
         self.spin(0.2)
 
     def point(self, panel: int, x: float, y: float) -> None:

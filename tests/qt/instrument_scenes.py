@@ -1,0 +1,291 @@
+"""What there is to see of the instruments, for the contact sheet: by mouse and keys, as users open and use them."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from .driver import Driver
+
+PINNED = ((0.2, 0.3), (0.8, 0.25), (0.3, 0.8), (0.75, 0.8), (0.5, 0.4))
+"""Places of a view near which pins go, as shares of its width and height."""
+
+SOURCE = (0.55, 0.5)
+
+
+def instruments(d: Driver) -> None:
+    """All of them on a closed surface with limbs, then what needs a boundary."""
+    from app.samples import mesh_path
+
+    d.open(mesh_path("beast"))
+    for scene in (_pins, _profile, _section, _scatter, _statistics, _quality, _regions, _all_open):
+        scene(d)
+        _close_all(d)
+    _sources(d)
+    _live(d)
+    d.open(mesh_path("scan"))
+    _loop(d)
+
+
+# ---------------------------------------------------------------------- by hand
+def _at(d: Driver, panel: int, x: float, y: float) -> None:
+    """The pointer to the place of the surface that is nearest to a place of a view."""
+    from qtpy import QtCore
+
+    view = d.window.grid.panels[panel].view
+    places = [((i + 0.5) / 40, (j + 0.5) / 40) for i in range(40) for j in range(40)]
+    for near in sorted(places, key=lambda at: (at[0] - x) ** 2 + (at[1] - y) ** 2):
+        at = QtCore.QPoint(round(near[0] * view.width()), round(near[1] * view.height()))
+        if view.met_at(at) is not None and view.mark_at(at) < 0:
+            d.point(panel, *near)
+            return
+
+
+def _click(d: Driver, panel: int, x: float, y: float, key: str = "") -> None:
+    _at(d, panel, x, y)
+    d.pointer(*(("keydown", key) if key else ()), "click", 1, *(("keyup", key) if key else ()))
+
+
+def _drag(d: Driver, places: list[tuple[int, int]], *, key: str = "", then: Callable[[], None] | None = None) -> None:
+    """Along places of the screen; then: before the button is let go."""
+    first, *rest = places
+    d.pointer("mousemove", *first, *(("keydown", key) if key else ()), "mousedown", 1)
+    for place in rest:  # each by itself: moves that wait together are one
+        d.tool("mousemove", *place)
+        d.spin(0.03)
+    if then is not None:
+        then()
+    d.pointer("mouseup", 1, *(("keyup", key) if key else ()))
+
+
+def _on(d: Driver, widget: Any, x: float, y: float) -> tuple[int, int]:
+    """Where a place of a widget is on the screen, in device pixels."""
+    from qtpy import QtCore
+
+    at = widget.mapToGlobal(QtCore.QPoint(round(x * widget.width()), round(y * widget.height())))
+    return at.x() * d.look.scale, at.y() * d.look.scale
+
+
+def _press(d: Driver, widget: Any) -> None:
+    d.pointer("mousemove", *_on(d, widget, 0.5, 0.5), "click", 1)
+
+
+def _dock(d: Driver, word: str, key: str = "") -> Any:
+    """An instrument, opened by its key if it is not open."""
+    if key:
+        _to_panels(d)
+        d.pointer("key", key)
+    d.complete()
+    return d.window.docks._docks[word].content
+
+
+def _to_panels(d: Driver) -> None:
+    """The keys go to the panels."""
+    d.window.activateWindow()
+    d.window.grid.focus()
+    d.spin(0.1)
+
+
+def _close_all(d: Driver) -> None:
+    for word in d.window.session.document.docks:
+        d.window.docks.close(word)
+    d.complete()
+
+
+def _rest(d: Driver) -> None:
+    """The pointer beside all that answers to it."""
+    d.pointer("mousemove", d.look.width * d.look.scale // 2, 8 * d.look.scale)
+
+
+# ---------------------------------------------------------------------- the scenes
+def _pins(d: Driver) -> None:
+    _click(d, 0, *SOURCE)
+    for place in PINNED:
+        _click(d, 0, *place, key="shift")
+    dock = _dock(d, "pins", "p")
+    d.pointer("mousemove", *_on(d, dock.distances.cells, 0.7, 0.3))
+    d.shot("pins and the distances among them")
+    _rest(d)
+    _press(d, dock.box)
+    d.pointer("type", "12, 40, 99999999")
+    d.pointer("key", "Return")
+    d.shot("a pin at no vertex")
+    d.pointer("key", "Escape")
+    dock.table.selectRow(1)
+    d.shot("a pin stands out")
+    dock.table.clearSelection()
+
+
+def _profile(d: Driver) -> None:
+    dock = _dock(d, "profile", "f")
+    d.until(lambda: dock.path is not None)
+    _dock(d, "pins", "p")
+    d.pointer("mousemove", *_on(d, dock.chart, 0.45, 0.4))
+    d.shot("profile through the pins")
+    _rest(d)
+    _press(d, dock.scale.buttons["value"])
+    d.complete()
+    d.shot("profile in values")
+    _press(d, dock.scale.buttons["share"])
+    d.complete()
+
+
+def _section(d: Driver) -> None:
+    """Through two of the pins."""
+    from app.document.instruments import Profile
+
+    before = d.window.session.document
+    points = [pin.point for pin in before.pins]
+    d.window.session.show(replace(before, profile=Profile(points=(points[0], points[4]))))
+    dock = _dock(d, "profile", "f")
+    d.until(lambda: dock.path is not None)
+    dock.choices.choose_way("section")
+    d.complete()
+    d.until(lambda: dock.path is not None)
+    d.pointer("mousemove", *_on(d, dock.chart, 0.6, 0.5))
+    d.shot("section by a plane")
+    d.window.session.show(before)
+    d.complete()
+
+
+def _scatter(d: Driver) -> None:
+    dock = _dock(d, "scatter", "s")
+    d.until(lambda: dock.chart.scatter is not None)
+    d.spin(1.0)
+    d.shot("scatter")
+    corners = ((0.5, 0.5), (0.6, 0.2), (0.8, 0.15), (0.9, 0.3), (0.8, 0.5), (0.6, 0.6))
+    _drag(d, [_on(d, dock.chart, *corner) for corner in corners], then=lambda: d.shot("lasso"))
+    d.complete()
+    _at(d, 0, 0.3, 0.5)
+    d.pointer("keydown", "b")
+    d.pointer("mousedown", 1)
+    for step in range(8):
+        _at(d, 0, 0.3 + 0.02 * step, 0.5)
+    d.shot("brush on the surface")
+    d.pointer("mouseup", 1)
+    d.pointer("keyup", "b")
+    d.complete()
+    d.shot("scatter with selections")
+    while d.window.session.document.selections:
+        d.window.session.undo()
+
+
+def _statistics(d: Driver) -> None:
+    dock = _dock(d, "statistics", "h")
+    d.until(lambda: dock.statistics is not None)
+    d.shot("statistics")
+    scroll = _scroll_of(dock)
+    scroll.ensureWidgetVisible(dock.truncation.button)
+    _press(d, dock.truncation.button)
+    d.until(lambda: dock.truncation.loss is not None)
+    scroll.ensureWidgetVisible(dock.truncation.facts)
+    d.shot("truncation")
+    scroll.ensureWidgetVisible(dock.levels.low)
+    for box, words in ((dock.levels.low, "25 %"), (dock.levels.high, "50 %")):
+        _press(d, box)
+        d.pointer("type", words)
+    d.until(lambda: dock.levels.band is not None)
+    scroll.ensureWidgetVisible(dock.levels.said)
+    dock.levels.select()
+    d.complete()
+    d.shot("region between two values")
+    while d.window.session.document.selections:
+        d.window.session.undo()
+
+
+def _scroll_of(dock: Any) -> Any:
+    from qtpy import QtWidgets
+
+    return dock.findChild(QtWidgets.QScrollArea)
+
+
+def _quality(d: Driver) -> None:
+    dock = _dock(d, "quality", "q")
+    d.until(lambda: "…" not in dock.text())
+    d.spin(1.0)
+    d.shot("quality with extrema")
+    _scroll_of(dock).verticalScrollBar().setValue(10_000)
+    d.shot("circles around the source")
+
+
+def _regions(d: Driver) -> None:
+    dock = _dock(d, "regions", "n")
+    for panel in d.window.grid.panels[:2]:
+        d.pointer("mousemove", *_on(d, dock.ticks[panel.id], 0.03, 0.5), "click", 1)
+    d.complete()
+    d.spin(1.0)
+    d.shot("regions of the pins")
+    before = d.window.session.document
+    dock.sampler.count.setValue(8)
+    _scroll_of(dock).ensureWidgetVisible(dock.sampler.pin)
+    _press(d, dock.sampler.pin)
+    d.until(lambda: len(d.window.session.document.pins) > len(before.pins))
+    d.complete()
+    d.spin(1.0)
+    d.shot("farthest points")
+    d.window.session.show(before)
+    d.complete()
+
+
+def _all_open(d: Driver) -> None:
+    for word, key in (
+        ("statistics", "h"), ("quality", "q"), ("regions", "n"), ("pins", "p"), ("scatter", "s"), ("profile", "f"),
+    ):  # fmt: skip
+        _dock(d, word, key)
+    d.spin(1.5)
+    d.shot("all docks")
+
+
+def _sources(d: Driver) -> None:
+    before = d.window.session.document
+    _click(d, 0, 0.3, 0.6, key="ctrl")
+    _click(d, 0, 0.7, 0.3, key="ctrl")
+    d.complete()
+    d.shot("a set as source")
+    for text, name in (("f311:0.2,0.5", "a place in a face"), ("12+40+f7:0.3,0.3", "a set as words")):
+        _type_source(d, text)
+        d.shot(name)
+    _to_panels(d)
+    d.window.actions_by_word["draw source"].trigger()
+    view = d.window.grid.panels[0].view
+    places = []
+    for step in range(12):
+        _at(d, 0, 0.4 + 0.015 * step, 0.45 + 0.01 * step)
+        from qtpy import QtGui
+
+        at = QtGui.QCursor.pos()
+        places.append((at.x() * d.look.scale, at.y() * d.look.scale))
+    assert view is not None
+    _drag(d, places, then=lambda: d.shot("drawing a source"))
+    d.complete()
+    _rest(d)
+    d.shot("a curve as source")
+    d.pointer("key", "Escape")
+    d.window.session.show(before)
+    d.complete()
+
+
+def _type_source(d: Driver, text: str) -> None:
+    _to_panels(d)
+    d.pointer("key", "g")
+    d.pointer("type", text)
+    d.pointer("key", "Return")
+    d.complete()
+    _rest(d)
+
+
+def _live(d: Driver) -> None:
+    """The source's mark is dragged, and kept where it is while the picture is taken."""
+    from qtpy import QtCore
+
+    view = d.window.grid.panels[0].view
+    at = view.mapToGlobal(view.place_of(view.source).toPoint()) * d.look.scale
+    assert isinstance(at, QtCore.QPoint)
+    places = [(at.x() + round(3 * step * d.look.scale), at.y() - step * d.look.scale) for step in range(14)]
+    places += places[::-1][:12]
+    _drag(d, places, then=lambda: d.shot("live drag"))
+    d.complete()
+
+
+def _loop(d: Driver) -> None:
+    _type_source(d, "loop:0")
+    d.shot("a boundary as source")
