@@ -54,11 +54,16 @@ def plane_section(
             same = place_words(places[k])
             raise ParameterError(f"The places {k} and {k + 1} of a section are the same, {same}; leave one out.")
         found = _ways(split, start, stop, d)
+        ends = f"{place_words(places[k])} and {place_words(places[k + 1])}"
+        if not found:
+            raise ParameterError(
+                f"The section of {surface.name} by this plane does not join {ends}; turn the direction."
+            )
         if part == "whole":
             pieces, knots = found[0].whole()
         elif part == "longer" and len(found) < 2:
             raise ParameterError(
-                f"The section of {surface.name} joins the places {k} and {k + 1} in one way only; "
+                f"The section of {surface.name} joins {ends} in one way only; "
                 "take the shorter part, or turn the direction."
             )
         else:
@@ -106,7 +111,7 @@ class _Way:
 
 
 def _ways(split: Split, start: int, stop: int, d: np.ndarray) -> list[_Way]:
-    """How the section leads from one vertex to another, the shortest first."""
+    """How the section leads from one vertex to another, the shortest first; none where it does not."""
     x = split.surface.vertices
     normal = np.cross(x[stop] - x[start], d)
     size = np.linalg.norm(normal)
@@ -122,9 +127,7 @@ def _ways(split: Split, start: int, stop: int, d: np.ndarray) -> list[_Way]:
         found = [way for line in isolines(split.surface, field, [0.0]) for way in _between(line, start, stop)]
         if found:
             return sorted(found, key=lambda way: _length(way.line.points[way.index]))
-    raise ParameterError(
-        f"The section of {split.whole.name} by this plane does not join the two places; turn the direction."
-    )
+    return []
 
 
 def _between(line: Isoline, start: int, stop: int) -> list[_Way]:
