@@ -97,6 +97,7 @@ def field_scatter(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares: 
     if shares:
         sizes = np.abs(x).max(), np.abs(y).max()
         if not min(sizes) > 0:
-            raise ParameterError("A field that is 0 throughout has no shares of its maximum.")
+            which = "first" if sizes[0] == 0 else "second"
+            raise ParameterError(f"The {which} field is 0 throughout, so it has no shares of its maximum.")
         x, y = x / sizes[0], y / sizes[1]
     return FieldScatter(ids, x, y)

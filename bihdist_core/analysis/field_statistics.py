@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from ..errors import ParameterError
 from ..surface import Surface
+from .field_scatter import field_scatter
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +63,8 @@ def field_statistics(
     if share.ndim != 1 or not ((share >= 0) & (share <= 1)).all():
         raise ParameterError(f"Shares of the area are numbers from 0 to 1, not {shares!r}.")
     total = weights.sum()
-    mean = float(weights @ f / total)
+    # From one of the values on, so that a constant field has no deviation.
+    mean = float(f[0] + weights @ (f - f[0]) / total)
     edges = _edges(bins, float(f.min()), float(f.max()))
     order = np.argsort(f, kind="stable")
     reached = np.cumsum(weights[order])
@@ -107,19 +109,9 @@ def field_agreement(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares
 
     Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
     """
-    f, _, _ = _chosen(surface, a)
-    f, g = np.asarray(a, np.float64), np.asarray(b, np.float64)
-    if g.shape != f.shape:
-        raise ParameterError(f"Fields of shape {f.shape} and {g.shape} cannot be compared.")
-    ids = np.flatnonzero(np.isfinite(f) & np.isfinite(g) & (surface.component_of_vertex >= 0))
-    if not len(ids):
-        raise ParameterError("To compare two fields, both need finite values at common vertices.")
-    f, g, weights = f[ids], g[ids], corner_areas(surface)[ids]
-    if shares:
-        sizes = np.abs(f).max(), np.abs(g).max()
-        if not min(sizes) > 0:
-            raise ParameterError("A field that is 0 throughout has no shares of its maximum.")
-        f, g = f / sizes[0], g / sizes[1]
+    both = field_scatter(surface, a, b, shares)
+    f, g, ids = both.x, both.y, both.ids
+    weights = corner_areas(surface)[ids]
     apart = np.abs(f - g)
     worst = int(apart.argmax())
     orders, total = (_order(f), _order(g)), weights.sum()
@@ -162,9 +154,11 @@ def _order(f: np.ndarray) -> Order:
 def _correlation(one: Order, other: Order, w: np.ndarray) -> float:
     # SciPy's has no weights.
     x, y = _ranks(one, w), _ranks(other, w)
+    # Those of two values or more reach over half of all weight.
+    if min(np.ptp(ranks[w > 0]) for ranks in (x, y)) < w.sum() / 4:
+        return float("nan")
     x, y = x - w @ x / w.sum(), y - w @ y / w.sum()
-    spread = np.sqrt((w @ x**2) * (w @ y**2))
-    return float(np.clip(w @ (x * y) / spread, -1, 1)) if spread > 0 else float("nan")
+    return float(np.clip(w @ (x * y) / np.sqrt((w @ x**2) * (w @ y**2)), -1, 1))
 
 
 def _ranks(of: Order, w: np.ndarray) -> np.ndarray:
