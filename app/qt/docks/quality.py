@@ -21,6 +21,9 @@ ROW, HEAD = 30, 32
 LEAST_COLUMN = 64
 """Logical pixels of a panel's column."""
 
+BEHIND = 14
+"""The same behind the names of rows."""
+
 BESIDE = 3
 """Charts in a row."""
 
@@ -65,7 +68,10 @@ class QualityDock(Instrument):
         column = QtWidgets.QVBoxLayout(inside)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
-        column.addWidget(self.table)
+        beside = QtWidgets.QHBoxLayout()
+        beside.setContentsMargins(0, 0, PAD - 6, 0)  # the cells have the rest
+        beside.addWidget(self.table)
+        column.addLayout(beside)
         row = QtWidgets.QHBoxLayout()
         row.setContentsMargins(PAD, 0, PAD, 0)
         row.addWidget(self.tick)
@@ -206,10 +212,14 @@ class QualityDock(Instrument):
     # ------------------------------------------------------------------ how it looks
     def _measure(self) -> None:
         scale = LOOK.scale
+        # No wider than its words: the columns need the room.
+        names = self.table.verticalHeader()
+        widest = max(names.fontMetrics().horizontalAdvance(measure.name) for measure in MEASURES)
+        names.setFixedWidth(widest + PAD + round(BEHIND * scale))
         for row in range(self.table.rowCount()):
             self.table.setRowHeight(row, round(ROW * scale))
         height = round(HEAD * scale) + self.table.rowCount() * round(ROW * scale)
-        if self.table.columnCount() * LEAST_COLUMN + self.table.verticalHeader().sizeHint().width() > self.width():
+        if self.table.columnCount() * LEAST_COLUMN + names.width() > self.width():
             height += self.table.horizontalScrollBar().sizeHint().height()
         self.table.setFixedHeight(height)
 
