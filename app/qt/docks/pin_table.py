@@ -11,14 +11,14 @@ from ..look.text_box import TextBox
 from ..panels.pin_marks import paint_badge
 
 ROW = 30
-PAD = 7
+PAD = 6
 LEAST_NAME = 44
 """Logical pixels of a name at least; where there is no room for it the table is scrolled."""
 
-WIDEST = 58
+WIDEST = 56
 """Of a column that only its title needs."""
 
-TITLE = 22
+TITLE = 19
 """Logical pixels beside the words of a title, together."""
 
 BADGE, NAME, VERTEX = range(3)
@@ -193,7 +193,7 @@ class PinTable(QtWidgets.QTableView):
         scale = LOOK.scale
         self.verticalHeader().setDefaultSectionSize(round(ROW * scale))
         font, head = LOOK.font(13), QtGui.QFontMetrics(LOOK.font(12))
-        widths, cut = {BADGE: round(28 * scale)}, {}
+        widths, cut = {BADGE: round(24 * scale)}, {}
         for column in range(VERTEX, self.rows.columnCount()):
             texts = [self.rows.text(row, column) for row in self.rows.rows]
             title = self.rows.headerData(column, QtCore.Qt.Orientation.Horizontal)

@@ -100,7 +100,7 @@ QScrollArea {{ background: transparent; border: none; }}
 QHeaderView {{ background: {theme.window}; border: none; }}
 QTableCornerButton::section {{ background: {theme.window}; border: none; }}
 QHeaderView::section {{ font-weight: 400; background: {theme.window}; color: {theme.quiet}; border: none;
-  border-bottom: 1px solid {theme.border}; padding: 4px 7px; font-size: {small}px; }}
+  border-bottom: 1px solid {theme.border}; padding: 4px 6px; font-size: {small}px; }}
 QTableView, QTableWidget, QListView, QTreeView {{ background: {theme.raised}; color: {theme.text};
   border: 1px solid {theme.border}; gridline-color: {theme.border}; selection-background-color: {theme.selection};
   selection-color: {theme.text}; alternate-background-color: {theme.window}; outline: none; }}
