@@ -1,4 +1,4 @@
-"""How the window draws lines that a source consists of: in its colour with a dark rim, on the surface."""
+"""How the window draws lines on the surface, such as a source consists of: in a colour, with a rim."""
 
 from collections.abc import Sequence
 
@@ -9,36 +9,45 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from .source_lines import RIM, WIDTH
-from .style import Style
+from .style import Colour, Style
 
 _PLACED = "//VTK::PositionVC::Impl"
 _NEARER = """//VTK::PositionVC::Impl
   gl_Position.z -= NEARER * gl_Position.w;
 """
-NEARER = (0.0012, 0.0014)
-"""By which share of all depth lines are drawn before the surface they lie on: below others, and on them."""
+NEARER = 0.0014
+"""By which share of all depth lines are drawn before the surface they lie on."""
+
+SOFT = 0.16
+"""Of the height of the band, from the rim to the line."""
 
 _LIT = "//VTK::Light::Impl"
 _RIM = """//VTK::Light::Impl
-  fragOutput0.rgb = mix(rimColour, ambientColorUniform, smoothstep(0.62, 0.80, lenZ));
+  fragOutput0.rgb = mix(rimColour, ambientColorUniform, smoothstep(FROM, TO, lenZ));
 """
 """A tube is a band of the shader's, as high as `lenZ` from its middle to its edges, however the line slants."""
 
 
-class SourceLineActor:
+class RimmedLines:
     """Lines, hidden until there are any, and where the surface is before them.
 
-    scale: device pixels per pixel.
+    line, rim: colours; width, rim_width: pixels, of the line and of the rim on each side; scale: device pixels per
+    pixel; nearer: see NEARER.
     """
 
-    def __init__(self, style: Style, scale: float) -> None:
-        self.actor = line_actor(style.source, (WIDTH + 2 * RIM) * scale, NEARER[1])
+    def __init__(
+        self, line: Colour, rim: Colour, width: float, rim_width: float, scale: float, nearer: float = NEARER
+    ) -> None:
+        whole = width + 2 * rim_width
+        self.actor = line_actor(line, whole * scale, nearer)
         look = self.actor.GetProperty()
         look.RenderLinesAsTubesOn()  # plain lines have no edges, and are thinner the more they slant
         look.LightingOn()  # which has that shader
+        edge = float(np.sqrt(1 - (width / whole) ** 2))
+        rimmed = _RIM.replace("FROM", f"{edge - SOFT:.4f}").replace("TO", f"{edge:.4f}")
         shader = self.actor.GetShaderProperty()
-        shader.AddFragmentShaderReplacement(_LIT, False, _RIM, False)
-        shader.GetFragmentCustomUniforms().SetUniform3f("rimColour", style.mark_edge)
+        shader.AddFragmentShaderReplacement(_LIT, False, rimmed, False)
+        shader.GetFragmentCustomUniforms().SetUniform3f("rimColour", rim)
 
     def show(self, lines: Sequence[tuple[np.ndarray, bool]]) -> None:
         """Points (k, 3) of each, and whether the last joins the first."""
@@ -55,6 +64,13 @@ class SourceLineActor:
         drawn.SetPoints(points)
         drawn.SetLines(cells)
         self.actor.GetMapper().SetInputData(drawn)
+
+
+class SourceLineActor(RimmedLines):
+    """What a source consists of."""
+
+    def __init__(self, style: Style, scale: float) -> None:
+        super().__init__(style.source, style.mark_edge, WIDTH, RIM, scale)
 
 
 def _without_specks(points: np.ndarray) -> np.ndarray:

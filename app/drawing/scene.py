@@ -35,9 +35,9 @@ class PanelScene:
         self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
         self._anchored = Marks(style.marker_size * scale, style.mark_edge)
         self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
-        self._regions = RegionLines(scale, style.mark_edge, (1.0, 1.0, 1.0))
+        self._regions = RegionLines(style, scale)
         marks = (self._source, self._largest, self._anchored, self._passed)
-        solid = [self._field.actor, *self._regions.actors, self._lines.actor, *(each.actor for each in marks)]
+        solid = [self._field.actor, self._regions.actor, self._lines.actor, *(each.actor for each in marks)]
         solid += [self._field.stand_in.actor]
         self.insets = Insets(renderer, solid, self._field, style, scale)
         renderer.SetBackground(*style.background)
@@ -64,7 +64,7 @@ class PanelScene:
         self.mark_source(None)
         self.mark_largest(None)
         self.mark_anchors(np.empty((0, 3)), [])
-        self.show_regions(np.empty((0, 2, 3)))
+        self.show_regions([])
         self._field.show_selected(None)
         self.mark_passed(np.empty((0, 3)))
         self.insets.show((), np.empty((0, 3)))
@@ -115,9 +115,9 @@ class PanelScene:
         """These, and one of each value `through`."""
         self._field.show_isolines(isolines, through)
 
-    def show_regions(self, segments: np.ndarray) -> None:
-        """Boundaries of regions, as segments (s, 2, 3)."""
-        self._regions.show(segments)
+    def show_regions(self, curves: Sequence[tuple[np.ndarray, bool]]) -> None:
+        """Boundaries of regions: points (k, 3) of each curve, and whether it is closed."""
+        self._regions.show(curves)
 
     def show_bands(self, edges: np.ndarray) -> None:
         """Where bands end, see `FieldActor.show_bands`."""

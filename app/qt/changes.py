@@ -3,7 +3,7 @@
 `window` is the main window.
 """
 
-from ..document.document import Document
+from ..document.document import Anchor, Document, Point
 from ..drawing.style import Style
 from ..session.opened import Opened
 from .look.canvas import canvas_style
@@ -39,7 +39,7 @@ class Changes:
         if other_panels or document.points != before.points:
             grid.expect_sources(document)
             window.typed_source.show()
-        if other_panels or (document.points, document.anchors) != (before.points, before.anchors):
+        if other_panels or _anchored(document) != _anchored(before):
             grid.mark_anchors(document)
         if other_panels or (document.points, document.pins) != (before.points, before.pins):
             grid.show_pins(document)
@@ -86,3 +86,8 @@ class Changes:
             grid.show_answer(id)
         window.docks.show_again()
         window.waits.show()
+
+
+def _anchored(document: Document) -> list[tuple[Anchor, Point]]:
+    """Where the anchors are, whatever other points do: a pin that is dragged redraws none."""
+    return [(anchor, document.point(anchor.point)) for anchor in document.anchors]

@@ -11,6 +11,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from bihdist_core.analysis.region_boundaries import Boundary, region_boundaries
 from bihdist_core.analysis.regions import Regions, voronoi_regions
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.distances.kinds import Spec
@@ -44,11 +45,12 @@ class RegionsQuestion:
 
 @dataclass(frozen=True, eq=False)
 class Divided:
-    """The answer: regions, in the order of the places, and the fields (n, k) that they are the regions of; or why
-    there are none."""
+    """The answer: regions, in the order of the places, their boundaries, and the fields (n, k) that they are the
+    regions of; or why there are none."""
 
     question: RegionsQuestion
     regions: Regions | None = None
+    boundaries: tuple[Boundary, ...] = ()
     columns: np.ndarray | None = None
     failure: str = ""
 
@@ -143,7 +145,8 @@ class Dividing:
     def _answer(self, question: RegionsQuestion, opened: Opened, progress: Progress) -> Divided:
         try:
             columns = self._columns(question, opened, progress)
-            return Divided(question, voronoi_regions(opened.surface, columns), columns)
+            regions = voronoi_regions(opened.surface, columns)
+            return Divided(question, regions, tuple(region_boundaries(opened.surface, regions)), columns)
         except Cancelled:
             raise
         except Exception as error:

@@ -144,6 +144,19 @@ def test_a_drop_that_is_clicked_selects_its_row(opened):
     assert ids(s) == [first, second, met.vertex]
 
 
+def test_a_drop_hangs_down_where_the_view_ends_above_it():
+    from qtpy import QtCore
+
+    from app.qt.panels.pin_marks import HEAD, RIMS, RISE, drop_at
+
+    for y in (0.0, RISE, RISE + HEAD + RIMS - 1):
+        box = drop_at(QtCore.QPointF(50, y)).boundingRect()
+        assert box.top() == y
+        assert box.bottom() == pytest.approx(y + RISE + HEAD)
+    box = drop_at(QtCore.QPointF(50, 40)).boundingRect()
+    assert (box.top(), box.bottom()) == (pytest.approx(40 - RISE - HEAD), 40)
+
+
 def test_a_drop_is_dragged_in_one_step_and_the_matrix_follows(opened):
     from qtpy import QtCore, QtTest
 

@@ -22,6 +22,9 @@ AREAS = {
 WIDTH, WIDER, HEIGHT = 320, 390, 220
 """Of docks at the right, where there is room for panels and where there is much of it, and below, at first."""
 
+LEAST_SHARE = 0.4
+"""Of the height of two docks above each other, at first."""
+
 WIDE = 1_500
 """Of the window, from which on there is much room."""
 
@@ -171,6 +174,7 @@ class Docks:
     def _place(self, dock: Dock) -> None:
         """Where it was, or at first at the end of its area; a tab where there are enough beside each other."""
         window, area = self._window, AREAS[dock.content.area]
+        above: Dock | None = None
         is_new = window.dockWidgetArea(dock) == QtCore.Qt.DockWidgetArea.NoDockWidgetArea
         if is_new:
             window.addDockWidget(area, dock)
@@ -184,11 +188,18 @@ class Docks:
         most = STACKED if is_right and window.width() >= NARROW else 1
         if not dock.isFloating() and self._apart(others) >= most and not self._is_tab(dock, others):
             window.tabifyDockWidget(others[-1], dock)
+        elif is_new and is_right and others:
+            above = others[-1]
         if is_new:
             way = QtCore.Qt.Orientation.Horizontal if is_right else QtCore.Qt.Orientation.Vertical
             window.resizeDocks([dock], [(WIDER if window.width() >= WIDE else WIDTH) if is_right else HEIGHT], way)
+        room = 0 if above is None else above.height()
         dock.show()
         dock.raise_()
+        if above is not None:
+            # As much as the new one wants, but each has a good part of it.
+            wanted = min(max(dock.sizeHint().height(), round(LEAST_SHARE * room)), round((1 - LEAST_SHARE) * room))
+            window.resizeDocks([above, dock], [room - wanted, wanted], QtCore.Qt.Orientation.Vertical)
 
     def _apart(self, docks: list[Dock]) -> int:
         """How many places they take: tabs of each other take one."""

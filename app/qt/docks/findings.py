@@ -148,7 +148,7 @@ class Findings(QtCore.QObject):
     def _show_regions(self, panel: int) -> None:
         divided = self._dividing.divided(panel)
         if any(shown.id == panel for shown in self._window.grid.panels):
-            self._window.grid.panel(panel).marks.show_regions(None if divided is None else divided.regions)
+            self._window.grid.panel(panel).marks.show_regions(() if divided is None else divided.boundaries)
         self.regions_changed.emit(panel)
 
     # ------------------------------------------------------------------ threads

@@ -29,6 +29,7 @@ class PinMatrix(QtWidgets.QWidget):
         self._matrix: np.ndarray | None = None
         self._texts: list[list[str]] = []
         self._room = 0
+        self._across = 0.0  # the width of a column
         self.cell = (-1, -1)
         LOOK.follow(self, self._fit)
 
@@ -48,21 +49,17 @@ class PinMatrix(QtWidgets.QWidget):
             self._fit()
 
     def _fit(self) -> None:
+        font = LOOK.font(13)
+        texts = [text for row in self._texts for text in row] or ["0.0000"]
+        needed = max(number_width(font, text) for text in texts) + 2 * PAD
+        room = (self._room - self._left - 1) / max(len(self._pins), 1)
+        self._across = max(needed, min(room, 1.6 * needed))
         self.setFixedSize(round(self._left + self._across * len(self._pins)) + 1, round(self._down(len(self._pins))))
         self.update()
 
     @property
     def _left(self) -> float:
         return HEAD * LOOK.scale
-
-    @property
-    def _across(self) -> float:
-        """The width of a column."""
-        font = LOOK.font(13)
-        texts = [text for row in self._texts for text in row] or ["0.0000"]
-        needed = max(number_width(font, text) for text in texts) + 2 * PAD
-        room = (self._room - self._left - 1) / max(len(self._pins), 1)
-        return max(needed, min(room, 1.6 * needed))
 
     def _down(self, row: int) -> float:
         return (CELL + row * CELL) * LOOK.scale

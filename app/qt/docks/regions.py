@@ -17,9 +17,8 @@ from ..look.look import LOOK
 from ..look.numbers import number, share
 from ..look.segments import Segments
 from ..panels.flat_button import FlatButton
-from ..panels.pin_marks import HEAD as BADGE
-from ..panels.pin_marks import paint_badge
 from ..panels.quantity_menu import quantity_name
+from .badges import BADGE, Badge, paint_badge
 from .dock import PAD
 from .instrument import Instrument
 from .panel_dots import SIDE, curve_colour, dot
@@ -94,6 +93,7 @@ class RegionsDock(Instrument):
         whole.addLayout(upper)
         whole.addWidget(self.table)
         whole.addStretch(1)
+        self._inside = inside
         fill(self, inside)
         self.copy_button = FlatButton(self, "copy")
         self.copy_button.setToolTip("Copy the areas as text")
@@ -110,6 +110,10 @@ class RegionsDock(Instrument):
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
         return [self.copy_button, self.save_button]
+
+    def sizeHint(self) -> QtCore.QSize:
+        """So that docks above it leave it room for its table."""
+        return self._inside.sizeHint()
 
     def end(self) -> None:
         self.sampler.end()
@@ -261,12 +265,11 @@ class RegionsDock(Instrument):
 
 def _badge(place: int, colour: str) -> QtGui.QIcon:
     """A pin's disc with its number."""
-    side = 2 * BADGE * LOOK.scale + 2
-    picture = QtGui.QPixmap(round(2 * side), round(2 * side))
+    picture = QtGui.QPixmap(round(2 * BADGE), round(2 * BADGE))
     picture.setDevicePixelRatio(2)
     picture.fill(QtCore.Qt.GlobalColor.transparent)
     painter = QtGui.QPainter(picture)
     painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-    paint_badge(painter, QtCore.QPointF(side / 2, side / 2), place, colour)
+    paint_badge(painter, QtCore.QPointF(BADGE / 2, BADGE / 2), Badge(str(place), colour, ""))
     painter.end()
     return QtGui.QIcon(picture)

@@ -6,7 +6,7 @@ import numpy as np
 
 from bihdist_core import Surface
 from bihdist_core.analysis.places import Places
-from bihdist_core.analysis.regions import Regions
+from bihdist_core.analysis.region_boundaries import Boundary
 from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.pieces import Pieces
 
@@ -25,7 +25,6 @@ class PanelMarks:
     def __init__(self, view: View) -> None:
         self._view = view
         self.positions = np.empty((0, 3))
-        self._faces = np.empty((0, 3), np.int64)
         self._forget()
 
     def _forget(self) -> None:
@@ -36,13 +35,13 @@ class PanelMarks:
         self._pins: Sequence[PinnedPlace] = ()
         self._lit: Collection[str] = ()
         self._path: Places | None = None
-        self._regions: Regions | None = None
+        self._regions: Sequence[Boundary] = ()
         self._extrema = np.empty(0, np.int64), np.empty(0, np.int64)
         self.dots = np.empty((0, 3))  # on isolines through points
 
     def rest(self) -> None:
         """Mark nothing, and keep nothing of it."""
-        self.positions, self._faces = np.empty((0, 3)), np.empty((0, 3), np.int64)
+        self.positions = np.empty((0, 3))
         self._forget()
         self._view.over.show_pins(())
         self._view.handles, self._view.over.strokes = np.empty((0, 3)), ()
@@ -51,7 +50,7 @@ class PanelMarks:
 
     def begin(self, surface: Surface) -> None:
         """Lie on a surface; nothing is marked there yet."""
-        self.positions, self._faces = surface.vertices, surface.faces
+        self.positions = surface.vertices
 
     def follow(self, surface: Surface) -> None:
         """Lie on another shape of the surface from now on, but for the source and the anchors: see `mark_source`."""
@@ -126,18 +125,22 @@ class PanelMarks:
         if self._view.over.path.show(self._path.values(self.positions) if is_there else np.empty((0, 3))):
             self._view.redraw()
 
-    def show_regions(self, regions: Regions | None) -> None:
+    def show_regions(self, boundaries: Sequence[Boundary]) -> None:
         """Draw the boundaries of regions, or none."""
-        if regions is not self._regions:
-            self._regions = regions
+        if boundaries is not self._regions:
+            self._regions = boundaries
             self._put_regions()
             self._view.redraw()
 
     def _put_regions(self) -> None:
-        found, segments = self._regions, np.empty((0, 2, 3))
-        if found is not None and len(found.faces) and len(self._faces):
-            segments = np.einsum("sec,scx->sex", found.weights, self.positions[self._faces[found.faces]])
-        self._view.scene.show_regions(segments)
+        has_shape = len(self.positions) > 0
+        self._view.scene.show_regions(
+            [
+                (np.einsum("kc,kcx->kx", each.weights, self.positions[each.corners]), each.closed)
+                for each in self._regions
+                if has_shape
+            ]
+        )
 
     def mark_extrema(self, minima: Sequence[int] = (), maxima: Sequence[int] = ()) -> None:
         """Put triangles at these vertices."""

@@ -15,6 +15,9 @@ HEAD = 8.5
 RISE = 17.0
 """From the tip to the middle of the head."""
 
+RIMS = 2.5
+"""Around the head."""
+
 BRIGHT, DARK = QtGui.QColor("#FFFFFF"), QtGui.QColor("#14161A")
 
 
@@ -69,7 +72,7 @@ def _upwards(
 def paint_drop(painter: QtGui.QPainter, tip: QtCore.QPointF, pin: PinMark, is_hidden: bool) -> None:
     """A drop whose tip is the place; hollow and dashed on the far side."""
     radius, colour = HEAD * LOOK.scale, QtGui.QColor(pin.colour)
-    drop = drop_at(tip)
+    drop, middle = drop_at(tip), _head_at(tip)
     painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
     if pin.is_lit:
         _outline(painter, drop, QtGui.QColor(LOOK.theme.accent), 9.0)
@@ -89,7 +92,6 @@ def paint_drop(painter: QtGui.QPainter, tip: QtCore.QPointF, pin: PinMark, is_hi
             _outline(painter, drop, DARK, 4.5)
         _outline(painter, drop, BRIGHT, 2.5)
         painter.fillPath(drop, colour)
-    middle = QtCore.QPointF(tip.x(), tip.y() - RISE * LOOK.scale)
     paint_numeral(painter, middle, radius, pin.number, colour if is_hidden else BRIGHT)
 
 
@@ -116,15 +118,21 @@ def paint_numeral(
 
 def drop_at(tip: QtCore.QPointF) -> QtGui.QPainterPath:
     """Its outline: a circle, and from where tangents from the tip touch it, these."""
-    radius, rise = HEAD * LOOK.scale, RISE * LOOK.scale
-    middle = QtCore.QPointF(tip.x(), tip.y() - rise)
+    radius, middle = HEAD * LOOK.scale, _head_at(tip)
     box = QtCore.QRectF(middle.x() - radius, middle.y() - radius, 2 * radius, 2 * radius)
-    # The tangents touch at this angle from straight down.
-    half = math.degrees(math.acos(radius / rise))
+    # The tangents touch at this angle from straight towards the tip.
+    half, towards = math.degrees(math.acos(HEAD / RISE)), -90 if middle.y() < tip.y() else 90
     drop = QtGui.QPainterPath(tip)
-    drop.arcTo(box, -90 + half, 360 - 2 * half)
+    drop.arcTo(box, towards + half, 360 - 2 * half)
     drop.closeSubpath()
     return drop
+
+
+def _head_at(tip: QtCore.QPointF) -> QtCore.QPointF:
+    """The middle of the head: above the tip, or where the view ends there, below it."""
+    rise = RISE * LOOK.scale
+    is_upright = tip.y() > rise + (HEAD + RIMS) * LOOK.scale
+    return QtCore.QPointF(tip.x(), tip.y() - rise if is_upright else tip.y() + rise)
 
 
 def _outline(painter: QtGui.QPainter, drop: QtGui.QPainterPath, colour: QtGui.QColor, width: float) -> None:
