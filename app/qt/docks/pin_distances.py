@@ -160,7 +160,7 @@ class PinDistances(QtWidgets.QWidget):
                 matrix = self.known(spec)
                 if matrix is not None:
                     value = "not connected" if np.isnan(matrix[i, j]) else number(float(matrix[i, j]))
-                    said.append(f"{escape(spec_name(spec, specs).lower())} <b>{value}</b>")
+                    said.append(f"{escape(spec_name(spec, specs).lower())}&nbsp;<b>{value}</b>")
             self.line.setText("&nbsp;&nbsp; ".join(said))
             return
         failure, progress = self._among.failure(opened, areas, self.spec), self._among.progress
