@@ -67,16 +67,17 @@ def regions_questions(document: Document) -> dict[int, RegionsQuestion]:
 
 
 def regions_of(question: RegionsQuestion, opened: Opened) -> Regions:
-    """The answer, waited for; the last of each surface is kept.  BihdistError where there is none."""
-    kept = _last.get(opened)
-    if kept is None or kept[0] != question:
+    """The answer, waited for; of each surface, the last of each distance is kept.  BihdistError where there is none."""
+    kept = _last.setdefault(opened, {})
+    known = kept.get(question.about)
+    if known is None or known[0] != question:
         distance = opened.distances(question.areas).get(question.spec)
-        kept = question, voronoi_regions(opened.surface, distance.from_sources(list(question.places)))
-        _last[opened] = kept
-    return kept[1]
+        known = question, voronoi_regions(opened.surface, distance.from_sources(list(question.places)))
+        kept[question.about] = known
+    return known[1]
 
 
-_last: WeakKeyDictionary[Opened, tuple[RegionsQuestion, Regions]] = WeakKeyDictionary()
+_last: WeakKeyDictionary[Opened, dict[Hashable, tuple[RegionsQuestion, Regions]]] = WeakKeyDictionary()
 
 
 def pinned(document: Document, surface: str) -> list[Source | None]:

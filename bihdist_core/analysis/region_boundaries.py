@@ -34,6 +34,8 @@ class Boundary:
 
 def region_boundaries(surface: Surface, regions: Regions) -> list[Boundary]:
     """The boundary segments of regions put end to end, in the order of the regions between."""
+    if not len(regions.faces):
+        return []
     ends = _named_ends(surface, regions)
     points, weights = regions.segments.reshape(-1, 3), regions.weights.reshape(-1, 3)
     corners = np.repeat(surface.faces[regions.faces], 2, axis=0)
@@ -42,13 +44,9 @@ def region_boundaries(surface: Surface, regions: Regions) -> list[Boundary]:
     for number, pair in enumerate(pairs.tolist()):
         mine = np.flatnonzero(of_segment.reshape(-1) == number)
         named = ends[mine]
-        where = {
-            int(end): 2 * int(s) + k
-            for s, pair_ends in zip(mine, named, strict=True)
-            for k, end in enumerate(pair_ends)
-        }
+        where = dict(zip(named.ravel().tolist(), np.add.outer(2 * mine, (0, 1)).ravel().tolist(), strict=True))
         for chain, closed in chains(named):
-            at = [where[int(end)] for end in chain]
+            at = [where[end] for end in chain.tolist()]
             found.append(Boundary((pair[0], pair[1]), points[at], closed, corners[at], weights[at]))
     return found
 
@@ -67,20 +65,24 @@ def write_boundaries(path: str | os.PathLike[str], curves: Sequence[Boundary], l
 
 def _named_ends(surface: Surface, regions: Regions) -> np.ndarray:
     """(s, 2) numbers of the segments' ends: the same for ends in the same place, as rounding does not tell."""
-    corners = surface.faces[regions.faces]
-    names: dict[tuple, int] = {}
-    numbers = np.empty((len(corners), 2), np.int64)
-    for s in range(len(corners)):
-        face, pair = int(regions.faces[s]), regions.between[s].tolist()
-        before = None
-        for end in range(2):
-            third = int(regions.cut_by[s, end])
-            on = corners[s][regions.weights[s, end] > 0].tolist()
-            # A meeting is known by its face and regions, a crossing by its edge and regions.
-            key: tuple = ("meeting", face, *sorted([*pair, third])) if third >= 0 else ("on", *sorted(on), *pair)
-            if len(on) == 1:
-                key = ("vertex", *on)
-            if key == before:
-                key = (*key, "too")
-            numbers[s, end], before = names.setdefault(key, len(names)), key
-    return numbers
+    corners, on = surface.faces[regions.faces][:, None], regions.weights > 0
+    count = len(corners)
+    meets = (regions.cut_by >= 0)[..., None]
+    pairs = np.broadcast_to(regions.between[:, None], (count, 2, 2))
+    # A meeting is known by its face and regions, a crossing by its edge and regions.
+    three = np.sort(np.concatenate([pairs, regions.cut_by[..., None]], axis=2), axis=2)
+    faces = np.broadcast_to(regions.faces[:, None, None], (count, 2, 1))
+    meeting = np.concatenate([faces, three, np.full((count, 2, 1), -1)], axis=2)
+    crossing = np.concatenate([np.sort(np.where(on, corners, -1), axis=2), pairs], axis=2)
+    at_vertex = on.sum(axis=2, keepdims=True) == 1
+    crossing[..., 3:] = np.where(at_vertex, -1, crossing[..., 3:])
+    is_meeting = meets & ~at_vertex
+    names = np.concatenate([is_meeting, np.where(is_meeting, meeting, crossing)], axis=2)
+    too = np.zeros((count, 2, 1), np.int64)
+    too[:, 1, 0] = (names[:, 0] == names[:, 1]).all(axis=1)
+    rows = np.concatenate([names, too], axis=2).reshape(2 * count, -1)
+    _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    # In the order in which they come.
+    rank = np.empty(len(first), np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    return rank[number.reshape(count, 2)]

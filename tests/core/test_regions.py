@@ -249,3 +249,9 @@ def test_on_a_real_mesh_the_regions_are_those_of_a_fine_subdivision():
     found = voronoi_regions(surface, fields)
     check(surface, fields, found)
     assert np.allclose(found.areas, finely(surface, fields, 16), 0, 1e-3 * surface.face_areas.sum())
+
+
+def test_one_region_has_no_boundaries():
+    surface = grid(4, 4)
+    columns = surface.vertices[:, :1]
+    assert region_boundaries(surface, voronoi_regions(surface, columns)) == []
