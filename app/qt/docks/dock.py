@@ -10,6 +10,24 @@ HEAD = 36
 
 PAD = 12
 
+LEAST_LETTERS = 5
+"""Of a note that is cut short."""
+
+
+class _Note(QtWidgets.QLabel):
+    """Cut short with dots where there is no room, and gone where there is none for a word."""
+
+    def minimumSizeHint(self) -> QtCore.QSize:
+        return QtCore.QSize(1, super().minimumSizeHint().height())
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter = QtGui.QPainter(self)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        shown = self.fontMetrics().elidedText(self.text(), QtCore.Qt.TextElideMode.ElideRight, self.width())
+        if len(shown) > LEAST_LETTERS or shown == self.text():
+            flags = QtCore.Qt.AlignmentFlag.AlignVCenter | QtCore.Qt.AlignmentFlag.AlignLeft
+            painter.drawText(self.rect(), int(flags), shown)
+
 
 class DockHead(QtWidgets.QWidget):
     """title: what it is; note: quiet, beside it; `add` puts buttons at its right, before the cross."""
@@ -18,10 +36,9 @@ class DockHead(QtWidgets.QWidget):
 
     def __init__(self, title: str, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self._title, self._note = QtWidgets.QLabel(title), QtWidgets.QLabel()
+        self._title, self._note = QtWidgets.QLabel(title), _Note()
         self._title.setProperty("heading", True)
         self._note.setProperty("quiet", True)
-        self._note.setMinimumWidth(1)  # cut rather than that the dock is wider
         self.close_button = FlatButton(self, "close")
         self.close_button.setToolTip(f"Close {title.lower()}")
         self.close_button.setAccessibleName(f"Close {title.lower()}")
