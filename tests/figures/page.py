@@ -72,6 +72,7 @@ SCENES = (
         "pdf",
         (0.5, 0.4),
     ),
+    Scene("A path through pins", "beast", "--pin 600 --pin 2400 --pin 5000 --profile --size double", "pdf"),
     Scene("A rough scan", "bunny_raw.obj", "--size double"),
     Scene("A rough scan as PDF", "bunny_raw.obj", "--size double", "pdf"),
     Scene("A part with holes, z up", "beetle.off", "--size double"),
