@@ -255,7 +255,7 @@ TOOLS = (
     ),
     Act(
         "save curve",
-        "Sa&ve the drawn curve …",
+        "Save the drawn curve …",
         lambda w: w.curve_files.save_source(w.grid.active),
         tip="The curve that distances start from, as curve.json: a source in words and on the command line",
         needs_mesh=True,
