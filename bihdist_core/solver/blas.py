@@ -2,9 +2,11 @@
 
 They are many small products: BLAS' own threads made them 5 to 15 times slower on busy cores.  Parallelism comes
 from our own threads over independent blocks instead.  The setting acts on the whole process, so it is counted:
-the first kernel to enter limits it, the last to leave restores what was there before.
+the first kernel to enter limits it, the last to leave restores what was there before.  SciPy brings a BLAS of its own,
+which is loaded when it is first needed, also between two kernels or inside one.
 """
 
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,26 +14,33 @@ from typing import Any
 
 from threadpoolctl import ThreadpoolController
 
+LOADERS = ("numpy", "scipy.linalg", "scipy.linalg._fblas", "scipy.linalg.cython_blas", "scipy.sparse.linalg")
+"""Modules that load a BLAS."""
+
 _lock = threading.Lock()
 _inside = 0
 _controller: ThreadpoolController | None = None
-_limit: Any = None
+_loaded: frozenset[str] = frozenset()
+_limits: list[Any] = []
 
 
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
     """Limit BLAS to one thread while any caller is inside; usable from several threads at once."""
-    global _inside, _limit, _controller
+    global _inside, _controller, _loaded
     with _lock:
         _inside += 1
-        if _inside == 1:
-            # Finding the loaded libraries costs milliseconds, so it is done once.
-            _controller = _controller or ThreadpoolController()
-            _limit = _controller.limit(limits=1, user_api="blas")
+        loaded = frozenset(name for name in LOADERS if name in sys.modules)
+        is_new = not _controller or loaded != _loaded
+        if is_new:
+            # Finding the loaded libraries costs milliseconds, so it is done once for each that may be there.
+            _controller, _loaded = ThreadpoolController(), loaded
+        if _inside == 1 or is_new:
+            _limits.append(_controller.limit(limits=1, user_api="blas"))
     try:
         yield
     finally:
         with _lock:
             _inside -= 1
-            if _inside == 0:
-                _limit.restore_original_limits()
+            while not _inside and _limits:
+                _limits.pop().restore_original_limits()

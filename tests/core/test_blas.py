@@ -1,0 +1,58 @@
+"""BLAS has one thread inside our kernels, whenever its libraries are loaded."""
+
+import os
+import subprocess
+import sys
+
+LATE = """
+import numpy
+from threadpoolctl import threadpool_info
+from bihdist_core.solver.blas import one_blas_thread
+
+def threads():
+    return {each["filepath"]: each["num_threads"] for each in threadpool_info() if each["user_api"] == "blas"}
+
+with one_blas_thread():
+    first = threads()
+import scipy.linalg
+before = threads()
+with one_blas_thread():
+    with one_blas_thread():
+        inside = threads()
+assert set(first.values()) == {1}, first
+assert set(inside.values()) == {1}, inside
+assert threads() == before, (threads(), before)
+"""
+
+MEANWHILE = """
+import numpy
+from threadpoolctl import threadpool_info
+from bihdist_core.solver.blas import one_blas_thread
+
+before = {each["filepath"]: each["num_threads"] for each in threadpool_info()}
+with one_blas_thread():
+    import scipy.linalg
+    with one_blas_thread():
+        assert all(each["num_threads"] == 1 for each in threadpool_info() if each["user_api"] == "blas")
+after = {each["filepath"]: each["num_threads"] for each in threadpool_info()}
+assert all(after[path] == count for path, count in before.items()), (before, after)
+"""
+
+
+def run(program):
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "3"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_library_that_is_loaded_between_two_kernels_is_limited_too():
+    run(LATE)
+
+
+def test_one_that_is_loaded_inside_a_kernel_is_limited_by_the_next():
+    run(MEANWHILE)
