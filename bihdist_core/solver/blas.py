@@ -31,11 +31,10 @@ def one_blas_thread() -> Iterator[None]:
     with _lock:
         _inside += 1
         loaded = frozenset(name for name in LOADERS if name in sys.modules)
-        is_new = not _controller or loaded != _loaded
-        if is_new:
+        controller = _controller if loaded == _loaded else None
+        if _inside == 1 or not controller:
             # Finding the loaded libraries costs milliseconds, so it is done once for each that may be there.
-            _controller, _loaded = ThreadpoolController(), loaded
-        if _inside == 1 or is_new:
+            _controller, _loaded = controller or ThreadpoolController(), loaded
             _limits.append(_controller.limit(limits=1, user_api="blas"))
     try:
         yield
