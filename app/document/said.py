@@ -1,0 +1,78 @@
+"""Parts of a recipe in words: the options of a command, and the arguments of a function."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from bihdist_core.errors import ParameterError
+
+from .document import Document, Point
+from .page import Page, Recipe
+from .starts import Starts
+
+USUAL, USUAL_PAGE = Document(), Page()
+
+
+class Unsaid(ParameterError):
+    """Why a line cannot say it."""
+
+
+@dataclass(frozen=True)
+class Said:
+    """A part in words: options with their values (None for a switch), and arguments by name.
+
+    Where a field starts is put into words at the end, since a curve has to have a file.
+    """
+
+    options: tuple[tuple[str, "str | Starts | None"], ...] = ()
+    arguments: dict[str, Any] = field(default_factory=dict)
+
+
+NOTHING = Said()
+
+
+def of_document(name: str, option: str, argument: str) -> Callable[[Recipe], Said]:
+    """A field that is said by one option; a switch if it is a flag."""
+    return lambda recipe: if_unusual(getattr(recipe.document, name), getattr(USUAL, name), option, argument)
+
+
+def of_page(name: str, option: str, argument: str) -> Callable[[Recipe], Said]:
+    return lambda recipe: if_unusual(getattr(recipe.page, name), getattr(USUAL_PAGE, name), option, argument)
+
+
+def if_unusual(value: Any, usual: Any, option: str, argument: str) -> Said:
+    if value == usual:
+        return NOTHING
+    return as_switch(option, argument) if isinstance(value, bool) else with_value(option, argument, value)
+
+
+def only_usual(get: Callable[[Recipe], Any], sentence: str) -> Callable[[Recipe], Said]:
+    """What no option says yet."""
+    usual = get(Recipe(USUAL, USUAL_PAGE))
+
+    def say(recipe: Recipe) -> Said:
+        if get(recipe) != usual:
+            raise Unsaid(sentence)
+        return NOTHING
+
+    return say
+
+
+def as_switch(option: str, argument: str) -> Said:
+    return Said(((option, None),), {argument: True})
+
+
+def with_value(option: str, argument: str, value: Any) -> Said:
+    return Said(((option, value if isinstance(value, str) else digits(value)),), {argument: value})
+
+
+def digits(value: float) -> str:
+    """The shortest digits that are the number again."""
+    return repr(value if isinstance(value, int) else float(value))
+
+
+def vertex_of(point: Point) -> int | None:
+    """That of an anchor, or of a point that isolines pass through; None where nobody has put it."""
+    if point.at is not None and not isinstance(point.at, int):
+        raise Unsaid("An anchor is at no vertex.")
+    return point.at
