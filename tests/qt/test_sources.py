@@ -407,24 +407,6 @@ def test_a_drawn_curve_is_saved_and_the_copied_lines_name_its_file(opened, tmp_p
     assert s.refusals == []
 
 
-def test_a_line_has_its_colour_wherever_it_goes(sheet, tmp_path):
-    s, panel = sheet, sheet.panels[0]
-    path = tmp_path / "c.json"
-    path.write_text(json.dumps({"points": [[13, 0.25, 0.25], [200, 0.5, 0.25], [40, 0.2, 0.2]]}))
-    typed(s, str(path))
-    for _ in range(5):
-        panel.view.turn_by(1, 1)  # so that it leads away from the eye
-    s.settle()
-    (pieces,) = panel.marks._pieces
-    start, stop = pieces.positions(s.session.surface.vertices)
-    places = [panel.view.place_of(point) for point in (start + stop) / 2]
-    picture = panel.view.shot().astype(int)
-    scale = picture.shape[1] / panel.view.width()
-    colours = np.array([picture[int(at.y() * scale), int(at.x() * scale)] for at in places])
-    is_yellow = (colours[:, 0] > 200) & (colours[:, 1] > 170) & (colours[:, 2] < 90)
-    assert is_yellow.mean() > 0.9, "but where it bends"
-
-
 def test_a_loop_stands_in_the_copied_lines(sheet):
     s = sheet
     typed(s, "loop:0+7")
