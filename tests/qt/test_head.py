@@ -424,3 +424,15 @@ def test_lower_in_a_panel_with_little_height(head):
     assert h.height() == 32
     assert h.sizePolicy().horizontalPolicy() == QtWidgets.QSizePolicy.Policy.Ignored
     assert h.minimumSizeHint().width() <= 72
+
+
+def test_what_auto_stands_for_is_said(head):
+    made = head("geodesic", 600)
+    (control,) = made.controls
+    assert control.text() == "auto"
+    made.show_method("heat")
+    assert control.text() == "auto: heat"
+    made.show_quantity(quantity("geodesic(method=exact)"))
+    assert control.text() == "exact"
+    made.show_quantity(quantity("geodesic"))
+    assert control.text() == "auto: heat"

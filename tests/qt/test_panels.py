@@ -291,3 +291,13 @@ def test_a_first_mesh_that_fails_leaves_the_page_to_start_from_which_says_why(sc
     assert (s.window.source_box.value(), s.window.source_box.isEnabled()) == (5, True)
     assert s.window.actions_by_word["save"].isEnabled()
     assert all(picture.std() > 20 for picture in s.pictures())
+
+
+def test_the_head_says_which_method_auto_has_taken(screen, mesh_file, monkeypatch):
+    monkeypatch.setattr("bihdist_core.distances.geodesic.EXACT_UP_TO", 500)
+    s = screen((Spec.of("geodesic"), Spec.of("biharmonic")))
+    for count, said in ((300, "auto: exact"), (800, "auto: heat")):
+        s.open(mesh_file(bumpy(count), f"{count}.off"), 5)
+        s.until(lambda: s.session.is_complete)
+        s.settle()
+        assert [control.text() for control in s.panels[0].head.controls] == [said]

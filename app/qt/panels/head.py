@@ -104,6 +104,13 @@ class PanelHead(QtWidgets.QWidget):
         for word, action in self.edits.items():
             action.setEnabled(word in words)
 
+    def show_method(self, method: str) -> None:
+        """Which method the field has been computed by, for the control that says "auto"."""
+        control = self._of_parameter.get((0, "method"))
+        if isinstance(control, ChoiceControl) and not isinstance(self.shows, Difference):
+            control.show_meant(method)
+            self._lay_out()
+
     def show_info(self, text: str) -> None:
         """What to look for, the accuracy and remarks, as rich text; empty for the hint alone."""
         self._info = text

@@ -292,6 +292,8 @@ class DistancePanel(QtWidgets.QWidget):
         self.answer, self._is_preview = shown.answer, shown.is_preview
         accuracy = shown.answer.accuracy
         self._warn()
+        # "geodesic, heat method"
+        self.head.show_method(shown.answer.label.partition(", ")[2].partition(" ")[0])
         said = [shown.answer.label, self.head.shows.hint, accuracy.text]
         self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in said if text))
 

@@ -26,6 +26,7 @@ class ChoiceControl(FlatButton):
         super().__init__(parent, quiet=True)
         self.words, self.tip = words, tip
         self.value: Value = next(iter(words))
+        self._meant = ""
         menu = QtWidgets.QMenu(self)
         menu.aboutToShow.connect(lambda: fill_choices(menu, words, self.value, self._choose))
         self.setMenu(menu)
@@ -33,9 +34,17 @@ class ChoiceControl(FlatButton):
     def show_value(self, value: Value) -> None:
         """Without emitting."""
         self.value = value
-        self.setText(self.words.get(value, str(value)))
+        self.setText(
+            self.words.get(value, str(value)) + (f": {self._meant}" if self._meant and value == "auto" else "")
+        )
         self.setToolTip(self.tip)
         self.setAccessibleName(f"{self.tip}: {self.text()}")
+
+    def show_meant(self, meant: str) -> None:
+        """What "auto" stands for."""
+        if meant != self._meant:
+            self._meant = meant
+            self.show_value(self.value)
 
     def least(self, with_slider: bool) -> int:
         """Pixels that it needs."""
