@@ -15,7 +15,7 @@ help:
 	@echo 'make bench   the speed of the solver beside potpourri3d'
 
 NO_DISPLAY = $(if $(filter Linux,$(shell uname -s)),$(if $(DISPLAY)$(WAYLAND_DISPLAY),,yes))
-NO_WINDOW = $(filter field pairs samples regions figure movie info paper,$(firstword $(ARGS)))
+NO_WINDOW = $(filter field pairs profile isolines statistics samples regions figure movie info paper,$(firstword $(ARGS)))
 run:
 	@.ci/set-up
 ifeq ($(if $(NO_WINDOW),,$(NO_DISPLAY)),yes)
@@ -37,14 +37,19 @@ check:
 	$(checks)
 	$(PYTHON_HERE) -m pytest tests/packaging/test_import_rules.py
 
-# The tests get a screen of their own, so that they neither need nor disturb the user's.
+# The tests get screens of their own, so that they neither need nor disturb the user's; then all of them run in several
+# processes (see tests/conftest.py), where on one screen they would take the pointer from each other.
+IN_TURN = $(PYTHON_HERE) -m pytest $(ARGS)
+AT_ONCE = $(PYTHON_HERE) -m pytest $(or $(ARGS),-n auto --maxprocesses 4 --dist loadfile)
 test:
 	@.ci/set-up dev
 	$(checks)
 	@if command -v xvfb-run >/dev/null; then \
-	    set -- env -u WAYLAND_DISPLAY xvfb-run -a -s '-screen 0 1600x1000x24'; \
+	    set -- env -u WAYLAND_DISPLAY xvfb-run -a -s '-screen 0 1600x1000x24' $(AT_ONCE); \
+	else \
+	    set -- $(IN_TURN); \
 	fi; \
-	echo "$$* $(PYTHON_HERE) -m pytest $(ARGS)"; "$$@" $(PYTHON_HERE) -m pytest $(ARGS)
+	echo "$$*"; "$$@"
 
 bench:
 	@.ci/set-up bench

@@ -1,6 +1,33 @@
 """What tests of the program share."""
 
+import os
+import shutil
+import subprocess
+
 import pytest
+
+SCREEN = "1600x1000x24"
+
+
+def pytest_configure(config):
+    """Each of several processes gets a screen of its own: on a common one they would take the pointer from another."""
+    if "PYTEST_XDIST_WORKER" in os.environ and os.environ.get("DISPLAY") and shutil.which("Xvfb"):
+        read, write = os.pipe()
+        config.own_screen = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", SCREEN, "-nolisten", "tcp"],
+            pass_fds=[write],
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(write)
+        with os.fdopen(read) as told:
+            os.environ["DISPLAY"] = f":{told.readline().strip()}"
+        os.environ.pop("XAUTHORITY", None)
+
+
+def pytest_unconfigure(config):
+    if hasattr(config, "own_screen"):
+        config.own_screen.terminate()
+        config.own_screen.wait()
 
 
 @pytest.fixture
