@@ -8,10 +8,20 @@ import pytest
 
 SCREEN = "1600x1000x24"
 
+THREADS = ("LP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")
+"""Of drawing without a graphics card, and of linear algebra."""
+
 
 def pytest_configure(config):
-    """Each of several processes gets a screen of its own: on a common one they would take the pointer from another."""
-    if "PYTEST_XDIST_WORKER" in os.environ and os.environ.get("DISPLAY") and shutil.which("Xvfb"):
+    """Each of several processes gets a screen of its own, and draws and multiplies with one thread.
+
+    On a common screen they would take the pointer from another; with threads for all cores each, they would wait.
+    """
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        return
+    for name in THREADS:
+        os.environ.setdefault(name, "1")
+    if os.environ.get("DISPLAY") and shutil.which("Xvfb"):
         read, write = os.pipe()
         config.own_screen = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write), "-screen", "0", SCREEN, "-nolisten", "tcp"],

@@ -71,7 +71,11 @@ def test_quality_opens_by_its_key_and_follows_the_source(opened):
     press(dock(s, "quality").copy_button)
     from qtpy.QtWidgets import QApplication
 
-    assert QApplication.clipboard().text() == dock(s, "quality").text()
+    copied = QApplication.clipboard().text()
+    assert copied == dock(s, "quality").text()
+    whole = s.window.docks.findings.found(0).whole
+    said = {line.split("\t")[0]: line.split("\t")[1] for line in copied.splitlines()[1:]}
+    assert (float(said["Isotropy"]), float(said["Largest kink"])) == (whole.isotropy, whole.kink)
     key(s, "q")
     assert not s.window.docks._docks["quality"].isVisible()
     assert not len(marks.positions)

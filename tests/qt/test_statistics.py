@@ -123,7 +123,10 @@ def test_the_histogram_is_saved_and_copied(opened, tmp_path):
     assert np.array_equal(rows["area"], dock.statistics.areas)
     assert np.array_equal(rows["to"], dock.statistics.bins[1:])
     dock.copy()
-    assert s.application.clipboard().text().splitlines()[1].startswith("greatest, at vertex")
+    lines = [line.split("\t") for line in s.application.clipboard().text().splitlines()]
+    assert lines[1][0].startswith("greatest, at vertex")
+    assert [float(x) for x in lines[3][1:]] == [dock.statistics.mean, dock.statistics.mean / s.answers[0].maximum]
+    assert [float(line[1]) for line in lines[-len(dock.statistics.quantiles) :]] == dock.statistics.quantiles.tolist()
 
 
 def test_truncation_follows_sources_of_other_kinds(opened):

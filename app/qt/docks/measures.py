@@ -15,13 +15,19 @@ WAITING, NONE = "…", "–"
 class Measure:
     """name: in the table; tip: what it means; written: of what has been found, WAITING where it has not yet.
 
-    said: a sentence on one panel's number, or "".
+    said: a sentence on one panel's number, or "".  value: the number, where it is not a count.
     """
 
     name: str
     tip: str
     written: Callable[[Found], str]
     said: Callable[[Found], str] = lambda found: ""
+    value: Callable[[Found], float] | None = None
+
+    def with_all_digits(self, found: Found) -> str:
+        """As it is copied."""
+        exact = None if self.value is None or found.whole is None else float(self.value(found))
+        return repr(exact) if exact is not None and np.isfinite(exact) else self.written(found)
 
 
 def _minima(found: Found) -> str:
@@ -57,6 +63,18 @@ def _of_whole(value: Callable[[Found], float]) -> Callable[[Found], str]:
         return "∞" if np.isinf(value(found)) else number(value(found))
 
     return written
+
+
+def _isotropy(found: Found) -> float:
+    return found.whole.isotropy
+
+
+def _kink(found: Found) -> float:
+    return found.whole.kink
+
+
+def _kink_length(found: Found) -> float:
+    return found.whole.kink_length
 
 
 def _isotropy_said(found: Found) -> str:
@@ -115,21 +133,24 @@ MEASURES = (
         "Isotropy",
         "The greatest over the least value on the geodesic circle around the source whose radius is 4 % of the root of "
         "the area, or four edges if that is more. 1 where the distance grows equally in all directions.",
-        _of_whole(lambda found: found.whole.isotropy),
+        _of_whole(_isotropy),
         _isotropy_said,
+        _isotropy,
     ),
     Measure(
         "Largest kink",
         "How far the gradient jumps across an edge away from the source, over its length. About 2 where it turns "
         "round, as on a ridge; a smooth field's shrinks with the edges.",
-        _of_whole(lambda found: found.whole.kink),
+        _of_whole(_kink),
         _kink_said,
+        _kink,
     ),
     Measure(
         "Kink length",
         "The length of all edges with a kink of 1 or more, over the root of the surface's area: long where there is a "
         "ridge, next to nothing where a few edges are too long for the field.",
-        _of_whole(lambda found: found.whole.kink_length),
+        _of_whole(_kink_length),
+        value=_kink_length,
     ),
     Measure(
         "Triangles",

@@ -176,7 +176,7 @@ class QualityDock(Instrument):
         return shown is not None and bool(shown.answer.failure)
 
     def text(self) -> str:
-        """The table, with tabulators."""
+        """The table, with tabulators and all digits."""
         panels = self.window_.session.document.panels
         found = [self.window_.docks.findings.found(panel.id) for panel in panels]
         lines = [["", *(quantity_name(panel.shows) for panel in panels)]]
@@ -184,7 +184,7 @@ class QualityDock(Instrument):
             [
                 each.name,
                 *(
-                    NONE if self._failed(panel.id) else each.written(of)
+                    NONE if self._failed(panel.id) else each.with_all_digits(of)
                     for panel, of in zip(panels, found, strict=True)
                 ),
             ]

@@ -201,35 +201,44 @@ class StatisticsDock(Instrument):
         self.histogram.show_bins(found.bins, found.areas, colours, in_shares, signed)
         self._unit.setText("share of the area")
         self.facts.show_facts(self._facts(found, answer))
-        self.quantiles.show_facts(
-            [
-                (f"{100 * part:g} % of the area up to", *self._written(float(value), answer))
-                for part, value in zip(found.shares, found.quantiles, strict=True)
-            ]
-        )
+        self.quantiles.show_facts(self._quantiles(found, answer))
 
     def _ids(self) -> list[int]:
         return [panel.id for panel in self.window_.grid.panels]
 
-    def _facts(self, found: FieldStatistics, answer: Answer) -> list[tuple[str, ...]]:
+    def _quantiles(self, found: FieldStatistics, answer: Answer, exact: bool = False) -> list[tuple[str, ...]]:
+        return [
+            (f"{100 * part:g} % of the area up to", *self._written(float(value), answer, exact=exact))
+            for part, value in zip(found.shares, found.quantiles, strict=True)
+        ]
+
+    def _facts(self, found: FieldStatistics, answer: Answer, exact: bool = False) -> list[tuple[str, ...]]:
+        """exact: with all digits."""
+
+        def written(value: float, with_sign: bool = True) -> tuple[str, ...]:
+            return self._written(value, answer, with_sign, exact)
+
         facts: list[tuple[str, ...]] = []
         if answer.is_signed:
             sign = answer.field[found.largest_at]
-            facts.append((f"largest, at vertex {found.largest_at}", *self._written(float(sign), answer)))
-            facts.append(("mean size, by area", *self._written(found.mean_size, answer, False)))
+            facts.append((f"largest, at vertex {found.largest_at}", *written(float(sign))))
+            facts.append(("mean size, by area", *written(found.mean_size, False)))
         else:
-            facts.append((f"greatest, at vertex {found.greatest_at}", *self._written(found.greatest, answer)))
-            facts.append((f"least, at vertex {found.least_at}", *self._written(found.least, answer)))
-        facts.append(("mean, by area", *self._written(found.mean, answer)))
-        facts.append(("standard deviation", *self._written(found.deviation, answer, False)))
+            facts.append((f"greatest, at vertex {found.greatest_at}", *written(found.greatest)))
+            facts.append((f"least, at vertex {found.least_at}", *written(found.least)))
+        facts.append(("mean, by area", *written(found.mean)))
+        facts.append(("standard deviation", *written(found.deviation, False)))
         if self._correlation is not None:
-            facts.append(("rank correlation", number(self._correlation)))
+            facts.append(("rank correlation", repr(self._correlation) if exact else number(self._correlation)))
         return facts
 
     @staticmethod
-    def _written(value: float, answer: Answer, with_sign: bool = True) -> tuple[str, ...]:
+    def _written(value: float, answer: Answer, with_sign: bool = True, exact: bool = False) -> tuple[str, ...]:
         """The value, and its share of the maximum where it is no share itself."""
         signed = answer.is_signed and with_sign
+        if exact:
+            has_share = answer.unit != DIFFERENCE_OF_SHARES and answer.maximum > 0
+            return (repr(float(value)), repr(float(value / answer.maximum))) if has_share else (repr(float(value)),)
         if answer.unit == DIFFERENCE_OF_SHARES:
             return (share(value, signed),)
         top = answer.maximum
@@ -280,7 +289,8 @@ class StatisticsDock(Instrument):
             save(window, "Save the histogram's numbers", "histogram", (".csv", ".npy"), write)
 
     def copy(self) -> None:
-        """What the dock says, with tabs, as spreadsheets read it."""
-        facts = [(self.name.text(),), *self.facts.facts, *self.quantiles.facts]
+        """What the dock says, with tabs and all digits, as spreadsheets read it."""
+        found, answer = self.statistics, self._request.answer
+        facts = [(self.name.text(),), *self._facts(found, answer, True), *self._quantiles(found, answer, True)]
         QtWidgets.QApplication.clipboard().setText("".join("\t".join(fact) + "\n" for fact in facts))
         self.window_.say("The statistics are on the clipboard")
