@@ -8,6 +8,13 @@ import pytest
 
 SCREEN = "1600x1000x24"
 
+SERVE = """
+Xvfb -displayfd "$2" -screen 0 "$3" -nolisten tcp &
+while kill -0 "$1"; do sleep 1; done
+kill $!
+"""
+"""A screen that outlives a process, as long as that is there: without its screen it could not end in peace."""
+
 THREADS = ("LP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")
 """Of drawing without a graphics card, and of linear algebra."""
 
@@ -23,21 +30,14 @@ def pytest_configure(config):
         os.environ.setdefault(name, "1")
     if os.environ.get("DISPLAY") and shutil.which("Xvfb"):
         read, write = os.pipe()
+        command = ["sh", "-c", SERVE, "screen", str(os.getpid()), str(write), SCREEN]
         config.own_screen = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", SCREEN, "-nolisten", "tcp"],
-            pass_fds=[write],
-            stderr=subprocess.DEVNULL,
+            command, pass_fds=[write], stderr=subprocess.DEVNULL, start_new_session=True
         )
         os.close(write)
         with os.fdopen(read) as told:
             os.environ["DISPLAY"] = f":{told.readline().strip()}"
         os.environ.pop("XAUTHORITY", None)
-
-
-def pytest_unconfigure(config):
-    if hasattr(config, "own_screen"):
-        config.own_screen.terminate()
-        config.own_screen.wait()
 
 
 @pytest.fixture
