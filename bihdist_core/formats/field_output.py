@@ -126,7 +126,8 @@ def ply_names(names: Sequence[str]) -> list[str]:
     return result
 
 
-def _write_ply(file: BinaryIO, surface: Surface, columns: Columns) -> None:
+def write_ply_mesh(file: BinaryIO, surface: Surface, columns: Columns) -> None:
+    """Write a surface as binary PLY, with a property of its vertices for each column, if any."""
     names = ["x", "y", "z", *ply_names(list(columns))]
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(surface.vertices)}"]
     header += [f"property double {name}" for name in names]
@@ -145,7 +146,7 @@ def _write_vtp(file: BinaryIO, surface: Surface, columns: Columns) -> None:
 _FIELD_WRITERS: dict[str, Callable[[BinaryIO, Surface, Columns], None]] = {
     ".npy": _write_npy,
     ".csv": _write_fields_csv,
-    ".ply": _write_ply,
+    ".ply": write_ply_mesh,
     ".vtp": _write_vtp,
 }
 FIELD_FORMATS = tuple(_FIELD_WRITERS)

@@ -19,6 +19,8 @@ from ..surface import Surface
 from ..whole_file import check_output, whole_file
 
 COLUMNS = ("id", "vertex", "x", "y", "z", "name")
+WITH_VALUES = (*COLUMNS, "value")
+"""What is read: files of anchors (`anchors`) are files of pins, too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +69,11 @@ def read_pins(path: str | os.PathLike[str], surface: Surface) -> Pins:
 
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
     """
+    return placed(picked_in(path), surface)
+
+
+def picked_in(path: str | os.PathLike[str]) -> list["Picked"]:
+    """What a file of pins says, as it stands there; at least one.  Raises ParameterError as `read_pins`."""
     path = Path(path)
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
@@ -79,7 +86,7 @@ def read_pins(path: str | os.PathLike[str], surface: Surface) -> Pins:
     found = reader(text, path.name)
     if not found:
         raise ParameterError(f"{path.name} holds no pins.")
-    return _placed(found, surface)
+    return found
 
 
 def write_pins(path: str | os.PathLike[str], surface: Surface, pins: Pins) -> None:
@@ -95,17 +102,19 @@ def write_pins(path: str | os.PathLike[str], surface: Surface, pins: Pins) -> No
 
 
 @dataclass(frozen=True)
-class _Pin:
-    """One as a file says it; where: the place in the file, in words."""
+class Picked:
+    """A pin or an anchor as a file says it; where: the place in the file, in words."""
 
     where: str
     id: int | None
     vertex: int | None
     position: tuple[float, ...] | None
     name: str
+    value: float | None = None
 
 
-def _placed(found: list[_Pin], surface: Surface) -> Pins:
+def placed(found: list[Picked], surface: Surface) -> Pins:
+    """The vertices that a file's pins are, or are nearest to."""
     from scipy.spatial import cKDTree
 
     ids: dict[int, str] = {}
@@ -131,12 +140,12 @@ def _placed(found: list[_Pin], surface: Surface) -> Pins:
 
 
 # ---------------------------------------------------------------------- CSV
-def _read_csv(text: str, name: str) -> list[_Pin]:
+def _read_csv(text: str, name: str) -> list[Picked]:
     first = text.partition("\n")[0]
     rows = csv.reader(
         io.StringIO(text, newline=""), delimiter=";" if ";" in first and "," not in first else ",", strict=True
     )
-    found: list[_Pin] = []
+    found: list[Picked] = []
     header: list[str] = []
     try:
         for row in rows:
@@ -157,7 +166,7 @@ def _read_csv(text: str, name: str) -> list[_Pin]:
 def _header(words: list[str], where: str) -> list[str]:
     header = [word.strip().lower() for word in words]
     for word in header:
-        if word not in COLUMNS:
+        if word not in WITH_VALUES:
             raise ParameterError(f"{where}: {word!r} is no column of pins; the first line has {', '.join(COLUMNS)}.")
         if header.count(word) > 1:
             raise ParameterError(f"{where}: the column {word} is there twice.")
@@ -166,15 +175,16 @@ def _header(words: list[str], where: str) -> list[str]:
     return header
 
 
-def _of_words(row: dict[str, str], where: str) -> _Pin:
+def _of_words(row: dict[str, str], where: str) -> Picked:
     words = {column: word.strip() for column, word in row.items()}
     position = [words.get(axis, "") for axis in "xyz"]
-    return _Pin(
+    return Picked(
         where,
         _whole(words.get("id", ""), "id", where),
         _whole(words.get("vertex", ""), "vertex", where),
         _position(position, where) if any(position) or not words.get("vertex") else None,
         row.get("name", ""),
+        _number(words["value"], where) if words.get("value") else None,
     )
 
 
@@ -184,6 +194,16 @@ def _whole(text: str, what: str, where: str) -> int | None:
     if not text.isascii() or not text.removeprefix("-").isdigit() or len(text) > 18:
         raise ParameterError(f"{where}: the {what} {text!r} is not a whole number.")
     return int(text)
+
+
+def _number(text: str, where: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not np.isfinite(value):
+        raise ParameterError(f"{where}: the value {text!r} is not a finite number.")
+    return value
 
 
 def _position(words: Sequence[Any], where: str) -> tuple[float, ...]:
@@ -206,19 +226,20 @@ def _written_csv(rows: list[tuple], surface: str) -> str:
 
 
 # ---------------------------------------------------------------------- JSON
-def _read_json(text: str, name: str) -> list[_Pin]:
+def _read_json(text: str, name: str) -> list[Picked]:
     try:
         content = json.loads(text)
     except (ValueError, RecursionError) as error:
         line = f", line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
         raise ParameterError(f"{name}{line}: this is not JSON ({getattr(error, 'msg', error)}).") from None
-    if not isinstance(content, dict) or not isinstance(content.get("pins"), list):
+    pins = content.get("pins", content.get("anchors")) if isinstance(content, dict) else None
+    if not isinstance(pins, list):
         raise ParameterError(f'{name} holds no list of pins; it should be {{"pins": [...]}}.')
-    return [_of_entry(entry, f"{name}, pin {k}") for k, entry in enumerate(content["pins"], 1)]
+    return [_of_entry(entry, f"{name}, pin {k}") for k, entry in enumerate(pins, 1)]
 
 
-def _of_entry(entry: Any, where: str) -> _Pin:
-    known = ("id", "vertex", "position", "name")
+def _of_entry(entry: Any, where: str) -> Picked:
+    known = ("id", "vertex", "position", "name", "value")
     if not isinstance(entry, dict) or not set(entry) <= set(known):
         raise ParameterError(f"{where}: {_cut(entry)} is no pin; it has {', '.join(known)}.")
     for key in ("id", "vertex"):
@@ -232,7 +253,11 @@ def _of_entry(entry: Any, where: str) -> _Pin:
     if position is not None and not (isinstance(position, list) and all(type(x) in (int, float) for x in position)):
         raise ParameterError(f"{where}: the position {_cut(position)} is not three finite numbers.")
     at = None if position is None else _position(position, where)
-    return _Pin(where, entry.get("id"), entry.get("vertex"), at, name)
+    value = entry.get("value")
+    if value is not None and (isinstance(value, bool) or not isinstance(value, (int, float))):
+        raise ParameterError(f"{where}: the value {_cut(value)} is not a number.")
+    number = None if value is None else _number(str(value), where)
+    return Picked(where, entry.get("id"), entry.get("vertex"), at, name, number)
 
 
 def _cut(value: Any) -> str:
@@ -250,7 +275,7 @@ def _written_json(rows: list[tuple], surface: str) -> str:
 
 
 # ---------------------------------------------------------------------- MeshLab
-def _read_pp(text: str, name: str) -> list[_Pin]:
+def _read_pp(text: str, name: str) -> list[Picked]:
     if "<!ENTITY" in text:
         raise ParameterError(f"{name} defines XML entities, which files of picked points do not.")
     try:
@@ -265,23 +290,27 @@ def _read_pp(text: str, name: str) -> list[_Pin]:
         if point.get("active", "1") != "0":
             where = f"{name}, point {k}"
             words = [point.get(axis, "") for axis in "xyz"]
-            found.append(_Pin(where, None, None, _position(words, where), point.get("name", "")))
+            found.append(Picked(where, None, None, _position(words, where), point.get("name", "")))
     return found
 
 
 def _written_pp(rows: list[tuple], surface: str) -> str:
-    points = [
-        f'    <point x="{x!r}" y="{y!r}" z="{z!r}" name={quoteattr(name or str(number))} active="1"/>\n'
-        for number, _, (x, y, z), name in rows
+    return written_points([(point, name or str(number)) for number, _, point, name in rows], surface)
+
+
+def written_points(points: list[tuple[list[float], str]], surface: str) -> str:
+    """Named positions as MeshLab's picked points."""
+    lines = [
+        f'    <point x="{x!r}" y="{y!r}" z="{z!r}" name={quoteattr(name)} active="1"/>\n' for (x, y, z), name in points
     ]
     return (
         "<!DOCTYPE PickedPoints>\n<PickedPoints>\n    <DocumentData>\n"
         f"        <DataFileName name={quoteattr(surface)}/>\n"
-        f'        <templateName name=""/>\n    </DocumentData>\n{"".join(points)}</PickedPoints>\n'
+        f'        <templateName name=""/>\n    </DocumentData>\n{"".join(lines)}</PickedPoints>\n'
     )
 
 
-_READERS: dict[str, Callable[[str, str], list[_Pin]]] = {".csv": _read_csv, ".json": _read_json, ".pp": _read_pp}
+_READERS: dict[str, Callable[[str, str], list[Picked]]] = {".csv": _read_csv, ".json": _read_json, ".pp": _read_pp}
 _WRITERS: dict[str, Callable[[list[tuple], str], str]] = {
     ".csv": _written_csv,
     ".json": _written_json,

@@ -1,0 +1,106 @@
+"""Files of anchors, vertices with a value: the files of pins, with a column `value`."""
+
+import csv
+import io
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+from ..surface import Surface
+from ..whole_file import check_output, whole_file
+from .pins import PIN_FORMATS, picked_in, placed, written_points
+
+COLUMNS = ("vertex", "value", "x", "y", "z", "name")
+
+
+@dataclass(frozen=True, eq=False)
+class Anchors:
+    """k vertices of a surface with values (k,), and names, which may be empty.
+
+    moved: (k,) how far the vertex is from the place that the file named, in the mesh's unit; 0 where it named none.
+    """
+
+    vertices: np.ndarray
+    values: np.ndarray
+    names: tuple[str, ...]
+    moved: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+
+def read_anchors(path: str | os.PathLike[str], surface: Surface) -> Anchors:
+    """The anchors in a file, at vertices of a surface; the extension names the format.
+
+    .csv: a header of `value` with `vertex`, or `x,y,z`, or both, and maybe `name`, in any order, then a line for each.
+    .json: {"anchors": [{"vertex", "position": [x, y, z], "value", "name"}, ...]}.
+    .pp: MeshLab's picked points, whose names are the values.
+    An anchor is at its vertex or, where the file names none, at the one nearest to its position.
+
+    Raises ParameterError, a sentence with the file, the place in it and the value, for anything else, and for the same
+    vertex twice.
+    """
+    found = picked_in(path)
+    values = []
+    for pin in found:
+        value = pin.value
+        if value is None and Path(path).suffix.lower() == ".pp":
+            try:
+                value = float(pin.name)
+            except ValueError:
+                raise ParameterError(f"{pin.where}: the name {pin.name!r} of an anchor must be a number.") from None
+        if value is None:
+            raise ParameterError(f"{pin.where}: an anchor needs a value.")
+        values.append(value)
+    pins = placed(found, surface)
+    first: dict[int, str] = {}
+    for pin, vertex in zip(found, pins.vertices.tolist(), strict=True):
+        if vertex in first:
+            raise ParameterError(f"{pin.where}: vertex {vertex} is an anchor already, {first[vertex]}.")
+        first[vertex] = f"in {pin.where}"
+    return Anchors(pins.vertices, np.array(values), pins.names, pins.moved)
+
+
+def write_anchors(
+    path: str | os.PathLike[str],
+    surface: Surface,
+    vertices: npt.ArrayLike,
+    values: npt.ArrayLike,
+    names: tuple[str, ...] = (),
+) -> None:
+    """Write anchors in a form that `read_anchors` reads, with the positions of their vertices, exactly.
+
+    Raises OutputError if the file cannot be written; what was there then stays.
+    """
+    extension = check_output(path, ANCHOR_FORMATS)
+    ids = surface.check_vertices(vertices)
+    numbers = np.asarray(values, np.float64)
+    if numbers.shape != ids.shape or not np.isfinite(numbers).all():
+        raise ParameterError(f"{len(ids)} anchors need as many finite values, not {numbers.shape}.")
+    points = surface.vertices[ids].tolist()
+    rows = list(zip(ids.tolist(), numbers.tolist(), points, names or ("",) * len(ids), strict=True))
+    with whole_file(path) as temporary:
+        if extension == ".csv":
+            file = io.StringIO()
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(COLUMNS)
+            writer.writerows([vertex, repr(value), *map(repr, point), name] for vertex, value, point, name in rows)
+            text = file.getvalue()
+        elif extension == ".json":
+            lines = [
+                json.dumps({"vertex": vertex, "position": point, "value": value, "name": name}, ensure_ascii=False)
+                for vertex, value, point, name in rows
+            ]
+            text = '{"anchors": [\n' + ",\n".join(lines) + "\n]}\n"
+        else:
+            text = written_points([(point, repr(value)) for _, value, point, _ in rows], surface.name)
+        temporary.write_bytes(text.encode())
+
+
+ANCHOR_FORMATS = PIN_FORMATS
+"""The extensions that `read_anchors` and `write_anchors` know."""

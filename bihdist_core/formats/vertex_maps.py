@@ -1,0 +1,111 @@
+"""Files of maps from the vertices of one surface to those of another, and of pairs of vertices."""
+
+import os
+import re
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+from ..surface import Surface
+from ..whole_file import check_output, whole_file
+from .field_output import write_array
+
+MAP_FORMATS = (".npy", ".txt")
+WHOLE = re.compile("-?[0-9]{1,18}")
+IDENTITY = "identity"
+
+
+def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> np.ndarray:
+    """(n,) for each vertex of the source surface a vertex of the target, -1 for none.
+
+    path: a .npy file with (n,) or (n, 1) whole numbers, a .txt file with one on each line, or the word `identity`: the
+    same ids, where both have as many vertices.  Ids count from 0.
+
+    Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
+    """
+    n, most = len(source.vertices), len(target.vertices)
+    if str(path) == IDENTITY:
+        if n != most:
+            raise ParameterError(
+                f"{source.name} has {n} vertices and {target.name} {most}, so the same ids are no map between them."
+            )
+        return np.arange(n)
+    path = Path(path)
+    if path.suffix.lower() not in MAP_FORMATS:
+        raise ParameterError(f"{path} is no map; these are {', '.join(MAP_FORMATS)} files, or the word {IDENTITY}.")
+    found = _array_in(path) if path.suffix.lower() == ".npy" else _lines_in(path)
+    if len(found) != n:
+        raise ParameterError(f"{path} maps {len(found)} vertices, and {source.name} has {n}.")
+    wrong = np.flatnonzero((found < -1) | (found >= most))
+    if len(wrong):
+        hint = " (ids count from 0)" if found.min() >= 1 and found.max() == most else ""
+        raise ParameterError(
+            f"{path} maps vertex {wrong[0]} to {found[wrong[0]]}, and {target.name} has vertices 0 to {most - 1}{hint}."
+        )
+    return found
+
+
+def _array_in(path: Path) -> np.ndarray:
+    try:
+        array = np.load(path, allow_pickle=False)
+    except (OSError, ValueError, EOFError) as error:
+        raise ParameterError(f"The map in {path} cannot be read: {error}.") from None
+    if not isinstance(array, np.ndarray) or array.size != len(array.reshape(-1)) or array.ndim not in (1, 2):
+        raise ParameterError(f"The map in {path} is no array of whole numbers.")
+    if array.ndim == 2 and 1 not in array.shape:
+        raise ParameterError(f"The map in {path} has shape {array.shape}; a map is one whole number for each vertex.")
+    flat = array.reshape(-1)
+    if flat.dtype.kind == "f" and np.isfinite(flat).all() and (flat == np.floor(flat)).all():
+        flat = flat.astype(np.int64)
+    if flat.dtype.kind not in "iu":
+        raise ParameterError(f"The map in {path} holds {flat.dtype}, not whole numbers.")
+    return flat.astype(np.int64)
+
+
+def _lines_in(path: Path) -> np.ndarray:
+    found = []
+    for number, line in _lines(path, "map"):
+        if not WHOLE.fullmatch(line):
+            raise ParameterError(f"{path}, line {number}: {line!r} is not a whole number.")
+        found.append(int(line))
+    return np.array(found, np.int64)
+
+
+def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
+    """Write a map (n,) so that `read_map` reads it.  Raises OutputError if the file cannot be written."""
+    ids = np.asarray(found, np.int64).ravel()
+    if check_output(path, MAP_FORMATS) == ".npy":
+        write_array(path, ids)
+        return
+    with whole_file(path) as temporary:
+        temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")
+
+
+def read_pairs(path: str | os.PathLike[str]) -> np.ndarray:
+    """(k, 2) ids from a file with a line `i,j` for each pair; a first line of words is a header.
+
+    Raises ParameterError, a sentence with the file, the line and the value, for anything else.
+    """
+    pairs = []
+    for number, line in _lines(Path(path), "pairs"):
+        words = [word.strip() for word in line.replace(";", ",").split(",")]
+        if number == 1 and not WHOLE.fullmatch(words[0]):
+            continue
+        if len(words) < 2 or not all(WHOLE.fullmatch(word) for word in words[:2]):
+            raise ParameterError(f"{path}, line {number}: {line!r} is not a pair of ids such as 1,2.")
+        pairs.append((int(words[0]), int(words[1])))
+    if not pairs:
+        raise ParameterError(f"{path} holds no pairs; each line is two vertex ids such as 1,2.")
+    return np.array(pairs)
+
+
+def _lines(path: Path, what: str) -> list[tuple[int, str]]:
+    """The lines that are not empty, with their numbers."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not a text file"
+        raise ParameterError(f"The {what} in {path} cannot be read: {reason}.") from None
+    return [(number, line.strip()) for number, line in enumerate(lines, 1) if line.strip()]
