@@ -5,7 +5,6 @@ from .analysis.bands import (
 from .analysis.bands import (
     band as band,
 )
-from .analysis.correspondence import correspondence_prediction as correspondence_prediction
 from .analysis.diagnostics import (
     FieldChange as FieldChange,
 )
@@ -54,7 +53,6 @@ from .analysis.field_statistics import (
 from .analysis.geodesic_paths import (
     GeodesicPaths as GeodesicPaths,
 )
-from .analysis.interpolation import ShepardInterpolant as ShepardInterpolant
 from .analysis.isoline_output import write_isolines as write_isolines
 from .analysis.isoline_tracing import (
     Isoline as Isoline,
@@ -154,6 +152,19 @@ from .analysis.truncation import (
 from .analysis.truncation import (
     truncation_loss as truncation_loss,
 )
+from .applications.correspondence import Correspondence as Correspondence
+from .applications.correspondence import correspondence_prediction as correspondence_prediction
+from .applications.interpolation import ShepardInterpolant as ShepardInterpolant
+from .applications.map_errors import ErrorCurve as ErrorCurve
+from .applications.map_errors import error_curve as error_curve
+from .applications.map_errors import map_errors as map_errors
+from .applications.perturbation import noisy as noisy
+from .applications.perturbation import welded as welded
+from .applications.perturbation import with_handle as with_handle
+from .applications.perturbation import with_holes as with_holes
+from .applications.resizing import simplified as simplified
+from .applications.tips import at_tips as at_tips
+from .applications.tips import tips as tips
 from .distances.biharmonic import BiharmonicDistance as BiharmonicDistance
 from .distances.commute_time import CommuteTimeDistance as CommuteTimeDistance
 from .distances.difference import difference as difference
@@ -188,6 +199,7 @@ from .errors import (
     VertexError as VertexError,
 )
 from .formats.mesh_io import read_surface as read_surface
+from .formats.mesh_output import write_mesh as write_mesh
 from .formats.pins import (
     Pins as Pins,
 )
@@ -197,6 +209,8 @@ from .formats.pins import (
 from .formats.pins import (
     write_pins as write_pins,
 )
+from .formats.vertex_maps import read_map as read_map
+from .formats.vertex_maps import write_map as write_map
 from .laplacian import (
     Laplacian as Laplacian,
 )

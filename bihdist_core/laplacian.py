@@ -171,6 +171,18 @@ class Component:
         return self.factor(diagonals=True).sandwich_diagonal - self._u**2 / self.areas.sum()
 
     @once
+    def biharmonic_eccentricity(self) -> np.ndarray:
+        """(m,) the root of the mean, by area, of the squared biharmonic distances to all points; unit length.
+
+        It is largest at the tips of a shape.  With y = C A 1, the mean of C_ii + C_jj - 2 C_ij over j.
+        """
+        diagonal, areas, u = self.biharmonic_diagonal(), self.areas, self._u
+        total = areas.sum()
+        y = self.solve(areas * u) - u * (areas @ u / total)
+        squares = diagonal + (areas @ diagonal - 2 * y) / total
+        return np.sqrt(np.maximum(squares, 0))
+
+    @once
     def _u(self) -> np.ndarray:
         """(m,) u = G A 1."""
         return self.solve(self.areas)

@@ -171,6 +171,11 @@ class OtherExtrema:
     maxima: np.ndarray
     maxima_height: np.ndarray
 
+    @property
+    def vertices(self) -> np.ndarray:
+        """All of them, the minima first."""
+        return np.concatenate([self.minima, self.maxima])
+
 
 def other_extrema(surface: Surface, field: npt.ArrayLike, source: Source | None, share: float = 1e-3) -> OtherExtrema:
     """The extrema of a field (n,) away from its source that persist over at least `share` of its range.

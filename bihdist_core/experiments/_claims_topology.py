@@ -4,13 +4,13 @@ import numpy as np
 
 from ..analysis.diagnostics import FieldChange
 from ..analysis.persistence import extrema
+from ..applications.perturbation import vertex_normals, welded, with_handle
+from ..applications.resizing import simplified
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
-from .damage import welded, with_handle
 from .measures import CHANGE_COLUMNS, INSENSITIVE, change_cells, changes, percent
-from .resizing import simplified
 from .result import Cell, Claim, Mark, Panel, Table
 from .shapes import DISTANCES, SEEDS, Shapes, distance, spread_points, start_vertex
 
@@ -110,7 +110,7 @@ def nearly_touching(surface: Surface) -> tuple[int, int] | None:
     x = surface.vertices[points]
     straight = np.linalg.norm(x[:, None] - x, axis=2)
     # Not on both sides of a thin sheet: the straight way leaves the surface along its normals.
-    outward = _normals(surface)[points]
+    outward = vertex_normals(surface)[points]
     way = (x[None] - x[:, None]) / np.where(straight > 0, straight, 1)[:, :, None]
     facing = np.einsum("ijk,ik->ij", way, outward) > 0.3
     ratio = np.where(facing & facing.T & (straight > 0), along / np.where(straight > 0, straight, 1), 0)
@@ -141,13 +141,3 @@ def _still_there(surface: Surface, vertex: int) -> int:
 
 def _fields(laplacian: Laplacian, source: int) -> dict[str, np.ndarray]:
     return {kind: distance(laplacian, kind).from_source(source) for kind in DISTANCES}
-
-
-def _normals(surface: Surface) -> np.ndarray:
-    """(n, 3) unit normals at the vertices, by face area."""
-    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
-    cross = np.cross(b - a, c - a)
-    total = np.zeros_like(surface.vertices)
-    for k in range(3):
-        np.add.at(total, surface.faces[:, k], cross)
-    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)

@@ -7,7 +7,7 @@ produces unintuitive result for small not-centered areas like the head"; with bi
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..analysis.correspondence import correspondence_prediction
+from ..applications.correspondence import correspondence_prediction
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..progress import Progress, part
 from ..surface import Surface

@@ -7,11 +7,11 @@ geodesic field has a kink and isolines that are not aware of the shape far away;
 import numpy as np
 
 from ..analysis.quality import small_radius
+from ..applications.resizing import refined
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import ELONGATED, FIELD_COLUMNS, ISOTROPIC, KINK, field_row, inner_jumps, isotropy_chart, marks, span
-from .resizing import refined
 from .result import Claim, Mark, Panel, Result, Table
 from .shapes import SEEDS, Shapes, distance, start_vertex, vertex_at
 

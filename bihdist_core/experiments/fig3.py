@@ -9,11 +9,11 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..analysis.diagnostics import FieldChange
+from ..applications.perturbation import punched
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
-from .damage import punched
 from .measures import CHANGE_COLUMNS, INSENSITIVE, change_cells, changes, percent
 from .result import Cell, Claim, Mark, Panel, Result, Table
 from .shapes import DISTANCES, SEEDS, Shapes, distance, spread_points, start_vertex, vertex_at

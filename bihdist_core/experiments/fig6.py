@@ -7,12 +7,12 @@ The paper: isolines of biharmonic distance are "largely unchanged" by Gaussian n
 import numpy as np
 
 from ..analysis.diagnostics import FieldChange
+from ..applications.perturbation import noisy
+from ..applications.resizing import simplified
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
-from .damage import noisy
 from .measures import CHANGE_COLUMNS, INSENSITIVE, change_cells, changes, percent
-from .resizing import simplified
 from .result import Cell, Claim, Mark, Panel, Result, Table
 from .shapes import DISTANCES, SEEDS, Shapes, distance, start_vertex, vertex_at
 

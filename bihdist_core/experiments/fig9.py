@@ -7,8 +7,8 @@ head is, of t = 4 spurious local extrema in the front legs.
 
 import numpy as np
 
-from ..analysis.interpolation import ShepardInterpolant
 from ..analysis.persistence import extrema
+from ..applications.interpolation import ShepardInterpolant
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..progress import Progress, part
 from ..surface import Surface

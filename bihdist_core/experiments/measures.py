@@ -8,9 +8,9 @@ from ..analysis import quality
 from ..analysis.diagnostics import FieldChange, field_change, isotropy_ratio
 from ..analysis.persistence import Extrema, extrema
 from ..analysis.quality import small_radius
+from ..applications.resizing import refined
 from ..laplacian import Laplacian
 from ..surface import Surface
-from .resizing import refined
 from .result import Cell, Chart, Mark, Series
 from .shapes import distance
 

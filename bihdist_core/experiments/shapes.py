@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..applications.resizing import resized
 from ..distances.answers import Distances
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
@@ -15,7 +16,6 @@ from ..formats.mesh_io import read_surface
 from ..laplacian import Laplacian
 from ..progress import Progress
 from ..surface import Surface
-from .resizing import resized
 
 NAMES = ("figure", "figure_pose2", "animal", "hand", "genus3", "domain", "scan")
 """The surfaces that the experiments know: y is up, and the front looks to +z (the animal's head is at +x)."""

@@ -4,8 +4,8 @@ from itertools import combinations
 
 import numpy as np
 
+from ..applications.resizing import refined
 from ..surface import Surface
-from .resizing import refined
 
 
 def icosphere(times: int) -> Surface:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, Surface, VertexError
+from bihdist_core import BiharmonicDistance, Correspondence, GeodesicDistance, ParameterError, Surface, VertexError
 from bihdist_core import correspondence_prediction as prediction
 from tests.shapes import bumpy, components_apart, two_pieces
 
@@ -84,3 +84,43 @@ def test_refused(pairs, x, weights, error, words):
     d = BiharmonicDistance(bumpy(150))
     with pytest.raises(error, match=words):
         prediction(d, d, pairs, x, weights)
+
+
+def test_the_map_is_the_least_misfit_of_each_vertex_whatever_the_block(monkeypatch):
+    import bihdist_core.applications.correspondence as correspondence
+
+    m, n = BiharmonicDistance(bumpy(150)), BiharmonicDistance(bumpy(220, seed=1))
+    found = Correspondence(m, n, [[3, 5], [77, 90], [140, 11], [20, 200]], [1.0, 0.25, 3.0, 1.0])
+    misfit = found.misfit(np.arange(150))
+    for block in (7, 4096):
+        monkeypatch.setattr(correspondence, "BLOCK", block)
+        chosen = found.map()
+        assert misfit[chosen, np.arange(150)] == pytest.approx(misfit.min(axis=0), rel=1e-12)
+    assert found.map([9, 3]).tolist() == chosen[[9, 3]].tolist()
+    assert found.best(9) == (chosen[9], misfit[:, 9].min())
+
+
+def test_vertices_that_cannot_be_compared_are_mapped_nowhere():
+    s = two_pieces()
+    large, small = components_apart(s)
+    distance = BiharmonicDistance(s)
+    found = Correspondence(distance, distance, [[large[0], large[0]], [large[5], large[5]], [large[9], large[9]]])
+    chosen = found.map()
+    assert (chosen[small] == -1).all()
+    assert np.isin(chosen[large], large).all()
+    assert found.best(int(small[0]))[0] == -1
+
+
+def test_another_pair_costs_one_column_on_each_surface():
+    m, n = BiharmonicDistance(bumpy(150)), BiharmonicDistance(bumpy(120, seed=1))
+    asked = []
+    for distance in (m, n):
+        solve = distance.from_sources
+        distance.from_sources = lambda sources, progress=None, solve=solve: (
+            asked.append(sources) or solve(sources, progress)
+        )
+    first = Correspondence(m, n, [[3, 5], [77, 90]])
+    more = first.changed([[3, 5], [77, 90], [140, 11]])
+    more.changed([[140, 11], [3, 5]], [2.0, 1.0])
+    assert asked == [[3, 77], [5, 90], [140], [11]]
+    assert more.misfit(20) == pytest.approx(prediction(m, n, [[3, 5], [77, 90], [140, 11]], 20))

@@ -8,8 +8,8 @@ import pytest
 
 from bihdist_core import Cancelled, OutputError, ParameterError, Surface, read_surface
 from bihdist_core.analysis.quality import small_radius
+from bihdist_core.applications.resizing import simplified
 from bihdist_core.experiments import EXPERIMENTS, NAMES, SEEDS, Shapes, _claims_growth, table1, table2
-from bihdist_core.experiments.resizing import simplified
 from bihdist_core.experiments.result import Table
 from bihdist_core.experiments.shapes import spread_points, start_vertex, vertex_at
 from tests.shapes import bumpy, grid, spike, two_pieces

@@ -14,7 +14,7 @@ from bihdist_core import (
 )
 from bihdist_core.analysis.field_statistics import corner_areas, field_agreement, field_statistics, rank_correlation
 from bihdist_core.analysis.truncation import truncation_loss
-from bihdist_core.experiments.resizing import refined
+from bihdist_core.applications.resizing import refined
 from tests.shapes import bumpy, grid, two_pieces
 
 

@@ -101,3 +101,66 @@ def test_refused(anchors, values, error, words):
     distance = BiharmonicDistance(two_pieces())
     with pytest.raises(error, match=words):
         ShepardInterpolant(distance, np.array(anchors, int), values)
+
+
+def test_exponent_and_smoothness_are_those_of_the_formula():
+    distance = BiharmonicDistance(bumpy(150))
+    field = ShepardInterpolant(distance, ANCHORS, VALUES, exponent=2.5, smoothness=0.2).evaluate()
+    columns = distance.from_sources(ANCHORS)
+    for p in (0, 50, 149):
+        rounded = columns[p] ** 2 / (columns[p] + 0.2 * columns.max(axis=0))
+        weights = rounded**-2.5
+        assert field[p] == pytest.approx(np.dot(weights, VALUES) / weights.sum(), rel=1e-9)
+    assert field[ANCHORS].tolist() == VALUES
+
+
+def test_smoothness_rounds_the_cones_at_anchors():
+    """At its neighbours the interpolant is less than half as far from an anchor's value."""
+    surface = bumpy(2000)
+    distance = BiharmonicDistance(surface)
+    anchors, values = [3, 900, 1800], [1.0, 0.0, 0.0]
+    plain, smooth = (ShepardInterpolant(distance, anchors, values, smoothness=s).evaluate() for s in (0.0, 0.3))
+    beside = surface.edges[(surface.edges == 3).any(axis=1)].ravel()
+    beside = beside[beside != 3]
+    assert (1 - smooth[beside] < 0.5 * (1 - plain[beside])).all()
+    assert smooth.min() >= 0
+    assert smooth.max() <= 1
+
+
+def test_other_values_cost_no_column_and_a_new_anchor_one():
+    distance = BiharmonicDistance(bumpy(150))
+    asked = []
+    solve = distance.from_sources
+    distance.from_sources = lambda sources, progress=None: asked.extend(sources) or solve(sources, progress)
+    now = ShepardInterpolant(distance, ANCHORS, VALUES)
+    now.evaluate()
+    assert asked == ANCHORS
+    for change in (
+        {"values": [1.0, 5.0, 2.0]},
+        {"anchors": [*ANCHORS, 20], "values": [1.0, 5.0, 2.0, 3.0], "exponent": 2},
+        {"anchors": [77, 20], "values": [5.0, 3.0], "exponent": 1, "smoothness": 0.5},
+    ):
+        now = now.changed(**change)
+        alone = ShepardInterpolant(
+            BiharmonicDistance(bumpy(150)), now.anchors, now.values, now.exponent, now.smoothness
+        )
+        assert now.evaluate() == pytest.approx(alone.evaluate(), rel=1e-12)
+    assert asked == [*ANCHORS, 20]
+
+
+def test_the_sum_of_weights_is_a_logarithm_over_its_least_value():
+    distance = BiharmonicDistance(bumpy(150))
+    found = ShepardInterpolant(distance, ANCHORS, VALUES, exponent=1.5).sum_of_weights()
+    with np.errstate(divide="ignore"):
+        total = (distance.from_sources(ANCHORS) ** -1.5).sum(axis=1)
+    assert np.isposinf(found[ANCHORS]).all()
+    rest = np.setdiff1d(np.arange(150), ANCHORS)
+    assert found[rest] == pytest.approx(np.log10(total[rest] / total.min()), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("exponent", "smoothness", "words"), [(0, 0, "exponent"), (1, 1.5, "smoothness"), (np.nan, 0, "exponent")]
+)
+def test_parameters_out_of_range_are_refused(exponent, smoothness, words):
+    with pytest.raises(ParameterError, match=words):
+        ShepardInterpolant(BiharmonicDistance(bumpy(150)), ANCHORS, VALUES, exponent, smoothness)

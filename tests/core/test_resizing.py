@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from bihdist_core import BiharmonicDistance, Cancelled, GeodesicDistance, ParameterError, Surface
+from bihdist_core.applications.perturbation import noisy, punched, welded, with_handle
+from bihdist_core.applications.resizing import KEEP_SHAPE, _harmless, refined, resized, simplified
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
-from bihdist_core.experiments.damage import noisy, punched, welded, with_handle
-from bihdist_core.experiments.resizing import KEEP_SHAPE, _harmless, refined, resized, simplified
 from bihdist_core.experiments.spheres import icosphere, moebius
 from tests.shapes import bumpy, fin, grid, sphere, torus
 

@@ -1,0 +1,125 @@
+"""Shepard interpolation on a surface (paper, section 5.2): weighted averages, the weights inverse distances."""
+
+import numpy as np
+import numpy.typing as npt
+
+from ..distances.distance import Distance
+from ..errors import ParameterError, VertexError
+from ..progress import Progress
+from .weights import Weights
+
+
+class ShepardInterpolant:
+    """f(p) = sum_i w_i f_i / sum_i w_i,  w_i = r(d(p, p_i)) ** -exponent,  with any distance d.
+
+    anchors: (k,) vertices p_i, all different.  values: (k,) real numbers f_i.  Each connected component of the
+    surface uses its own anchors only, since between components there is no distance.  The paper has exponent 1 and
+    smoothness 0, where r(d) = d: f has a cone at each anchor.  A larger exponent makes f flatter there, and steeper
+    between anchors.  smoothness s, a share from 0 to 1, rounds the cones alone: r(d) = d^2 / (d + s D), D the largest
+    distance of the anchor, so that the weights are those of exponent 2 within about s D and of exponent 1 beyond.
+
+    Raises VertexError for an anchor that does not exist, belongs to no face or is named twice; ParameterError for no
+    anchors, for values that are not k finite numbers, and for an exponent or a smoothness out of range.
+    """
+
+    def __init__(
+        self,
+        distance: Distance,
+        anchors: npt.ArrayLike,
+        values: npt.ArrayLike,
+        exponent: float = 1.0,
+        smoothness: float = 0.0,
+    ) -> None:
+        self.distance = distance
+        self.anchors = distance.surface.check_vertices(anchors)
+        weights = Weights(exponent, smoothness)
+        self.exponent, self.smoothness = weights.exponent, weights.smoothness
+        if not len(self.anchors):
+            raise ParameterError("An interpolant needs at least one anchor.")
+        ids, count = np.unique(self.anchors, return_counts=True)
+        if (count > 1).any():
+            raise VertexError(f"Vertex {ids[count > 1][0]} is an anchor twice.")
+        self.values = self._checked(values)
+        self._columns: dict[int, np.ndarray] = {}
+        self._weights: np.ndarray | None = None
+        self._total: np.ndarray | None = None
+
+    def changed(
+        self,
+        anchors: npt.ArrayLike | None = None,
+        values: npt.ArrayLike | None = None,
+        exponent: float | None = None,
+        smoothness: float | None = None,
+    ) -> "ShepardInterpolant":
+        """The same with other anchors, values or parameters.
+
+        What is known of it is kept: other values cost one product of matrices, a new anchor one column.
+        Raises as the constructor.
+        """
+        other = ShepardInterpolant(
+            self.distance,
+            self.anchors if anchors is None else anchors,
+            self.values if values is None else values,
+            self.exponent if exponent is None else exponent,
+            self.smoothness if smoothness is None else smoothness,
+        )
+        # Not of all anchors there ever were: one that is dragged has many.
+        wanted = {*self.anchors.tolist(), *other.anchors.tolist()}
+        other._columns = {vertex: column for vertex, column in self._columns.items() if vertex in wanted}
+        same = np.array_equal(other.anchors, self.anchors)
+        if same and (other.exponent, other.smoothness) == (self.exponent, self.smoothness):
+            other._weights, other._total = self._weights, self._total
+        return other
+
+    def evaluate(self, progress: Progress | None = None) -> np.ndarray:
+        """(n,) the interpolant at every vertex: f_i exactly at anchor i, NaN on components without anchors.
+
+        Never below the least f_i or above the greatest.  A vertex at distance 0 from anchors without being one (some
+        distances cannot tell all vertices apart) gets the mean of their values.
+        """
+        with np.errstate(invalid="ignore"):
+            result = self._shares(progress) @ self.values
+        # Rounding must not make an extremum where the formula has none.
+        result = np.clip(result, self.values.min(), self.values.max())
+        result[self.anchors] = self.values
+        return result
+
+    def sum_of_weights(self, progress: Progress | None = None) -> np.ndarray:
+        """(n,) log10 of sum_i w_i over its least value on the surface: how far the anchors' influence reaches.
+
+        Infinite at the anchors, NaN on components without one.
+        """
+        self._shares(progress)
+        assert self._total is not None
+        return self._total - np.nanmin(self._total)
+
+    def _shares(self, progress: Progress | None) -> np.ndarray:
+        """(n, k) w_i / sum_j w_j; NaN where there is no anchor."""
+        if self._weights is None:
+            missing = [vertex for vertex in self.anchors.tolist() if vertex not in self._columns]
+            if missing:
+                columns = self.distance.from_sources(missing, progress)
+                self._columns.update(zip(missing, np.ascontiguousarray(columns.T), strict=True))
+            distances = np.stack([self._columns[vertex] for vertex in self.anchors.tolist()], axis=1)
+            if self.smoothness:
+                reach = self.smoothness * np.nanmax(distances, axis=0)
+                with np.errstate(invalid="ignore"):
+                    distances = np.where(distances > 0, distances**2 / (distances + reach), distances)
+            # Divided by the nearest distance first, no weight overflows; where that is 0, only those at 0 count.
+            nearest = np.fmin.reduce(distances, axis=1, keepdims=True)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                weights = np.where(nearest > 0, (nearest / distances) ** self.exponent, distances == 0)
+                weights[~np.isfinite(distances)] = 0
+                total = weights.sum(axis=1)
+                self._weights = weights / total[:, None]
+                self._total = np.log10(total) - self.exponent * np.log10(nearest[:, 0])
+        return self._weights
+
+    def _checked(self, values: npt.ArrayLike) -> np.ndarray:
+        found = np.array(values, np.float64, ndmin=1)
+        if found.shape != self.anchors.shape or not np.isfinite(found).all():
+            raise ParameterError(
+                f"{len(self.anchors)} anchors need as many finite values, not an array of shape {found.shape} "
+                f"with {np.count_nonzero(~np.isfinite(found))} that are not finite."
+            )
+        return found

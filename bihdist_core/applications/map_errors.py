@@ -1,0 +1,118 @@
+"""How far a map between two surfaces is from the truth: geodesic errors and their cumulative curve.
+
+As the field measures it (Kim, Lipman, Funkhouser 2011): the error of a vertex is the geodesic distance, on the surface
+that is mapped to, between where it is mapped and where it belongs, over the root of that surface's area.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..distances.distance import Distance
+from ..errors import ParameterError
+from ..progress import Progress, part, silent
+from ..surface import Surface
+from .correspondence import NOWHERE
+
+BLOCK = 32
+"""So many right answers at a time, from which distances are computed."""
+
+LIMIT = 0.25
+"""Where curves end, and the area under them."""
+
+
+def map_errors(
+    distance: Distance,
+    found: npt.ArrayLike,
+    truth: npt.ArrayLike,
+    partners: npt.ArrayLike | None = None,
+    progress: Progress | None = None,
+) -> np.ndarray:
+    """The errors of a map whose values are `found` (m,) and should be `truth` (m,), vertices of one surface: (m,).
+
+    found (m, q), of several maps, gives (m, q), at the cost of one: a field for each different right answer.
+    distance: geodesic, on that surface.  partners: (n,) the symmetric partner of each of its vertices, which then
+    counts as right, too.  -1 in any of them is no vertex.  Infinite where nothing was found or the truth is on another
+    component, NaN where there is no truth.
+
+    Raises ParameterError for arrays of another form or that are not whole numbers, VertexError for vertices that are
+    not there.
+    """
+    surface = distance.surface
+    to, right = _checked(found, surface, 2), _checked(truth, surface)
+    if to.ndim not in (1, 2) or len(to) != len(right):
+        raise ParameterError(f"The map has {len(to)} values, and the truth {len(right)}; they need as many.")
+    errors = _errors(distance, to, right, part(progress, 0, 1 if partners is None else 0.5))
+    if partners is not None:
+        others = _checked(partners, surface)
+        if len(others) != len(surface.vertices):
+            raise ParameterError(
+                f"Symmetric partners are needed for each of the {len(surface.vertices)} vertices of {surface.name}, "
+                f"not for {len(others)}."
+            )
+        known = right >= 0
+        mirrored = np.full(len(right), NOWHERE)
+        mirrored[known] = others[right[known]]
+        errors = np.fmin(errors, _errors(distance, to, mirrored, part(progress, 0.5, 1)))
+    return errors
+
+
+def _checked(vertices: npt.ArrayLike, surface: Surface, axes: int = 1) -> np.ndarray:
+    ids = np.asarray(vertices)
+    if not 1 <= ids.ndim <= axes or ids.dtype.kind not in "iu":
+        raise ParameterError(f"A map is (m,) whole numbers, not {ids.shape} of {ids.dtype}.")
+    inside = ids[ids != NOWHERE]
+    if len(inside):
+        low, high = int(inside.min()), int(inside.max())
+        if low < 0 or high >= len(surface.vertices):
+            surface.check_vertex(low if low < 0 else high)
+    return ids.astype(int)
+
+
+def _errors(distance: Distance, to: np.ndarray, right: np.ndarray, progress: Progress | None) -> np.ndarray:
+    surface, report = distance.surface, progress or silent
+    unit = float(np.sqrt(surface.face_areas.sum()))
+    errors = np.full(to.shape, np.nan)
+    referenced = surface.component_of_vertex >= 0
+    rows = np.flatnonzero((right != NOWHERE) & referenced[right])
+    errors[rows] = np.inf
+    rows = rows[np.argsort(right[rows], kind="stable")]
+    answers, first = np.unique(right[rows], return_index=True)
+    for start in range(0, len(answers), BLOCK):
+        report(start / len(answers), f"errors at {start:,} of {len(answers):,} vertices")
+        stop = min(start + BLOCK, len(answers))
+        some = rows[first[start] : first[stop] if stop < len(answers) else len(rows)]
+        columns = distance.from_sources(answers[start:stop])
+        column = np.searchsorted(answers, right[some]) - start
+        away = columns[to[some], column if to.ndim == 1 else column[:, None]]
+        errors[some] = np.where(np.isfinite(away) & (to[some] != NOWHERE), away / unit, np.inf)
+    return errors
+
+
+@dataclass(frozen=True, eq=False)
+class ErrorCurve:
+    """The share of vertices whose error is at most so large.
+
+    errors: (m,) sorted, those that are known.  mean, median: of these, infinite if a vertex was mapped nowhere.  area:
+    under the curve from 0 to LIMIT, over LIMIT; 1 for a perfect map.
+    """
+
+    errors: np.ndarray
+    mean: float
+    median: float
+    area: float
+
+    def shares(self, thresholds: npt.ArrayLike) -> np.ndarray:
+        """(t,) the share of errors that are at most each of thresholds (t,)."""
+        return np.searchsorted(self.errors, np.asarray(thresholds, np.float64), side="right") / len(self.errors)
+
+
+def error_curve(errors: npt.ArrayLike) -> ErrorCurve:
+    """Of errors (m,); NaN is left out.  Raises ParameterError if there is none."""
+    known = np.sort(np.asarray(errors, np.float64).ravel())
+    known = known[~np.isnan(known)]
+    if not len(known):
+        raise ParameterError("Of no vertex the right place is known, so there is no error.")
+    area = 1 - float(np.minimum(known, LIMIT).mean()) / LIMIT
+    return ErrorCurve(known, float(known.mean()), float(np.median(known)), area)

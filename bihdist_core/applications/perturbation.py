@@ -1,0 +1,215 @@
+"""What can go wrong with a mesh, done on purpose: noise, holes, welded parts, a thin handle (paper, Figs. 3, 6, 7)."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from ..distances.edge_geodesic import EdgeGeodesic
+from ..errors import ParameterError
+from ..progress import Progress
+from ..surface import Surface
+from .resizing import simplified
+
+WAYS = ("xyz", "normals")
+"""Along what there is noise."""
+
+WIDTH = 0.25
+"""Sides of a thin handle, as a share of those of the faces it joins."""
+
+
+def noisy(surface: Surface, share: float, seed: int = 0, along: str = "xyz") -> Surface:
+    """Gaussian noise on each vertex; its standard deviation is `share` mean edge lengths.
+
+    along: "xyz", on each coordinate; "normals", along the normal of the vertex.  Raises ParameterError for another
+    word, and for a share that is not a finite number of at least 0.
+    """
+    if along not in WAYS:
+        raise ParameterError(f"Noise is along one of {', '.join(WAYS)}, not {along!r}.")
+    if not (np.isfinite(share) and share >= 0):
+        raise ParameterError(f"The size of noise is a number of mean edge lengths of at least 0, not {share!r}.")
+    random = np.random.default_rng(seed)
+    if along == "xyz":
+        shift = random.standard_normal(surface.vertices.shape)
+    else:
+        shift = random.standard_normal((len(surface.vertices), 1)) * vertex_normals(surface)
+    return Surface(surface.vertices + share * surface.mean_edge_length * shift, surface.faces, surface.name)
+
+
+def vertex_normals(surface: Surface) -> np.ndarray:
+    """(n, 3) unit normals at the vertices, by face area; 0 where there is none."""
+    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
+    cross = np.cross(b - a, c - a)
+    total = np.zeros_like(surface.vertices)
+    for k in range(3):
+        np.add.at(total, surface.faces[:, k], cross)
+    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
+
+
+def with_holes(surface: Surface, count: int, radius: float = 0.05, seed: int = 0) -> Surface:
+    """Round holes at random vertices: what is nearer along edges than `radius` roots of the surface's area.
+
+    Vertex ids stay; what falls apart from the largest piece goes as well.  Raises ParameterError for fewer holes than
+    one, a radius that is not a share from 0 to 1, and where nothing of the surface, or all of it, would be left.
+    """
+    if count < 1:
+        raise ParameterError(f"The number of holes is a whole number from 1, not {count!r}.")
+    if not 0 < radius <= 1:
+        raise ParameterError(f"The radius of holes is a share of the root of the area, from 0 to 1, not {radius!r}.")
+    candidates = np.flatnonzero(surface.component_of_vertex >= 0)
+    centres = np.random.default_rng(seed).choice(candidates, min(count, len(candidates)), replace=False)
+    unit = float(np.sqrt(surface.face_areas.sum()))
+    rest = punched(surface, EdgeGeodesic(surface).distances(centres), radius * unit)
+    if len(rest.faces) == len(surface.faces):
+        raise ParameterError(
+            f"Holes of a radius of {radius:g} roots of the area hold no face of {surface.name}; choose a larger radius."
+        )
+    return rest
+
+
+def punched(surface: Surface, distances: np.ndarray, radius: float) -> Surface:
+    """Holes: the faces all of whose corners are nearer than `radius` to a centre are taken out.
+
+    distances: (n, k) from each of k centres.  Vertex ids stay; what falls apart from the largest piece goes as well.
+    """
+    near = np.nanmin(np.asarray(distances), axis=1, initial=np.inf) < radius
+    return without(surface, np.flatnonzero(near))
+
+
+def without(surface: Surface, vertices: npt.ArrayLike) -> Surface:
+    """The surface without the faces all of whose corners are among vertices (k,).
+
+    Vertex ids stay; what falls apart from the largest piece goes as well.  Raises ParameterError if nothing is left.
+    """
+    gone = np.zeros(len(surface.vertices), bool)
+    gone[np.asarray(vertices, int)] = True
+    kept = surface.faces[~gone[surface.faces].all(axis=1)]
+    if not len(kept):
+        raise ParameterError(f"Nothing of {surface.name} would be left; take out less.")
+    rest = Surface(surface.vertices, kept, surface.name)
+    largest = rest.component_of_vertex[rest.faces[:, 0]] == 0
+    return Surface(rest.vertices, rest.faces[largest], surface.name)
+
+
+def face_at(surface: Surface, vertex: int) -> int:
+    """The largest of the faces at a vertex, the first of equal ones.  Raises VertexError for a bad vertex."""
+    faces = np.flatnonzero((surface.faces == surface.check_vertex(vertex)).any(axis=1))
+    return int(faces[surface.face_areas[faces].argmax()])
+
+
+def welded(surface: Surface, face_a: int, face_b: int) -> Surface:
+    """Two parts grown together: both faces go, and their corners become one, halfway between.
+
+    A closed surface gets one handle more.  Vertex ids stay; the corners of `face_b` then belong to no face.  Raises
+    ParameterError if the two faces or their neighbours touch.
+    """
+    a, b = _opposite_corners(surface, face_a, face_b)
+    follow = np.arange(len(surface.vertices))
+    follow[b] = a
+    x = surface.vertices.copy()
+    x[a] = (x[a] + x[b]) / 2
+    keep = np.delete(np.arange(len(surface.faces)), [face_a, face_b])
+    return Surface(x, follow[surface.faces[keep]], surface.name)
+
+
+def with_handle(surface: Surface, face_a: int, face_b: int) -> Surface:
+    """A thin, straight, three-sided tube from the middle of one face to the middle of another.
+
+    Vertex ids stay; the tube's come after them.  Raises ParameterError as `welded`.
+    """
+    a, b = _opposite_corners(surface, face_a, face_b)
+    x, n = surface.vertices, len(surface.vertices)
+    mouths = []
+    for corners in (x[a], x[b]):
+        middle = corners.mean(axis=0)
+        mouths.append(middle + WIDTH * (corners - middle))
+    gap = float(np.linalg.norm(mouths[0].mean(axis=0) - mouths[1].mean(axis=0)))
+    side = float(np.mean([np.linalg.norm(m - np.roll(m, 1, axis=0), axis=1).mean() for m in mouths]))
+    rings = max(2, round(gap / side) + 1)
+    t = np.linspace(0, 1, rings)[:, None, None]
+    tube = ((1 - t) * mouths[0] + t * mouths[1]).reshape(-1, 3)
+    loops = [a, *(n + 3 * np.arange(rings)[:, None] + np.arange(3)), b]
+    faces = [np.delete(surface.faces, [face_a, face_b], axis=0)]
+    for one, two in pairwise(loops):
+        for k in range(3):
+            p, q, r, s = one[k], one[(k + 1) % 3], two[(k + 1) % 3], two[k]
+            faces.append(np.array([[p, q, r], [p, r, s]]))
+    return Surface(np.concatenate([x, tube]), np.concatenate(faces), surface.name)
+
+
+def _opposite_corners(surface: Surface, face_a: int, face_b: int) -> tuple[np.ndarray, np.ndarray]:
+    """(3,) corners of both faces, paired so that the surface stays oriented and the pairs are as near as can be."""
+    a, b = surface.faces[face_a], surface.faces[face_b]
+    around = surface.faces[np.isin(surface.faces, a).any(axis=1)]
+    beside = surface.faces[np.isin(surface.faces, b).any(axis=1)]
+    if np.isin(around, beside).any():
+        raise ParameterError(f"Faces {face_a} and {face_b} are too close to each other to be joined.")
+    turns = [np.roll(b[::-1], k) for k in range(3)]
+    x = surface.vertices
+    return a, min(turns, key=lambda turn: float(((x[a] - x[turn]) ** 2).sum()))
+
+
+@dataclass(frozen=True)
+class Perturbation:
+    """Changes to a surface, made in this order; those that are None or 0 are not made.
+
+    simplify: to so many vertices.  noise: see `noisy`.  holes, radius: see `with_holes`.  weld, handle: two vertices,
+    whose largest faces are joined (`welded`, `with_handle`).  seed: of noise and holes.  Vertices are those of the
+    surface as it was; one that simplification takes out is replaced by the nearest that stays.
+    """
+
+    simplify: int | None = None
+    noise: float = 0.0
+    along: str = "xyz"
+    holes: int = 0
+    radius: float = 0.05
+    weld: tuple[int, int] | None = None
+    handle: tuple[int, int] | None = None
+    seed: int = 0
+
+    def __str__(self) -> str:
+        words = []
+        if self.simplify is not None:
+            words.append(f"simplified to {self.simplify}")
+        if self.noise:
+            way = "in x, y and z" if self.along == "xyz" else "along normals"
+            words.append(f"noise of {self.noise:g} edges {way}, seed {self.seed}")
+        if self.holes:
+            words.append(f"{self.holes} holes of radius {self.radius:g}, seed {self.seed}")
+        if self.weld is not None:
+            words.append(f"grown together at {self.weld[0]} and {self.weld[1]}")
+        if self.handle is not None:
+            words.append(f"a handle from {self.handle[0]} to {self.handle[1]}")
+        return ", ".join(words) or "unchanged"
+
+
+def perturbed(surface: Surface, change: Perturbation, progress: Progress | None = None) -> tuple[Surface, np.ndarray]:
+    """What becomes of a surface, and (n',) the vertex of the surface that each of its vertices is, -1 for new ones.
+
+    Raises ParameterError as the single changes, VertexError for vertices that are not there.
+    """
+    result, ids = surface, np.arange(len(surface.vertices))
+    if change.simplify is not None:
+        result, ids = simplified(result, change.simplify, progress)
+    if change.noise:
+        result = noisy(result, change.noise, change.seed, change.along)
+    if change.holes:
+        result = with_holes(result, change.holes, change.radius, change.seed)
+    for pair, join in ((change.weld, welded), (change.handle, with_handle)):
+        if pair is not None:
+            ends = [face_at(result, image_of(surface, ids, vertex, result)) for vertex in pair]
+            result = join(result, *ends)
+    new = np.full(len(result.vertices) - len(ids), -1)
+    return result, np.concatenate([ids, new])
+
+
+def image_of(surface: Surface, ids: np.ndarray, vertex: int, result: Surface) -> int:
+    """The vertex of a perturbed surface that a vertex is, or is nearest to where it is gone.
+
+    ids: as `perturbed` gives them.  Raises VertexError for a bad vertex.
+    """
+    vertex = surface.check_vertex(vertex)
+    stays = np.flatnonzero((ids >= 0) & (result.component_of_vertex[: len(ids)] >= 0))
+    away = np.linalg.norm(surface.vertices[ids[stays]] - surface.vertices[vertex], axis=1)
+    return int(stays[away.argmin()])

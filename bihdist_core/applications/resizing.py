@@ -1,0 +1,182 @@
+"""A surface with more or fewer vertices, for experiments that compare tessellations or sizes.
+
+Simplification collapses edges by the quadric error (Garland, Heckbert 1997), always onto one of the two ends: every
+vertex that is left is one of the given surface, at its place, so that fields can be compared at the same points.
+Many collapses far from each other are done at once, in rounds.
+"""
+
+import numpy as np
+import scipy.sparse as sp
+
+from ..errors import ParameterError
+from ..progress import Progress, silent
+from ..surface import Surface
+
+KEEP_NORMAL = 0.3
+"""Least cosine between the normals of a face before and after a collapse."""
+KEEP_SHAPE = 0.45
+"""Least quality of a new face: 4 sqrt(3) area / sum of squared sides, 1 if equilateral."""
+EVENNESS = 0.05
+"""Weight of (edge length)^4 beside the quadric error, of the same unit: keeps triangles even where all is flat."""
+MOST_NEIGHBOURS = 9
+CHEAPEST = 0.5
+"""A round considers this share of the vertices, those cheapest to remove."""
+
+
+def refined(surface: Surface) -> Surface:
+    """Each face cut into four at the middles of its edges; the old vertices keep their ids and come first."""
+    f, n, x = surface.faces, len(surface.vertices), surface.vertices
+    edges = surface.edges
+    key = edges[:, 0] * n + edges[:, 1]
+
+    def middle(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        return n + np.searchsorted(key, np.minimum(a, b) * n + np.maximum(a, b))
+
+    a, b, c = f.T
+    ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+    faces = np.concatenate([np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    return Surface(np.concatenate([x, x[edges].mean(axis=1)]), faces, surface.name)
+
+
+def resized(surface: Surface, count: int, progress: Progress | None = None) -> Surface:
+    """The surface with exactly `count` vertices: refined until it has as many, then simplified.
+
+    Raises ParameterError as `simplified`.
+    """
+    if count > 2 * len(surface.vertices):
+        # A refined coarse mesh is more even than a fine one with vertices taken out, and quicker to make.
+        times = int(np.ceil(np.log(count / len(surface.vertices)) / np.log(4)))
+        spare = 3 * surface.component_count + len(surface.boundary_edges)
+        surface = simplified(surface, min(len(surface.vertices), count // 4**times + spare))[0]
+    while len(surface.vertices) < count:
+        surface = refined(surface)
+    return simplified(surface, count, progress)[0]
+
+
+def simplified(surface: Surface, count: int, progress: Progress | None = None) -> tuple[Surface, np.ndarray]:
+    """The surface with `count` of its vertices, and (count,) their ids there, ascending.
+
+    Topology and boundary loops stay; vertices of edges with more than two faces stay.  Raises ParameterError if that
+    leaves more than `count`, or if there are not so many to begin with.
+    """
+    n = len(surface.vertices)
+    if not 4 <= count <= n:
+        raise ParameterError(f"{surface.name} has {n} vertices and cannot be simplified to {count}.")
+    x, faces = surface.vertices, surface.faces
+    quadrics = _quadrics(surface)
+    alive = np.ones(n, bool)
+    rng = np.random.default_rng(0)
+    left, idle = n, 0
+    report = progress or silent
+    while left > count:
+        gone, onto = _round(x, faces, quadrics, left - count, rng, 1.0 if idle else CHEAPEST)
+        idle = 0 if len(gone) else idle + 1
+        if idle > 10:
+            raise ParameterError(f"{surface.name} cannot be simplified below {left} vertices without damage.")
+        follow = np.arange(n)
+        follow[gone] = onto
+        np.add.at(quadrics, onto, quadrics[gone])
+        faces = follow[faces]
+        faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+        alive[gone] = False
+        left -= len(gone)
+        report((n - left) / (n - count), "simplifying")
+    ids = np.flatnonzero(alive)
+    return Surface(x[ids], np.searchsorted(ids, faces), surface.name), ids
+
+
+def _round(
+    x: np.ndarray, faces: np.ndarray, quadrics: np.ndarray, most: int, rng: np.random.Generator, share: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """At most `most` vertices to remove, no two with a common neighbour, and the neighbour each is drawn onto."""
+    n = len(x)
+    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    key, count = np.unique(sides[:, 0] * n + sides[:, 1], return_counts=True)
+    edges = np.stack([key // n, key % n], 1)
+    valence = np.bincount(edges.ravel(), minlength=n)
+    rim = np.bincount(edges[count == 1].ravel(), minlength=n) > 0
+    fixed = np.bincount(edges[count > 2].ravel(), minlength=n) > 0
+    both = np.concatenate([edges, edges[:, ::-1]])
+    on_rim = np.tile(count == 1, 2)
+    u, v = both.T
+    allowed = ~fixed[u] & (~rim[u] | on_rim) & (valence[u] + valence[v] - 4 <= MOST_NEIGHBOURS)
+    u, v, on_rim = u[allowed], v[allowed], on_rim[allowed]
+    length = np.linalg.norm(x[u] - x[v], axis=1)
+    at = np.concatenate([x[v], np.ones((len(v), 1))], axis=1)
+    cost = np.maximum(np.einsum("ki,kij,kj->k", at, quadrics[u], at), 0) + EVENNESS * length**4
+    # A little chance, so that the choice does not follow the order of the triangles.
+    cost *= rng.uniform(0.7, 1.4, len(cost))
+    best = np.lexsort((cost, u))
+    best = best[np.append(True, np.diff(u[best]) > 0)] if len(best) else best
+    best = best[np.argsort(cost[best])]
+    best = best[: max(1, int(np.ceil(share * len(best))))]
+    u, v, cost, on_rim = u[best], v[best], cost[best], on_rim[best]
+
+    neighbours = sp.csr_array((np.ones(len(both), np.int8), both.T), shape=(n, n))
+    common = np.asarray(neighbours[u].multiply(neighbours[v]).sum(axis=1)).ravel()
+    good = common == np.where(on_rim, 1, 2)
+    good[good] = _harmless(x, faces, u[good], v[good])
+    u, v, cost = u[good], v[good], cost[good]
+
+    rank = np.full(n, n)
+    rank[u] = np.arange(len(u))
+    nearest = rank
+    for _ in range(2):
+        spread = nearest.copy()
+        np.minimum.at(spread, both[:, 0], nearest[both[:, 1]])
+        nearest = spread
+    chosen = np.flatnonzero(nearest[u] == rank[u])[:most]
+    return u[chosen], v[chosen]
+
+
+def _harmless(x: np.ndarray, faces: np.ndarray, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """(k,) whether drawing u onto v turns no face over and makes none too thin."""
+    corner = faces.T.ravel()
+    order = np.argsort(corner, kind="stable")
+    start = np.searchsorted(corner[order], np.arange(len(x) + 1))
+    size = start[u + 1] - start[u]
+    which = np.repeat(np.arange(len(u)), size)
+    place = np.arange(size.sum()) - np.repeat(np.cumsum(size) - size, size)
+    side = order[start[u][which] + place]
+    m = len(faces)
+    face, k = side % m, side // m
+    a, b = faces[face, (k + 1) % 3], faces[face, (k + 2) % 3]
+    stays = (a != v[which]) & (b != v[which])
+    which, a, b = which[stays], a[stays], b[stays]
+    old = np.cross(x[a] - x[u[which]], x[b] - x[u[which]])
+    new = np.cross(x[a] - x[v[which]], x[b] - x[v[which]])
+    area = np.linalg.norm(new, axis=1)
+    sides = sum(((p - q) ** 2).sum(axis=1) for p, q in ((x[a], x[b]), (x[b], x[v[which]]), (x[v[which]], x[a])))
+    bad = np.einsum("ij,ij->i", old, new) <= KEEP_NORMAL * np.linalg.norm(old, axis=1) * area
+    bad |= 2 * np.sqrt(3) * area <= KEEP_SHAPE * sides
+    return np.bincount(which[bad], minlength=len(u)) == 0
+
+
+def _quadrics(surface: Surface) -> np.ndarray:
+    """(n, 4, 4): at (x, 1), the sum over the faces at a vertex of area times squared distance to the face's plane.
+
+    At a boundary also to the plane through the edge that is upright on the face, so that the rim stays in place.
+    """
+    x, faces = surface.vertices, surface.faces
+    a, b, c = (x[faces[:, k]] for k in range(3))
+    area = surface.face_areas
+    with np.errstate(invalid="ignore", divide="ignore"):
+        normal = np.nan_to_num(np.cross(b - a, c - a) / (2 * area[:, None]))
+    quadrics = np.zeros((len(x), 4, 4))
+    plane = np.concatenate([normal, -np.einsum("ij,ij->i", normal, a)[:, None]], axis=1)
+    for k in range(3):
+        np.add.at(quadrics, faces[:, k], area[:, None, None] / 3 * plane[:, :, None] * plane[:, None, :])
+    n = len(x)
+    rim = np.sort(surface.boundary_edges, axis=1)
+    rim_keys = rim[:, 0] * n + rim[:, 1]
+    for k in range(3):
+        i, j = faces[:, k], faces[:, (k + 1) % 3]
+        mine = np.isin(np.minimum(i, j) * n + np.maximum(i, j), rim_keys)
+        i, j, side = i[mine], j[mine], x[j[mine]] - x[i[mine]]
+        upright = np.cross(side, normal[mine])
+        upright /= np.maximum(np.linalg.norm(upright, axis=1, keepdims=True), 1e-300)
+        plane = np.concatenate([upright, -np.einsum("ij,ij->i", upright, x[i])[:, None]], axis=1)
+        term = (side**2).sum(axis=1)[:, None, None] * plane[:, :, None] * plane[:, None, :]
+        np.add.at(quadrics, i, term)
+        np.add.at(quadrics, j, term)
+    return quadrics

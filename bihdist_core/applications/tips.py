@@ -1,0 +1,37 @@
+"""The tips of a shape, where functions without needless extrema have some nevertheless."""
+
+import numpy as np
+import numpy.typing as npt
+
+from ..analysis.persistence import extrema
+from ..laplacian import Laplacian
+from ..surface import Surface
+
+PROMINENT = 0.05
+"""A tip is a maximum of the eccentricity that persists over this share of its range."""
+NEAR = 0.1
+"""An extremum is at a tip if it is within this share of the root of the surface's area of it, in a straight line."""
+
+
+def tips(laplacian: Laplacian, share: float = PROMINENT) -> np.ndarray:
+    """(t,) the vertices at the tips of a shape: its limbs' ends, the most prominent first on each component.
+
+    They are the maxima of the mean squared biharmonic distance to all other points that persist over a share of its
+    range.  A function without other extrema than a few given ones has one at each tip that has none of these: along a
+    limb it must go up or down.
+    """
+    found = []
+    for component in laplacian.components:
+        if len(component.vertices) > 1:
+            ends = extrema(component.surface, component.biharmonic_eccentricity, share).maxima
+            found.append(component.vertices[ends])
+    return np.concatenate(found) if found else np.zeros(0, int)
+
+
+def at_tips(surface: Surface, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> np.ndarray:
+    """(k,) whether vertices (k,) are at one of the tips `ends` (t,), within NEAR roots of the area of it."""
+    x = surface.vertices
+    ids, tip_ids = np.asarray(vertices, int), np.asarray(ends, int)
+    away = np.linalg.norm(x[ids][:, None] - x[tip_ids], axis=2)
+    is_near: np.ndarray = away.min(axis=1, initial=np.inf) <= NEAR * float(np.sqrt(surface.face_areas.sum()))
+    return is_near

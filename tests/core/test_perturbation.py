@@ -1,0 +1,100 @@
+"""Meshes that were changed on purpose: by how much, where, and with which vertices."""
+
+import numpy as np
+import pytest
+
+from bihdist_core import ParameterError, Surface, noisy, read_surface, with_holes, write_mesh
+from bihdist_core.applications.perturbation import (
+    Perturbation,
+    face_at,
+    image_of,
+    perturbed,
+    vertex_normals,
+    without,
+)
+from tests.shapes import bumpy, sphere
+
+
+def test_noise_along_normals_is_along_them_and_as_large_as_said():
+    s = bumpy(3000)
+    moved = noisy(s, 0.4, seed=3, along="normals").vertices - s.vertices
+    normals = vertex_normals(s)
+    along = (moved * normals).sum(axis=1)
+    assert moved == pytest.approx(along[:, None] * normals, abs=1e-12)
+    assert along.std() == pytest.approx(0.4 * s.mean_edge_length, rel=0.05)
+    everywhere = noisy(s, 0.4, seed=3).vertices - s.vertices
+    assert everywhere.std(axis=0) == pytest.approx(3 * [0.4 * s.mean_edge_length], rel=0.05)
+
+
+def test_normals_of_a_sphere_point_outward():
+    s = sphere(800)
+    centred = s.vertices - s.vertices.mean(axis=0)
+    outward = centred / np.linalg.norm(centred, axis=1, keepdims=True)
+    assert np.abs((vertex_normals(s) * outward).sum(axis=1)).min() > 0.99
+
+
+def test_the_seed_decides():
+    s = bumpy(300)
+    assert (noisy(s, 1, 5).vertices == noisy(s, 1, 5).vertices).all()
+    assert (noisy(s, 1, 5).vertices != noisy(s, 1, 6).vertices).any()
+    assert np.array_equal(with_holes(s, 3, 0.1, 5).faces, with_holes(s, 3, 0.1, 5).faces)
+
+
+def test_holes_are_as_wide_as_said():
+    s = bumpy(3000)
+    one = with_holes(s, 1, 0.2, seed=4)
+    lost = s.face_areas.sum() - one.face_areas.sum()
+    assert one.boundary_loop_count == 1
+    assert 0.5 * np.pi * 0.2**2 < lost / s.face_areas.sum() < 1.2 * np.pi * 0.2**2
+    assert len(one.vertices) == len(s.vertices)
+    with pytest.raises(ParameterError, match="larger radius"):
+        with_holes(s, 1, 0.001)
+    with pytest.raises(ParameterError, match="Nothing of bumpy"):
+        without(s, np.arange(3000))
+
+
+def test_what_is_brushed_is_taken_out():
+    s = bumpy(300)
+    brushed = np.unique(s.faces[(s.faces == 7).any(axis=1)])
+    rest = without(s, brushed)
+    assert not (rest.faces == 7).any()
+    assert len(s.faces) - len(rest.faces) == np.isin(s.faces, brushed).all(axis=1).sum()
+
+
+def test_changes_are_made_in_order_and_vertices_are_known_again():
+    s = bumpy(600)
+    change = Perturbation(simplify=400, noise=0.01, holes=1, radius=0.1, handle=(5, 300), seed=2)
+    result, ids = perturbed(s, change)
+    old = ids >= 0
+    assert old.sum() == 400
+    assert len(ids) == len(result.vertices)
+    apart = np.linalg.norm(result.vertices[old] - s.vertices[ids[old]], axis=1)
+    assert 0 < apart.max() < 0.1 * s.mean_edge_length
+    assert image_of(s, ids, int(ids[7]), result) == 7 or result.component_of_vertex[7] < 0
+    assert "simplified to 400" in str(change)
+    assert "seed 2" in str(change)
+
+
+def test_a_handle_between_two_vertices_makes_the_genus_one():
+    s = bumpy(600)
+    low, high = int(s.vertices[:, 2].argmin()), int(s.vertices[:, 2].argmax())
+    for change in (Perturbation(handle=(low, high)), Perturbation(weld=(low, high))):
+        result, _ = perturbed(s, change)
+        assert result.genus == 1
+    assert s.face_areas[face_at(s, low)] == s.face_areas[(s.faces == low).any(axis=1)].max()
+
+
+@pytest.mark.parametrize(("share", "along", "words"), [(-1, "xyz", "-1"), (1, "z", "'z'"), (np.inf, "xyz", "inf")])
+def test_noise_that_cannot_be_is_refused(share, along, words):
+    with pytest.raises(ParameterError, match=words):
+        noisy(bumpy(60), share, along=along)
+
+
+@pytest.mark.parametrize("name", ["m.off", "m.obj", "m.ply", "m.vtp"])
+def test_meshes_are_read_as_they_were_written(tmp_path, name):
+    s = bumpy(150)
+    lonely = Surface(np.concatenate([s.vertices, [[1e-30, 0.1, 1 / 3]]]), s.faces)
+    write_mesh(tmp_path / name, lonely)
+    again = read_surface(tmp_path / name)
+    assert np.array_equal(again.vertices, lonely.vertices)
+    assert np.array_equal(again.faces, lonely.faces)
