@@ -7,6 +7,7 @@ A document says what is wanted and holds nothing that is computed.  It is hashab
 from dataclasses import dataclass, replace
 from typing import Any
 
+from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, checked_source, whole_number
@@ -23,6 +24,7 @@ from .instruments import (
     Profile,
     Scatter,
     Selection,
+    check_name,
 )
 from .looks import (
     AS_IT_IS,
@@ -148,12 +150,19 @@ def isolines_in(zoom: Zoom, isolines: Isolines) -> Isolines:
 
 @dataclass(frozen=True)
 class Anchor:
-    """A marked point, filled with the colour of a value; of the field's own there if it is None."""
+    """A marked point, filled with the colour of a value; of the field's own there if it is None.
+
+    Interpolants have the values of those that have one, unless they are left out.  name: for the user, that of the
+    point if empty.
+    """
 
     point: str
     value: float | None = None
+    left_out: bool = False
+    name: str = ""
 
     def __post_init__(self) -> None:
+        check_name(self.name, "anchor")
         if self.value is not None:
             object.__setattr__(self, "value", float(self.value))
         if self.value is not None and not abs(self.value) <= LARGEST:
@@ -167,9 +176,10 @@ class Document:
     areas: which vertex areas the operators have.  range: where colour bars end, one of RANGES.  height: a flat surface
     becomes a relief whose highest point is this share of its extent.  next_id: of the panel that is added next.
     fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
-    projection: one of PROJECTIONS.  axes: whether their directions are shown.  regions: the panels, by id, that show
-    the regions of the pins by their distance.  extrema: whether those of the fields are marked.  docks: those of
-    DOCKS that are open; dock_places: where they were when this was saved, None for where docks are at first.
+    projection: one of PROJECTIONS.  axes: whether their directions are shown.  weights: of anchors, for interpolants.
+    regions: the panels, by id, that show the regions of the pins by their distance.  extrema: whether those of the
+    fields are marked.  docks: those of DOCKS that are open; dock_places: where they were when this was saved, None for
+    where docks are at first.
     snap: whether the pointer puts sources on vertices, and not anywhere in faces.
     """
 
@@ -182,6 +192,7 @@ class Document:
     camera: View = "home"
     zooms: tuple[Zoom, ...] = ()
     anchors: tuple[Anchor, ...] = ()
+    weights: Weights = INVERSE_DISTANCES
     height: float = 0.0
     tool: str = "source"
     next_id: int = 0

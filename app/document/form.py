@@ -3,6 +3,7 @@
 from dataclasses import fields
 from typing import Any
 
+from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import BoundaryLoop, Curve, Place, Source, SourceSet
@@ -13,7 +14,7 @@ from .document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom
 from .instruments import ALONG_ALL_PINS, AS_LISTED, FIRST_TWO, DockPlaces, Pin, PinList, Profile, Scatter, Selection
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
-from .quantities import Difference, DistanceFrom, OwnField, Part, Quantity
+from .quantities import Difference, DistanceFrom, Interpolant, OwnField, Part, Quantity
 
 LATER: dict[str, Any] = {
     "fields": [],
@@ -23,6 +24,7 @@ LATER: dict[str, Any] = {
     "up": "y",
     "projection": "perspective",
     "axes": False,
+    "weights": {},
     "pins": [],
     "pin_list": {},
     "profile": {},
@@ -48,7 +50,8 @@ def document_data(document: Document) -> dict[str, Any]:
         "isolines": _isolines_data(document.isolines),
         "colours": _unlike(document.colours, OF_THE_STYLE),
         "shading": _unlike(document.shading, AS_IT_IS),
-        "anchors": [plain(anchor) for anchor in document.anchors],
+        "anchors": [_anchor_data(anchor) for anchor in document.anchors],
+        "weights": _unlike(document.weights, INVERSE_DISTANCES),
         "fields": [plain(field) for field in document.fields],
         "pins": [plain(pin) for pin in document.pins],
         "pin_list": _pin_list_data(document.pin_list),
@@ -79,6 +82,10 @@ def _pin_list_data(pins: PinList) -> dict[str, Any]:
     return data if pins.distance is None else {**data, "distance": pins.distance.in_full}
 
 
+def _anchor_data(anchor: Anchor) -> dict[str, Any]:
+    return {"point": anchor.point, "value": anchor.value, **_unlike(anchor, Anchor(anchor.point, anchor.value))}
+
+
 def _isolines_data(isolines: Isolines) -> int | dict[str, Any]:
     data = _unlike(isolines, Isolines(isolines.count))
     return {"count": isolines.count, **data} if data else isolines.count
@@ -107,6 +114,8 @@ def _quantity_data(shows: Quantity) -> dict[str, Any]:
         return {"difference": [_quantity_data(part) for part in shows.parts], "raw": shows.raw}
     if isinstance(shows, OwnField):
         return {"field": shows.name}
+    if isinstance(shows, Interpolant):
+        return {"interpolant": shows.spec.in_full, **({"total": True} if shows.total else {})}
     return {"distance": shows.spec.in_full, "from": shows.point}
 
 
@@ -123,6 +132,7 @@ def document_from(data: Any, where: str = "document") -> Document:
         "camera": read_view,
         "zooms": listed(read_zoom),
         "anchors": listed(_anchor),
+        "weights": _weights,
         "height": number,
         "tool": text,
         "next_id": whole,
@@ -196,6 +206,9 @@ def _quantity(data: Any, where: str) -> Quantity:
 def _part(data: Any, where: str) -> Part:
     if isinstance(data, dict) and "field" in data:
         return OwnField(record(data, where, {"field": text})["field"])
+    if isinstance(data, dict) and "interpolant" in data:
+        values = record(data, where, {"interpolant": _spec, "total": flag}, {"interpolant"})
+        return Interpolant(values["interpolant"], values.get("total", False))
     values = record(data, where, {"distance": _spec, "from": text})
     return DistanceFrom(values["distance"], values["from"])
 
@@ -205,7 +218,12 @@ def _spec(data: Any, where: str) -> Spec:
 
 
 def _anchor(data: Any, where: str) -> Anchor:
-    return placed(Anchor, where, **record(data, where, {"point": text, "value": or_none(number)}))
+    readers = {"point": text, "value": or_none(number), "left_out": flag, "name": text}
+    return placed(Anchor, where, **record(data, where, readers, {"point", "value"}))
+
+
+def _weights(data: Any, where: str) -> Weights:
+    return placed(Weights, where, **record(data, where, {"exponent": number, "smoothness": number}, set()))
 
 
 def read_isolines(data: Any, where: str) -> Isolines:

@@ -8,7 +8,7 @@ from bihdist_core.errors import ParameterError
 
 from .looks import one_of
 
-DOCKS = ("pins", "profile", "scatter", "statistics", "quality", "regions", "sources")
+DOCKS = ("pins", "profile", "scatter", "statistics", "quality", "regions", "sources", "anchors")
 """The instruments, each in a dock of the window."""
 
 SECTIONS = {"section": "shorter", "section-longer": "longer", "section-whole": "whole"}
@@ -38,7 +38,7 @@ class Pin:
     colour: int = 0
 
     def __post_init__(self) -> None:
-        _check_name(self.name, "pin")
+        check_name(self.name, "pin")
         _check_colour(self.colour)
 
 
@@ -115,7 +115,7 @@ class Selection:
     surface: str = "A"
 
     def __post_init__(self) -> None:
-        _check_name(self.name, "selection")
+        check_name(self.name, "selection")
         _check_colour(self.colour)
         ends = [end for run in self.runs for end in run]
         apart = all(a[1] + 1 < b[0] for a, b in zip(self.runs[:-1], self.runs[1:], strict=True))
@@ -123,7 +123,7 @@ class Selection:
             raise ParameterError("A selection is runs of vertex ids that go up and do not touch.")
 
 
-def _check_name(name: str, what: str) -> None:
+def check_name(name: str, what: str) -> None:
     if name and (not name.isprintable() or len(name) > LONGEST_NAME or name != name.strip()):
         raise ParameterError(f"The name of a {what} has up to {LONGEST_NAME} printable letters, not {name[:80]!r}.")
 

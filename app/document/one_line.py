@@ -30,7 +30,7 @@ from .said import (
     with_value,
 )
 from .said_looks import say_colours, say_isolines, say_range, say_shading
-from .said_marks import say_anchors, say_pins, say_profile, say_regions, say_selections, say_zooms
+from .said_marks import say_anchors, say_pins, say_profile, say_regions, say_selections, say_weights, say_zooms
 from .starts import Starts, as_argument
 
 
@@ -173,7 +173,8 @@ ROWS = (
     Row(("Document.areas",), of_document("areas", "--areas", "areas")),
     Row(("Document.camera", "Page.views"), _views),
     Row(("Document.zooms", "Zoom.vertex", "Zoom.factor", "Zoom.corner", "Zoom.isolines"), say_zooms),
-    Row(("Document.anchors", "Anchor.point", "Anchor.value"), say_anchors),
+    Row(("Document.anchors", "Anchor.point", "Anchor.value", "Anchor.left_out"), say_anchors),
+    Row(("Document.weights",), say_weights),
     Row(
         (
             "Document.isolines",
@@ -224,6 +225,7 @@ UNSEEN = {
     "Document.scatter": "for the window's chart",
     "Profile.shares": "for the window's chart",
     "Pin.name": "figures show numbers",
+    "Anchor.name": "figures show colours",
     "Panel.id": "for the window and the history",
     "Panel.surface": "with one mesh all panels are of it",
     "Page.format": "the file's name says it",

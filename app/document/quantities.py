@@ -88,7 +88,58 @@ class OwnField:
         return "a field of your own"
 
 
-Part = DistanceFrom | OwnField
+@dataclass(frozen=True)
+class Interpolant:
+    """The values of the document's anchors, interpolated by a distance (paper, section 5.2); it starts nowhere.
+
+    total: the sum of the anchors' weights instead.
+    """
+
+    spec: Spec
+    total: bool = False
+
+    def __str__(self) -> str:
+        return f"{self._before}{self.spec}"
+
+    @property
+    def _before(self) -> str:
+        return TOTAL if self.total else INTERPOLANT
+
+    @property
+    def parts(self) -> "tuple[Part, ...]":
+        return (self,)
+
+    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
+        (part,) = parts
+        return part
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return ()
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    @property
+    def word(self) -> str:
+        return f"{self._before}{self.spec.word}"
+
+    @property
+    def title(self) -> str:
+        return f"{self._before}{self.spec.kind.name.lower()}"
+
+    @property
+    def hint(self) -> str:
+        if self.total:
+            return "how far the anchors' influence reaches, as the logarithm of the sum of their weights"
+        return "no extrema but at the anchors, and at tips of the shape without one"
+
+
+INTERPOLANT, TOTAL = "interpolant by ", "weights by "
+"""What the words of an interpolant begin with."""
+
+Part = DistanceFrom | OwnField | Interpolant
 """What a difference is made of."""
 
 
@@ -127,7 +178,7 @@ class Difference:
         return f"positive where {self.minuend.title} is larger, negative where {self.subtrahend.title} is"
 
 
-Quantity = DistanceFrom | OwnField | Difference
+Quantity = DistanceFrom | OwnField | Interpolant | Difference
 """What a panel can show: something with a value at every vertex."""
 
 
@@ -138,6 +189,8 @@ def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
 
 def quantity(text: str, point: str = "source", fields: Collection[str] = (), **parameters: object) -> Quantity:
     """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
+
+    "interpolant by biharmonic" is as good as a distance.
 
     fields: names of the user's own, each as good as a distance.  parameters: values of those not named in the text.
     ParameterError for what is neither.
@@ -150,7 +203,13 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
     found: list[Part] = []
     for part in (part.strip() for part in parts):
         try:
-            found.append(OwnField(part) if part in fields else DistanceFrom(Spec.parse(part, **parameters), point))
+            if part in fields:
+                found.append(OwnField(part))
+            elif part.startswith((INTERPOLANT, TOTAL)):
+                distance = part.removeprefix(INTERPOLANT).removeprefix(TOTAL)
+                found.append(Interpolant(Spec.parse(distance, **parameters), part.startswith(TOTAL)))
+            else:
+                found.append(DistanceFrom(Spec.parse(part, **parameters), point))
         except ParameterError as error:
             names = f" The fields are {', '.join(fields)}." if fields else ""
             raise ParameterError(f"{error}{names}") from None

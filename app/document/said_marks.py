@@ -11,7 +11,7 @@ from .instruments import PIN_COLOURS, SECTIONS
 from .measuring import runs_in_words
 from .page import Recipe
 from .profile_words import profile_words, shows_path
-from .said import NOTHING, Said, Unsaid, digits, vertex_of
+from .said import NOTHING, Said, Unsaid, digits, if_unusual, vertex_of
 
 MOST_LETTERS = 1000
 """Of selected vertices in a line that somebody is to read."""
@@ -38,8 +38,19 @@ def say_anchors(recipe: Recipe) -> Said:
         return NOTHING
     if len(dict(marks)) < len(marks) or None in dict(marks):
         raise Unsaid("Two marks are at one vertex, or one is where nobody has put it.")
+    if any(anchor.left_out for anchor in document.anchors):
+        raise Unsaid("An anchor is left out.")
     words = ",".join(f"{vertex}" if value is None else f"{vertex}={digits(value)}" for vertex, value in marks)
     return Said((("--anchors", words),), {"anchors": dict(marks)})
+
+
+def say_weights(recipe: Recipe) -> Said:
+    weights = recipe.document.weights
+    found = [
+        if_unusual(weights.exponent, 1.0, "--exponent", "exponent"),
+        if_unusual(weights.smoothness, 0.0, "--smoothness", "smoothness"),
+    ]
+    return Said(found[0].options + found[1].options, {**found[0].arguments, **found[1].arguments})
 
 
 def say_pins(recipe: Recipe) -> Said:

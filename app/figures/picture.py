@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bihdist_core import ParameterError
+from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source, checked_source
@@ -104,6 +105,8 @@ def figure(
     camera: Sequence[float] | None = None,
     zooms: Sequence[int | tuple[int, float] | tuple[int, float, int]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
+    exponent: float = 1.0,
+    smoothness: float = 0.0,
     pins: Sequence[Source | str] = (),
     extrema: bool = False,
     regions: str | Sequence[int] = (),
@@ -172,6 +175,7 @@ def figure(
         document,
         points=(*document.points, *(Point(name, vertex) for name, vertex in zip(names, marked, strict=True))),
         anchors=tuple(Anchor(name, value) for name, value in zip(names, marked.values(), strict=True)),
+        weights=Weights(exponent, smoothness),
         zooms=tuple(_zoom(zoom) for zoom in zooms),
         isolines=lines,
         colours=replace(found, reversed=reversed or found.reversed, bands=bands or found.bands),

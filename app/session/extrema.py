@@ -10,7 +10,15 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.sourcing import members_of
-from .questions import DifferenceQuestion, DistanceQuestion, FieldQuestion, Question, source_at
+from .questions import (
+    DifferenceQuestion,
+    DistanceQuestion,
+    FieldQuestion,
+    InterpolantQuestion,
+    Question,
+    source_at,
+    vertex_at,
+)
 
 
 def start_of(question: Question, field: np.ndarray, surface: Surface) -> Source | None:
@@ -21,6 +29,8 @@ def start_of(question: Question, field: np.ndarray, surface: Surface) -> Source 
     """
     if isinstance(question, FieldQuestion):
         return apparent_source(field)
+    if isinstance(question, InterpolantQuestion):
+        return SourceSet(tuple(vertex_at(at, surface) for at, _ in question.anchors))
     parts = (question.minuend, question.subtrahend) if isinstance(question, DifferenceQuestion) else (question,)
     starts = [source_at(each.at, surface) for each in parts if isinstance(each, DistanceQuestion)]
     members = tuple(dict.fromkeys(member for start in starts for member in members_of(start)))

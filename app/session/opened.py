@@ -9,10 +9,19 @@ from typing import Any
 
 import numpy as np
 
-from bihdist_core import Laplacian, ParameterError, Surface, read_surface
+from bihdist_core import (
+    BihdistError,
+    Cancelled,
+    Laplacian,
+    ParameterError,
+    ShepardInterpolant,
+    Surface,
+    VertexError,
+    read_surface,
+)
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.distances.accuracy import Certificate
-from bihdist_core.distances.answers import Answer, Distances, difference_of
+from bihdist_core.distances.answers import Answer, Distances, difference_of, failed
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 
@@ -20,7 +29,10 @@ from ..document.document import Document, MeshFile
 from ..document.file import checksum
 from ..samples import mesh_path
 from .given import Given
-from .questions import DifferenceQuestion, FieldQuestion, Question, source_at
+from .questions import DifferenceQuestion, FieldQuestion, InterpolantQuestion, Question, source_at, vertex_at
+
+NO_ANCHORS = "There is no anchor with a value: click the surface to set one."
+"""What a panel of an interpolant says before there is one."""
 
 
 class Opened:
@@ -32,6 +44,7 @@ class Opened:
         self.prepared: Any = None
         self._given = given or Given()
         self._distances: dict[str, Distances] = {}
+        self._interpolants: dict[tuple[str, Spec], ShepardInterpolant] = {}
         self._lock = threading.Lock()
 
     @cached_property
@@ -61,8 +74,42 @@ class Opened:
             field = self._given.field(question.field.sha256, question.field.name)
             is_signed = bool(np.nanmin(field, initial=0.0) < 0)
             return Answer(label=question.field.name, field=field, certificate=Certificate(), is_signed=is_signed)
+        if isinstance(question, InterpolantQuestion):
+            return self._interpolated(question, progress)
         source = source_at(question.at, self.surface)
         return self.distances(question.areas).answer(question.spec, source, progress, at_once)
+
+    def _interpolated(self, question: InterpolantQuestion, progress: Progress | None) -> Answer:
+        """What is known of the last interpolant by the same distance is used again."""
+        if not question.anchors:
+            return Answer(label=str(question), failure=NO_ANCHORS)
+        key = (question.areas, question.spec)
+        try:
+            distance = self.distances(question.areas).get(question.spec, part(progress, 0, 0.8))
+            vertices = [vertex_at(at, self.surface) for at, _ in question.anchors]
+            values = [value for _, value in question.anchors]
+            weights = question.weights
+            with self._lock:
+                last = self._interpolants.get(key)
+            if last is None or last.distance is not distance:
+                last = ShepardInterpolant(distance, vertices, values)
+            interpolant = last.changed(vertices, values, weights.exponent, weights.smoothness)
+            found = interpolant.sum_of_weights if question.total else interpolant.evaluate
+            field = found(part(progress, 0.8, 1))
+        except (Cancelled, VertexError):
+            raise
+        except (BihdistError, MemoryError) as error:
+            return failed(str(question), error)
+        with self._lock:
+            self._interpolants[key] = interpolant
+        if question.total:
+            # At the anchors themselves it is infinite.
+            field = np.minimum(field, field[np.isfinite(field)].max(initial=0.0))
+        field.flags.writeable = False
+        is_signed = bool(np.nanmin(field, initial=0.0) < 0)
+        label = f"{'weights' if question.total else 'interpolant'} by {distance.label}"
+        unit = "powers of ten" if question.total else ""
+        return Answer(label=label, unit=unit, field=field, certificate=Certificate(), is_signed=is_signed)
 
     def settled(self, document: Document) -> Document:
         """The document with this surface's checksum, and its points on it.
@@ -98,6 +145,9 @@ class Opened:
         """Forget distances with other areas, and of these what `Distances.keep` forgets."""
         with self._lock:
             self._distances = {known: d for known, d in self._distances.items() if known == areas}
+            self._interpolants = {
+                key: i for key, i in self._interpolants.items() if key[0] == areas and key[1] in wanted
+            }
         if areas in self._distances:
             self._distances[areas].keep(wanted)
 

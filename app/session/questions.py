@@ -7,12 +7,13 @@ import numpy as np
 
 from bihdist_core import Surface
 from bihdist_core.analysis.upright import axis_of
+from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document, FieldArray, MeshFile
-from ..document.quantities import Difference, OwnField, Part, Quantity
+from ..document.quantities import Difference, Interpolant, OwnField, Part, Quantity
 
 
 @dataclass(frozen=True)
@@ -68,11 +69,42 @@ class FieldQuestion:
 
 
 @dataclass(frozen=True)
+class InterpolantQuestion:
+    """Values at vertices, interpolated by a distance; or, if total, the sum of the weights."""
+
+    mesh: MeshFile
+    areas: str
+    spec: Spec
+    anchors: tuple[tuple[Source | None, float], ...]
+    weights: Weights = INVERSE_DISTANCES
+    total: bool = False
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "InterpolantQuestion":
+        (spec,) = specs
+        return replace(self, spec=spec)
+
+    @property
+    def about(self) -> Hashable:
+        """All but where the anchors are, and their values."""
+        return (self.mesh, self.areas, self.spec, self.total, "interpolant")
+
+    def __str__(self) -> str:
+        return str(Interpolant(self.spec, self.total))
+
+
+PartQuestion = DistanceQuestion | FieldQuestion | InterpolantQuestion
+
+
+@dataclass(frozen=True)
 class DifferenceQuestion:
     """One answer less another, on the same surface."""
 
-    minuend: DistanceQuestion | FieldQuestion
-    subtrahend: DistanceQuestion | FieldQuestion
+    minuend: PartQuestion
+    subtrahend: PartQuestion
     raw: bool = False
 
     @property
@@ -100,7 +132,7 @@ class DifferenceQuestion:
         return f"{self.minuend} - {self.subtrahend}"
 
 
-Question = DistanceQuestion | FieldQuestion | DifferenceQuestion
+Question = PartQuestion | DifferenceQuestion
 
 
 def are_about_the_same(one: Question, other: Question) -> bool:
@@ -116,9 +148,13 @@ def questions(document: Document) -> dict[int, Question]:
 def _question(document: Document, surface: str, shows: Quantity) -> Question:
     mesh, areas = document.mesh(surface), document.areas
 
-    def asked(part: Part) -> DistanceQuestion | FieldQuestion:
+    def asked(part: Part) -> PartQuestion:
         if isinstance(part, OwnField):
             return FieldQuestion(mesh, areas, document.field(part.name))
+        if isinstance(part, Interpolant):
+            anchors = [(document.point(anchor.point), anchor) for anchor in document.anchors if not anchor.left_out]
+            known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
+            return InterpolantQuestion(mesh, areas, part.spec, known, document.weights, part.total)
         return DistanceQuestion(mesh, areas, part.spec, document.point(part.point).at)
 
     if isinstance(shows, Difference):

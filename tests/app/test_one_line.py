@@ -22,6 +22,7 @@ from app.document.profile_words import shows_path, with_profile
 from app.document.quantities import Difference, DistanceFrom, OwnField
 from app.document.starts import curves_in
 from bihdist_core import BoundaryLoop, Curve, ParameterError, Place, SourceSet
+from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.words import curve_text
 from tests.shapes import bumpy
@@ -151,6 +152,8 @@ EXAMPLES = {
     "Zoom.corner": lambda d, p: (replace(d, zooms=(Zoom(11, corner="top left"),)), p),
     "Zoom.isolines": lambda d, p: (replace(d, zooms=(Zoom(11, isolines=60),)), p),
     "Anchor.point": lambda d, p: (replace(d, points=(*d.points, Point("m", 8)), anchors=(Anchor("m"),)), p),
+    "Anchor.left_out": lambda d, p: (replace(d, anchors=(Anchor("source", 0.25, left_out=True),)), p),
+    "Document.weights": lambda d, p: (replace(d, weights=Weights(2.5, 0.25)), p),
     "Anchor.value": lambda d, p: (replace(d, anchors=(Anchor("source", 0.25),)), p),
     "Isolines.count": lambda d, p: (replace(d, isolines=Isolines(0)), p),
     "Isolines.spacing": lambda d, p: (replace(d, isolines=Isolines(spacing=1 / 3)), p),
@@ -187,7 +190,7 @@ ELSEWHERE = {
     "Document.height": "needs a flat mesh: see its test",
 }
 
-WORDLESS = {"Zoom.corner", "Pin.colour"} | {
+WORDLESS = {"Zoom.corner", "Pin.colour", "Anchor.left_out"} | {
     name
     for name in EXAMPLES
     if name == "Colours.stops" or name == "Isolines.through"  # the source itself
