@@ -9,13 +9,47 @@ import re
 import sys
 from collections.abc import Sequence
 
-from .commands import field, figure, info, isolines, movie, pairs, paper, profile, regions, samples, statistics, view
+from .commands import (
+    correspond,
+    evaluate,
+    field,
+    figure,
+    info,
+    interpolate,
+    isolines,
+    movie,
+    pairs,
+    paper,
+    perturb,
+    profile,
+    regions,
+    samples,
+    statistics,
+    view,
+)
 from .commands.mesh import check_mesh
 from .version import version
 
 COMMANDS = {
     module.__name__.rpartition(".")[2]: module
-    for module in (view, field, pairs, profile, isolines, statistics, samples, regions, figure, movie, info, paper)
+    for module in (
+        view,
+        field,
+        pairs,
+        profile,
+        isolines,
+        statistics,
+        samples,
+        regions,
+        interpolate,
+        correspond,
+        evaluate,
+        perturb,
+        figure,
+        movie,
+        info,
+        paper,
+    )
 }
 """By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`."""
 

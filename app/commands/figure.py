@@ -30,6 +30,6 @@ def run(options: argparse.Namespace) -> int:
     surface = figure.panels[0].surface
     tell_repairs(surface)
     starts = [source_at(at, surface) for at in recipe.document.sources]
-    what = "source vertex" if all(isinstance(each, int) for each in starts) else "source"
-    print(f"{options.output}: {described(figure)}, {what} {', '.join(map(short_words_of, starts))}")
+    what = ", source vertex " if all(isinstance(each, int) for each in starts) else ", source "
+    print(f"{options.output}: {described(figure)}{what if starts else ''}{', '.join(map(short_words_of, starts))}")
     return judged(answers, surface.name)

@@ -74,6 +74,10 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         help="enlarge the place of a vertex, perhaps with N steps of isolines",
     )
     parser.add_argument("--anchors", type=_anchors, metavar="V[=VALUE],…", help="mark vertices, coloured by a value")
+    parser.add_argument("--exponent", type=float, metavar="P", help="of anchors' weights in interpolants (default: 1)")
+    parser.add_argument(
+        "--smoothness", type=float, metavar="S", help="how far anchors' cones are rounded in interpolants, 0 to 1 (0)"
+    )
     add_pins(parser)
     _add_switch(parser, "extrema", "triangles at maxima and at minima away from the source (default: no)")
     parser.add_argument(
@@ -146,7 +150,8 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     document, rows = _with_panels(document, options)
     if options.anchors is not None:
         document = _with_anchors(document, options.anchors)
-    document = with_pins(document, options)
+    weights = replace(document.weights, **_given(options, "exponent", "smoothness"))
+    document = with_pins(replace(document, weights=weights), options)
     document = with_path(document, options)
     if options.regions is not None:
         from ..document.edits import divide

@@ -43,9 +43,14 @@ def check_mesh(word: str, commands: Iterable[str] = ()) -> None:
 
 
 def read_laplacian(options: argparse.Namespace) -> "Laplacian":
-    """Read it, say what was repaired, and take the areas that were asked for."""
+    """That of the mesh that was named, with the areas that were asked for."""
+    return laplacian_of(options.mesh, options.areas)
+
+
+def laplacian_of(mesh: str, areas: str | None = None) -> "Laplacian":
+    """Read a mesh and say what was repaired."""
     from bihdist_core import Laplacian, read_surface
 
-    surface = read_surface(found_mesh(options.mesh))
+    surface = read_surface(found_mesh(mesh))
     tell_repairs(surface)
-    return Laplacian(surface, options.areas or AREAS[0])
+    return Laplacian(surface, areas or AREAS[0])

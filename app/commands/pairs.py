@@ -1,23 +1,19 @@
 """`bihdist pairs`: distances between chosen vertices, or all of them, into a file."""
 
 import argparse
-import re
 from typing import TYPE_CHECKING
 
 from .mesh import read_laplacian
 from .options import add_areas, add_distance, positive, specs, vertices
-from .terminal import accuracy, counted, progress_line, tell
+from .terminal import accuracy, counted, progress_line, tell, tell_moved
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from bihdist_core.analysis.all_pairs import Begun
     from bihdist_core.distances.kinds import Spec
     from bihdist_core.formats.pins import Pins
     from bihdist_core.surface import Surface
 
 WORDS = "distances between chosen vertices"
-WHOLE = re.compile("-?[0-9]{1,18}")
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -46,6 +42,7 @@ def run(options: argparse.Namespace) -> None:
     from bihdist_core.distances.answers import Distances
     from bihdist_core.errors import ParameterError
     from bihdist_core.formats.field_output import ARRAY_FORMATS, write_array
+    from bihdist_core.formats.vertex_maps import read_pairs
     from bihdist_core.whole_file import check_output
 
     extension = check_output(options.output, (".npy",) if options.all else ARRAY_FORMATS)
@@ -65,7 +62,7 @@ def run(options: argparse.Namespace) -> None:
             among = pins.vertices if pins else laplacian.surface.check_vertices(options.vertices)
             pairs = np.array([(i, j) for k, i in enumerate(among) for j in among[k + 1 :]]).reshape(-1, 2)
         else:
-            pairs = pairs_in(options.file) if options.file else np.array(options.pairs)
+            pairs = read_pairs(options.file) if options.file else np.array(options.pairs)
             laplacian.surface.check_vertices(np.unique(pairs))
         is_matrix = bool(options.vertices or pins) and extension == ".npy" and len(chosen) == 1
         answers, lines = [], []
@@ -125,45 +122,11 @@ def _size(count: int) -> str:
 
 def pins_in(path: str, surface: "Surface") -> "Pins":
     """The pins in a file; how far they had to be moved is said."""
-    import numpy as np
-
     from bihdist_core.formats.pins import read_pins
 
     pins = read_pins(path, surface)
-    # Positions are often written with seven digits.
-    size = float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
-    far = np.flatnonzero(pins.moved > 1e-6 * size)
-    if len(far):
-        most = int(pins.moved.argmax())
-        tell(
-            f"{path}: {counted(len(far), 'pin')} moved to a vertex; the farthest, {pins.ids[most]}, by "
-            f"{pins.moved[most]:.3g} ({pins.moved[most] / size:.2%} of the mesh's size)."
-        )
+    tell_moved(path, "pin", pins.moved, pins.ids.tolist(), surface)
     return pins
-
-
-def pairs_in(path: str) -> "np.ndarray":
-    """(m, 2) ids from a file with a line `i,j` for each pair; a first line of words is a header."""
-    import numpy as np
-
-    from bihdist_core.errors import ParameterError
-
-    pairs = []
-    try:
-        with open(path, encoding="utf-8-sig") as lines:
-            for number, line in enumerate(lines, 1):
-                words = [word.strip() for word in line.replace(";", ",").split(",")]
-                if not line.strip() or (number == 1 and not WHOLE.fullmatch(words[0])):
-                    continue
-                if len(words) < 2 or not all(WHOLE.fullmatch(word) for word in words[:2]):
-                    raise ParameterError(f"{path}, line {number}: {line.strip()!r} is not a pair of ids such as 1,2.")
-                pairs.append((int(words[0]), int(words[1])))
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not a text file"
-        raise ParameterError(f"The pairs in {path} cannot be read: {reason}.") from None
-    if not pairs:
-        raise ParameterError(f"{path} holds no pairs; each line is two vertex ids such as 1,2.")
-    return np.array(pairs)
 
 
 def _pair(text: str) -> list[int]:

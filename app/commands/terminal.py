@@ -3,11 +3,13 @@
 import os
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from bihdist_core import Distance, Surface
     from bihdist_core.distances.answers import Answer
     from bihdist_core.progress import Progress
@@ -71,5 +73,21 @@ def judged(answers: "Iterable[Answer]", name: str) -> int:
     return 1 if failures else 0
 
 
-def counted(count: int, noun: str) -> str:
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+def counted(count: int, noun: str, several: str = "") -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {several or noun + 's'}"
+
+
+def tell_moved(path: str, noun: str, moved: "np.ndarray", names: "Sequence[object]", surface: "Surface") -> None:
+    """Say how far the points of a file (k,) had to be moved to vertices, if any were."""
+    import numpy as np
+
+    # Positions are often written with seven digits.
+    size = float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
+    far = np.flatnonzero(moved > 1e-6 * size)
+    if len(far):
+        most = int(moved.argmax())
+        name = names[most] or most + 1
+        tell(
+            f"{path}: {counted(len(far), noun)} moved to a vertex; the farthest, {name}, by "
+            f"{moved[most]:.3g} ({moved[most] / size:.2%} of the mesh's size)."
+        )

@@ -1,0 +1,117 @@
+"""`bihdist perturb`: a mesh with noise, fewer vertices, holes, or parts grown together; how far distances change."""
+
+import argparse
+from typing import TYPE_CHECKING
+
+from .mesh import laplacian_of
+from .options import add_distance, positive, source, specs, vertices
+from .terminal import counted, progress_line
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from bihdist_core.distances.kinds import Spec
+    from bihdist_core.laplacian import Laplacian
+    from bihdist_core.sources.source import Source
+
+WORDS = "a mesh with noise, fewer vertices, holes, or parts grown together, to see what distances withstand"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    parser.add_argument("--simplify", type=_whole, metavar="N", help="leave N vertices, at their places")
+    parser.add_argument("--noise", type=positive, metavar="S", help="Gaussian, of S mean edge lengths")
+    parser.add_argument("--along", choices=("xyz", "normals"), default="xyz", help="for --noise (default: xyz)")
+    parser.add_argument("--holes", type=_whole, metavar="N", help="N round holes at random vertices")
+    parser.add_argument(
+        "--radius", type=positive, default=0.05, metavar="R", help="of holes, in roots of the area (default: 0.05)"
+    )
+    parser.add_argument("--weld", type=_pair, metavar="I,J", help="let the surface grow together at two vertices")
+    parser.add_argument("--handle", type=_pair, metavar="I,J", help="a thin tube from one vertex to another")
+    parser.add_argument("--seed", type=_seed, default=0, metavar="K", help="of noise and holes (default: 0)")
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .off, .obj, .ply or .vtp file")
+    parser.add_argument("--source", type=source, metavar="V", help="with --distance: where its fields start")
+    add_distance(parser, "say how much it changes; repeat for more")
+
+
+def run(options: argparse.Namespace) -> None:
+    from bihdist_core.applications.perturbation import Perturbation, perturbed
+    from bihdist_core.errors import ParameterError
+    from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
+    from bihdist_core.laplacian import Laplacian
+    from bihdist_core.whole_file import check_output
+
+    check_output(options.output, MESH_FORMATS)
+    change = Perturbation(
+        simplify=options.simplify,
+        noise=options.noise or 0.0,
+        along=options.along,
+        holes=options.holes or 0,
+        radius=options.radius,
+        weld=options.weld,
+        handle=options.handle,
+        seed=options.seed,
+    )
+    if change == Perturbation(along=options.along, radius=options.radius, seed=options.seed):
+        raise ParameterError("Nothing would change; say --noise, --simplify, --holes, --weld or --handle.")
+    chosen = specs(options, list(dict.fromkeys(options.distance or [])))
+    with progress_line() as progress:
+        before = laplacian_of(options.mesh)
+        after, kept = perturbed(before.surface, change, progress)
+    write_mesh(options.output, after)
+    size = f"{counted(len(after.vertices), 'vertex', 'vertices')}, {counted(len(after.faces), 'face')}"
+    print(f"{options.output}: {size}; {change}")
+    if chosen:
+        _say_changes(before, Laplacian(after), kept, options.source, chosen)
+
+
+def _say_changes(
+    before: "Laplacian", after: "Laplacian", kept: "np.ndarray", source: "Source | None", chosen: "list[Spec]"
+) -> None:
+    """How far the fields from one vertex differ, at the vertices that both meshes have."""
+    from bihdist_core.analysis.diagnostics import field_change
+    from bihdist_core.applications.perturbation import image_of
+    from bihdist_core.distances.answers import Distances
+
+    from ..session.questions import vertex_at
+
+    there = image_of(before.surface, kept, vertex_at(source, before.surface), after.surface)
+    start, common = int(kept[there]), kept >= 0
+    with progress_line() as progress:
+        one, two = Distances(before), Distances(after)
+        for spec in chosen:
+            old = one.get(spec, progress).from_source(start, progress)[kept[common]]
+            new = two.get(spec, progress).from_source(there, progress)[common]
+            found = field_change(old, new)
+            print(
+                f"{spec} from {start}: changes by {found.normalised_mean:.3g} of its maximum in the mean, at most "
+                f"{found.normalised_largest:.3g}; before each is divided by its own, {found.mean:.3g} and "
+                f"{found.largest:.3g}"
+            )
+
+
+def _whole(text: str) -> int:
+    try:
+        count = int(text)
+    except ValueError:
+        count = 0
+    if count < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1")
+    return count
+
+
+def _seed(text: str) -> int:
+    try:
+        seed = int(text)
+    except ValueError:
+        seed = -1
+    if seed < 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no seed (a whole number from 0)")
+    return seed
+
+
+def _pair(text: str) -> tuple[int, int]:
+    pair = vertices(text)
+    if len(pair) != 2:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a pair of vertex ids such as 1,2")
+    return pair[0], pair[1]

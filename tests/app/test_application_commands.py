@@ -1,0 +1,127 @@
+"""`bihdist interpolate`, `correspond`, `evaluate` and `perturb`, as they are typed."""
+
+import csv
+
+import numpy as np
+import pytest
+
+from app.main import main
+from app.samples import mesh_path
+from bihdist_core import (
+    BiharmonicDistance,
+    Correspondence,
+    GeodesicDistance,
+    ShepardInterpolant,
+    error_curve,
+    field_change,
+    map_errors,
+    noisy,
+    read_surface,
+    write_mesh,
+)
+from tests.shapes import bumpy
+
+
+@pytest.fixture
+def meshes(tmp_path):
+    """A shape, and the same with a little noise."""
+    s = bumpy(400)
+    write_mesh(tmp_path / "a.off", s)
+    write_mesh(tmp_path / "b.off", noisy(s, 0.1))
+    return str(tmp_path / "a.off"), str(tmp_path / "b.off")
+
+
+def test_interpolate_writes_what_python_has(meshes, tmp_path, capsys):
+    anchors, out = tmp_path / "anchors.csv", tmp_path / "field.npy"
+    anchors.write_text("vertex,value\n3,1\n200,-2\n350,0.5\n")
+    words = ["--exponent", "2", "--smoothness", "0.1", "--distance", "biharmonic", "--distance", "geodesic"]
+    assert main(["interpolate", meshes[0], "--anchors", str(anchors), *words, "-o", str(out)]) == 0
+    surface = read_surface(meshes[0])
+    for column, kind in zip(np.load(out).T, (BiharmonicDistance, GeodesicDistance), strict=True):
+        alone = ShepardInterpolant(kind(surface), [3, 200, 350], [1, -2, 0.5], 2, 0.1).evaluate()
+        assert column == pytest.approx(alone, abs=1e-12)
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 2
+    assert "3 anchors" in said[0]
+    assert "besides the anchors" in said[1]
+
+
+def test_correspond_and_evaluate_say_what_python_has(meshes, tmp_path, capsys):
+    pairs, out, curve = tmp_path / "pairs.csv", tmp_path / "map.txt", tmp_path / "curve.csv"
+    pairs.write_text("i,j\n3,3\n200,200\n350,350\n90,90\n")
+    assert main(["correspond", *meshes, "--pairs", str(pairs), "--truth", "identity", "-o", str(out)]) == 0
+    said = capsys.readouterr().out.splitlines()
+    one, two = map(read_surface, meshes)
+    known = [[3, 3], [200, 200], [350, 350], [90, 90]]
+    found = Correspondence(BiharmonicDistance(one), BiharmonicDistance(two), known).map()
+    assert np.array_equal(np.loadtxt(out, int), found)
+    judged = error_curve(map_errors(GeodesicDistance(two), found, np.arange(400)))
+    assert (
+        f"mean {judged.mean:.4g}, median {judged.median:.4g}, area under the curve to 0.25 {judged.area:.4g}" in said[1]
+    )
+    np.save(tmp_path / "zero.npy", np.zeros(400, int))
+    maps = [str(out), str(tmp_path / "zero.npy")]
+    assert main(["evaluate", *meshes, *maps, "--truth", "identity", "-o", str(curve)]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert f"mean {judged.mean:.4g}" in said[0]
+    rows = list(csv.DictReader(curve.read_text().splitlines()))
+    assert float(rows[40]["map"]) == pytest.approx(judged.shares(float(rows[40]["error"])))
+    assert float(rows[-1]["zero"]) < 0.5
+
+
+def test_evaluate_counts_partners_and_draws_the_curve(meshes, tmp_path, capsys):
+    np.savetxt(tmp_path / "half.txt", np.roll(np.arange(400), 200), "%d")
+    words = [
+        "--truth",
+        "identity",
+        "--samples",
+        "50",
+        "--geodesic",
+        "dijkstra",
+        "--symmetry",
+        str(tmp_path / "half.txt"),
+    ]
+    assert main(["evaluate", *meshes, str(tmp_path / "half.txt"), *words, "-o", str(tmp_path / "curve.pdf")]) == 0
+    without, counted, drawn = capsys.readouterr().out.splitlines()
+    assert "mean 0," not in without
+    assert "mean 0, median 0, area under the curve to 0.25 1; geodesic, Dijkstra" in counted
+    assert counted.endswith("50 vertices, partners count")
+    assert drawn.endswith("2 curves")
+    assert (tmp_path / "curve.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_perturb_writes_the_mesh_and_says_the_change(meshes, tmp_path, capsys):
+    out = tmp_path / "noisy.off"
+    words = ["--noise", "0.4", "--along", "normals", "--seed", "1", "--distance", "biharmonic", "--source", "9"]
+    assert main(["perturb", meshes[0], *words, "-o", str(out)]) == 0
+    one, two = read_surface(meshes[0]), read_surface(out)
+    assert np.array_equal(two.vertices, noisy(one, 0.4, 1, "normals").vertices)
+    change = field_change(*(BiharmonicDistance(s).from_source(9) for s in (one, two)))
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].endswith("noise of 0.4 edges along normals, seed 1")
+    assert f"changes by {change.normalised_mean:.3g} of its maximum" in said[1]
+
+
+def test_a_sample_is_simplified_and_compared_where_vertices_stay(tmp_path, capsys):
+    out = tmp_path / "small.ply"
+    assert main(["perturb", "hand", "--simplify", "900", "--distance", "biharmonic", "-o", str(out)]) == 0
+    assert len(read_surface(out).vertices) == 900
+    assert "biharmonic from" in capsys.readouterr().out
+    assert len(read_surface(mesh_path("hand")).vertices) > 900
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["perturb", "hand", "-o", "x.off"], "Nothing would change"),
+        (["perturb", "hand", "--noise", "1", "-o", "x.stl"], ".off, .obj, .ply, .vtp"),
+        (["interpolate", "hand", "--anchors", "gone.csv", "-o", "x.npy"], "gone.csv"),
+        (["correspond", "hand", "hand", "--pairs", "gone.csv", "-o", "x.npy"], "gone.csv"),
+        (["evaluate", "hand", "figure", "identity", "--truth", "identity"], "are no map between them"),
+    ],
+)
+def test_what_cannot_be_is_said(words, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(words) == 2
+    assert said in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
