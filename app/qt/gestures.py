@@ -9,6 +9,7 @@ from bihdist_core.sources.source import Source
 
 from ..document.edits import move_source, show_in
 from ..document.quantities import Quantity
+from .anchor_gestures import AnchorGestures
 from .look.numbers import number
 from .pin_gestures import PinGestures
 from .source_gestures import SourceGestures
@@ -41,6 +42,7 @@ class Gestures:
         self._has_followed = False  # the source, since it became live
         self.sources = SourceGestures(window)
         self.pins = PinGestures(window, self.sources)
+        self.anchors = AnchorGestures(window)
         self._rest_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
         self._rest_soon.timeout.connect(self._release)
         self._stepped_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
@@ -68,7 +70,10 @@ class Gestures:
     # ------------------------------------------------------------------ the source
     def _click(self, panel: int, met: "Met") -> None:
         self._window.picked.emit(panel, met)
-        self._move(panel, self.sources.at(met))
+        if self.anchors.are_meant(panel):
+            self.anchors.put(panel, met)
+        else:
+            self._move(panel, self.sources.at(met))
 
     def _move(self, panel: int, at: Source, **how: object) -> None:
         session = self._window.session
@@ -76,13 +81,14 @@ class Gestures:
 
     def _drag(self, panel: int, mark: int, met: "Met") -> None:
         self.is_dragging = True
-        self.sources.drag(panel, mark, met)
+        (self.anchors if self.anchors.are_meant(panel) else self.sources).drag(panel, mark, met)
 
     def _release(self) -> None:
         """The source has arrived: now all is answered, and what is late is said to be."""
         self._rest_soon.stop()
         self.is_dragging = False
         self.sources.rest()
+        self.anchors.rest()
         self._window.session.show(self._window.session.document)
 
     def set_live(self, is_live: bool) -> None:
@@ -139,7 +145,8 @@ class Gestures:
         self._grid.pointing.show(panel, vertex)
         window.docks.pointed(vertex)
         window.status.show_place(vertex, None if vertex is None else window.session.surface.vertices[vertex])
-        if self.is_live and met is not None and (last is None or self.sources.at(met) != self.sources.at(last)):
+        is_led = self.is_live and not self.anchors.are_meant(panel)
+        if is_led and met is not None and (last is None or self.sources.at(met) != self.sources.at(last)):
             self.is_dragging = self._has_followed = True
             self.sources.rate.begin()
             self._move(panel, self.sources.at(met), key="live", live=True)
@@ -176,8 +183,11 @@ class Gestures:
         if met is not None:
             view, vertex = self._grid.panel(panel).view, met.vertex
             self._grid.pointing.show(panel, vertex)
-            menu.addAction("Source here\tClick", lambda: self._click(panel, met))
-            self.sources.offer(menu, panel, met)
+            if self.anchors.are_meant(panel):
+                self.anchors.offer(menu, panel, met)
+            else:
+                menu.addAction("Source here\tClick", lambda: self._click(panel, met))
+                self.sources.offer(menu, panel, met)
             self.pins.offer(menu, panel, met, where)
             menu.addSeparator()
             menu.addAction("Isoline through here", lambda: window.choices.isoline.pass_through(panel, vertex))

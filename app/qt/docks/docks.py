@@ -34,6 +34,7 @@ STACKED = 2
 
 def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
     """By word: the title, and what makes the instrument; the imports wait until one is opened."""
+    from .anchors import AnchorsDock
     from .pins import PinsDock
     from .profile_dock import ProfileDock
     from .quality import QualityDock
@@ -42,6 +43,7 @@ def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
     from .statistics_dock import StatisticsDock
 
     return {
+        "anchors": ("Anchors", AnchorsDock),
         "pins": ("Pins", PinsDock),
         "profile": ("Profile", ProfileDock),
         "quality": ("Quality", QualityDock),
@@ -84,6 +86,12 @@ class Docks:
 
     def close(self, word: str) -> None:
         self._keep(tuple(each for each in self._window.session.document.docks if each != word))
+
+    def choose_anchor(self, point: str) -> None:
+        """Let the anchor at a point stand out, in the list, too."""
+        self._window.grid.choose_anchor(point)
+        if "anchors" in self._window.session.document.docks:
+            self._instrument("anchors").choose(point)
 
     def close_all(self) -> None:
         """The window closes."""

@@ -91,7 +91,8 @@ class Findings(QtCore.QObject):
 
     @property
     def _is_marking(self) -> bool:
-        return self._is_judging or (self._window.session.document.extrema and self._is_there)
+        document = self._window.session.document
+        return self._is_judging or ((document.extrema or "anchors" in document.docks) and self._is_there)
 
     @property
     def _is_there(self) -> bool:

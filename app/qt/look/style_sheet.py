@@ -63,6 +63,8 @@ QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox, QPlainTextEdit, QTextEdit, QText
   color: {theme.text}; border: 1px solid {theme.strong}; border-radius: 5px; padding: 3px 6px;
   selection-background-color: {theme.selection}; selection-color: {theme.text}; }}
 QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ min-height: 20px; }}
+QLineEdit[plain="true"] {{ background: transparent; border: 1px solid transparent; }}
+QLineEdit[plain="true"]:hover {{ border: 1px solid {theme.strong}; }}
 QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus {{ border: 2px solid {theme.accent};
   padding: 2px 5px; }}
 QLineEdit[wrong="true"] {{ border: 2px solid {theme.error}; padding: 2px 5px; }}

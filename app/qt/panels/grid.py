@@ -8,6 +8,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from ...document.camera import Camera
 from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
+from ...document.quantities import Interpolant
 from ...drawing.board import Board
 from ...drawing.style import PAPER, Style
 from ...session.anchors import anchors_on
@@ -17,6 +18,7 @@ from ...session.pinned import pinned_on
 from ...session.questions import pieces_at, vertex_at
 from ...session.session import Session
 from ..look.look import LOOK
+from ..look.numbers import tick
 from .eye import Eye
 from .line_labels import LineLabels
 from .moving import Moving
@@ -86,6 +88,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._is_closed = False
         self.pointing = Pointing()
         self.lit: tuple[str, ...] = ()  # the points of pins that stand out
+        self.chosen_anchor = ""  # the point of the one that does
         self._selected: np.ndarray | None = None
         self._brush: QtGui.QCursor | None = None
         LOOK.changed.connect(self.update)
@@ -249,8 +252,20 @@ class PanelGrid(QtWidgets.QWidget):
     def mark_anchors(self, document: Document) -> None:
         """Put the anchors of each panel's surface where they are."""
         for panel in document.panels:
-            opened = self._session.opened(panel.surface)
+            opened, marks = self._session.opened(panel.surface), self._panels[panel.id].marks
             self._panels[panel.id].mark_anchors(anchors_on(document, panel.surface, opened))
+            if not any(isinstance(part, Interpolant) for part in panel.shows.parts):
+                marks.hold_anchors(None)
+                continue
+            here = [a for a in document.anchors if document.point(a.point).surface == panel.surface]
+            texts = ["" if a.value is None or a.left_out else tick(a.value) for a in here]
+            marks.hold_anchors([a.point for a in here], texts, self.chosen_anchor)
+
+    def choose_anchor(self, point: str) -> None:
+        """Let the anchor at this point stand out, "" for none."""
+        if point != self.chosen_anchor:
+            self.chosen_anchor = point
+            self.mark_anchors(self._session.document)
 
     def show_pins(self, document: Document) -> None:
         """Put the pins of each panel's surface where they are."""

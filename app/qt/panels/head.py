@@ -6,13 +6,13 @@ from html import escape
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.edits import PANEL_EDITS
-from ...document.quantities import Difference, DistanceFrom, OwnField, Quantity
+from ...document.quantities import Difference, Interpolant, OwnField, Quantity
 from ..look.icons import pixmap
 from ..look.look import LOOK
 from .flat_button import ICON_SIDE, FlatButton
 from .number_box import PopUp
 from .parameters import ChoiceControl, Control, FixedWord, NumberControl, parameter_control, signs
-from .quantity_menu import RAW_WORDS, Choices, fill_menu, part_name, quantity_name
+from .quantity_menu import RAW_WORDS, Choices, fill_menu, kind_name, offered_kinds, part_name, quantity_name
 
 HEIGHT, COMPACT_HEIGHT = 36, 32
 
@@ -179,9 +179,10 @@ class PanelHead(QtWidgets.QWidget):
         for control in self.controls:
             control.hide()
             control.deleteLater()
-        parts = [part for part in self.shows.parts if isinstance(part, DistanceFrom)]
+        parts = [part for part in self.shows.parts if not isinstance(part, OwnField)]
         signed = iter(signs([p for part in parts for p in part.spec.kind.parameters]))
         self._mode: ChoiceControl | None = None
+        self._by: ChoiceControl | None = None
         self._of_parameter: dict[tuple[int, str], Control] = {}
         is_difference = isinstance(self.shows, Difference)
         for place, part in enumerate(self.shows.parts):
@@ -197,6 +198,11 @@ class PanelHead(QtWidgets.QWidget):
                 lambda raw: self._choose(Difference(self.shows.minuend, self.shows.subtrahend, raw))
             )
             self.controls.append(self._mode)
+        elif isinstance(self.shows, Interpolant):
+            words = {kind.word: f"by {kind_name(kind).lower()}" for kind in offered_kinds()}
+            self._by = ChoiceControl(self, words, "By which distance it is interpolated")
+            self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
+            self.controls.insert(0, self._by)
         elif not self.controls and self.shows.word in EXACT:
             self.controls.append(FixedWord(self, "exact", "Of all eigenpairs; there is nothing to choose"))
         order = [self.name]
@@ -214,6 +220,8 @@ class PanelHead(QtWidgets.QWidget):
             control.show_value(self.shows.parts[place].spec[name])
         if self._mode is not None:
             self._mode.show_value(self.shows.raw)
+        if self._by is not None:
+            self._by.show_value(self.shows.spec.word)
         self._lay_out()
 
     # ------------------------------------------------------------------ where things are

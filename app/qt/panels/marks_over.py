@@ -11,6 +11,7 @@ from ...drawing.camera import camera_seen, frame
 from ...drawing.lines_of_sight import pixels_in
 from ...drawing.picking import pixel_of
 from . import overlay
+from .anchor_labels import AnchorLabel, paint_anchor_labels
 from .extremum_marks import ExtremumMarks
 from .overlay import Pointed
 from .path_marks import PathMarks
@@ -37,6 +38,8 @@ class MarksOver:
         self._pins: tuple[PinMark, ...] = ()
         self._unseen: frozenset[int] | None = None  # which pins the surface hides; None until it is looked
         self._covered = QtCore.QRect()  # by the ring and its label
+        self._labels: tuple[AnchorLabel, ...] = ()
+        self._unlabelled: frozenset[int] | None = None  # which of them the surface hides; None until it is looked
         self._dabs: list[tuple[str, QtGui.QPolygonF]] = []  # of a brush that is down
 
     # ------------------------------------------------------------------ what there is
@@ -62,6 +65,12 @@ class MarksOver:
         """Put drops at these places."""
         if pins != self._pins:
             self._pins, self._unseen = pins, None
+            self._view.update()
+
+    def show_anchors(self, labels: Sequence[AnchorLabel]) -> None:
+        """Write values beside anchors."""
+        if labels or self._labels:
+            self._labels, self._unlabelled = tuple(labels), None
             self._view.update()
 
     def pin_at(self, position: QtCore.QPoint) -> int:
@@ -90,7 +99,7 @@ class MarksOver:
 
     def see(self) -> None:
         """Another picture has been drawn: what is hidden in it?"""
-        self._unseen = None
+        self._unseen = self._unlabelled = None
         self.path.see(self._view.scene, self._view.board)
         self._covered = self._cover()
 
@@ -107,6 +116,8 @@ class MarksOver:
         if self._has_axes:
             at = middle(view.width(), view.height(), view.scene.insets.corners)
             overlay.paint_axes(painter, arms(frame(camera_seen(view.camera, 1.0))), at)
+        if self._labels:
+            paint_anchor_labels(painter, self._seen_labels(), view.width())
         if self._pins:
             paint_pins(painter, self._seen_pins(), self._hidden_pins())
         if self.sentence:
@@ -144,6 +155,18 @@ class MarksOver:
             if view.scene.insets.renderer_at(x, y) is renderer:
                 found[pin.number] = (pin, QtCore.QPointF(x / ratio, view.height() - y / ratio))
         return found
+
+    def _seen_labels(self) -> list[tuple[AnchorLabel, QtCore.QPointF]]:
+        """Those whose places are seen."""
+        if self._unlabelled is None:
+            self._unlabelled = frozenset(
+                k for k, label in enumerate(self._labels) if not self._view.sees(label.position)
+            )
+        return [
+            (label, self._view.place_of(label.position))
+            for k, label in enumerate(self._labels)
+            if k not in self._unlabelled
+        ]
 
     def _hidden_pins(self) -> frozenset[int]:
         """The numbers of those that the surface is before."""

@@ -15,6 +15,7 @@ from ...drawing.style import PINS
 from ...session.anchors import anchor_value
 from ...session.passed import Passed
 from ...session.pinned import PinnedPlace
+from .anchor_labels import AnchorLabel
 from .pin_marks import PinMark
 from .view import View
 
@@ -32,6 +33,7 @@ class PanelMarks:
         self._pieces: tuple[Pieces, ...] = ()
         self._lines: list[SourceLine] = []
         self.anchors: Sequence[tuple[int, float | None]] = ()
+        self._held: Sequence[AnchorLabel] | None = None
         self._pins: Sequence[PinnedPlace] = ()
         self._lit: Collection[str] = ()
         self._path: Places | None = None
@@ -44,6 +46,7 @@ class PanelMarks:
         self.positions = np.empty((0, 3))
         self._forget()
         self._view.over.show_pins(())
+        self._view.over.show_anchors(())
         self._view.handles, self._view.over.strokes = np.empty((0, 3)), ()
         self._put_extrema()
         self._put_path()
@@ -75,7 +78,8 @@ class PanelMarks:
         points = [each.points.positions(self.positions)[0] for each in self._pieces if has_shape]
         places = np.concatenate(points) if points else np.empty((0, 3))
         lines = [(line.positions(self.positions), line.is_closed) for line in self._lines if has_shape]
-        self._view.handles = places
+        if self._held is None:
+            self._view.handles = places
         self._view.scene.mark_source(places, lines)
         self._view.redraw()
 
@@ -89,6 +93,24 @@ class PanelMarks:
         values = [anchor_value(value, vertex, answer) for vertex, value in anchors]
         self._view.scene.mark_anchors(self.positions[[vertex for vertex, _ in anchors]], values)
         self._view.redraw()
+
+    def hold_anchors(self, names: Sequence[str] | None, texts: Sequence[str] = (), chosen: str = "") -> None:
+        """Let the anchors, and not the source, be dragged, with their values beside them.
+
+        names: of their points, in their order, None for no more; texts: what stands there, "" for nothing.
+        """
+        view = self._view
+        if names is None:
+            if self._held is not None:
+                self._held, view.handles = None, np.empty((0, 3))
+                view.over.show_anchors(())
+            return
+        places = self.positions[[vertex for vertex, _ in self.anchors]]
+        view.handles = places
+        self._held = [
+            AnchorLabel(at, text, name == chosen) for at, text, name in zip(places, texts, names, strict=True) if text
+        ]
+        view.over.show_anchors(self._held)
 
     # ------------------------------------------------------------------ what measures
     def show_pins(self, pins: Sequence[PinnedPlace], lit: Collection[str] = ()) -> None:

@@ -1,13 +1,14 @@
 """The menu of what a panel can show: distances, the user's own fields, and differences of two."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from qtpy import QtWidgets
 
 from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Kind, Spec, kind_of, kinds
 
-from ...document.quantities import Difference, DistanceFrom, OwnField, Part, Quantity
+from ...document.quantities import Difference, DistanceFrom, Interpolant, OwnField, Part, Quantity
 from ...document.quantity_names import kind_name as kind_name
 from ...document.quantity_names import part_name as part_name
 from ...document.quantity_names import quantity_name as quantity_name
@@ -38,15 +39,18 @@ class Choices:
     def keep(self, shows: Quantity) -> None:
         """Remember the parameters of what is shown, for each place of a difference."""
         for before, part in zip(self._before, shows.parts, strict=False):
-            if isinstance(part, DistanceFrom):
-                before[part.word] = part.spec
+            if not isinstance(part, OwnField):
+                before[part.spec.word] = part.spec
 
     def with_part(self, shows: Quantity, place: int, chosen: str | OwnField | Spec) -> Quantity:
         """Another distance, by its word or with parameters, or field at a place of what is shown."""
         parts = list(shows.parts)
         # Where distances start, nobody chooses here.
         point = [*parts[place].points, *shows.points, "source"][0]
-        parts[place] = self._part(chosen, place, point)
+        now, found = parts[place], self._part(chosen, place, point)
+        # An interpolant goes over to another distance.
+        is_interpolant = isinstance(now, Interpolant) and isinstance(found, DistanceFrom)
+        parts[place] = replace(now, spec=found.spec) if is_interpolant else found
         return shows.with_parts(tuple(parts))
 
     def difference(self, shows: Part, chosen: str | OwnField) -> Difference:
@@ -66,10 +70,32 @@ def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: 
     if isinstance(shows, Difference):
         _fill_for_difference(menu, shows, choices, choose)
         return
+    if isinstance(shows, Interpolant):
+        _fill_for_interpolant(menu, shows, choices, choose)
+        return
     _add_parts(menu, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
     menu.addSeparator()
+    if isinstance(shows, DistanceFrom):
+        interpolant = Interpolant(shows.spec)
+        _add(menu, "Interpolant by it", "Values at anchors, interpolated by this distance", lambda: choose(interpolant))
     inner = _inner(menu, "Difference with")
     _add_parts(inner, choices, None, lambda chosen: choose(choices.difference(shows, chosen)), _can_differ_from(shows))
+
+
+def _fill_for_interpolant(
+    menu: QtWidgets.QMenu, shows: Interpolant, choices: Choices, choose: Callable[[Quantity], None]
+) -> None:
+    """By which distance; and back to the distance."""
+    for total, words, tip in (
+        (False, "Interpolant", "Values at anchors, interpolated"),
+        (True, "Sum of weights", "How far the anchors' influence reaches"),
+    ):
+        other = replace(shows, total=total)
+        tick(_add(menu, words, tip, lambda other=other: choose(other)), shows.total == total)
+    menu.addSeparator()
+    inner = _inner(menu, f"By {kind_name(shows.spec.kind)}")
+    _add_parts(inner, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
+    _add(menu, "The distance itself", "", lambda: choose(DistanceFrom(shows.spec)))
 
 
 def _can_differ_from(shows: Part) -> Callable[[Part], bool]:
@@ -107,7 +133,7 @@ def _add_parts(
         if is_offered(DistanceFrom(Spec.of(kind.word))):
             hint = f"{kind.hint[:1].upper()}{kind.hint[1:]}"
             action = _add(menu, kind_name(kind), hint, lambda word=kind.word: choose(word))
-            tick(action, now is not None and now.word == kind.word)
+            tick(action, now is not None and not isinstance(now, OwnField) and now.spec.word == kind.word)
     fields = [field for field in map(OwnField, choices.fields) if is_offered(field)]
     if fields:
         menu.addSeparator()

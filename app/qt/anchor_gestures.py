@@ -1,0 +1,90 @@
+"""What is done to anchors on panels that show an interpolant: put, dragged, removed.  `window` is the main window."""
+
+from typing import TYPE_CHECKING
+
+from qtpy import QtWidgets
+
+from bihdist_core import ParameterError
+
+from ..document.anchoring import add_anchor, remove_anchors
+from ..document.document import Document
+from ..document.edits import put_point
+from ..document.quantities import Interpolant
+
+if TYPE_CHECKING:
+    from ..drawing.picking import Met
+
+
+class AnchorGestures:
+    """See the module."""
+
+    def __init__(self, window) -> None:
+        self._window, self._grid = window, window.grid
+        self._moved = ""  # the name of the point that is dragged
+
+    def are_meant(self, panel: int) -> bool:
+        """Whether a panel shows an interpolant, so that what is done there is done to anchors."""
+        shows = self._window.session.document.panel(panel).shows
+        return any(isinstance(part, Interpolant) for part in shows.parts)
+
+    def put(self, panel: int, met: "Met") -> None:
+        """An anchor at a vertex, with the value that the panel has there."""
+        session = self._window.session
+        document, surface = session.document, session.document.panel(panel).surface
+        try:
+            changed, name = add_anchor(document, met.vertex, self._value(panel, met.vertex), surface)
+        except ParameterError as error:  # there are too many
+            self._window.failed(str(error))
+            return
+        session.show(changed)
+        self._window.docks.choose_anchor(name)
+
+    def _value(self, panel: int, vertex: int) -> float:
+        """What is there, so that nothing changes yet; 0 for the first anchor and 1 for the second."""
+        session = self._window.session
+        known = [a for a in session.document.anchors if a.value is not None and not a.left_out]
+        shown = session.shown.get(panel)
+        field = None if shown is None else shown.answer.field
+        if len(known) < 2 or field is None or not session.is_answered(panel):
+            return float(min(len(known), 1))
+        return float(f"{field[vertex]:.3g}")
+
+    def offer(self, menu: QtWidgets.QMenu, panel: int, met: "Met") -> None:
+        """In a menu: what can be done with the place."""
+        name = self._name_at(panel, met.vertex)
+        if name:
+            menu.addAction("Remove this anchor", lambda: self.remove([name]))
+        else:
+            menu.addAction("Anchor here\tClick", lambda: self.put(panel, met))
+
+    def remove(self, points: list[str]) -> None:
+        session = self._window.session
+        session.show(remove_anchors(session.document, points))
+
+    def drag(self, panel: int, mark: int, met: "Met") -> None:
+        """One of the anchors is over a place; one that another has is passed."""
+        session = self._window.session
+        document, surface = session.document, session.document.panel(panel).surface
+        if not self._moved:
+            names = anchor_points(document, surface)
+            if mark >= len(names):
+                return
+            self._moved = names[mark]
+            self._window.docks.choose_anchor(self._moved)
+        if not self._name_at(panel, met.vertex):
+            moved = put_point(document, self._moved, met.vertex, surface)
+            session.show(moved, key=f"drag of {self._moved}", live=True)
+
+    def rest(self) -> None:
+        """It has arrived."""
+        self._moved = ""
+
+    def _name_at(self, panel: int, vertex: int) -> str:
+        document = self._window.session.document
+        names = anchor_points(document, document.panel(panel).surface)
+        return next((name for name in names if document.point(name).at == vertex), "")
+
+
+def anchor_points(document: Document, surface: str) -> list[str]:
+    """The names of the points of the anchors on a surface, in order."""
+    return [a.point for a in document.anchors if document.point(a.point).surface == surface]

@@ -1,0 +1,222 @@
+"""Interpolation in the window: anchors clicked, dragged, valued and left out, by mouse and keyboard."""
+
+import numpy as np
+import pytest
+
+from app.document.quantities import Interpolant
+from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolant, other_extrema
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.sources.source import SourceSet
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+from qtpy import QtCore, QtTest
+
+LEFT = QtCore.Qt.MouseButton.LeftButton
+BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
+
+
+@pytest.fixture
+def opened(screen, mesh_file):
+    s = screen((BIHARMONIC, GEODESIC))
+    s.open(mesh_file(bumpy(700)))
+    s.settle()
+    s.window.actions_by_word["dock anchors"].trigger()
+    s.settle()
+    QtTest.QTest.mouseClick(dock_of(s).start, LEFT)
+    complete(s)
+    return s
+
+
+def dock_of(s):
+    return s.window.docks._instrument("anchors")
+
+
+def click(s, panel, vertex):
+    QtTest.QTest.mouseClick(s.panels[panel].view, LEFT, pos=s.point_of(s.panels[panel], vertex))
+    complete(s)
+
+
+def complete(s):
+    s.until(lambda: s.session.is_complete)
+    s.settle(0.05)
+
+
+def seen_vertices(s, count):
+    """Vertices of the front, far apart."""
+    view = s.panels[0].view
+    found = {}
+    for x in range(3, 18):
+        for y in range(3, 18):
+            met = view.met_at(QtCore.QPoint(view.width() * x // 20, view.height() * y // 20))
+            if met is not None:
+                found[met.vertex] = met.position
+    ids = list(found)
+    chosen = [ids[0]]
+    while len(chosen) < count:
+        away = [min(np.linalg.norm(found[a] - found[b]) for b in chosen) for a in ids]
+        chosen.append(ids[int(np.argmax(away))])
+    return chosen
+
+
+def expected(s, panel, kind):
+    anchors = [a for a in s.document.anchors if not a.left_out]
+    vertices = [s.document.point(a.point).at for a in anchors]
+    weights = s.document.weights
+    distance = kind(s.session.surface)
+    return ShepardInterpolant(
+        distance, vertices, [a.value for a in anchors], weights.exponent, weights.smoothness
+    ).evaluate()
+
+
+def check(s):
+    for panel, kind in enumerate((BiharmonicDistance, GeodesicDistance)):
+        assert s.answers[panel].field == pytest.approx(expected(s, panel, kind), abs=1e-9)
+
+
+def test_clicks_put_anchors_and_every_panel_interpolates_by_its_distance(opened):
+    s = opened
+    assert all(isinstance(panel.shows, Interpolant) for panel in s.document.panels)
+    assert "no anchor" in s.answers[0].failure
+    vertices = seen_vertices(s, 3)
+    for vertex in vertices:
+        click(s, 0, vertex)
+    assert [s.document.point(a.point).at for a in s.document.anchors] == vertices
+    assert [a.value for a in s.document.anchors][:2] == [0, 1]
+    check(s)
+    before = s.answers[0].field
+    click(s, 1, seen_vertices(s, 5)[-1])  # its value is what the panel has there
+    assert np.abs(s.answers[1].field - expected(s, 1, GeodesicDistance)).max() < 1e-9
+    assert len(s.document.anchors) == 4
+    s.window.session.undo()
+    complete(s)
+    assert np.array_equal(s.answers[0].field, before)
+
+
+def test_values_are_typed_slid_and_left_out_and_undone(opened):
+    s = opened
+    for vertex in seen_vertices(s, 3):
+        click(s, 0, vertex)
+    rows = list(dock_of(s).rows.values())
+    rows[1].box.setFocus()
+    rows[1].box.selectAll()
+    QtTest.QTest.keyClicks(rows[1].box, "-2.5")
+    QtTest.QTest.keyClick(rows[1].box, QtCore.Qt.Key.Key_Return)
+    complete(s)
+    assert s.document.anchors[1].value == -2.5
+    assert s.answers[0].is_signed
+    check(s)
+    place = QtCore.QPoint(3 * rows[2].slider.width() // 4, rows[2].slider.height() // 2)
+    QtTest.QTest.mouseClick(rows[2].slider, LEFT, pos=place)
+    complete(s)
+    assert s.document.anchors[2].value != s.document.anchors[1].value
+    check(s)
+    QtTest.QTest.mouseClick(rows[0].eye, LEFT)
+    complete(s)
+    assert s.document.anchors[0].left_out
+    check(s)
+    s.window.session.undo()
+    complete(s)
+    assert not s.document.anchors[0].left_out
+    rows[0].name.setFocus()
+    QtTest.QTest.mouseClick(rows[0].cross, LEFT)
+    complete(s)
+    assert len(s.document.anchors) == 2
+    check(s)
+
+
+def test_letters_for_a_value_are_refused(opened):
+    s = opened
+    click(s, 0, seen_vertices(s, 1)[0])
+    (row,) = dock_of(s).rows.values()
+    row.box.setFocus()
+    row.box.selectAll()
+    QtTest.QTest.keyClicks(row.box, "high")
+    QtTest.QTest.keyClick(row.box, QtCore.Qt.Key.Key_Return)
+    assert row.box.property("wrong")
+    assert s.document.anchors[0].value == 0
+
+
+def test_an_anchor_is_dragged_over_the_surface(opened):
+    s = opened
+    start, stop, other = seen_vertices(s, 3)
+    click(s, 0, start)
+    click(s, 0, other)
+    view = s.panels[0].view
+    QtTest.QTest.mousePress(view, LEFT, pos=s.point_of(s.panels[0], start))
+    a, b = s.point_of(s.panels[0], start), s.point_of(s.panels[0], stop)
+    for k in range(1, 6):
+        move(view, a + (b - a) * k / 5)
+    QtTest.QTest.mouseRelease(view, LEFT, pos=b)
+    complete(s)
+    assert s.document.point(s.document.anchors[0].point).at == stop
+    check(s)
+    s.window.session.undo()  # all the way is one step
+    complete(s)
+    assert s.document.point(s.document.anchors[0].point).at == start
+
+
+def move(view, place):
+    from qtpy import QtGui, QtWidgets
+
+    event = QtGui.QMouseEvent(
+        QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), LEFT, LEFT, QtCore.Qt.KeyboardModifier.NoModifier
+    )
+    QtWidgets.QApplication.sendEvent(view, event)
+
+
+def test_weights_and_extrema_are_those_of_the_library(opened):
+    s = opened
+    for vertex in seen_vertices(s, 4):
+        click(s, 0, vertex)
+    dock = dock_of(s)
+    for box, text in ((dock.exponent, "2.5"), (dock.smoothness, "0.1")):
+        box.setFocus()
+        box.selectAll()
+        QtTest.QTest.keyClicks(box, text)
+        QtTest.QTest.keyClick(box, QtCore.Qt.Key.Key_Return)
+    complete(s)
+    assert (s.document.weights.exponent, s.document.weights.smoothness) == (2.5, 0.1)
+    check(s)
+    s.until(lambda: "…" not in str(dock.extrema.facts) and s.window.docks.findings.is_complete)
+    s.settle(0.05)
+    vertices = SourceSet(tuple(s.document.point(a.point).at for a in s.document.anchors))
+    for panel, (_, at_tips, elsewhere) in enumerate(dock.extrema.facts[1:]):
+        found = other_extrema(s.session.surface, s.answers[panel].field, vertices).vertices
+        assert int(at_tips) + int(elsewhere) == len(found)
+
+
+def test_anchors_are_saved_and_read_and_kept_in_sessions(opened, tmp_path):
+    s = opened
+    for vertex in seen_vertices(s, 3):
+        click(s, 0, vertex)
+    rows = list(dock_of(s).rows.values())
+    rows[0].name.setFocus()
+    rows[0].name.selectAll()
+    QtTest.QTest.keyClicks(rows[0].name, "thumb")
+    QtTest.QTest.keyClick(rows[0].name, QtCore.Qt.Key.Key_Return)
+    complete(s)
+    before, field = s.document, s.answers[0].field
+    s.window.session_file.save(str(tmp_path / "session.json"))
+    from app.document.file import read_recipe
+
+    kept = read_recipe(str(tmp_path / "session.json")).document
+    assert kept.anchors == before.anchors
+    assert kept.anchors[0].name == "thumb"
+    assert "anchors" in kept.docks
+    dock_of(s).remove_all()
+    complete(s)
+    assert not s.document.anchors
+    s.window.session.undo()
+    complete(s)
+    assert np.array_equal(s.answers[0].field, field)
+
+
+def test_panels_go_back_to_distances(opened):
+    s = opened
+    click(s, 0, seen_vertices(s, 1)[0])
+    dock_of(s).end_tool()
+    complete(s)
+    assert [panel.shows.spec for panel in s.document.panels] == [BIHARMONIC, GEODESIC]
+    assert not s.answers[0].failure
+    assert dock_of(s).start.isVisible()
