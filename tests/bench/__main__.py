@@ -12,6 +12,7 @@ from dataclasses import replace
 from datetime import date
 
 from . import (
+    anchor_row,
     drag_row,
     exact_rows,
     growth_rows,
@@ -47,6 +48,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     17: region_row.regions,
     18: scatter_row.scatter,
     19: live_row.live,
+    20: anchor_row.anchor_moved,
 }
 
 
