@@ -54,9 +54,10 @@ def remove_anchors(document: Document, points: Iterable[str]) -> Document:
 
 
 def interpolate(document: Document) -> Document:
-    """Every panel of a distance shows the interpolant by it."""
+    """Every panel of a distance shows the interpolant by it; their colour bars, all of the same values, end alike."""
     return replace(
         document,
+        range="shared" if document.range == "own" else document.range,
         panels=tuple(
             replace(panel, shows=Interpolant(panel.shows.spec), maximum=None)
             if isinstance(panel.shows, DistanceFrom)
@@ -74,6 +75,7 @@ def show_distances(document: Document) -> Document:
     return replace(
         document,
         points=points,
+        range="own" if document.range == "shared" else document.range,
         panels=tuple(
             replace(panel, shows=DistanceFrom(panel.shows.spec, names[0]), maximum=None)
             if isinstance(panel.shows, Interpolant)

@@ -212,6 +212,14 @@ TURNS = (
     Act("move down", "Move down", _shift(0, -1), ("Shift+Down",), of_view=True, needs_mesh=True),
     Act("nearer", "Nearer", _zoom(1.2), ("+", "="), of_view=True, needs_mesh=True),
     Act("farther", "Farther", _zoom(1 / 1.2), ("-",), of_view=True, needs_mesh=True),
+    Act(
+        "remove anchor",
+        "Remove the chosen anchor",
+        lambda w: w.gestures.anchors.remove_chosen(),
+        ("Delete",),
+        of_view=True,
+        needs_mesh=True,
+    ),
 )
 PANELS = (
     Act(

@@ -61,6 +61,12 @@ class AnchorGestures:
         session = self._window.session
         session.show(remove_anchors(session.document, points))
 
+    def remove_chosen(self) -> None:
+        """The anchor that stands out, if there is one."""
+        name = self._grid.chosen_anchor
+        if any(anchor.point == name for anchor in self._window.session.document.anchors):
+            self.remove([name])
+
     def drag(self, panel: int, mark: int, met: "Met") -> None:
         """One of the anchors is over a place; one that another has is passed."""
         session = self._window.session
@@ -71,6 +77,7 @@ class AnchorGestures:
                 return
             self._moved = names[mark]
             self._window.docks.choose_anchor(self._moved)
+            self._window.gestures.sources.rate.begin()
         if not self._name_at(panel, met.vertex):
             moved = put_point(document, self._moved, met.vertex, surface)
             session.show(moved, key=f"drag of {self._moved}", live=True)

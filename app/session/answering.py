@@ -167,10 +167,12 @@ class Answering:
         for spec in question.specs:
             opened.distances(question.areas).get(spec, part(preparing, 0, 0.9))
         asking(0.9, str(question))
+        at_hand = opened.is_at_hand(question)
         stand_ins = (opened.distances(question.areas).stand_in(spec) or spec for spec in question.specs)
         quick = question.with_specs(tuple(stand_ins))
         if (
             quick != question
+            and not at_hand
             and self._is_quicker(id, request, quick)
             and self._preview(id, request, quick, preparing, asking)
             and request.live

@@ -34,6 +34,9 @@ from .questions import DifferenceQuestion, FieldQuestion, InterpolantQuestion, Q
 NO_ANCHORS = "There is no anchor with a value: click the surface to set one."
 """What a panel of an interpolant says before there is one."""
 
+VALUE = "value"
+"""The unit of what is interpolated, which is the user's own."""
+
 
 class Opened:
     """A surface that is there.  given: fields of the user's own; prepared: what whoever shows it has made of it."""
@@ -45,6 +48,7 @@ class Opened:
         self._given = given or Given()
         self._distances: dict[str, Distances] = {}
         self._interpolants: dict[tuple[str, Spec], ShepardInterpolant] = {}
+        self.columns = 0  # of distances from anchors, solved for so far
         self._lock = threading.Lock()
 
     @cached_property
@@ -79,6 +83,17 @@ class Opened:
         source = source_at(question.at, self.surface)
         return self.distances(question.areas).answer(question.spec, source, progress, at_once)
 
+    def is_at_hand(self, question: Question) -> bool:
+        """Whether nothing has to be solved for the answer: an interpolant of anchors whose distances are known."""
+        if not isinstance(question, InterpolantQuestion):
+            return False
+        with self._lock:
+            last = self._interpolants.get((question.areas, question.spec))
+        if last is None:
+            return False
+        known = {*last.anchors.tolist()}.difference(last.missing)
+        return all(vertex_at(at, self.surface) in known for at, _ in question.anchors)
+
     def _interpolated(self, question: InterpolantQuestion, progress: Progress | None) -> Answer:
         """What is known of the last interpolant by the same distance is used again."""
         if not question.anchors:
@@ -94,6 +109,7 @@ class Opened:
             if last is None or last.distance is not distance:
                 last = ShepardInterpolant(distance, vertices, values)
             interpolant = last.changed(vertices, values, weights.exponent, weights.smoothness)
+            new = len(interpolant.missing)
             found = interpolant.sum_of_weights if question.total else interpolant.evaluate
             field = found(part(progress, 0.8, 1))
         except (Cancelled, VertexError):
@@ -102,13 +118,14 @@ class Opened:
             return failed(str(question), error)
         with self._lock:
             self._interpolants[key] = interpolant
+            self.columns += new
         if question.total:
             # At the anchors themselves it is infinite.
             field = np.minimum(field, field[np.isfinite(field)].max(initial=0.0))
         field.flags.writeable = False
         is_signed = bool(np.nanmin(field, initial=0.0) < 0)
         label = f"{'weights' if question.total else 'interpolant'} by {distance.label}"
-        unit = "powers of ten" if question.total else ""
+        unit = "powers of ten" if question.total else VALUE
         return Answer(label=label, unit=unit, field=field, certificate=Certificate(), is_signed=is_signed)
 
     def settled(self, document: Document) -> Document:

@@ -71,6 +71,11 @@ class ShepardInterpolant:
             other._weights, other._total = self._weights, self._total
         return other
 
+    @property
+    def missing(self) -> list[int]:
+        """The anchors whose distances have still to be solved for."""
+        return [vertex for vertex in self.anchors.tolist() if vertex not in self._columns]
+
     def evaluate(self, progress: Progress | None = None) -> np.ndarray:
         """(n,) the interpolant at every vertex: f_i exactly at anchor i, NaN on components without anchors.
 
@@ -96,8 +101,7 @@ class ShepardInterpolant:
     def _shares(self, progress: Progress | None) -> np.ndarray:
         """(n, k) w_i / sum_j w_j; NaN where there is no anchor."""
         if self._weights is None:
-            missing = [vertex for vertex in self.anchors.tolist() if vertex not in self._columns]
-            if missing:
+            if missing := self.missing:
                 columns = self.distance.from_sources(missing, progress)
                 self._columns.update(zip(missing, np.ascontiguousarray(columns.T), strict=True))
             distances = np.stack([self._columns[vertex] for vertex in self.anchors.tolist()], axis=1)

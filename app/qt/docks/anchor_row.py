@@ -23,6 +23,7 @@ class AnchorRow(QtWidgets.QWidget):
     left_out = QtCore.Signal(str, bool)
     removed = QtCore.Signal(str)
     chosen = QtCore.Signal(str)
+    stepped = QtCore.Signal(str, int)  # to the row above (-1) or below
 
     def __init__(self, point: str) -> None:
         super().__init__()
@@ -57,8 +58,8 @@ class AnchorRow(QtWidgets.QWidget):
         self.slider.sliderReleased.connect(self._settle)
         self.slider.sliderPressed.connect(self._choose)
         self.box.editingFinished.connect(self._type)
-        for box in (self.name, self.box):
-            box.installEventFilter(self)
+        for widget in (self.name, self.box, self.slider):
+            widget.installEventFilter(self)
 
     # ------------------------------------------------------------------ what is told
     def show_anchor(self, name: str, value: float, is_out: bool, ends: tuple[float, float]) -> None:
@@ -112,7 +113,27 @@ class AnchorRow(QtWidgets.QWidget):
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
         if event.type() == QtCore.QEvent.Type.FocusIn:
             self._choose()
+        if event.type() == QtCore.QEvent.Type.KeyPress and self._pressed(watched, event.key()):
+            return True
         return super().eventFilter(watched, event)
+
+    def _pressed(self, widget: QtCore.QObject, key: int) -> bool:
+        """Whether that was a key of the list: up and down, and away with it where nothing is typed."""
+        keys = QtCore.Qt.Key
+        if key in (keys.Key_Up, keys.Key_Down):
+            self.stepped.emit(self.point, 1 if key == keys.Key_Down else -1)
+        elif key in (keys.Key_Delete, keys.Key_Backspace) and widget is self.slider:
+            self._remove()
+        else:
+            return False
+        return True
+
+    def take_keys(self, like: "AnchorRow") -> None:
+        """The keys go to the same part that has them in another row."""
+        for mine, theirs in ((self.name, like.name), (self.box, like.box), (self.slider, like.slider)):
+            if theirs.hasFocus():
+                mine.setFocus(QtCore.Qt.FocusReason.TabFocusReason)
+                return
 
     def mousePressEvent(self, event: QtGui.QMouseEvent) -> None:
         self._choose()

@@ -3,11 +3,9 @@
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
-from bihdist_core.applications.tips import at_tips, tips
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
@@ -19,11 +17,11 @@ from ..look.look import LOOK
 from ..look.segments import Segments
 from ..look.text_box import TextBox, mark_wrong
 from ..panels.flat_button import FlatButton
-from ..panels.quantity_menu import kind_name
+from .anchor_clock import AnchorClock
+from .anchor_extrema import AnchorExtrema
 from .anchor_row import BOX, AnchorRow
-from .background import Background
+from .anchor_samples import AnchorSamples
 from .dock import PAD
-from .fact_table import FactTable
 from .instrument import Instrument
 from .plain import fill
 from .saving import save
@@ -56,7 +54,12 @@ class AnchorsDock(Instrument):
             box.editingFinished.connect(self._weigh)
         self.shows = Segments({"Interpolant": "interpolant", "Weights": "total"}, "What panels show")
         self.shows.chosen.connect(self._show_total)
-        self.extrema = FactTable()
+        self.extrema = AnchorExtrema(window)
+        self.samples = AnchorSamples(window)
+        self.save_field = QtWidgets.QPushButton("Save field …", autoDefault=False)
+        self.save_field.setToolTip("What panels show of interpolants, a column for each")
+        self.save_field.clicked.connect(self.save_fields)
+        self._clock = AnchorClock(window)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -79,8 +82,13 @@ class AnchorsDock(Instrument):
         for widget in (_line(), _heading("Weights")):
             more.addWidget(widget)
         more.addLayout(form)
-        for widget in (_line(), _heading("Extrema besides the anchors"), self.extrema):
+        for widget in (_line(), _heading("Extrema besides the anchors"), self.extrema, _line()):
             more.addWidget(widget)
+        buttons = QtWidgets.QHBoxLayout()
+        buttons.setSpacing(8)
+        buttons.addWidget(self.save_field)
+        buttons.addWidget(self.samples, 1)
+        more.addLayout(buttons)
         below.addWidget(self._more)
         inside = QtWidgets.QWidget()
         whole = QtWidgets.QVBoxLayout(inside)
@@ -90,12 +98,6 @@ class AnchorsDock(Instrument):
         whole.addLayout(below)
         whole.addStretch(1)
         fill(self, inside)
-        self._tips = Background("tips", _found_tips, self.window_)
-        self._tips.answered.connect(self._take_tips)
-        self._tips.failed.connect(self._no_tips)
-        self._ends: np.ndarray | None = None
-        self._about: tuple | None = None
-        self.window_.docks.findings.quality_changed.connect(self._show_extrema)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
         read, write, more = (FlatButton(self, icon) for icon in ("open", "save", "more"))
@@ -133,13 +135,17 @@ class AnchorsDock(Instrument):
                 box.setText(f"{value:.6g}")
                 mark_wrong(box, False)
         self.shows.choose("total" if parts and all(part.total for part in parts) else "interpolant")
-        self._ask_tips(document)
-        self._show_extrema()
+        self.extrema.show_document(document)
 
     def show_answer(self, panel: int) -> None:
-        self._show_extrema()
+        self.extrema.show_counts()
+        self._clock.note()
+
+    def show_again(self) -> None:
+        self.extrema.show_counts()
 
     def show_closed(self) -> None:
+        self.extrema.leave()
         self.window_.grid.choose_anchor("")
 
     def _anchors(self, document: Document) -> list[Anchor]:
@@ -171,6 +177,7 @@ class AnchorsDock(Instrument):
         row.left_out.connect(self._leave_out)
         row.removed.connect(self._remove)
         row.chosen.connect(self._choose)
+        row.stepped.connect(self._step)
         return row
 
     def choose(self, point: str) -> None:
@@ -180,40 +187,6 @@ class AnchorsDock(Instrument):
 
     def _choose(self, point: str) -> None:
         self.window_.docks.choose_anchor(point)
-
-    # ------------------------------------------------------------------ extrema
-    def _ask_tips(self, document: Document) -> None:
-        opened = self.window_.session.opened()
-        about = (opened, document.areas)
-        if opened is not None and about != self._about:
-            self._about, self._ends = about, None
-            self._tips.ask(about)
-
-    def _take_tips(self, _: object, found: np.ndarray) -> None:
-        self._ends = found
-        self._show_extrema()
-
-    def _no_tips(self, *_: object) -> None:
-        self._ends = np.zeros(0, int)
-        self._show_extrema()
-
-    def _show_extrema(self) -> None:
-        session = self.window_.session
-        surface = session.surface
-        if surface is None:
-            return
-        facts: list[tuple[str, ...]] = [("Panel", "at tips", "elsewhere")]
-        for panel in session.document.panels:
-            (part, *others) = panel.shows.parts
-            if others or not isinstance(part, Interpolant) or part.total:
-                continue
-            found = self.window_.docks.findings.found(panel.id).extrema
-            counts = ("…", "…")
-            if found is not None and self._ends is not None:
-                near = int(at_tips(surface, found.vertices, self._ends).sum())
-                counts = (str(near), str(len(found.vertices) - near))
-            facts.append((kind_name(part.spec.kind), *counts))
-        self.extrema.show_facts(facts)
 
     # ------------------------------------------------------------------ edits
     def _show(self, document: Document, key: str = "", live: bool = False) -> None:
@@ -235,6 +208,7 @@ class AnchorsDock(Instrument):
 
     def _value(self, point: str, value: float, is_live: bool) -> None:
         self._choose(point)
+        self._clock.begin()
         self._show(
             change_anchor(self._document, replace(self._anchor(point), value=value)), f"value of {point}", is_live
         )
@@ -252,7 +226,24 @@ class AnchorsDock(Instrument):
         self._show(change_anchor(self._document, replace(self._anchor(point), left_out=is_out)))
 
     def _remove(self, point: str) -> None:
+        """The next row, or the last, has the keys then."""
+        rows = list(self.rows)
+        left = [name for name in rows if name != point]
+        number = min(rows.index(point), len(left) - 1)
+        had_keys = self.rows[point].isAncestorOf(QtWidgets.QApplication.focusWidget() or self)
         self._show(remove_anchors(self._document, [point]))
+        if left and had_keys:
+            self.rows[left[number]].slider.setFocus()
+            self._choose(left[number])
+
+    def _step(self, point: str, by: int) -> None:
+        """To the row above or below, at the same box."""
+        rows = list(self.rows)
+        number = rows.index(point) + by
+        if 0 <= number < len(rows):
+            row = self.rows[rows[number]]
+            row.take_keys(like=self.rows[point])
+            self._choose(row.point)
 
     def remove_all(self) -> None:
         self._show(remove_anchors(self._document, [anchor.point for anchor in self._anchors(self._document)]))
@@ -332,11 +323,6 @@ class AnchorsDock(Instrument):
                 fields[str(panel.shows)] = shown.answer.field
         name = f"{Path(session.surface.name).stem}-interpolants"
         save(self.window_, "Save interpolants", name, FIELD_FORMATS, lambda p: write_fields(p, session.surface, fields))
-
-
-def _found_tips(about, progress):
-    opened, areas = about
-    yield tips(opened.distances(areas).laplacian)
 
 
 def _line() -> QtWidgets.QFrame:

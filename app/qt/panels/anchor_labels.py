@@ -1,5 +1,6 @@
 """The values of anchors, painted beside them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,8 +8,8 @@ from qtpy import QtCore, QtGui
 
 from ..look.look import LOOK
 
-AWAY, HEIGHT, PAD = 9.0, 21.0, 5.0
-"""Logical pixels: from the place to the label, its height, and beside the text."""
+AWAY, HEIGHT, PAD, DOT = 9.0, 21.0, 5.0, 6.0
+"""Logical pixels: from the place to the label, its height, beside the text, and from a place to its mark's rim."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,21 +22,52 @@ class AnchorLabel:
 
 
 def paint_anchor_labels(
-    painter: QtGui.QPainter, labels: list[tuple[AnchorLabel, QtCore.QPointF]], width: float
+    painter: QtGui.QPainter, labels: list[tuple[AnchorLabel, QtCore.QPointF]], view: QtCore.QRectF
 ) -> None:
-    """At their places in a view so wide: at the right, or at the left where there is no room; what is chosen on top."""
+    """At their places in a view; what is chosen comes first, and one that would cover another is left out."""
     theme = LOOK.theme
-    for label, at in sorted(labels, key=lambda each: each[0].is_chosen):
-        painter.setFont(LOOK.font(12, bold=True))
-        metrics = QtGui.QFontMetricsF(painter.font())
-        size = QtCore.QSizeF(metrics.horizontalAdvance(label.text) + 2 * PAD * LOOK.scale, HEIGHT * LOOK.scale)
-        left = at.x() + AWAY * LOOK.scale
-        if left + size.width() > width:
-            left = at.x() - AWAY * LOOK.scale - size.width()
-        box = QtCore.QRectF(QtCore.QPointF(left, at.y() - size.height() / 2), size)
+    painter.setFont(LOOK.font(12, bold=True))
+    metrics = QtGui.QFontMetricsF(painter.font())
+    sizes = [
+        QtCore.QSizeF(metrics.horizontalAdvance(label.text) + 2 * PAD * LOOK.scale, HEIGHT * LOOK.scale)
+        for label, _ in labels
+    ]
+    ranks = [not label.is_chosen for label, _ in labels]
+    boxes = label_boxes([at for _, at in labels], sizes, ranks, view)
+    for (label, _), box in zip(labels, boxes, strict=True):
+        if box is None:
+            continue
         ground, text = (theme.fill, theme.on_fill) if label.is_chosen else (theme.raised, theme.text)
         painter.setPen(QtGui.QPen(QtGui.QColor(ground if label.is_chosen else theme.text), 1))
         painter.setBrush(QtGui.QColor(ground))
         painter.drawRoundedRect(box, 4, 4)
         painter.setPen(QtGui.QColor(text))
         painter.drawText(box, QtCore.Qt.AlignmentFlag.AlignCenter, label.text)
+
+
+def label_boxes(
+    places: Sequence[QtCore.QPointF], sizes: Sequence[QtCore.QSizeF], ranks: Sequence[int], view: QtCore.QRectF
+) -> list[QtCore.QRectF | None]:
+    """Where labels of these sizes go: beside their places, in the view, off each other and all places; None: nowhere.
+
+    ranks: the lowest are placed first, and these stand somewhere whatever they cover.
+    """
+    found: list[QtCore.QRectF | None] = [None] * len(places)
+    dot = DOT * LOOK.scale
+    dots = [QtCore.QRectF(at.x() - dot, at.y() - dot, 2 * dot, 2 * dot) for at in places]
+    for k in sorted(range(len(places)), key=lambda k: ranks[k]):
+        taken = [box for box in found if box is not None] + dots[:k] + dots[k + 1 :]
+        boxes = [box for box in _beside(places[k], sizes[k]) if view.contains(box)]
+        found[k] = next((box for box in boxes if not any(box.intersects(other) for other in taken)), None)
+        if found[k] is None and not ranks[k]:
+            found[k] = next(iter(boxes), None)
+    return found
+
+
+def _beside(at: QtCore.QPointF, size: QtCore.QSizeF) -> list[QtCore.QRectF]:
+    """At the right, the left, above, below, and at the corners."""
+    away, wide, high = AWAY * LOOK.scale, size.width(), size.height()
+    near = 0.7 * away
+    lefts = (away, -away - wide, -wide / 2, -wide / 2, near, -near - wide, near, -near - wide)
+    tops = (-high / 2, -high / 2, -away - high, away, -near - high, -near - high, near, near)
+    return [QtCore.QRectF(at + QtCore.QPointF(x, y), size) for x, y in zip(lefts, tops, strict=True)]

@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from ..look.look import LOOK
+
 SIZE = 6.0
 """From the centre to a corner, in logical pixels."""
 
@@ -76,3 +78,26 @@ def paint_triangle(painter: QtGui.QPainter, at: QtCore.QPointF, is_up: bool, is_
         pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
         painter.setPen(pen)
         painter.drawPolygon(triangle)
+
+
+NOTE_LEFT, NOTE_TOP, NOTE_GAP = 14.0, 15.0, 10.0
+"""Logical pixels: from the view's corner to the triangle of its note, and from that to the words."""
+
+
+def paint_note(painter: QtGui.QPainter, view: QtCore.QRectF, words: str) -> None:
+    """In the left upper corner of a view, cut where there is no room: how many of them there are."""
+    at = QtCore.QPointF(NOTE_LEFT, NOTE_TOP * LOOK.scale)
+    painter.setFont(LOOK.font(12.5))
+    metrics = QtGui.QFontMetricsF(painter.font())
+    left = at.x() + SIZE + NOTE_GAP
+    words = metrics.elidedText(words, QtCore.Qt.TextElideMode.ElideRight, view.width() - left - 8)
+    baseline = at.y() + (metrics.ascent() - metrics.descent()) / 2
+    ground = QtGui.QColor(LOOK.theme.canvas)
+    ground.setAlphaF(0.8)
+    box = QtCore.QRectF(4, 2, left + metrics.horizontalAdvance(words), 2 * (at.y() - 2))
+    painter.setPen(QtCore.Qt.PenStyle.NoPen)
+    painter.setBrush(ground)
+    painter.drawRoundedRect(box, 4, 4)
+    paint_triangle(painter, at, True, True)
+    painter.setPen(QtGui.QColor(LOOK.theme.quiet))
+    painter.drawText(QtCore.QPointF(left, baseline), words)

@@ -12,7 +12,7 @@ from ...drawing.lines_of_sight import pixels_in
 from ...drawing.picking import pixel_of
 from . import overlay
 from .anchor_labels import AnchorLabel, paint_anchor_labels
-from .extremum_marks import ExtremumMarks
+from .extremum_marks import ExtremumMarks, paint_note
 from .overlay import Pointed
 from .path_marks import PathMarks
 from .pin_marks import PinMark, drop_under, paint_pins
@@ -33,6 +33,7 @@ class MarksOver:
         self.path = PathMarks()
         self.pointed: Pointed | None = None
         self.sentence = ""
+        self.note = ""
         self.strokes: Sequence[np.ndarray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
         self._pins: tuple[PinMark, ...] = ()
@@ -47,6 +48,12 @@ class MarksOver:
         """In the middle of the view: why there is no field; "" for nothing."""
         if sentence != self.sentence:
             self.sentence = sentence
+            self._view.update()
+
+    def write(self, note: str) -> None:
+        """A few words under the head, with a triangle: how many extrema there are; "" for nothing."""
+        if note != self.note:
+            self.note = note
             self._view.update()
 
     def show_axes(self, has_axes: bool) -> None:
@@ -117,9 +124,11 @@ class MarksOver:
             at = middle(view.width(), view.height(), view.scene.insets.corners)
             overlay.paint_axes(painter, arms(frame(camera_seen(view.camera, 1.0))), at)
         if self._labels:
-            paint_anchor_labels(painter, self._seen_labels(), view.width())
+            paint_anchor_labels(painter, self._seen_labels(), QtCore.QRectF(view.rect()))
         if self._pins:
             paint_pins(painter, self._seen_pins(), self._hidden_pins())
+        if self.note and not self.sentence:
+            paint_note(painter, QtCore.QRectF(view.rect()), self.note)
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)
         for stroke in self.strokes:

@@ -1,0 +1,38 @@
+"""How long panels take to follow a value, and what had to be solved for it, in the status bar.
+
+`window` is the main window.
+"""
+
+import time
+
+from qtpy import QtCore
+
+
+class AnchorClock:
+    """See the module."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+        self._begun: float | None = None
+        self._columns = 0
+
+    def begin(self) -> None:
+        """A value changes."""
+        opened = self._window.session.opened()
+        if opened is not None:
+            self._begun, self._columns = time.perf_counter(), opened.columns
+
+    def note(self) -> None:
+        """A panel shows another field; once all do it is said, after they have been painted."""
+        session = self._window.session
+        if self._begun is not None and all(session.is_answered(panel.id) for panel in session.document.panels):
+            QtCore.QTimer.singleShot(0, self._say)
+
+    def _say(self) -> None:
+        begun, self._begun = self._begun, None
+        opened = self._window.session.opened()
+        if begun is None or opened is None:
+            return
+        count = opened.columns - self._columns
+        solved = "no solve" if not count else f"{count} {'column' if count == 1 else 'columns'} solved for"
+        self._window.say(f"repainted in {1000 * (time.perf_counter() - begun):.0f} ms, {solved}")
