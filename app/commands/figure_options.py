@@ -74,6 +74,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         help="enlarge the place of a vertex, perhaps with N steps of isolines",
     )
     parser.add_argument("--anchors", type=_anchors, metavar="V[=VALUE],…", help="mark vertices, coloured by a value")
+    _add_switch(parser, "anchor-values", "numbers beside the anchors that have a value (default: no)")
     parser.add_argument("--exponent", type=float, metavar="P", help="of anchors' weights in interpolants (default: 1)")
     parser.add_argument(
         "--smoothness", type=float, metavar="S", help="how far anchors' cones are rounded in interpolants, 0 to 1 (0)"
@@ -176,7 +177,8 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     shading = shaded(document.shading, options.shading, options.crease, options.wireframe)
     document = replace(document, shading=shading)
     document = with_range(with_colours(document, options), options, tell)
-    page = replace(page, **_given(options, "size", "style", "hints", "transparent", "crop", "title", "font", "text"))
+    of_page = ("size", "style", "hints", "transparent", "crop", "title", "font", "text", "anchor_values")
+    page = replace(page, **_given(options, *of_page))
     tell_if_unseen(page.style, options, tell)
     columns = options.columns if options.columns is not None else rows or page.columns
     if views:

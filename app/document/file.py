@@ -23,7 +23,7 @@ FORMAT = 2
 
 PROGRAM = "bihdist"
 
-LATER = ("title", "font", "text")
+LATER = ("title", "font", "text", "anchor_values")
 """Parts of a page that are written where they are not as usual."""
 
 
@@ -140,5 +140,6 @@ def _page(data: Any, where: str) -> Page:
         "title": text,
         "font": text,
         "text": or_none(number),
+        "anchor_values": flag,
     }
     return placed(Page, where, **record(data, where, readers, set()))

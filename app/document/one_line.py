@@ -212,6 +212,7 @@ ROWS = (
     Row(("Page.title",), of_page("title", "--title", "title")),
     Row(("Page.font",), of_page("font", "--font", "font")),
     Row(("Page.text",), of_page("text", "--text", "text")),
+    Row(("Page.anchor_values",), of_page("anchor_values", "--anchor-values", "anchor_values")),
     Row(("Page.transparent",), of_page("transparent", "--transparent", "transparent")),
     Row(("Page.crop",), of_page("crop", "--crop", "crop")),
 )

@@ -23,7 +23,7 @@ class Page:
     there is none, as for a session.  views: pictures of each panel side by side, the document's camera if empty.
     columns: panels side by side, all in one row if None.  hints: what to look for, under the headings.  crop: without
     the empty margins.  title: where a panel's name stands, one of TITLES.  font: its family, "" for the usual one.
-    text: the size of labels in points, the usual one if None.
+    text: the size of labels in points, the usual one if None.  anchor_values: whether they stand beside anchors.
     """
 
     size: str = ""
@@ -37,6 +37,7 @@ class Page:
     title: str = "heading"
     font: str = ""
     text: float | None = None
+    anchor_values: bool = False
 
     def __post_init__(self) -> None:
         if self.format not in ("", *FORMATS):

@@ -199,7 +199,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
             *_extremum_marks(document, panel, surface, answer),
             *_dots(through, answer),
             *_source_marks(starts, surface),
-            *_anchor_marks(document, panel, opened, answer),
+            *_anchor_marks(recipe, panel, opened, answer),
             *_largest(answer),
             *_pin_marks(document, panel, surface),
         ),
@@ -306,9 +306,17 @@ def _largest(answer: Answer) -> list[Mark]:
     return [Mark(vertex, text=f"{value:+.3g} at {vertex}".replace("-", "−"), is_largest=True)]
 
 
-def _anchor_marks(document: Document, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:
-    found = anchors_on(document, panel.surface, opened)
-    return [Mark(vertex, anchor_value(value, vertex, answer)) for vertex, value in found]
+def _anchor_marks(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:
+    found = anchors_on(recipe.document, panel.surface, opened)
+    has_words = recipe.page.anchor_values
+    return [
+        Mark(
+            vertex,
+            anchor_value(value, vertex, answer),
+            text=f"{value:.4g}".replace("-", "−") if has_words and value is not None else "",
+        )
+        for vertex, value in found
+    ]
 
 
 def _pin_marks(document: Document, panel: Panel, surface: Surface) -> list[Mark]:

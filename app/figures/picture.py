@@ -105,6 +105,7 @@ def figure(
     camera: Sequence[float] | None = None,
     zooms: Sequence[int | tuple[int, float] | tuple[int, float, int]] = (),
     anchors: Mapping[int, float | None] | Sequence[int] = (),
+    anchor_values: bool = False,
     exponent: float = 1.0,
     smoothness: float = 0.0,
     pins: Sequence[Source | str] = (),
@@ -139,8 +140,9 @@ def figure(
     projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
     with a factor, or with that and a number of steps.  isolines: a number of steps; isoline_spacing, isoline_values:
     where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.  anchors:
-    vertices to be marked, perhaps each with a value.  pins: vertices, or places in faces, with numbers, in their order.
-    extrema: triangles at maxima, and at minima away from the source, that persist over a thousandth of the range.
+    vertices to be marked, perhaps each with a value; anchor_values: written beside them.  pins: vertices, or places in
+    faces, with numbers, in their order.  extrema: triangles at maxima, and at minima away from
+    the source, that persist over a thousandth of the range.
     regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin.
     selections: ids (k,) of vertices that stand out together, or words such as "12,40-77", a colour each.
     profile: True for the path through the pins, or the points it goes through: vertices, places in faces, "source" and
@@ -209,6 +211,7 @@ def figure(
         title=title,
         font=font,
         text=text,
+        anchor_values=anchor_values,
     )
     document, _ = ranged(document, "shared" if shared_range and range == "own" else range)
     document, surfaces = open_document(Recipe(document, page), given)

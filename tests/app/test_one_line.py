@@ -181,6 +181,7 @@ EXAMPLES = {
     "Page.title": lambda d, p: (d, replace(p, title="caption")),
     "Page.font": lambda d, p: (d, replace(p, font="DejaVu Serif")),
     "Page.text": lambda d, p: (d, replace(p, text=7.5)),
+    "Page.anchor_values": lambda d, p: (d, replace(p, anchor_values=True)),
 }
 """For each part a change of it."""
 

@@ -156,7 +156,45 @@ class InstrumentHands(Hands):
             if dock.content.sampler.pin.isEnabled():
                 dock.content.sampler.pin.click()
 
+    def interpolate(self) -> None:
+        """Interpolants, or distances again; then a click is an anchor."""
+        docks = self.window.docks
+        if "anchors" not in self.window.session.document.docks:
+            docks.toggle("anchors")
+            self.spin(0.05)
+        dock = docks._docks["anchors"].content
+        if dock.start.isVisible():
+            dock.begin()
+        elif self.chance.random() < 0.15:
+            dock.end_tool()
+        for _ in range(self.chance.randint(1, 3)):
+            self.tool("mousemove", *self.place(), "click", 1)
+
+    def in_anchors(self) -> None:
+        """A row of the list: its eye, slider and keys, samples, and the panels' Delete."""
+        docks = self.window.docks
+        dock = docks._docks["anchors"].content if "anchors" in docks._docks else None
+        if dock is None or not dock.rows or not dock.isVisible():
+            return
+        row = self.chance.choice(list(dock.rows.values()))
+        way = self.chance.choice(["eye", "keys", "slide", "samples", "delete"])
+        self.done[-1] += f" {way}"
+        if way == "eye":
+            row.eye.opened.emit()
+        elif way == "keys":
+            row.slider.setFocus()
+            self.tool("key", self.chance.choice(["Down", "Up", "Left", "Right", "Delete"]))
+        elif way == "slide":
+            row.slider.setValue(self.chance.randint(0, row.slider.maximum()))
+        elif way == "samples":
+            dock.samples.count.setValue(self.chance.randint(1, 3))
+            dock.samples.add_them()
+        else:
+            self.window.grid.focus()
+            self.tool("key", "Delete")
+
     INSTRUMENTS = (
         (pin, 8), (add_source, 5), (brush, 4), (live, 2), (draw_source, 3), (type_source, 3), (toggle_dock, 5),
         (in_dock, 14), (dock_menu, 6), (move_dock, 4), (profile, 4), (regions, 3), (farthest, 2),
+        (interpolate, 4), (in_anchors, 5),
     )  # fmt: skip

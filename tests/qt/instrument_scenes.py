@@ -20,6 +20,8 @@ def instruments(d: Driver) -> None:
     for scene in (_pins, _profile, _section, _scatter, _statistics, _quality, _regions, _all_open):
         scene(d)
         _close_all(d)
+    _interpolation(d)
+    _close_all(d)
     _sources(d)
     _live(d)
     d.open(mesh_path("scan"))
@@ -222,6 +224,44 @@ def _regions(d: Driver) -> None:
     d.complete()
     d.spin(1.0)
     d.shot("farthest points")
+    d.window.session.show(before)
+    d.complete()
+
+
+ANCHORED = ((0.45, 0.2), (0.5, 0.85), (0.25, 0.4), (0.7, 0.3), (0.5, 0.55))
+VALUES = ("0", "1", "0.35", "0.7", "0.55")
+
+
+def _interpolation(d: Driver) -> None:
+    before = d.window.session.document
+    dock = _dock(d, "anchors", "i")
+    d.shot("no anchors yet")
+    _press(d, dock.start)
+    d.complete()
+    for place in ANCHORED:
+        _click(d, 0, *place)
+        d.complete()
+    for row, value in zip(dock.rows.values(), VALUES, strict=False):
+        d.pointer("mousemove", *_on(d, row.box, 0.5, 0.5), "click", 1, "key", "ctrl+a")
+        d.pointer("type", value)
+        d.pointer("key", "Return")
+        d.complete()
+    d.until(lambda: d.window.docks.findings.is_complete and "…" not in str(dock.extrema.facts))
+    d.shot("anchors")
+    row = list(dock.rows.values())[3]
+    x, y = _on(d, row.slider, 0.7, 0.5)
+    _drag(d, [(x - 3 * step * d.look.scale, y) for step in range(10)], then=lambda: d.shot("a value on its way"))
+    d.complete()
+    _scroll_of(dock).ensureWidgetVisible(dock.samples.add)
+    _press(d, dock.samples.add)
+    d.until(lambda: len(dock.rows) > len(ANCHORED))
+    d.complete()
+    d.until(lambda: d.window.docks.findings.is_complete)
+    d.shot("samples as anchors")
+    _scroll_of(dock).ensureWidgetVisible(dock.shows)
+    d.pointer("mousemove", *_on(d, dock.shows, 0.75, 0.5), "click", 1)
+    d.complete()
+    d.shot("the sum of weights")
     d.window.session.show(before)
     d.complete()
 

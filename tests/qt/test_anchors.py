@@ -4,13 +4,15 @@ import numpy as np
 import pytest
 
 from app.document.quantities import Interpolant
-from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolant, other_extrema
+from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolant, farthest_points, other_extrema
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import SourceSet
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest
+
+from app.qt.panels.anchor_labels import label_boxes
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
 BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
@@ -220,3 +222,67 @@ def test_panels_go_back_to_distances(opened):
     assert [panel.shows.spec for panel in s.document.panels] == [BIHARMONIC, GEODESIC]
     assert not s.answers[0].failure
     assert dock_of(s).start.isVisible()
+
+
+def test_up_and_down_go_through_the_list_and_delete_removes(opened):
+    s = opened
+    for vertex in seen_vertices(s, 3):
+        click(s, 0, vertex)
+    rows, keys = list(dock_of(s).rows.values()), QtCore.Qt.Key
+    rows[1].slider.setFocus()
+    values = [anchor.value for anchor in s.document.anchors]
+    QtTest.QTest.keyClick(rows[1].slider, keys.Key_Down)
+    assert s.window.grid.chosen_anchor == rows[2].point
+    assert [anchor.value for anchor in s.document.anchors] == values
+    QtTest.QTest.keyClick(rows[2].slider, keys.Key_Delete)
+    complete(s)
+    assert [a.point for a in s.document.anchors] == [rows[0].point, rows[1].point]
+    assert s.window.grid.chosen_anchor == rows[1].point
+    s.window.actions_by_word["remove anchor"].trigger()
+    complete(s)
+    assert [a.point for a in s.document.anchors] == [rows[0].point]
+
+
+def test_samples_are_farthest_from_the_anchors_and_change_no_value_there(opened):
+    s = opened
+    first, second = seen_vertices(s, 2)
+    click(s, 0, first)
+    click(s, 0, second)
+    dock = dock_of(s)
+    dock.samples.count.setValue(3)
+    field = s.answers[0].field
+    QtTest.QTest.mouseClick(dock.samples.add, LEFT)
+    s.until(lambda: len(s.document.anchors) == 5)
+    complete(s)
+    expected = farthest_points(BiharmonicDistance(s.session.surface), [first, second], 5)
+    assert [s.document.point(a.point).at for a in s.document.anchors] == expected.tolist()
+    assert [a.value for a in s.document.anchors[2:]] == pytest.approx(field[expected[2:]], abs=5e-4)
+
+
+def test_a_value_is_followed_without_a_solve_even_while_it_moves(opened):
+    s = opened
+    for vertex in seen_vertices(s, 3):
+        click(s, 0, vertex)
+    columns = s.session.opened().columns
+    row = list(dock_of(s).rows.values())[2]
+    row.slider.setSliderDown(True)
+    for step in (200, 400, 600):
+        row.slider.setValue(step)
+        s.until(lambda: s.session.is_complete)
+        assert "heat" not in s.answers[1].label
+    row.slider.setSliderDown(False)
+    complete(s)
+    assert s.session.opened().columns == columns
+    assert "no solve" in s.window.status.message.text
+
+
+def test_labels_of_anchors_do_not_cover_each_other():
+    view, size = QtCore.QRectF(0, 0, 300, 300), QtCore.QSizeF(40, 20)
+    places = [QtCore.QPointF(150 + 14 * (k % 3), 150 + 14 * (k // 3)) for k in range(9)]
+    boxes = label_boxes(places, [size] * 9, [1] * 8 + [0], view)
+    there = [box for box in boxes if box is not None]
+    assert boxes[8] is not None
+    assert len(there) > 3
+    assert not any(a.intersects(b) for k, a in enumerate(there) for b in there[:k])
+    (beside,) = label_boxes([QtCore.QPointF(295, 150)], [size], [0], view)
+    assert beside.right() < 295

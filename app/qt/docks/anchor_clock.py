@@ -7,6 +7,8 @@ import time
 
 from qtpy import QtCore
 
+from ...document.document import Anchor
+
 
 class AnchorClock:
     """See the module."""
@@ -15,16 +17,20 @@ class AnchorClock:
         self._window = window
         self._begun: float | None = None
         self._columns = 0
+        self._anchors: tuple[Anchor, ...] = ()
 
-    def begin(self) -> None:
-        """A value changes."""
-        opened = self._window.session.opened()
-        if opened is not None:
-            self._begun, self._columns = time.perf_counter(), opened.columns
+    def begin(self, anchors: tuple[Anchor, ...]) -> None:
+        """The values become these."""
+        session = self._window.session
+        opened = session.opened()
+        if opened is not None and anchors != session.document.anchors:
+            self._begun, self._columns, self._anchors = time.perf_counter(), opened.columns, anchors
 
     def note(self) -> None:
         """A panel shows another field; once all do it is said, after they have been painted."""
         session = self._window.session
+        if session.document.anchors != self._anchors:
+            self._begun = None  # something else has been done meanwhile
         if self._begun is not None and all(session.is_answered(panel.id) for panel in session.document.panels):
             QtCore.QTimer.singleShot(0, self._say)
 

@@ -57,7 +57,7 @@ class AnchorExtrema(FactTable):
                 words = ("…", "…") if counts is None else tuple(map(str, counts))
                 facts.append((kind_name(part.spec.kind), *words))
             if any(shown.id == panel.id for shown in grid.panels):
-                grid.panel(panel.id).view.over.write("" if counts is None else in_words(*counts))
+                grid.panel(panel.id).view.over.write(() if counts is None else in_words(*counts))
         self.show_facts(facts)
 
     def _counts(self, panel: int) -> tuple[int, int] | None:
@@ -70,14 +70,14 @@ class AnchorExtrema(FactTable):
     def leave(self) -> None:
         """Say nothing in panels any more."""
         for panel in self._window.grid.panels:
-            panel.view.over.write("")
+            panel.view.over.write(())
 
 
-def in_words(near: int, elsewhere: int) -> str:
-    """What a panel says of so many extrema at tips, and so many elsewhere."""
+def in_words(near: int, elsewhere: int) -> tuple[str, str]:
+    """What a panel says of so many extrema at tips, and so many elsewhere; and the same in short."""
     word = "extremum" if near + elsewhere == 1 else "extrema"
     at_tips_too = f", {near} at tips" if near else ""
-    return f"{near + elsewhere} {word} besides the anchors{at_tips_too}"
+    return f"{near + elsewhere} {word} besides the anchors{at_tips_too}", f"{near + elsewhere}{at_tips_too}"
 
 
 def _found_tips(about, progress):

@@ -67,6 +67,7 @@ class AnchorRow(QtWidgets.QWidget):
         self._value, (self._low, self._high), self._is_out = value, ends, is_out
         if not self.name.hasFocus():
             self.name.setText(name)
+            self.name.setCursorPosition(0)
         self.name.setToolTip(f"{name}: its name, to be typed")
         for widget, words in (
             (self.name, f"Name of {name}"),

@@ -208,10 +208,9 @@ class AnchorsDock(Instrument):
 
     def _value(self, point: str, value: float, is_live: bool) -> None:
         self._choose(point)
-        self._clock.begin()
-        self._show(
-            change_anchor(self._document, replace(self._anchor(point), value=value)), f"value of {point}", is_live
-        )
+        changed = change_anchor(self._document, replace(self._anchor(point), value=value))
+        self._clock.begin(changed.anchors)
+        self._show(changed, f"value of {point}", is_live)
 
     def _name(self, point: str, name: str) -> None:
         anchor = self._anchor(point)
@@ -232,9 +231,10 @@ class AnchorsDock(Instrument):
         number = min(rows.index(point), len(left) - 1)
         had_keys = self.rows[point].isAncestorOf(QtWidgets.QApplication.focusWidget() or self)
         self._show(remove_anchors(self._document, [point]))
-        if left and had_keys:
-            self.rows[left[number]].slider.setFocus()
+        if left:
             self._choose(left[number])
+            if had_keys:
+                self.rows[left[number]].slider.setFocus()
 
     def _step(self, point: str, by: int) -> None:
         """To the row above or below, at the same box."""

@@ -80,6 +80,9 @@ class ExportDialog(LooksDialog):
         self.both = self.tick("&Front and back", recipe.page.views == BOTH, "Each panel from both sides")
         self.transparent = self.tick("No &background", recipe.page.transparent, "Transparent where nothing is drawn")
         self.crop = self.tick("Without the empty &margins", recipe.page.crop, "Cut to what is drawn")
+        self.values: QtWidgets.QCheckBox | None = None
+        if any(anchor.value is not None for anchor in recipe.document.anchors):
+            self.values = self.tick("&Values at anchors", recipe.page.anchor_values, "The number beside each anchor")
         self.section("Look")
         self.add_look()
         self.letters = QtWidgets.QDoubleSpinBox(decimals=1, maximum=72, singleStep=0.5, suffix=" pt")
@@ -109,6 +112,7 @@ class ExportDialog(LooksDialog):
             views=views,
             text=self._text(),
             format=self.kinds.choice().lower(),
+            anchor_values=recipe.page.anchor_values if self.values is None else self.values.isChecked(),
         )
         return replace(recipe, page=page)
 

@@ -1,5 +1,6 @@
 """Triangles at extrema, over a view: upwards at maxima, downwards at minima; outlines where the surface hides them."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -84,13 +85,20 @@ NOTE_LEFT, NOTE_TOP, NOTE_GAP = 14.0, 15.0, 10.0
 """Logical pixels: from the view's corner to the triangle of its note, and from that to the words."""
 
 
-def paint_note(painter: QtGui.QPainter, view: QtCore.QRectF, words: str) -> None:
-    """In the left upper corner of a view, cut where there is no room: how many of them there are."""
+MOST_NOTE = 0.85
+"""Of a view's width; in one that is lower than LOW logical pixels the shape needs the room, and the short form does."""
+LOW = 240
+
+
+def paint_note(painter: QtGui.QPainter, view: QtCore.QRectF, notes: Sequence[str]) -> None:
+    """In the left upper corner of a view: how many of them there are, in the first words for which there is room."""
     at = QtCore.QPointF(NOTE_LEFT, NOTE_TOP * LOOK.scale)
     painter.setFont(LOOK.font(12.5))
     metrics = QtGui.QFontMetricsF(painter.font())
     left = at.x() + SIZE + NOTE_GAP
-    words = metrics.elidedText(words, QtCore.Qt.TextElideMode.ElideRight, view.width() - left - 8)
+    room = MOST_NOTE * view.width() - left
+    fitting = (words for words in notes[view.height() < LOW * LOOK.scale :] if metrics.horizontalAdvance(words) <= room)
+    words = next(fitting, notes[-1])
     baseline = at.y() + (metrics.ascent() - metrics.descent()) / 2
     ground = QtGui.QColor(LOOK.theme.canvas)
     ground.setAlphaF(0.8)

@@ -33,7 +33,7 @@ class MarksOver:
         self.path = PathMarks()
         self.pointed: Pointed | None = None
         self.sentence = ""
-        self.note = ""
+        self.notes: Sequence[str] = ()
         self.strokes: Sequence[np.ndarray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
         self._pins: tuple[PinMark, ...] = ()
@@ -50,10 +50,13 @@ class MarksOver:
             self.sentence = sentence
             self._view.update()
 
-    def write(self, note: str) -> None:
-        """A few words under the head, with a triangle: how many extrema there are; "" for nothing."""
-        if note != self.note:
-            self.note = note
+    def write(self, notes: Sequence[str]) -> None:
+        """A few words under the head, with a triangle: how many extrema there are; the first for which there is room.
+
+        () for nothing.
+        """
+        if notes != self.notes:
+            self.notes = notes
             self._view.update()
 
     def show_axes(self, has_axes: bool) -> None:
@@ -127,8 +130,8 @@ class MarksOver:
             paint_anchor_labels(painter, self._seen_labels(), QtCore.QRectF(view.rect()))
         if self._pins:
             paint_pins(painter, self._seen_pins(), self._hidden_pins())
-        if self.note and not self.sentence:
-            paint_note(painter, QtCore.QRectF(view.rect()), self.note)
+        if self.notes and not self.sentence:
+            paint_note(painter, QtCore.QRectF(view.rect()), self.notes)
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)
         for stroke in self.strokes:
