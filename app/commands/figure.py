@@ -17,6 +17,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from ..document.document import starting_points
     from ..figures.draw import described
     from ..figures.export import export
     from ..session.questions import source_at
@@ -27,9 +28,13 @@ def run(options: argparse.Namespace) -> int:
         figure, recipe, answers = export(recipe, options.output, version(), progress, remarks.append, options.tex)
     for text in remarks:
         tell(text)
+    for answer in answers:
+        if answer.remark:
+            print(f"{answer.label}: {answer.remark}")
     surface = figure.panels[0].surface
     tell_repairs(surface)
-    starts = [source_at(at, surface) for at in recipe.document.sources]
+    points = [point for point in starting_points(recipe.document) if not point.image_of]
+    starts = list(dict.fromkeys(source_at(point.at, surface) for point in points))
     what = ", source vertex " if all(isinstance(each, int) for each in starts) else ", source "
     print(f"{options.output}: {described(figure)}{what if starts else ''}{', '.join(map(short_words_of, starts))}")
     return judged(answers, surface.name)

@@ -49,6 +49,12 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     parser.add_argument(
         "--source", type=source, metavar="V", action="append", help=f"{SOURCE}; repeat for a row of panels each"
     )
+    parser.add_argument(
+        "--perturb",
+        metavar="WORDS",
+        help="each distance before and after a change to the mesh, and the difference: simplify=N, noise=S, "
+        "along=normals, holes=N, radius=R, weld=I:J, handle=I:J, seed=K, with commas between them",
+    )
     add_isolines(parser)
     parser.add_argument(
         "--view",
@@ -142,10 +148,16 @@ def chosen_recipe(options: argparse.Namespace) -> "Recipe":
 
 
 def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
+    from bihdist_core.applications.changes import change_from_words
+
     from ..document.camera import Camera
+    from ..document.changing import COLUMNS, split, with_changed
     from ..document.looks import shaded
 
-    document, page = recipe.document, recipe.page
+    document, change = split(recipe.document)
+    page = recipe.page
+    if options.perturb is not None:
+        change = change_from_words(options.perturb)
     if options.other_mesh is not None:
         document = _with_other_mesh(document, options.other_mesh)
     document, rows = _with_panels(document, options)
@@ -181,6 +193,10 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     page = replace(page, **_given(options, *of_page))
     tell_if_unseen(page.style, options, tell)
     columns = options.columns if options.columns is not None else rows or page.columns
+    if change is not None:
+        document = with_changed(document, change)
+        was = page.columns if options.perturb is None else None
+        columns = options.columns or was or COLUMNS
     if views:
         document = replace(document, camera=views[0])
         page = replace(page, views=tuple(views) if len(views) > 1 else ())

@@ -35,7 +35,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    from bihdist_core.applications.perturbation import Perturbation, perturbed
+    from bihdist_core.applications.changes import Perturbation
+    from bihdist_core.applications.perturbation import perturbed
     from bihdist_core.errors import ParameterError
     from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
     from bihdist_core.laplacian import Laplacian
@@ -52,7 +53,7 @@ def run(options: argparse.Namespace) -> None:
         handle=options.handle,
         seed=options.seed,
     )
-    if change == Perturbation(along=options.along, radius=options.radius, seed=options.seed):
+    if change.changes_nothing:
         raise ParameterError("Nothing would change; say --noise, --simplify, --holes, --weld or --handle.")
     chosen = specs(options, list(dict.fromkeys(options.distance or [])))
     with progress_line() as progress:

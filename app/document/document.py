@@ -7,6 +7,7 @@ A document says what is wanted and holds nothing that is computed.  It is hashab
 from dataclasses import dataclass, replace
 from typing import Any
 
+from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
@@ -58,12 +59,13 @@ class MeshFile:
     """A surface by where it comes from, under a name of its own in the document.
 
     path: a file, or the name of a sample; empty for a surface in memory.  sha256: of the file's bytes, or of the arrays
-    in memory; empty as long as any content will do.
+    in memory; empty as long as any content will do.  change: what is made of that (`changing`), None for itself.
     """
 
     name: str
     path: str
     sha256: str = ""
+    change: Perturbation | None = None
 
 
 @dataclass(frozen=True)
@@ -71,11 +73,13 @@ class Point:
     """A named source: a vertex, a place in a face, a set, a boundary loop or a curve (`bihdist_core.sources`).
 
     None, for the highest vertex of the largest component, becomes that vertex once the surface is there.
+    image_of: a point on the surface that this one is made from, whose place this always has.
     """
 
     name: str
     at: Source | None
     surface: str = "A"
+    image_of: str = ""
 
     def __post_init__(self) -> None:
         if self.at is not None:
@@ -220,6 +224,7 @@ class Document:
         points = _unlike([point.name for point in self.points], "point")
         ids = _unlike([panel.id for panel in self.panels], "panel")
         _known([point.surface for point in self.points], surfaces, "surface")
+        _known([point.image_of for point in self.points if point.image_of], points, "point")
         _known([panel.surface for panel in self.panels], surfaces, "surface")
         _known([name for panel in self.panels for name in panel.shows.points], points, "point")
         fields = _unlike([field.name for field in self.fields], "field")

@@ -3,6 +3,7 @@
 from dataclasses import fields
 from typing import Any
 
+from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
@@ -14,7 +15,7 @@ from .document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom
 from .instruments import ALONG_ALL_PINS, AS_LISTED, FIRST_TWO, DockPlaces, Pin, PinList, Profile, Scatter, Selection
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
-from .quantities import Difference, DistanceFrom, Interpolant, OwnField, Part, Quantity
+from .quantities import ChangeOf, Difference, DistanceFrom, Interpolant, OwnField, Part, Quantity
 
 LATER: dict[str, Any] = {
     "fields": [],
@@ -42,8 +43,8 @@ LATER: dict[str, Any] = {
 def document_data(document: Document) -> dict[str, Any]:
     """The document as records, lists, texts and numbers; `document_from` reads it back, equal."""
     own: dict[str, Any] = {
-        "surfaces": [plain(mesh) for mesh in document.surfaces],
-        "points": [{**plain(point), "at": _source_data(point.at)} for point in document.points],
+        "surfaces": [_mesh_data(mesh) for mesh in document.surfaces],
+        "points": [_point_data(point) for point in document.points],
         "panels": [{**plain(panel), "shows": _quantity_data(panel.shows)} for panel in document.panels],
         "camera": view_data(document.camera),
         "zooms": [plain(zoom) for zoom in document.zooms],
@@ -82,6 +83,16 @@ def _pin_list_data(pins: PinList) -> dict[str, Any]:
     return data if pins.distance is None else {**data, "distance": pins.distance.in_full}
 
 
+def _mesh_data(mesh: MeshFile) -> dict[str, Any]:
+    data = {"name": mesh.name, "path": mesh.path, "sha256": mesh.sha256}
+    return data if mesh.change is None else {**data, "change": words_of_change(mesh.change)}
+
+
+def _point_data(point: Point) -> dict[str, Any]:
+    data = {"name": point.name, "at": _source_data(point.at), "surface": point.surface}
+    return {**data, "image_of": point.image_of} if point.image_of else data
+
+
 def _anchor_data(anchor: Anchor) -> dict[str, Any]:
     return {"point": anchor.point, "value": anchor.value, **_unlike(anchor, Anchor(anchor.point, anchor.value))}
 
@@ -116,6 +127,8 @@ def _quantity_data(shows: Quantity) -> dict[str, Any]:
         return {"field": shows.name}
     if isinstance(shows, Interpolant):
         return {"interpolant": shows.spec.in_full, **({"total": True} if shows.total else {})}
+    if isinstance(shows, ChangeOf):
+        return {"change": shows.spec.in_full, "from": shows.point}
     return {"distance": shows.spec.in_full, "from": shows.point}
 
 
@@ -164,7 +177,12 @@ def with_range(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _mesh(data: Any, where: str) -> MeshFile:
-    return MeshFile(**record(data, where, {"name": text, "path": text, "sha256": text}))
+    readers = {"name": text, "path": text, "sha256": text, "change": _change}
+    return MeshFile(**record(data, where, readers, {"name", "path", "sha256"}))
+
+
+def _change(data: Any, where: str) -> Perturbation:
+    return placed(change_from_words, where, text=text(data, where))
 
 
 def _field_array(data: Any, where: str) -> FieldArray:
@@ -172,7 +190,8 @@ def _field_array(data: Any, where: str) -> FieldArray:
 
 
 def _point(data: Any, where: str) -> Point:
-    return placed(Point, where, **record(data, where, {"name": text, "at": or_none(_source), "surface": text}))
+    readers = {"name": text, "at": or_none(_source), "surface": text, "image_of": text}
+    return placed(Point, where, **record(data, where, readers, {"name", "at", "surface"}))
 
 
 def _source(data: Any, where: str) -> Source:
@@ -209,6 +228,9 @@ def _part(data: Any, where: str) -> Part:
     if isinstance(data, dict) and "interpolant" in data:
         values = record(data, where, {"interpolant": _spec, "total": flag}, {"interpolant"})
         return Interpolant(values["interpolant"], values.get("total", False))
+    if isinstance(data, dict) and "change" in data:
+        values = record(data, where, {"change": _spec, "from": text})
+        return ChangeOf(values["change"], values["from"])
     values = record(data, where, {"distance": _spec, "from": text})
     return DistanceFrom(values["distance"], values["from"])
 

@@ -9,14 +9,16 @@ import shlex
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from bihdist_core.applications.changes import words_of_change
 from bihdist_core.sources.source import Curve
 from bihdist_core.sources.words import NONE
 
 from ..samples import mesh_path
 from .camera import Camera
+from .changing import COLUMNS, split
 from .document import COMPARISON
 from .page import Recipe
 from .quantities import Quantity, from_point, own_fields
@@ -90,7 +92,18 @@ def _joined(words: list[str]) -> str:
 
 
 def _all_said(recipe: Recipe) -> Iterable[Said]:
-    return (row.say(recipe) for row in ROWS)
+    document, change = split(recipe.document)
+    if change is None:
+        return (row.say(recipe) for row in ROWS)
+    names = {name for panel in document.panels for name in panel.shows.points}
+    columns = recipe.page.columns
+    if columns is None:
+        raise Unsaid("Before, after and difference are not in rows.")
+    if columns == COLUMNS:
+        columns = len(document.panels) // len(names) if len(names) > 1 else None
+    said = with_value("--perturb", "perturb", words_of_change(change))
+    base = replace(recipe, document=document, page=replace(recipe.page, columns=columns))
+    return (said, *(row.say(base) for row in ROWS))
 
 
 # ---------------------------------------------------------------------- what is shown of what

@@ -136,10 +136,55 @@ class Interpolant:
         return "no extrema but at the anchors, and at tips of the shape without one"
 
 
+@dataclass(frozen=True)
+class ChangeOf:
+    """How a distance differs on a changed surface from what it was before, each as a share of its maximum.
+
+    At the vertices that both have.  point: on the changed surface.
+    """
+
+    spec: Spec
+    point: str = "source"
+
+    def __str__(self) -> str:
+        return f"{CHANGE}{self.spec}"
+
+    @property
+    def parts(self) -> "tuple[Part, ...]":
+        return (self,)
+
+    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
+        (part,) = parts
+        return part
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return (self.point,)
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    @property
+    def word(self) -> str:
+        return f"{CHANGE}{self.spec.word}"
+
+    @property
+    def title(self) -> str:
+        return f"{CHANGE}{self.spec.kind.name.lower()}"
+
+    @property
+    def hint(self) -> str:
+        return "positive where it is larger after the change, negative where it was before"
+
+
+CHANGE = "change of "
+"""What the words of a change begin with."""
+
 INTERPOLANT, TOTAL = "interpolant by ", "weights by "
 """What the words of an interpolant begin with."""
 
-Part = DistanceFrom | OwnField | Interpolant
+Part = DistanceFrom | OwnField | Interpolant | ChangeOf
 """What a difference is made of."""
 
 
@@ -178,7 +223,7 @@ class Difference:
         return f"positive where {self.minuend.title} is larger, negative where {self.subtrahend.title} is"
 
 
-Quantity = DistanceFrom | OwnField | Interpolant | Difference
+Quantity = DistanceFrom | OwnField | Interpolant | ChangeOf | Difference
 """What a panel can show: something with a value at every vertex."""
 
 
@@ -208,6 +253,8 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
             elif part.startswith((INTERPOLANT, TOTAL)):
                 distance = part.removeprefix(INTERPOLANT).removeprefix(TOTAL)
                 found.append(Interpolant(Spec.parse(distance, **parameters), part.startswith(TOTAL)))
+            elif part.startswith(CHANGE):
+                found.append(ChangeOf(Spec.parse(part.removeprefix(CHANGE), **parameters), point))
             else:
                 found.append(DistanceFrom(Spec.parse(part, **parameters), point))
         except ParameterError as error:
@@ -225,5 +272,5 @@ def from_point(shows: "Spec | Quantity", point: str) -> Quantity:
     if isinstance(shows, Spec):
         return DistanceFrom(shows, point)
     return shows.with_parts(
-        tuple(replace(part, point=point) if isinstance(part, DistanceFrom) else part for part in shows.parts)
+        tuple(replace(part, point=point) if isinstance(part, DistanceFrom | ChangeOf) else part for part in shows.parts)
     )

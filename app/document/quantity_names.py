@@ -2,7 +2,7 @@
 
 from bihdist_core.distances.kinds import Kind
 
-from .quantities import Interpolant, OwnField, Part, Quantity
+from .quantities import ChangeOf, Interpolant, OwnField, Part, Quantity
 
 
 def kind_name(kind: Kind) -> str:
@@ -11,6 +11,8 @@ def kind_name(kind: Kind) -> str:
 
 
 def part_name(part: Part) -> str:
+    if isinstance(part, ChangeOf):
+        return f"Change of {kind_name(part.spec.kind).lower()}"
     if isinstance(part, Interpolant):
         return "Weights" if part.total else "Interpolant"
     return part.name if isinstance(part, OwnField) else kind_name(part.spec.kind)

@@ -17,15 +17,17 @@ from bihdist_core.sources.source import BoundaryLoop, Curve, Place, Source
 from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..document.document import Document, Panel
+from ..document.document import Document, Panel, Zoom, starting_points
 from ..document.measuring import vertices_of
 from ..document.page import Recipe
 from ..document.profile_words import shows_path
+from ..document.quantities import ChangeOf
 from ..document.sourcing import members_of
 from ..drawing.selected import selected_colours
 from ..drawing.source_lines import SourceLine, source_lines
 from ..drawing.style import PINS, style_of
 from ..session.anchors import anchor_value, anchors_on
+from ..session.changed import carried
 from ..session.extrema import extrema_of
 from ..session.given import Given
 from ..session.opened import Opened, open_mesh
@@ -68,7 +70,7 @@ def open_document(recipe: Recipe, given: Given) -> tuple[Document, Surfaces]:
     surfaces, document = {}, recipe.document
     remedy = "Name the mesh that is to be drawn with --mesh." if recipe.made_with else ""
     for mesh in document.surfaces:
-        surfaces[mesh.name] = opened = open_mesh(mesh, given, remedy)
+        surfaces[mesh.name] = opened = open_mesh(mesh, given, remedy, list(surfaces.values()))
         document = opened.settled(document)
     return document, surfaces
 
@@ -180,14 +182,17 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
     document, surface = recipe.document, opened.surface
     starts = [source_at(document.point(name).at, surface) for name in panel.shows.points]
     heading = answer.label
-    if starts and len(document.sources) > 1:
+    if opened.origin is not None and not isinstance(panel.shows, ChangeOf):
+        heading += f", after {opened.mesh.change}"
+    starting = dict.fromkeys(point for point in starting_points(document) if not point.image_of)
+    if starts and len(starting) > 1:
         heading += f", from {', '.join(map(short_words_of, starts))}"
     through = passed(document, panel.surface, opened, answer)
     return FigurePanel(
         surface,
         answer.field,
         heading=heading,
-        hint=panel.shows.hint if recipe.page.hints else "",
+        hint="; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text),
         label="" if answer.failure else answer.label,
         unit=answer.unit,
         failure=answer.failure,
@@ -203,7 +208,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
             *_largest(answer),
             *_pin_marks(document, panel, surface),
         ),
-        zooms=document.zooms,
+        zooms=_zooms(document, opened),
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
         shading=document.shading,
@@ -215,6 +220,14 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         regions=() if answer.field is None else _region_lines(document, panel, opened),
         selected=_selected(document, panel, surface),
     )
+
+
+def _zooms(document: Document, opened: Opened) -> tuple[Zoom, ...]:
+    """At the same places of a changed surface."""
+    if opened.origin is None:
+        return document.zooms
+    places = [vertex_at(carried(zoom.vertex, opened), opened.surface) for zoom in document.zooms]
+    return tuple(replace(zoom, vertex=vertex) for zoom, vertex in zip(document.zooms, places, strict=True))
 
 
 def _selected(document: Document, panel: Panel, surface: Surface) -> np.ndarray | None:

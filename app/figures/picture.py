@@ -11,12 +11,14 @@ import numpy as np
 import numpy.typing as npt
 
 from bihdist_core import ParameterError
+from bihdist_core.applications.changes import change_from_words
 from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source, checked_source
 
 from ..document.camera import Camera, View
+from ..document.changing import COLUMNS, with_changed
 from ..document.document import Anchor, Document, Point, Zoom, free_names
 from ..document.edits import divide
 from ..document.file import read_recipe
@@ -87,6 +89,7 @@ def figure(
     *,
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
+    perturb: str = "",
     isolines: int | Isolines = 20,
     isoline_spacing: float | None = None,
     isoline_values: Sequence[float] = (),
@@ -135,7 +138,9 @@ def figure(
     distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, the highest if None, a
     `Place`, `BoundaryLoop`, `Curve` or `SourceSet`, or words such as "12+40"; or a list of these for a row of panels
     each.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances` like
-    one: "biharmonic - mine".  views: names or cameras, side by side.  camera: the eleven
+    one: "biharmonic - mine".  perturb: what is done to the mesh, such as
+    "noise=0.4,along=normals,seed=1": each distance before and after, and the difference.  views: names or cameras,
+    side by side.  camera: the eleven
     numbers that `--camera` takes, after other views.  up: the axis that points up, "z" or "-z", "auto" for a guess.
     projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
     with a factor, or with that and a number of steps.  isolines: a number of steps; isoline_spacing, isoline_values:
@@ -200,11 +205,14 @@ def figure(
         document = select_instead(document, runs)
     if len(isoline_through):
         document = pass_through(document, tuple(isoline_through))
+    usual = len(distances) if several and len(sources) > 1 else None
+    if perturb:
+        usual = COLUMNS
     page = Page(
         size=size,
         style=style,
         views=chosen if len(chosen) > 1 else (),
-        columns=columns or (len(distances) if several and len(sources) > 1 else None),
+        columns=columns or usual,
         hints=hints,
         transparent=transparent,
         crop=crop,
@@ -213,6 +221,8 @@ def figure(
         text=text,
         anchor_values=anchor_values,
     )
+    if perturb:
+        document = with_changed(document, change_from_words(perturb))
     document, _ = ranged(document, "shared" if shared_range and range == "own" else range)
     document, surfaces = open_document(Recipe(document, page), given)
     recipe = Recipe(document, page)

@@ -11,6 +11,7 @@ from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.sourcing import members_of
 from .questions import (
+    ChangeQuestion,
     DifferenceQuestion,
     DistanceQuestion,
     FieldQuestion,
@@ -32,7 +33,7 @@ def start_of(question: Question, field: np.ndarray, surface: Surface) -> Source 
     if isinstance(question, InterpolantQuestion):
         return SourceSet(tuple(vertex_at(at, surface) for at, _ in question.anchors))
     parts = (question.minuend, question.subtrahend) if isinstance(question, DifferenceQuestion) else (question,)
-    starts = [source_at(each.at, surface) for each in parts if isinstance(each, DistanceQuestion)]
+    starts = [source_at(each.at, surface) for each in parts if isinstance(each, DistanceQuestion | ChangeQuestion)]
     members = tuple(dict.fromkeys(member for start in starts for member in members_of(start)))
     return SourceSet(members) if len(members) > 1 else next(iter(members), None)
 

@@ -92,7 +92,7 @@ class Given:
         """What a document needs, by the names that it has in an archive."""
         arrays: dict[str, np.ndarray] = {}
         for mesh in document.surfaces:
-            if not mesh.path:
+            if not mesh.path and mesh.change is None:
                 surface, at = self.surface(mesh), f"surface/{mesh.name}"
                 arrays |= {f"{at}/vertices": surface.vertices, f"{at}/faces": surface.faces}
                 arrays[f"{at}/name"] = np.array(surface.name)
@@ -111,7 +111,7 @@ class Given:
             raise ParameterError(f"What came from Python is not there: {path or 'no archive is named'}.")
         with _opened(path) as archive:
             for mesh in document.surfaces:
-                if not mesh.path:
+                if not mesh.path and mesh.change is None:
                     at = f"surface/{mesh.name}"
                     vertices, faces, name = (_array(archive, f"{at}/{part}", path) for part in PARTS)
                     _check(given.add_surface(Surface(vertices, faces, str(name))), mesh, path)

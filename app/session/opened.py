@@ -20,16 +20,27 @@ from bihdist_core import (
     read_surface,
 )
 from bihdist_core.analysis.upright import guess_up
+from bihdist_core.applications.perturbation import perturbed
 from bihdist_core.distances.accuracy import Certificate
 from bihdist_core.distances.answers import Answer, Distances, difference_of, failed
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
+from bihdist_core.sources.source import Source
 
 from ..document.document import Document, MeshFile
 from ..document.file import checksum
 from ..samples import mesh_path
+from .changed import carried, change_of
 from .given import Given
-from .questions import DifferenceQuestion, FieldQuestion, InterpolantQuestion, Question, source_at, vertex_at
+from .questions import (
+    ChangeQuestion,
+    DifferenceQuestion,
+    FieldQuestion,
+    InterpolantQuestion,
+    Question,
+    source_at,
+    vertex_at,
+)
 
 NO_ANCHORS = "There is no anchor with a value: click the surface to set one."
 """What a panel of an interpolant says before there is one."""
@@ -39,9 +50,21 @@ VALUE = "value"
 
 
 class Opened:
-    """A surface that is there.  given: fields of the user's own; prepared: what whoever shows it has made of it."""
+    """A surface that is there.  given: fields of the user's own; prepared: what whoever shows it has made of it.
 
-    def __init__(self, mesh: MeshFile, surface: Surface, given: Given | None = None) -> None:
+    origin: what it is made from, if from another; ids: (n,) the vertices of that which its own are, -1 for new ones.
+    """
+
+    def __init__(
+        self,
+        mesh: MeshFile,
+        surface: Surface,
+        given: Given | None = None,
+        origin: "Opened | None" = None,
+        ids: np.ndarray | None = None,
+    ) -> None:
+        self.origin = origin
+        self.ids = np.arange(len(surface.vertices)) if ids is None else ids
         self.mesh = mesh
         self.surface = surface
         self.prepared: Any = None
@@ -53,7 +76,9 @@ class Opened:
 
     @cached_property
     def up(self) -> str:
-        """The axis that points up: guessed, unless whoever opened it knows better and has put it here."""
+        """The axis that points up: guessed, or that of what it is made from, unless whoever opened it put it here."""
+        if self.origin is not None:
+            return self.origin.up
         return guess_up(self.surface, os.path.splitext(self.mesh.path and mesh_path(self.mesh.path))[1])
 
     def distances(self, areas: str) -> Distances:
@@ -80,6 +105,8 @@ class Opened:
             return Answer(label=question.field.name, field=field, certificate=Certificate(), is_signed=is_signed)
         if isinstance(question, InterpolantQuestion):
             return self._interpolated(question, progress)
+        if isinstance(question, ChangeQuestion):
+            return change_of(question, self, progress)
         source = source_at(question.at, self.surface)
         return self.distances(question.areas).answer(question.spec, source, progress, at_once)
 
@@ -137,7 +164,7 @@ class Opened:
         each vertex.
         """
         mine = {mesh.name for mesh in document.surfaces if is_same(mesh, self.mesh)}
-        if mine:
+        if mine and self.origin is None:
             self.surface.check_vertices([zoom.vertex for zoom in document.zooms])
         if document.up == "auto" and document.surfaces and document.surfaces[0].name in mine:
             document = replace(document, up=self.up)
@@ -151,9 +178,16 @@ class Opened:
         meshes = (replace(m, sha256=self.mesh.sha256) if m.name in mine else m for m in document.surfaces)
         points = []
         for point in document.points:
+            if point.image_of and point.surface in mine:
+                original = document.point(point.image_of).at
+                points.append(replace(point, at=self._image(original)) if original is not None else point)
+                continue
             source = source_at(point.at, self.surface, self._up_in(document)) if point.surface in mine else None
             points.append(replace(point, at=source) if point.at is None else point)
         return replace(document, surfaces=tuple(meshes), points=tuple(points))
+
+    def _image(self, at: Source) -> Source:
+        return at if self.origin is None else carried(at, self)
 
     def _up_in(self, document: Document) -> str:
         return self.up if document.up == "auto" else document.up
@@ -171,14 +205,20 @@ class Opened:
 
 def is_same(asked: MeshFile, there: MeshFile) -> bool:
     """Whether what is there will do for what is asked for."""
-    return asked.path == there.path and asked.sha256 in ("", there.sha256)
+    return (asked.path, asked.change) == (there.path, there.change) and asked.sha256 in ("", there.sha256)
 
 
-def open_mesh(mesh: MeshFile, given: Given | None = None, remedy: str = "") -> Opened:
+def open_mesh(mesh: MeshFile, given: Given | None = None, remedy: str = "", there: Collection[Opened] = ()) -> Opened:
     """Read the file, or take what was given.  remedy: what to do, in a sentence, where a file is not the one meant.
 
+    there: surfaces that are open, for one that is made from another.
     Raises ParameterError if it is missing, or has changed since the checksum was taken; MeshError if it is no mesh.
     """
+    if mesh.change is not None:
+        itself = replace(mesh, change=None)
+        origin = next((each for each in there if is_same(itself, each.mesh)), None) or open_mesh(itself, given, remedy)
+        made, ids = perturbed(origin.surface, mesh.change)
+        return Opened(replace(mesh, sha256=origin.mesh.sha256), made, given, origin, ids)
     if not mesh.path:
         return Opened(mesh, (given or Given()).surface(mesh), given)
     path = checked_path(mesh, remedy)

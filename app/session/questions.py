@@ -13,7 +13,7 @@ from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document, FieldArray, MeshFile
-from ..document.quantities import Difference, Interpolant, OwnField, Part, Quantity
+from ..document.quantities import ChangeOf, Difference, Interpolant, OwnField, Part, Quantity
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,33 @@ class InterpolantQuestion:
         return str(Interpolant(self.spec, self.total))
 
 
-PartQuestion = DistanceQuestion | FieldQuestion | InterpolantQuestion
+@dataclass(frozen=True)
+class ChangeQuestion:
+    """How a distance from a vertex of a changed surface differs from what it was before."""
+
+    mesh: MeshFile
+    areas: str
+    spec: Spec
+    at: Source | None
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "ChangeQuestion":
+        (spec,) = specs
+        return replace(self, spec=spec)
+
+    @property
+    def about(self) -> Hashable:
+        """All but from where."""
+        return (self.mesh, self.areas, self.spec, "change")
+
+    def __str__(self) -> str:
+        return str(ChangeOf(self.spec))
+
+
+PartQuestion = DistanceQuestion | FieldQuestion | InterpolantQuestion | ChangeQuestion
 
 
 @dataclass(frozen=True)
@@ -155,7 +181,8 @@ def _question(document: Document, surface: str, shows: Quantity) -> Question:
             anchors = [(document.point(anchor.point), anchor) for anchor in document.anchors if not anchor.left_out]
             known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
             return InterpolantQuestion(mesh, areas, part.spec, known, document.weights, part.total)
-        return DistanceQuestion(mesh, areas, part.spec, document.point(part.point).at)
+        kind = ChangeQuestion if isinstance(part, ChangeOf) else DistanceQuestion
+        return kind(mesh, areas, part.spec, document.point(part.point).at)
 
     if isinstance(shows, Difference):
         return DifferenceQuestion(asked(shows.minuend), asked(shows.subtrahend), shows.raw)

@@ -258,10 +258,10 @@ class Session:
     def _load(self, opening: _Opening, lane: Lane[_Opening]) -> None:
         # The first report comes before the reading, which has no others.
         report = lane.progress(lambda latest: latest is opening, quiet=0)
-        found = []
+        found: list[Opened] = []
         for k, mesh in enumerate(opening.meshes):
             report(k / len(opening.meshes), f"reading {os.path.basename(mesh.path) or mesh.name}")
-            opened = open_mesh(mesh, self.given)
+            opened = open_mesh(mesh, self.given, there=[*self._opened, *found])
             report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
             opened.prepared = self._prepare(opened.surface)
             opened.up = self._known_up(opened.mesh.sha256) or opened.up
@@ -366,7 +366,12 @@ class Session:
         there = {id: (question, opened) for id, (question, opened) in asked.items() if opened is not None}
         self._answering.ask(there, live)
         for opened in self._opened:
-            wanted = {spec for question, surface in there.values() if surface is opened for spec in question.specs}
+            wanted = {
+                spec
+                for question, surface in there.values()
+                if opened in (surface, surface.origin)
+                for spec in question.specs
+            }
             opened.keep(self.document.areas, wanted)
 
     # ------------------------------------------------------------------ progress

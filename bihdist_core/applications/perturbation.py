@@ -1,6 +1,5 @@
 """What can go wrong with a mesh, done on purpose: noise, holes, welded parts, a thin handle (paper, Figs. 3, 6, 7)."""
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -10,10 +9,8 @@ from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import ParameterError
 from ..progress import Progress
 from ..surface import Surface
+from .changes import WAYS, Perturbation
 from .resizing import simplified
-
-WAYS = ("xyz", "normals")
-"""Along what there is noise."""
 
 WIDTH = 0.25
 """Sides of a thin handle, as a share of those of the faces it joins."""
@@ -148,40 +145,6 @@ def _opposite_corners(surface: Surface, face_a: int, face_b: int) -> tuple[np.nd
     turns = [np.roll(b[::-1], k) for k in range(3)]
     x = surface.vertices
     return a, min(turns, key=lambda turn: float(((x[a] - x[turn]) ** 2).sum()))
-
-
-@dataclass(frozen=True)
-class Perturbation:
-    """Changes to a surface, made in this order; those that are None or 0 are not made.
-
-    simplify: to so many vertices.  noise: see `noisy`.  holes, radius: see `with_holes`.  weld, handle: two vertices,
-    whose largest faces are joined (`welded`, `with_handle`).  seed: of noise and holes.  Vertices are those of the
-    surface as it was; one that simplification takes out is replaced by the nearest that stays.
-    """
-
-    simplify: int | None = None
-    noise: float = 0.0
-    along: str = "xyz"
-    holes: int = 0
-    radius: float = 0.05
-    weld: tuple[int, int] | None = None
-    handle: tuple[int, int] | None = None
-    seed: int = 0
-
-    def __str__(self) -> str:
-        words = []
-        if self.simplify is not None:
-            words.append(f"simplified to {self.simplify}")
-        if self.noise:
-            way = "in x, y and z" if self.along == "xyz" else "along normals"
-            words.append(f"noise of {self.noise:g} edges {way}, seed {self.seed}")
-        if self.holes:
-            words.append(f"{self.holes} holes of radius {self.radius:g}, seed {self.seed}")
-        if self.weld is not None:
-            words.append(f"grown together at {self.weld[0]} and {self.weld[1]}")
-        if self.handle is not None:
-            words.append(f"a handle from {self.handle[0]} to {self.handle[1]}")
-        return ", ".join(words) or "unchanged"
 
 
 def perturbed(surface: Surface, change: Perturbation, progress: Progress | None = None) -> tuple[Surface, np.ndarray]:

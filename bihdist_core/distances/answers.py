@@ -31,6 +31,7 @@ class Answer:
 
     label and unit: the distance's; certificate: how accurate the field is, None as long as that is not known.  A field
     that is signed has values on both sides of 0, as differences have; its maximum is that of the absolute values.
+    remark: what else is to be said of it.
     """
 
     label: str
@@ -39,6 +40,7 @@ class Answer:
     failure: str = ""
     certificate: Certificate | None = None
     is_signed: bool = False
+    remark: str = ""
 
     @property
     def maximum(self) -> float:

@@ -1,0 +1,195 @@
+"""What distances withstand, as documents: a surface made from another, points carried onto it, and the difference."""
+
+import argparse
+import shlex
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import app as bihdist
+from app.commands.figure_options import add_figure_options, chosen_recipe
+from app.document import one_line
+from app.document.changing import split, with_changed
+from app.document.document import Document, comparison
+from app.document.edits import open_mesh as with_mesh
+from app.document.file import read_recipe, recipe_text
+from app.document.form import document_data, document_from
+from app.document.page import Page, Recipe
+from app.document.quantities import ChangeOf, quantity
+from app.figures.export import compute, open_document
+from app.session.given import Given
+from bihdist_core import BiharmonicDistance, ParameterError, Place, VertexError, write_mesh
+from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
+from bihdist_core.applications.perturbation import image_of, perturbed
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+BIHARMONIC, EDGES = Spec.of("biharmonic"), Spec.of("geodesic", method="dijkstra")
+CHANGES = (
+    Perturbation(noise=0.3, along="normals", seed=4),
+    Perturbation(holes=2, radius=0.2, seed=1),
+    Perturbation(simplify=150, noise=0.1),
+    Perturbation(handle=(3, 200)),
+)
+
+
+@pytest.fixture(scope="module")
+def mesh(tmp_path_factory):
+    path = tmp_path_factory.mktemp("meshes") / "bumpy.off"
+    write_mesh(path, bumpy(300))
+    return str(path)
+
+
+def changed(mesh, change, sources=(5,)):
+    return with_changed(comparison(mesh, (BIHARMONIC, EDGES), sources), change)
+
+
+def opened(document):
+    document, surfaces = open_document(Recipe(document, Page()), Given())
+    return document, surfaces, compute(document, surfaces)
+
+
+@pytest.mark.parametrize("change", CHANGES, ids=words_of_change)
+def test_the_three_panels_are_before_after_and_the_difference_of_shares(mesh, change):
+    document, surfaces, answers = opened(changed(mesh, change))
+    before = surfaces["A"].surface
+    after, ids = perturbed(before, change)
+    assert np.array_equal(surfaces["B"].surface.vertices, after.vertices)
+    assert np.array_equal(surfaces["B"].surface.faces, after.faces)
+    there = image_of(before, ids, 5, after)
+    assert document.point("source after").at == there
+    old = BiharmonicDistance(before).from_source(5)
+    new = BiharmonicDistance(after).from_source(there)
+    assert answers[0].field == pytest.approx(old, rel=1e-9)
+    assert answers[1].field == pytest.approx(new, rel=1e-9, nan_ok=True)
+    seen = BiharmonicDistance(before).from_source(int(ids[there]))
+    both = [v for v in range(len(ids)) if ids[v] >= 0 and np.isfinite(new[v])]
+    top, was = max(new[v] for v in both), max(seen[ids[v]] for v in both)
+    expected = np.full(len(ids), np.nan)
+    for v in both:
+        expected[v] = new[v] / top - seen[ids[v]] / was
+    assert answers[2].is_signed
+    assert answers[2].field == pytest.approx(expected, abs=1e-9, nan_ok=True)
+    mean, largest = np.nanmean(np.abs(expected)), np.nanmax(np.abs(expected))
+    assert f"mean change {mean:.3g}, largest {largest:.3g} of the maximum" in answers[2].remark
+
+
+def test_a_source_that_moves_is_followed(mesh):
+    document, surfaces, _ = opened(changed(mesh, Perturbation(simplify=120)))
+    first = document.points[0]
+    for vertex in (17, 250):
+        moved = replace(document, points=(replace(first, at=vertex), *document.points[1:]))
+        again = surfaces["B"].settled(surfaces["A"].settled(moved))
+        ids = surfaces["B"].ids
+        away = np.linalg.norm(bumpy(300).vertices[ids] - bumpy(300).vertices[vertex], axis=1)
+        assert again.point("source after").at == int(away.argmin())
+
+
+def test_a_recipe_of_it_reads_back_and_makes_the_same(mesh, tmp_path):
+    picture = bihdist.figure(mesh, ["biharmonic"], 5, perturb="noise=0.3,seed=2", size="300x100")
+    picture.save(tmp_path / "changed.png")
+    recipe = read_recipe(tmp_path / "changed.json")
+    again = bihdist.figure_again(tmp_path / "changed.json")
+    assert np.array_equal(again.pixels, picture.pixels)
+    assert [str(panel.shows) for panel in recipe.document.panels] == [
+        "biharmonic",
+        "biharmonic",
+        "change of biharmonic",
+    ]
+    assert recipe.document.surfaces[1].change == Perturbation(noise=0.3, seed=2)
+    assert recipe.page.columns == 3
+    line = one_line.command_line(recipe, "out.png")
+    assert "--perturb noise=0.3,seed=2" in line
+
+
+def test_arrays_are_changed_as_files_are(mesh, tmp_path):
+    surface = bumpy(300)
+    words = "holes=2,radius=0.2"
+    picture = bihdist.figure((surface.vertices, surface.faces), ["biharmonic"], 5, perturb=words, size="300x100")
+    picture.save(tmp_path / "changed.png")
+    assert np.array_equal(bihdist.figure_again(tmp_path / "changed.json").pixels, picture.pixels)
+    of_file = bihdist.figure(mesh, ["biharmonic"], 5, perturb=words)
+    assert picture.answers[2].remark == of_file.answers[2].remark
+
+
+@pytest.mark.parametrize("change", CHANGES, ids=words_of_change)
+def test_documents_and_words_of_changes_are_read_as_they_are_written(mesh, change):
+    document = changed(mesh, change, (5, 9))
+    assert document_from(document_data(document)) == document
+    assert change_from_words(words_of_change(change)) == change
+    base, found = split(document)
+    assert (base, found) == (comparison(mesh, (BIHARMONIC, EDGES), (5, 9)), change)
+    assert quantity("change of biharmonic") == ChangeOf(BIHARMONIC)
+
+
+def test_a_document_without_a_change_says_nothing_of_it(mesh):
+    text = recipe_text(Recipe(comparison(mesh)), "1")
+    assert "change" not in text
+    assert "image_of" not in text
+
+
+def test_another_mesh_takes_the_place_of_both(mesh):
+    from app.document.document import MeshFile
+
+    document = with_mesh(changed(mesh, CHANGES[0]), MeshFile("A", "hand"))
+    assert document.surfaces == (MeshFile("A", "hand"),)
+    assert len(document.panels) == 2
+    assert isinstance(document, Document)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("twist=3", "no change to a mesh"),
+        ("noise=much", "noise is a number of mean edge lengths above 0, not 'much'"),
+        ("noise=-1", "above 0"),
+        ("holes=0", "a whole number from 1"),
+        ("weld=3", "two vertices such as 12:40"),
+        ("along=normals,seed=3", "changes nothing"),
+        ("noise=1,noise=2", "each once"),
+        ("along=z", "one of xyz, normals"),
+    ],
+)
+def test_what_is_no_change_is_refused_in_words(words, said):
+    with pytest.raises(ParameterError, match=said):
+        change_from_words(words)
+
+
+def test_places_and_fields_are_refused_where_they_cannot_be_followed(mesh):
+    with pytest.raises(ParameterError, match="vertex or several"):
+        opened(changed(mesh, CHANGES[0], (Place.of(3, 0.2, 0.2),)))
+    with pytest.raises(ParameterError, match="is none"):
+        bihdist.figure(mesh, ["biharmonic - geodesic"], 5, perturb="noise=1")
+    with pytest.raises(VertexError):
+        opened(changed(mesh, CHANGES[0], (999,)))
+    with pytest.raises(ParameterError, match="One mesh is changed at a time"):
+        with_changed(changed(mesh, CHANGES[0]), CHANGES[1])
+
+
+def test_the_change_of_a_mesh_that_is_made_from_no_other_is_refused(mesh):
+    with pytest.raises(Exception, match="made from no other"):
+        bihdist.figure(mesh, ["change of biharmonic"], 5)
+
+
+def from_words(*words):
+    parser = argparse.ArgumentParser()
+    add_figure_options(parser, "")
+    return chosen_recipe(parser.parse_args([*words, "-o", "out.png"]))
+
+
+def test_a_line_of_it_means_the_same_and_options_change_what_it_is_made_from(mesh, tmp_path):
+    words = [mesh, "--distance", "biharmonic", "--distance", "diffusion", "--source", "5"]
+    recipe = from_words(*words, "--perturb", "simplify=150,weld=3:200", "--size", "300x100")
+    again = from_words(*shlex.split(one_line.command_line(recipe, "out.png"))[2:-2])
+    assert (again.document, again.page) == (recipe.document, recipe.page)
+    several = from_words(*words, "--source", "9", "--perturb", "noise=1")
+    assert len(several.document.panels) == 12
+    line = shlex.split(one_line.command_line(several, "out.png"))
+    assert from_words(*line[2:-2]).document == several.document
+    (tmp_path / "r.json").write_text(recipe_text(recipe, "1"))
+    other = from_words("--recipe", str(tmp_path / "r.json"), "--source", "17", "--perturb", "noise=2")
+    assert other.document.surfaces[1].change == Perturbation(noise=2)
+    assert (other.document.point("source").at, other.document.point("source after").at) == (17, None)
+    plain = from_words("--recipe", str(tmp_path / "r.json"), "--up", "z")
+    assert plain.document == replace(recipe.document, up="z")
