@@ -79,6 +79,6 @@ def _compared(before: np.ndarray | None, after: np.ndarray | None, ids: np.ndarr
     field[both] = after[both] / after[both].max() - old[both] / old[both].max()
     field.flags.writeable = False
     return field, (
-        f"mean change {found.normalised_mean:.3g}, largest {found.normalised_largest:.3g} of the maximum; before each "
-        f"is divided by its own, {found.mean:.3g} and {found.largest:.3g}"
+        f"mean {found.normalised_mean:.3g}, largest {found.normalised_largest:.3g}, each as a share of its own "
+        f"maximum; raw, over the maximum before: {found.mean:.3g}, {found.largest:.3g}"
     )

@@ -18,11 +18,13 @@ from app.document.form import document_data, document_from
 from app.document.page import Page, Recipe
 from app.document.quantities import ChangeOf, quantity
 from app.figures.export import compute, open_document
+from app.main import main
 from app.session.given import Given
 from bihdist_core import BiharmonicDistance, ParameterError, Place, VertexError, write_mesh
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.perturbation import image_of, perturbed
 from bihdist_core.distances.kinds import Spec
+from tests.app.conftest import Desk
 from tests.shapes import bumpy
 
 BIHARMONIC, EDGES = Spec.of("biharmonic"), Spec.of("geodesic", method="dijkstra")
@@ -72,7 +74,7 @@ def test_the_three_panels_are_before_after_and_the_difference_of_shares(mesh, ch
     assert answers[2].is_signed
     assert answers[2].field == pytest.approx(expected, abs=1e-9, nan_ok=True)
     mean, largest = np.nanmean(np.abs(expected)), np.nanmax(np.abs(expected))
-    assert f"mean change {mean:.3g}, largest {largest:.3g} of the maximum" in answers[2].remark
+    assert f"mean {mean:.3g}, largest {largest:.3g}, each" in answers[2].remark
 
 
 def test_a_source_that_moves_is_followed(mesh):
@@ -193,3 +195,36 @@ def test_a_line_of_it_means_the_same_and_options_change_what_it_is_made_from(mes
     assert (other.document.point("source").at, other.document.point("source after").at) == (17, None)
     plain = from_words("--recipe", str(tmp_path / "r.json"), "--up", "z")
     assert plain.document == replace(recipe.document, up="z")
+
+
+def test_the_session_shows_it_and_a_source_moves_on_both(mesh):
+    desk = Desk()
+    desk.session.show(changed(mesh, CHANGES[2]))
+    session = desk.complete()
+    assert session.opened("B").origin is session.opened("A")
+    assert session.opened("B").up == session.opened("A").up
+    before = session.document
+    desk.click(70)
+    desk.complete()
+    ids = session.opened("B").ids
+    there = session.document.point("source after").at
+    assert there == image_of(bumpy(300), ids, 70, session.opened("B").surface)
+    expected = BiharmonicDistance(session.opened("B").surface).from_source(there)
+    assert session.shown[1].answer.field == pytest.approx(expected, rel=1e-9, nan_ok=True)
+    assert session.shown[2].answer.field[there] == 0
+    session.undo()
+    desk.complete()
+    assert session.document == before
+
+
+def test_the_command_says_the_numbers(mesh, tmp_path, capsys):
+    words = ["figure", mesh, "--distance", "biharmonic", "--source", "5", "--size", "300x100"]
+    assert main([*words, "--perturb", "noise=0.3,seed=2", "-o", str(tmp_path / "f.png")]) == 0
+    said = capsys.readouterr().out
+    (answer,) = bihdist.figure(mesh, ["biharmonic"], 5, perturb="noise=0.3,seed=2").answers[2:]
+    assert f"change of biharmonic, exact: {answer.remark}" in said
+    assert "source vertex 5" in said
+    noise = ["--noise", "0.3", "--seed", "2", "--distance", "biharmonic", "--source", "5"]
+    main(["perturb", mesh, *noise, "-o", str(tmp_path / "m.off")])
+    mean = answer.remark.removeprefix("mean ").split(", largest ")[0]
+    assert f"changes by {mean} of its maximum" in capsys.readouterr().out
