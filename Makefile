@@ -15,7 +15,8 @@ help:
 	@echo 'make bench   the speed of the solver beside potpourri3d'
 
 NO_DISPLAY = $(if $(filter Linux,$(shell uname -s)),$(if $(DISPLAY)$(WAYLAND_DISPLAY),,yes))
-NO_WINDOW = $(filter field pairs profile isolines statistics samples regions figure movie info paper,$(firstword $(ARGS)))
+NO_WINDOW = $(filter field pairs profile isolines statistics samples regions interpolate correspond evaluate perturb \
+    figure movie info paper,$(firstword $(ARGS)))
 run:
 	@.ci/set-up
 ifeq ($(if $(NO_WINDOW),,$(NO_DISPLAY)),yes)
