@@ -32,6 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         help="mesh file, the name of a sample, or a session or recipe (default: choose in the window)",
     )
+    parser.add_argument("beside", nargs="?", help="a second mesh, to stand beside the first")
     parser.add_argument("--source", type=source, metavar="V", help=f"what distances start from: {SOURCE}")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
@@ -45,7 +46,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> NoReturn:
-    from ..document.document import AREAS, COMPARISON, Document, comparison
+    from ..document.beside_edits import open_beside
+    from ..document.document import AREAS, COMPARISON, Document, MeshFile, comparison
 
     # Not in the window, where a script would wait for ever.
     is_choice = options.mesh is None and not (options.screenshot or options.save_session)
@@ -59,11 +61,15 @@ def run(options: argparse.Namespace) -> NoReturn:
     shown: Document | str = path
     if path.lower().endswith(".json"):
         _refuse_options(options)
+        if options.beside is not None:
+            raise ParameterError(f"A session says which meshes it has; leave out {options.beside}.")
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
         shown = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
         shown = with_pins(with_colours(replace(shown, up=options.up or "auto"), options), options)
         shown = with_selections(shown, options)
+        if options.beside is not None:
+            shown = open_beside(shown, MeshFile("", found_mesh(options.beside)))
     if is_choice and options.source is not None:
         raise ParameterError("A source needs a mesh; name one.")
     from ..qt.screen import check_screen

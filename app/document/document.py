@@ -13,6 +13,7 @@ from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, checked_source, whole_number
 
+from .beside import Beside
 from .camera import View, checked_view
 from .instruments import (
     ALONG_ALL_PINS,
@@ -185,6 +186,7 @@ class Document:
     fields are marked.  docks: those of DOCKS that are open; dock_places: where they were when this was saved, None for
     where docks are at first.
     snap: whether the pointer puts sources on vertices, and not anywhere in faces.
+    beside: how surfaces but the first are seen, and linked: whether turning one of them turns the others.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
@@ -216,6 +218,8 @@ class Document:
     docks: tuple[str, ...] = ()
     dock_places: DockPlaces | None = None
     snap: bool = True
+    beside: tuple[Beside, ...] = ()
+    linked: bool = True
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -256,6 +260,7 @@ class Document:
         if not 0 <= self.height <= 10:
             raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
         checked_view(self.camera)
+        _known(list(_unlike([each.surface for each in self.beside], "surface")), surfaces, "surface")
 
     def mesh(self, name: str = "A") -> MeshFile:
         return _named(self.surfaces, name, "surface")
@@ -271,6 +276,19 @@ class Document:
             if panel.id == id:
                 return panel
         raise ParameterError(f"There is no panel {id}.")
+
+    def camera_of(self, surface: str) -> View:
+        """From where a surface is seen; from where the first is, if nothing else is said."""
+        return next((each.camera for each in self.beside if each.surface == surface), self.camera)
+
+    def up_of(self, surface: str) -> str:
+        """Which of its axes points up; the same."""
+        return next((each.up for each in self.beside if each.surface == surface), self.up)
+
+    def panels_of(self, surface: str | None = None) -> tuple[Panel, ...]:
+        """Those that show a surface, the first if none is named."""
+        name = self.surfaces[0].name if surface is None and self.surfaces else surface
+        return tuple(panel for panel in self.panels if panel.surface == name)
 
     @property
     def sources(self) -> tuple[Source | None, ...]:
@@ -318,8 +336,9 @@ def free_names(base: str, count: int, taken: list[str]) -> list[str]:
 
 
 def content(document: Document) -> Document:
-    """What two documents have in common that differ in nothing but the camera, open docks and snapping."""
-    return replace(document, camera="home", docks=(), dock_places=None, snap=True)
+    """What two documents have in common that differ in nothing but cameras, open docks and snapping."""
+    beside = tuple(replace(each, camera="home") for each in document.beside)
+    return replace(document, camera="home", docks=(), dock_places=None, snap=True, beside=beside, linked=True)
 
 
 def _unlike(names: list, what: str) -> set:

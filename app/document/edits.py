@@ -11,7 +11,7 @@ from .changing import without_changed
 from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
 from .instruments import ALONG_ALL_PINS
 from .measuring import show_regions
-from .quantities import DistanceFrom, Quantity, own_fields
+from .quantities import DistanceFrom, Quantity, from_point, own_fields
 
 MOST_ADDED = 6
 """Up to which panels can be added; a recipe may have more."""
@@ -89,9 +89,15 @@ def show_in(document: Document, panel: int, shows: Quantity) -> Document:
 
     A point that is not there yet is where the first source is.
     """
-    known = {point.name for point in document.points}
-    for name in set(shows.points) - known:
-        document = put_point(document, name, None, document.panel(panel).surface)
+    surface = document.panel(panel).surface
+    known = {point.name: point.surface for point in document.points}
+    elsewhere = {name for name in shows.points if known.get(name, surface) != surface}
+    if elsewhere:
+        # The head of a panel that starts nowhere does not know where those of its surface start.
+        name = source_name(document, panel) or free_names("source", 1, list(known))[0]
+        shows = from_point(shows, name)
+    for name in set(shows.points) - known.keys():
+        document = put_point(document, name, None, surface)
     return replace(
         document,
         panels=tuple(
@@ -139,14 +145,17 @@ def move_panel(document: Document, panel: int, place: int) -> Document:
     return replace(document, panels=tuple(others))
 
 
-def add_another(document: Document) -> Document:
-    """One more panel, with a distance that is not shown yet where there is one."""
-    shown = {spec.word for panel in document.panels for spec in panel.shows.specs}
+def add_another(document: Document, surface: str | None = None) -> Document:
+    """One more panel of a surface, the first if None, with a distance that it does not show yet where there is one."""
+    shown = {spec.word for panel in document.panels_of(surface) for spec in panel.shows.specs}
     words = [*(spec.word for spec in COMPARISON), *kinds()]
     word = next((word for word in words if word not in shown), words[0])
-    surface = document.surfaces[0].name
-    if any(point.name == "source" and point.surface == surface for point in document.points):
-        return add_panel(document, DistanceFrom(Spec.of(word)), surface)
+    surface = document.surfaces[0].name if surface is None else surface
+    starting = [name for panel in document.panels_of(surface) for name in panel.shows.points]
+    starting += [point.name for point in document.points if point.name == "source" and point.surface == surface]
+    if starting:
+        name = "source" if "source" in starting else starting[0]
+        return add_panel(document, DistanceFrom(Spec.of(word), name), surface)
     (name,) = free_names("source", 1, [point.name for point in document.points])
     return add_panel(put_point(document, name, None, surface), DistanceFrom(Spec.of(word), name), surface)
 
@@ -198,7 +207,7 @@ def place_of(document: Document, panel: int) -> int:
 
 
 PANEL_EDITS: dict[str, Callable[[Document, int], Document]] = {
-    "Add a panel": lambda document, panel: add_another(document),
+    "Add a panel": lambda document, panel: add_another(document, document.panel(panel).surface),
     "Duplicate this panel": duplicate_panel,
     "Move it back": lambda document, panel: move_panel(document, panel, max(place_of(document, panel) - 1, 0)),
     "Move it on": lambda document, panel: move_panel(document, panel, place_of(document, panel) + 1),

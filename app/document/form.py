@@ -10,6 +10,7 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import BoundaryLoop, Curve, Place, Source, SourceSet
 from bihdist_core.sources.words import curve_rows, places_from
 
+from .beside import Beside
 from .camera import Camera, View
 from .document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom
 from .instruments import ALONG_ALL_PINS, AS_LISTED, FIRST_TWO, DockPlaces, Pin, PinList, Profile, Scatter, Selection
@@ -36,6 +37,8 @@ LATER: dict[str, Any] = {
     "docks": [],
     "dock_places": None,
     "snap": True,
+    "beside": [],
+    "linked": True,
 }
 """Parts of a document that it need not have, and what then holds: as it was before there were any."""
 
@@ -62,6 +65,7 @@ def document_data(document: Document) -> dict[str, Any]:
         "regions": list(document.regions),
         "docks": list(document.docks),
         "dock_places": document.dock_places and plain(document.dock_places),
+        "beside": [{**plain(each), "camera": view_data(each.camera)} for each in document.beside],
     }
     data = {f.name: own.get(f.name, getattr(document, f.name)) for f in fields(document)}
     # What came later is written where it differs from what was before.
@@ -165,6 +169,8 @@ def document_from(data: Any, where: str = "document") -> Document:
         "docks": listed(text),
         "dock_places": _dock_places,
         "snap": flag,
+        "beside": listed(_beside),
+        "linked": flag,
     }
     values = record(data, where, readers, readers.keys() - LATER.keys() - {"shared_range"})
     return placed(Document, where, **with_range({"up": LATER["up"], **values}))
@@ -183,6 +189,10 @@ def _mesh(data: Any, where: str) -> MeshFile:
 
 def _change(data: Any, where: str) -> Perturbation:
     return placed(change_from_words, where, text=text(data, where))
+
+
+def _beside(data: Any, where: str) -> Beside:
+    return placed(Beside, where, **record(data, where, {"surface": text, "camera": read_view, "up": text}))
 
 
 def _field_array(data: Any, where: str) -> FieldArray:

@@ -15,7 +15,7 @@ class History:
 
     Steps with the same key in a row are one: a drag, a slider.  The camera belongs to the document, but its moves are
     no steps: undo and redo leave it where it is, except that another mesh is seen as it was seen last.  Nor are docks
-    that are opened and closed, and snapping that is switched.
+    that are opened and closed, and snapping and the link of two cameras, which are switched.
     """
 
     def __init__(self, document: Document) -> None:
@@ -127,5 +127,12 @@ class Trail(Generic[Place]):
 
 
 def _seen_from(document: Document, present: Document) -> Document:
-    document = replace(document, docks=present.docks, dock_places=present.dock_places, snap=present.snap)
-    return replace(document, camera=present.camera) if document.surfaces == present.surfaces else document
+    document = replace(document, docks=present.docks, dock_places=present.dock_places)
+    document = replace(document, snap=present.snap, linked=present.linked)
+    if document.surfaces[:1] == present.surfaces[:1]:
+        document = replace(document, camera=present.camera)
+    cameras = {each.surface: each.camera for each in present.beside}
+    if document.surfaces != present.surfaces:
+        return document
+    beside = tuple(replace(each, camera=cameras.get(each.surface, each.camera)) for each in document.beside)
+    return replace(document, beside=beside)

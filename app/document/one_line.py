@@ -242,6 +242,8 @@ UNSEEN = {
     "Anchor.name": "figures show colours",
     "Panel.id": "for the window and the history",
     "Panel.surface": "with one mesh all panels are of it",
+    "Document.beside": "with one mesh there is none beside it",
+    "Document.linked": "what the cameras of the window do",
     "Page.format": "the file's name says it",
 }
 """Parts that no line names, since no figure shows them, and what they are for."""

@@ -67,6 +67,24 @@ def turned(camera: Camera, degrees: float, axis: np.ndarray) -> Camera:
     return replace(camera, position=_vector(np.add(camera.focal_point, arm)), up=_vector(up))
 
 
+def carried(other: Camera, before: Camera, after: Camera) -> Camera:
+    """Where another camera goes when one goes from before to after.
+
+    The similarity that carries the one to the other carries it on: both turn alike in their pictures, and what is
+    nearer or aside by a share of one shape's size is so by that of the other's.
+    """
+    turn = frame(other) @ frame(before).T
+    arms = [np.linalg.norm(np.subtract(each.position, each.focal_point)) for each in (other, before)]
+    scale = float(arms[0] / arms[1])
+
+    def place(point: Vector) -> Vector:
+        return _vector(np.array(other.focal_point) + scale * (turn @ np.subtract(point, before.focal_point)))
+
+    extent = tuple(e * new / old for e, new, old in zip(other.extent, after.extent, before.extent, strict=True))
+    up = _vector(turn @ np.array(after.up))
+    return Camera(place(after.position), place(after.focal_point), up, _pair(extent))
+
+
 class Projection:
     """What a camera makes of points in a picture of width / height `aspect`.
 

@@ -188,6 +188,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
     if starts and len(starting) > 1:
         heading += f", from {', '.join(map(short_words_of, starts))}"
     through = passed(document, panel.surface, opened, answer)
+    up = document.up_of(panel.surface)
     return FigurePanel(
         surface,
         answer.field,
@@ -199,7 +200,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         maximum=panel.maximum,
         isolines=document.isolines,
         through=tuple(point.value for point in through),
-        views=recipe.views,
+        views=recipe.page.views or (document.camera_of(panel.surface),),
         marks=(
             *_extremum_marks(document, panel, surface, answer),
             *_dots(through, answer),
@@ -212,7 +213,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
         shading=document.shading,
-        up=document.up if document.up != "auto" else opened.up,
+        up=up if up != "auto" else opened.up,
         source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.projection == "orthographic",
         axes=document.axes,

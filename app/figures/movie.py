@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import chain, pairwise
@@ -16,6 +16,7 @@ from bihdist_core import BihdistError, OutputError, ParameterError, Surface
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.progress import Progress, part
+from bihdist_core.sources.source import Source
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.camera import View
@@ -130,9 +131,10 @@ def _documents(movie: Movie, surface: Surface) -> list[Document]:
 
 
 def _from(document: Document, vertex: int) -> Document:
-    """The document with every field from one vertex."""
-    for name in dict.fromkeys(name for panel in document.panels for name in panel.shows.points):
-        document = put_point(document, name, vertex, document.point(name).surface)
+    """The document with every field of the first panel's surface from one vertex."""
+    first = document.panels[0].surface
+    for name in dict.fromkeys(name for panel in document.panels_of(first) for name in panel.shows.points):
+        document = put_point(document, name, vertex, first)
     return document
 
 
@@ -143,7 +145,7 @@ class _Fields:
     """
 
     def __init__(self, movie: Movie, surfaces: Surfaces, progress: Progress) -> None:
-        self._recipe, self._surfaces = movie.recipe, surfaces
+        self._recipe, self.surfaces = movie.recipe, surfaces
         self.surface = surfaces[movie.recipe.document.panels[0].surface].surface
         self.documents = _documents(movie, self.surface)
         self._answers: dict[Question, Answer] = {}
@@ -161,7 +163,7 @@ class _Fields:
         answers = {}
         for number, question in enumerate(wanted):
             step = part(progress, number / len(wanted), (number + 1) / len(wanted))
-            answer = self._surfaces[panel.surface].answer(question, step)
+            answer = self.surfaces[panel.surface].answer(question, step)
             if answer.field is not None:
                 answer = replace(answer, field=answer.field.astype(np.float32))
             answers[question] = answer
@@ -170,14 +172,18 @@ class _Fields:
         self._answers |= answers if failed is None else dict.fromkeys(answers, failed)
         self._tops[panel.id] = max(self._answers[question].maximum for question in wanted)
 
-    def figure(self, frame: int, views: tuple[View, ...]) -> Figure:
+    def figure(self, frame: int, cameras: Mapping[str, View]) -> Figure:
+        """cameras: of the surfaces, by their names in the document."""
         document = self.documents[frame]
         panels = tuple(replace(p, maximum=p.maximum or self._tops[p.id] or None) for p in document.panels)
         recipe = Recipe(
-            replace(document, panels=panels), replace(self._recipe.page, views=views, crop=False, transparent=False)
+            replace(document, panels=panels), replace(self._recipe.page, views=(), crop=False, transparent=False)
         )
         answers = [self._answers[q] for q in questions(document).values()]
-        return replace(figure_of(recipe, self._surfaces, answers), is_moving=True)
+        figure = figure_of(recipe, self.surfaces, answers)
+        drawn = zip(figure.panels, document.panels, strict=True)
+        seen = tuple(replace(each, views=(cameras[panel.surface],)) for each, panel in drawn)
+        return replace(figure, panels=seen, is_moving=True)
 
 
 def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
@@ -185,14 +191,26 @@ def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
     document = fields.documents[0]
     # What turns shows its source at first; what stands, as much as may be of the source's way.
     seen = fields.documents[:1] if movie.turn else fields.documents[:: max(len(fields.documents) // PLACES, 1)]
-    sources = [vertex_at(at, fields.surface) for each in seen for at in each.sources]
-    camera, axis = start_and_axis(
-        movie.recipe.views[0], fields.surface, movie.turn, document.height, sources, document.up, document.projection
-    )
-    size = fitted_size(fields.figure(0, (camera,)), camera.extent)
+    starts = {}
+    for name in dict.fromkeys(panel.surface for panel in document.panels):
+        surface = fields.surfaces[name].surface
+        sources = [vertex_at(at, surface) for each in seen for at in _sources_on(each, name)]
+        view = movie.recipe.page.views[0] if movie.recipe.page.views else document.camera_of(name)
+        up = document.up_of(name)
+        starts[name] = start_and_axis(view, surface, movie.turn, document.height, sources, up, document.projection)
+    first, _ = starts[document.panels[0].surface]
+    size = fitted_size(fields.figure(0, {name: camera for name, (camera, _) in starts.items()}), first.extent)
     for k in range(movie.frames):
         # A whole turn ends one step before where it began: shown again and again, it does not halt.
-        yield replace(fields.figure(k, (turned(camera, movie.turn * k / movie.frames, axis),)), size=size)
+        angle = movie.turn * k / movie.frames
+        cameras = {name: turned(camera, angle, axis) for name, (camera, axis) in starts.items()}
+        yield replace(fields.figure(k, cameras), size=size)
+
+
+def _sources_on(document: Document, surface: str) -> list[Source | None]:
+    """Where the fields of a surface start, each place once, in order."""
+    names = [name for panel in document.panels_of(surface) for name in panel.shows.points]
+    return list(dict.fromkeys(document.point(name).at for name in names))
 
 
 # ---------------------------------------------------------------------- files

@@ -62,6 +62,21 @@ def _dock(word: str, text: str, key: str, tip: str, icon: str) -> Act:
 
 FILE = (
     Act("open", "&Open …", lambda w: w.files.choose(), ("Ctrl+O",), "Open a mesh, a session or a recipe", "open"),
+    Act(
+        "open beside",
+        "Open beside …",
+        lambda w: w.files.choose_beside(),
+        ("Ctrl+Shift+O",),
+        "A second mesh, with panels and a camera of its own",
+        needs_mesh=True,
+    ),
+    Act(
+        "close beside",
+        "Close the mesh beside",
+        lambda w: w.session.close_beside(),
+        tip="The first mesh alone, without the panels of the second",
+        needs_mesh=True,
+    ),
     Act("save", "&Save session", lambda w: w.session_file.save_or_say(), ("Ctrl+S",), "", "save", needs_mesh=True),
     Act(
         "save as", "Save session &as …", lambda w: w.session_file.choose_and_save(), ("Ctrl+Shift+S",), needs_mesh=True
@@ -152,6 +167,16 @@ VIEW = (
         ("Z",),
         "What is pointed at, larger",
         needs_mesh=True,
+    ),
+    Act(
+        "link",
+        "Link the two cameras",
+        lambda w: w.views.link(),
+        ("K",),
+        "Turning one of two meshes turns the other",
+        needs_mesh=True,
+        is_check=True,
+        is_on=True,
     ),
     Act("next up", "The &next axis up", lambda w: w.views.next_up(), ("U",), needs_mesh=True),
     Act("other end up", "Upside &down", lambda w: w.views.other_end_up(), ("Shift+U",), needs_mesh=True),

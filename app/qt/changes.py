@@ -15,7 +15,7 @@ class Changes:
 
     def __init__(self, window) -> None:
         self._window = window
-        self._opened: Opened | None = None  # the surface in the panels
+        self._opened: tuple[Opened | None, ...] = ()  # the surfaces in the panels
 
     @property
     def _style(self) -> Style:
@@ -25,15 +25,16 @@ class Changes:
     def show(self, before: Document) -> None:
         """The session's document, where the one before is shown."""
         window, session, grid = self._window, self._window.session, self._window.grid
-        document, opened = session.document, session.opened()
+        document = session.document
+        opened = tuple(session.opened(mesh.name) for mesh in document.surfaces)
         is_dressed = grid.show_style(self._style)  # in other colours
-        is_other = opened is not self._opened
+        is_other = opened != self._opened
         other_panels = is_other or is_dressed or (document.panels, document.fields) != (before.panels, before.fields)
         if other_panels:
             grid.show_panels(document)
         if is_other:
             self._opened = opened
-            window.surface_changed(opened)
+            window.surface_changed(*opened)
         if is_other or is_dressed:
             grid.show_surface()
         if other_panels or document.points != before.points:
@@ -67,7 +68,7 @@ class Changes:
     def wear_next(self) -> None:
         """The same, with the next change of the document, which then shows all anew."""
         if self._window.grid is not None and self._window.grid.show_style(self._style):
-            self._opened = None
+            self._opened = ()
 
     def show_all_again(self) -> None:
         """All that is in the panels, where nothing has changed but how it looks."""

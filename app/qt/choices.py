@@ -52,13 +52,17 @@ class Choices:
         menus.show_choice(menus.shading, document.shading.normals)
         window.actions_by_word["wireframe"].setChecked(document.shading.wireframe)
         window.actions_by_word["snap"].setChecked(document.snap)
+        window.actions_by_word["link"].setChecked(document.linked)
+        for word in ("link", "close beside"):
+            window.actions_by_word[word].setEnabled(len(document.surfaces) > 1)
 
     # ------------------------------------------------------------------ panels
     def add_panel(self) -> None:
         """One more, with a distance that is not shown yet."""
         session = self._window.session
         if session.surface is not None and len(session.document.panels) < MOST_ADDED:
-            session.show(add_another(session.document))
+            active = {panel.id: panel.surface for panel in session.document.panels}
+            session.show(add_another(session.document, active.get(self._window.grid.active)))
 
     def edit_panel(self, panel: int, word: str) -> None:
         """One of PANEL_EDITS, where it is possible."""

@@ -73,7 +73,7 @@ class Gestures:
         if self.anchors.are_meant(panel):
             self.anchors.put(panel, met)
         else:
-            self._move(panel, self.sources.at(met))
+            self._move(panel, self.sources.at(panel, met))
 
     def _move(self, panel: int, at: Source, **how: object) -> None:
         session = self._window.session
@@ -106,7 +106,7 @@ class Gestures:
         """Along the edge that leads most nearly to where a direction of the screen points."""
         session, id = self._window.session, self._grid.active
         sources = session.document.panel(id).shows.points if id >= 0 else ()
-        surface = session.surface
+        surface = session.surface_in(id)
         if surface is None or not sources:
             return
         panel = self._grid.panel(id)
@@ -138,19 +138,29 @@ class Gestures:
     # ------------------------------------------------------------------ the pointer
     def _hover(self, panel: int, met: "Met | None") -> None:
         window = self._window
-        before, last, self._met, self._met_in = self.hovered, self._met, met, panel
+        before, last, last_in = self.hovered, self._met, self._met_in
+        self._met, self._met_in = met, panel
         vertex = self.hovered
         if window.session.surface is None or (vertex is None and before is None):
             return
         self._grid.pointing.show(panel, vertex)
-        window.docks.pointed(vertex)
-        window.status.show_place(vertex, None if vertex is None else window.session.surface.vertices[vertex])
+        surface = window.session.surface_in(panel)
+        window.docks.pointed(vertex, self._grid.panel(panel).surface)
+        window.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], self._letter(panel))
         is_led = self.is_live and not self.anchors.are_meant(panel)
-        if is_led and met is not None and (last is None or self.sources.at(met) != self.sources.at(last)):
+        is_elsewhere = last is None or panel != last_in or self._at(panel, met) != self._at(panel, last)
+        if is_led and met is not None and is_elsewhere:
             self.is_dragging = self._has_followed = True
             self.sources.rate.begin()
-            self._move(panel, self.sources.at(met), key="live", live=True)
+            self._move(panel, self.sources.at(panel, met), key="live", live=True)
             self._rest_soon.start()
+
+    def _at(self, panel: int, met: "Met | None") -> Source | None:
+        return None if met is None else self.sources.at(panel, met)
+
+    def _letter(self, panel: int) -> str:
+        """Of the surface of a panel, where there are two."""
+        return self._grid.panel(panel).head.letter
 
     def centre_here(self) -> None:
         """What is under the pointer comes into the middle, and is turned about."""
@@ -199,8 +209,8 @@ class Gestures:
             menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, met))
             menu.addSeparator()
             menu.addAction(f"Copy vertex id {vertex}", lambda: _copy(str(vertex)))
-            menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(vertex))))
-            menu.addAction("Copy values", lambda: _copy(self._values(vertex)))
+            menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(panel, vertex))))
+            menu.addAction("Copy values", lambda: _copy(self._values(panel, vertex)))
         else:
             self.pins.offer(menu, panel, None, where)
             menu.addSeparator()
@@ -212,13 +222,14 @@ class Gestures:
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(where)
 
-    def _place(self, vertex: int) -> np.ndarray:
-        return self._window.session.surface.vertices[vertex]
+    def _place(self, panel: int, vertex: int) -> np.ndarray:
+        return self._window.session.surface_in(panel).vertices[vertex]
 
-    def _values(self, vertex: int) -> str:
-        """What every panel has there."""
-        place = " ".join(number(x) for x in self._place(vertex))
-        said = [panel.said_of(vertex) for panel in self._grid.panels]
+    def _values(self, id: int, vertex: int) -> str:
+        """What every panel of the same surface has there."""
+        place = " ".join(number(x) for x in self._place(id, vertex))
+        name = self._grid.panel(id).surface
+        said = [panel.said_of(vertex) for panel in self._grid.panels if panel.surface == name]
         return "\n".join([f"vertex {vertex} at {place}", *said])
 
 

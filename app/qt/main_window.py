@@ -229,17 +229,20 @@ class MainWindow(QtWidgets.QMainWindow):
             self.page = page
             self.changes.wear_next()
 
-    def surface_changed(self, opened: Opened) -> None:
-        """Another surface comes into the panels."""
+    def surface_changed(self, opened: Opened, *beside: Opened) -> None:
+        """Another surface comes into the panels, or beside that which is there."""
         self._allow(True)
         self.views.begin()
         self.gestures.begin()
-        self.setWindowTitle(f"{opened.surface.name} - Biharmonic distance")
+        names = ", ".join(each.surface.name for each in (opened, *beside))
+        self.setWindowTitle(f"{names} - Biharmonic distance")
         recipe = Recipe(self.session.document, self.page)
-        self.status.show_surface(opened.surface, unseen(recipe, STYLES[self.page.style]))
+        more = unseen(recipe, STYLES[self.page.style])
+        self.status.show_surface(opened.surface, more, [each.surface for each in beside])
         self.leave_boxes()
-        if self.remembers and opened.mesh.path and os.path.exists(opened.mesh.path):
-            remembered.remember(opened.mesh.path)
+        for each in (*beside, opened) if self.remembers else ():
+            if each.mesh.path and os.path.exists(each.mesh.path):
+                remembered.remember(each.mesh.path)
 
     def answer_changed(self, panel: int) -> None:
         self.grid.show_answer(panel)

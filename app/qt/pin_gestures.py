@@ -31,7 +31,7 @@ class PinGestures:
         session = self._window.session
         surface = session.document.panel(panel).surface
         try:
-            session.show(add_pins(session.document, [self._sources.at(met)], surface))
+            session.show(add_pins(session.document, [self._sources.at(panel, met)], surface))
         except ParameterError as error:  # there are too many
             self._window.failed(str(error))
 
@@ -40,7 +40,7 @@ class PinGestures:
         view = self._grid.panel(panel).view
         number = view.over.pin_at(view.mapFromGlobal(where))
         if not number and met is not None:
-            number = self._number_at(panel, self._sources.at(met))
+            number = self._number_at(panel, self._sources.at(panel, met))
         if number:
             pin = self._pin(number)
             menu.addAction(f"Source at {_name(pin, number)}", lambda: self._move_source(panel, pin.point))
@@ -73,7 +73,7 @@ class PinGestures:
     def _drag(self, panel: int, number: int, met: "Met") -> None:
         """All the way is one step; a place that another pin has is passed."""
         session = self._window.session
-        document, at = session.document, self._sources.at(met)
+        document, at = session.document, self._sources.at(panel, met)
         pin = self._pin(number)
         point = document.point(pin.point)
         if at != point.at and not self._number_at(panel, at):
@@ -89,7 +89,9 @@ class PinGestures:
 
     def _move_source(self, panel: int, point: str) -> None:
         session = self._window.session
-        session.show(move_source(session.document, panel, session.document.point(point).at))
+        document = session.document
+        if document.point(point).surface == document.panel(panel).surface:
+            session.show(move_source(document, panel, document.point(point).at))
 
 
 def _name(pin: Pin, number: int) -> str:

@@ -21,7 +21,8 @@ from qtpy import QtCore
 from bihdist_core import BihdistError, ParameterError
 from bihdist_core.sources.source import Source, checked_source
 
-from ..document.document import Document
+from ..document.beside_edits import MOST_SHOWN
+from ..document.document import Document, Point
 from ..document.edits import move_source
 from ..document.quantities import Quantity
 from ..drawing.style import map_of
@@ -47,7 +48,8 @@ class Pick:
 
     panel: the id of the panel that was clicked.  vertex: the nearest corner of the face.  position: (3,) where the face
     was met, in mesh units (of a relief, on the raised surface), and weights: (3,) of its corners there.  values: by
-    panel, what it showed at the vertex when that was clicked, before the source went there; NaN where that is nothing.
+    panel of that surface, what it showed at the vertex when that was clicked, before the source went there; NaN where
+    that is nothing.
     """
 
     panel: int
@@ -100,16 +102,25 @@ class Viewer:
         A vertex, or a `Place`, `BoundaryLoop`, `Curve` or `SourceSet`; words such as "12+40" do, too.  VertexError or
         ParameterError for one that there is not.
         """
-        sources = self.document.sources
-        return source_at(sources[0], self._session.surface) if sources else None
+        started = self._started
+        return None if started is None else source_at(started.at, self._session.opened(started.surface).surface)
 
     @source.setter
     def source(self, source: Source | str) -> None:
-        source = source_at(checked_source(source), self._session.surface)
+        started = self._started
+        opened = self._session.opened(None if started is None else started.surface)
+        source = source_at(checked_source(source), opened.surface)
         with_source = [panel.id for panel in self.document.panels if panel.shows.points]
         if not with_source:
             raise BihdistError("No panel shows a field that starts anywhere.")
         self.document = move_source(self.document, with_source[0], source)
+
+    @property
+    def _started(self) -> Point | None:
+        """The point that the first panel starts from that starts anywhere."""
+        document = self.document
+        names = (name for panel in document.panels for name in panel.shows.points)
+        return next((document.point(name) for name in names), None)
 
     @property
     def panels(self) -> tuple[ShownPanel, ...]:
@@ -141,7 +152,9 @@ class Viewer:
         """
         from .plotter import background_plotter
 
-        fields = {panel.quantity: panel.field for panel in self.panels if panel.field is not None}
+        first = {panel.id for panel in self.document.panels_of()}
+        shown = [panel for panel in self.panels if panel.id in first]
+        fields = {panel.quantity: panel.field for panel in shown if panel.field is not None}
         return background_plotter(self._session.surface, fields)
 
     def close(self) -> None:
@@ -183,8 +196,8 @@ class Viewer:
 
     def _show(self, document: Document) -> None:
         """Show a document and wait for it; BihdistError with what the user would be told, or if it was stopped."""
-        if not isinstance(document, Document) or len(document.surfaces) != 1:
-            raise ParameterError("The window shows a Document with one mesh, and this is none.")
+        if not isinstance(document, Document) or not 1 <= len(document.surfaces) <= MOST_SHOWN:
+            raise ParameterError("The window shows a Document with one mesh or two, and this is none.")
         map_of(document.colours)
         window = self._there
         refusals: list[str] = []
@@ -209,9 +222,10 @@ class Viewer:
         if self._on_pick is None:
             return
         fields = {id: shown.answer.field for id, shown in self._session.shown.items()}
-        shown = [fields.get(each.id) for each in self.document.panels]
+        of_surface = self.document.panels_of(self.document.panel(panel).surface)
+        shown = [fields.get(each.id) for each in of_surface]
         values = [float("nan") if field is None else float(field[met.vertex]) for field in shown]
-        ids = [each.id for each in self.document.panels]
+        ids = [each.id for each in of_surface]
         pick = Pick(panel, met.vertex, met.position, met.face, met.weights, dict(zip(ids, values, strict=True)))
         # After the click has been dealt with: it may close the window, or show something else.
         QtCore.QTimer.singleShot(0, lambda: self._tell(pick))

@@ -56,11 +56,12 @@ class SourceGestures:
         """Whether the source is put on vertices."""
         return self._window.session.document.snap
 
-    def at(self, met: "Met") -> Source:
-        """The source that a place means."""
+    def at(self, panel: int, met: "Met") -> Source:
+        """The source that a place in a panel means."""
         if self.is_snapping:
             return met.vertex
-        return place_at(self._window.session.surface.faces[met.face], met.face, met.weights)
+        faces = self._window.session.surface_in(panel).faces
+        return place_at(faces[met.face], met.face, met.weights)
 
     def set_snapping(self, is_snapping: bool) -> None:
         """Whether the source is put on vertices, or anywhere in faces, also at the next start."""
@@ -84,7 +85,7 @@ class SourceGestures:
             self._moved = marked[mark]
             self.rate.begin()
         name, whole, member = self._moved
-        moved = with_moved(session.document, name, whole, member, self.at(met))
+        moved = with_moved(session.document, name, whole, member, self.at(panel, met))
         session.show(moved, key=f"drag in {panel}", live=True)
 
     def rest(self) -> None:
@@ -95,7 +96,7 @@ class SourceGestures:
     # ------------------------------------------------------------------ members
     def add_or_remove(self, panel: int, met: "Met") -> None:
         """Ctrl and a click: a place joins the source, a member that is there leaves it."""
-        member, at = self._member_at(panel, met), self.at(met)
+        member, at = self._member_at(panel, met), self.at(panel, met)
         if member is None and at in self._members(panel):
             member = at
         if member is not None:
@@ -146,7 +147,7 @@ class SourceGestures:
 
     def _nearest_of(self, panel: int, member: Member, met: "Met") -> np.ndarray:
         """(3,) the point of a member that is nearest to a place."""
-        pieces = pieces_of(member, self._window.session.surface)
+        pieces = pieces_of(member, self._window.session.surface_in(panel))
         start, stop = pieces.positions(self._grid.panel(panel).positions)
         way = stop - start
         share = np.einsum("kx,kx->k", met.position - start, way) / np.maximum(np.einsum("kx,kx->k", way, way), 1e-300)
@@ -163,7 +164,7 @@ class SourceGestures:
         """What can be done to the source at a place."""
         member, members = self._member_at(panel, met), self._members(panel)
         if member is None:
-            menu.addAction("Add to the source\tCtrl+Click", lambda: self.add(panel, self.at(met)))
+            menu.addAction("Add to the source\tCtrl+Click", lambda: self.add(panel, self.at(panel, met)))
         elif len(members) > 1:
             menu.addAction("Remove from the source\tCtrl+Click", lambda: self.remove(panel, member))
         if isinstance(member, Curve):
@@ -175,7 +176,7 @@ class SourceGestures:
                 menu.addAction("Add this boundary to the source", lambda: self.add(panel, loop))
 
     def _loop_near(self, panel: int, met: "Met") -> BoundaryLoop | None:
-        surface, positions = self._window.session.surface, self._grid.panel(panel).positions
+        surface, positions = self._window.session.surface_in(panel), self._grid.panel(panel).positions
         edges = surface.boundary_edges
         if not len(edges):
             return None
@@ -205,7 +206,7 @@ class SourceGestures:
             self._is_beside = False
         if place not in self._strokes[-1][-1:]:
             self._strokes[-1].append(place)
-            self._show_strokes()
+            self._show_strokes(panel)
 
     def _stroke_ended(self, panel: int, has_ctrl: bool) -> None:
         strokes, ends = self._strokes, self._on_view(panel)
@@ -214,26 +215,29 @@ class SourceGestures:
             return
         away = np.linalg.norm(ends - ends[0], axis=1)
         is_closed = len(ends) > 3 and away[-1] < CLOSING and away.max() > 2 * CLOSING
-        drawn = drawn_source(strokes, self._window.session.surface, bool(is_closed))
+        drawn = drawn_source(strokes, self._window.session.surface_in(panel), bool(is_closed))
         (self.add if has_ctrl else self.put)(panel, drawn)
 
     def _on_view(self, panel: int) -> np.ndarray:
         """(k, 2) where what has been drawn is seen."""
-        widget, faces = self._grid.panel(panel), self._window.session.surface.faces
+        widget, faces = self._grid.panel(panel), self._window.session.surface_in(panel).faces
         places = [place for stroke in self._strokes for place in stroke]
         points = [np.array(place.weights) @ widget.positions[faces[place.face]] for place in places]
         seen = [widget.view.place_of(point) for point in points]
         return np.array([(each.x(), each.y()) for each in seen])
 
-    def _show_strokes(self) -> None:
-        surface = self._window.session.surface
+    def _show_strokes(self, panel: int) -> None:
+        """On all panels of the surface."""
+        surface, name = self._window.session.surface_in(panel), self._grid.panel(panel).surface
         strokes = [
             (surface.faces[[place.face for place in stroke]], np.array([place.weights for place in stroke]))
             for stroke in self._strokes
         ]
         for widget in self._grid.panels:
-            widget.marks.show_strokes(strokes)
+            if widget.surface == name:
+                widget.marks.show_strokes(strokes)
 
     def _forget_stroke(self) -> None:
         self._strokes, self._is_beside = [], True
-        self._show_strokes()
+        for widget in self._grid.panels:
+            widget.marks.show_strokes([])

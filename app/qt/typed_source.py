@@ -24,7 +24,7 @@ class TypedSource:
         document = session.document
         if session.surface is not None and document.panels:
             try:
-                source = source_at(source, session.surface)
+                source = source_at(source, session.surface_in(document.panels[0].id))
             except BihdistError as error:
                 self._window.refused.emit(str(error))
                 self._box.refuse(str(error))
@@ -40,7 +40,12 @@ class TypedSource:
 
     def show(self) -> None:
         """Let the box say what it is."""
-        sources, surface = self._window.session.document.sources, self._window.session.surface
+        session = self._window.session
+        document = session.document
+        name = next((name for panel in document.panels for name in panel.shows.points), "")
+        sources = [document.point(name).at] if name else []
+        opened = session.opened(document.point(name).surface) if name else session.opened()
+        surface = None if opened is None else opened.surface
         known = source_at(sources[0], surface) if surface is not None and sources else None
         if self._box.show_source(known, 0 if surface is None else len(surface.vertices)):
             self._window.tool_bar.fit()

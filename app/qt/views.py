@@ -4,11 +4,13 @@
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError
 
+from ..document.beside_edits import stand_beside
 from ..document.camera import Camera, View
 from ..document.camera_text import camera_text, read_camera
 from ..document.document import Document
@@ -18,16 +20,25 @@ from .look.numbers import MINUS
 from .preferences import save
 from .remembered import remember_up
 
+if TYPE_CHECKING:
+    from .panels.eye import Eye
+
+Cameras = tuple[tuple[str, View], ...]
+"""From where each surface is seen, by its name in the document."""
+
 STILL_MS = 500
 """When the camera has not moved for so long, what is seen is a view that one can come back to."""
 
 
 class Views:
-    """The views of one mesh; their history is apart from the document's."""
+    """The views of the meshes; their history is apart from the document's.
+
+    What is chosen is meant for the surface of the active panel, and for the other as well where they are linked.
+    """
 
     def __init__(self, window) -> None:
         self._window = window
-        self._trail: Trail[View] = Trail()
+        self._trail: Trail[Cameras] = Trail()
         self._still = QtCore.QTimer(window, singleShot=True, interval=STILL_MS)
         self._still.timeout.connect(self._remember)
 
@@ -42,18 +53,21 @@ class Views:
         if window.remembers and not is_other and document.up != before.up:
             remember_up(document.surfaces[0].sha256, document.up)
         window.grid.show_axes(document.axes)
-        is_stood_otherwise = (document.up, document.projection) != (before.up, before.projection)
-        follows = document.camera == "source" and document.points != before.points
-        if is_other or is_raised or is_stood_otherwise or follows or document.camera != before.camera:
-            window.grid.turn_upright()
-            window.grid.eye.look(document.camera)
-            self.rest_soon()
-        if document.up != before.up and isinstance(document.camera, Camera) and document.camera == before.camera:
-            self.see("home")  # undone and done again it would be askew
+        for eye in (eye for eye in window.grid.eyes if eye.surface):
+            camera, up = document.camera_of(eye.surface), document.up_of(eye.surface)
+            old_camera, old_up = before.camera_of(eye.surface), before.up_of(eye.surface)
+            is_stood_otherwise = (up, document.projection) != (old_up, before.projection)
+            follows = camera == "source" and document.points != before.points
+            if is_other or is_raised or is_stood_otherwise or follows or camera != old_camera:
+                window.grid.turn_upright()
+                eye.look(camera)
+                self.rest_soon()
+            if up != old_up and isinstance(camera, Camera) and camera == old_camera:
+                self._see("home", eye)  # undone and done again it would be askew
 
-    def moved(self, view: View) -> None:
-        """The camera sees this now."""
-        self._window.session.look(view)
+    def moved(self, view: View, surface: str) -> None:
+        """The camera of a surface sees this now."""
+        self._window.session.look(view, surface)
         self._show_name()
         self._offer()
         self.rest_soon()
@@ -63,10 +77,42 @@ class Views:
         self._still.start()
 
     def see(self, view: View) -> None:
-        """Let the camera see something else."""
-        self._window.grid.eye.look(view)
+        """Let the camera see something else.
+
+        Where two are linked, both see the same standard view, and move together to any other.
+        """
+        grid, document = self._window.grid, self._window.session.document
+        eye = self._active_eye
+        before = eye.known
+        self._see(view, eye)
+        for other in grid.eyes if document.linked else ():
+            if other is eye or not other.surface:
+                continue
+            if isinstance(view, str):
+                self._see(view, other)
+            elif before is not None:
+                followed = other.follow(before, eye.seen)
+                if followed is not None:
+                    self.moved(followed, other.surface)
+        grid.redraw()
+
+    def _see(self, view: View, eye: "Eye") -> None:
+        eye.look(view)
         # From where the source is now; the view does not follow it about.
-        self.moved(self._window.grid.eye.seen if view == "source" else view)
+        self.moved(eye.seen if view == "source" else view, eye.surface)
+
+    @property
+    def _active_eye(self) -> "Eye":
+        """That of the active panel's surface."""
+        grid = self._window.grid
+        surfaces = {panel.id: panel.surface for panel in self._window.session.document.panels}
+        return grid.eye_of(surfaces.get(grid.active, ""))
+
+    def link(self) -> None:
+        """As the menu says: two cameras move together from where they are, or each for itself."""
+        is_linked = self._window.actions_by_word["link"].isChecked()
+        self._window.session.link(is_linked)
+        self._window.say("The two cameras move together" if is_linked else "Each mesh is turned for itself")
 
     def back(self) -> None:
         """Look from where one looked before."""
@@ -82,8 +128,9 @@ class Views:
         """Let menus and buttons say what is chosen."""
         window, document = self._window, self._window.session.document
         self._show_name()
-        window.tools["up"].show_value("" if document.up == "auto" else document.up.replace("-", MINUS))
-        window.menus.show_choice(window.menus.up, document.up)
+        up = self._up
+        window.tools["up"].show_value("" if up == "auto" else up.replace("-", MINUS))
+        window.menus.show_choice(window.menus.up, up)
         for word, is_on in {
             "orthographic": document.projection == "orthographic",
             "axes": document.axes,
@@ -93,16 +140,31 @@ class Views:
 
     def stand(self, up: str) -> None:
         """Let an axis, such as "z" or "-z", point up."""
-        self._window.session.show(stand(self._window.session.document, up), key="up")
+        session, name = self._window.session, self._surface
+        document = session.document
+        is_first = not document.surfaces or name == document.surfaces[0].name
+        session.show(stand(document, up) if is_first else stand_beside(document, up, name), key=f"up of {name}")
         self.show()
+
+    @property
+    def _surface(self) -> str:
+        """That of the active panel, by its name in the document; before there are panels the first."""
+        document, grid = self._window.session.document, self._window.grid
+        if grid is not None:
+            return self._active_eye.surface
+        return document.surfaces[0].name if document.surfaces else ""
+
+    @property
+    def _up(self) -> str:
+        return self._window.session.document.up_of(self._surface)
 
     def next_up(self) -> None:
         """From y to z, from z to x, from x to y."""
-        self.stand({"y": "z", "z": "x", "x": "y"}[self._window.session.document.up[-1]])
+        self.stand({"y": "z", "z": "x", "x": "y"}[self._up[-1]])
 
     def other_end_up(self) -> None:
         """What was up is down."""
-        up = self._window.session.document.up
+        up = self._up
         self.stand(up[1:] if up.startswith("-") else f"-{up}")
 
     def project(self) -> None:
@@ -127,7 +189,7 @@ class Views:
     # ------------------------------------------------------------------ the camera as text
     def copy(self) -> None:
         """The camera, to the clipboard."""
-        QtWidgets.QApplication.clipboard().setText(camera_text(self._window.grid.eye.seen))
+        QtWidgets.QApplication.clipboard().setText(camera_text(self._active_eye.seen))
         self._window.say("The camera is on the clipboard")
 
     def paste(self) -> None:
@@ -141,20 +203,26 @@ class Views:
 
     # ------------------------------------------------------------------ where one has been
     def _remember(self) -> None:
-        self._trail.visit(self._window.session.document.camera)
+        self._trail.visit(_cameras(self._window.session.document))
         self._offer()
 
     def _offer(self) -> None:
         """What can be gone back to, and on."""
-        camera, actions = self._window.session.document.camera, self._window.actions_by_word
-        actions["view before"].setEnabled(not self._trail.is_first(camera))
-        actions["view after"].setEnabled(not self._trail.is_last(camera))
+        cameras, actions = _cameras(self._window.session.document), self._window.actions_by_word
+        actions["view before"].setEnabled(not self._trail.is_first(cameras))
+        actions["view after"].setEnabled(not self._trail.is_last(cameras))
 
-    def _see_again(self, view: View | None) -> None:
-        if view is not None:
-            self.see(view)
+    def _see_again(self, cameras: "Cameras | None") -> None:
+        known = dict(cameras or ())
+        for eye in self._window.grid.eyes:
+            if eye.surface in known:
+                self._see(known[eye.surface], eye)
 
     def _show_name(self) -> None:
         """Let the button of views say what is seen."""
-        camera = self._window.session.document.camera
+        camera = self._window.session.document.camera_of(self._surface)
         self._window.tools["views"].show_value(camera.capitalize() if isinstance(camera, str) else "Free")
+
+
+def _cameras(document: Document) -> Cameras:
+    return tuple((mesh.name, document.camera_of(mesh.name)) for mesh in document.surfaces)

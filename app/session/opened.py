@@ -27,7 +27,8 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document, MeshFile
+from ..document.document import Document, MeshFile, starting_points
+from ..document.edits import put_point
 from ..document.file import checksum
 from ..samples import mesh_path
 from .changed import carried, change_of
@@ -175,6 +176,8 @@ class Opened:
                     f"The field {field.name!r} has {count} values, and {self.surface.name} has "
                     f"{len(self.surface.vertices)} vertices."
                 )
+        beside = (replace(b, up=self.up) if b.surface in mine and b.up == "auto" else b for b in document.beside)
+        document = replace(document, beside=tuple(beside))
         meshes = (replace(m, sha256=self.mesh.sha256) if m.name in mine else m for m in document.surfaces)
         points = []
         for point in document.points:
@@ -182,15 +185,17 @@ class Opened:
                 original = document.point(point.image_of).at
                 points.append(replace(point, at=self._image(original)) if original is not None else point)
                 continue
-            source = source_at(point.at, self.surface, self._up_in(document)) if point.surface in mine else None
+            up = self._up_in(document, point.surface)
+            source = source_at(point.at, self.surface, up) if point.surface in mine else None
             points.append(replace(point, at=source) if point.at is None else point)
         return replace(document, surfaces=tuple(meshes), points=tuple(points))
 
     def _image(self, at: Source) -> Source:
         return at if self.origin is None else carried(at, self)
 
-    def _up_in(self, document: Document) -> str:
-        return self.up if document.up == "auto" else document.up
+    def _up_in(self, document: Document, name: str) -> str:
+        up = document.up_of(name)
+        return self.up if up == "auto" else up
 
     def keep(self, areas: str, wanted: Collection[Spec]) -> None:
         """Forget distances with other areas, and of these what `Distances.keep` forgets."""
@@ -206,6 +211,22 @@ class Opened:
 def is_same(asked: MeshFile, there: MeshFile) -> bool:
     """Whether what is there will do for what is asked for."""
     return (asked.path, asked.change) == (there.path, there.change) and asked.sha256 in ("", there.sha256)
+
+
+def started_alike(document: Document, name: str, first: Opened, opened: Opened) -> Document:
+    """With the sources of a surface beside the first, where nobody has put them, at the first's vertices.
+
+    That is done for two poses of one shape, which have the same faces; others are left as they are.
+    """
+    (mesh, *_), points = document.surfaces, starting_points(document)
+    open_ones = [point for point in points if point.surface == name and point.at is None]
+    known = [point.at for point in points if point.surface == mesh.name and isinstance(point.at, int)]
+    if name == mesh.name or not (open_ones and known) or not np.array_equal(first.surface.faces, opened.surface.faces):
+        return document
+    if len(first.surface.vertices) == len(opened.surface.vertices):
+        for point, at in zip(open_ones, known, strict=False):
+            document = put_point(document, point.name, at, name)
+    return document
 
 
 def open_mesh(mesh: MeshFile, given: Given | None = None, remedy: str = "", there: Collection[Opened] = ()) -> Opened:

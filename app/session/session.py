@@ -13,6 +13,7 @@ from typing import Any, Protocol
 from bihdist_core import BihdistError, Surface
 from bihdist_core.distances.answers import failure_in_words
 
+from ..document.beside_edits import close_beside, open_beside, see
 from ..document.camera import View as CameraView
 from ..document.document import Document, MeshFile, Point, starting_points
 from ..document.edits import open_mesh as with_mesh
@@ -20,7 +21,7 @@ from ..document.history import History, Trail
 from .answering import Answering, AnswerView, Shown
 from .given import Given
 from .lane import Lane
-from .opened import Opened, is_same, open_mesh
+from .opened import Opened, is_same, open_mesh, started_alike
 from .questions import questions
 
 SPARED = 120_000
@@ -133,10 +134,29 @@ class Session:
 
         self._start_opening(_Opening((mesh,), arrive))
 
-    def look(self, camera: CameraView) -> None:
-        """The camera has moved, which is no step of the history."""
+    def open_beside(self, path: str) -> None:
+        """Open a second mesh beside the first, in the place of the one that stands there."""
+        mesh = MeshFile("", os.fspath(path))
+
+        def arrive() -> None:
+            self._change(open_beside(self.document, mesh))
+
+        self._start_opening(_Opening((mesh,), arrive))
+
+    def close_beside(self) -> None:
+        """The first surface alone."""
+        if len(self.document.surfaces) > 1:
+            self.show(close_beside(self.document))
+
+    def look(self, camera: CameraView, surface: str | None = None) -> None:
+        """A surface, the first if none is named, is seen from elsewhere, which is no step of the history."""
         if self._is_begun:
-            self.history.change(replace(self.document, camera=camera))
+            self.history.change(see(self.document, camera, surface))
+
+    def link(self, is_linked: bool) -> None:
+        """Whether the cameras of two surfaces move together, which is no step of the history."""
+        if self._is_begun:
+            self.history.change(replace(self.document, linked=is_linked))
 
     def keep_open(self, docks: tuple[str, ...]) -> None:
         """Which docks are open, which is no step of the history."""
@@ -197,6 +217,16 @@ class Session:
     def surface(self) -> Surface | None:
         """The first surface of the document; None before there is one."""
         opened = self.opened()
+        return None if opened is None else opened.surface
+
+    def opened_in(self, panel: int) -> Opened | None:
+        """The surface of a panel; None before it is there, and where there is no such panel."""
+        name = next((each.surface for each in self.document.panels if each.id == panel), None)
+        return None if name is None else self.opened(name)
+
+    def surface_in(self, panel: int) -> Surface | None:
+        """The same."""
+        opened = self.opened_in(panel)
         return None if opened is None else opened.surface
 
     @property
@@ -323,8 +353,11 @@ class Session:
 
     def _settled(self, document: Document) -> Document:
         """With the checksums of the surfaces that are there, and points where there is a vertex."""
+        first = self._found(document.surfaces[0]) if document.surfaces else None
         for mesh in document.surfaces:
             opened = self._found(mesh)
+            if opened is not None and first is not None:
+                document = started_alike(document, mesh.name, first, opened)
             if opened is not None:
                 document = opened.settled(document)
         return document

@@ -82,10 +82,10 @@ class Menus:
         self.views, self.tools = QtWidgets.QMenu("&Views", window), QtWidgets.QMenu("&Tools", window)
         keys, standard = (QtWidgets.QMenu(title, window) for title in ("Turn and move by &keys", "&Standard views"))
         named, at_pointer = [f"view {name}" for name in VIEWS], ["centre", "zoom to"]
-        cameras, walked = ["orthographic", "axes", "turntable"], ["view before", "view after"]
+        cameras, walked = ["orthographic", "axes", "turntable", "link"], ["view before", "view after"]
         self._fill(keys, [act.word for act in TURNS])
         self._fill(standard, named)
-        self._fill(self.open, ["open", None, self.recent, self.samples])
+        self._fill(self.open, ["open", "open beside", None, self.recent, self.samples])
         self._fill(self.views, ["reset", *named, None, *cameras, None, *at_pointer, None, *walked])
         self.up = self._choices(
             "&Up", lambda word: window.views.stand(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
@@ -98,7 +98,8 @@ class Menus:
         file, edit, view, panels, tools, about = (
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
         )
-        self._fill(file, ["open", self.recent, self.samples, None, "save", "save as", None])
+        self._fill(file, ["open", self.recent, self.samples, None, "open beside", "close beside", None])
+        self._fill(file, ["save", "save as", None])
         self._fill(file, ["figure", "movie", "screenshot", None, "quit"])
         self._fill(edit, ["undo", "redo", None, "copy picture", "copy command", "copy python", None])
         self._fill(edit, ["copy camera", "paste camera", None, "preferences"])

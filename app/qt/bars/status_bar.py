@@ -55,14 +55,21 @@ class StatusBar(QtWidgets.QStatusBar):
         self._fit()
 
     # ------------------------------------------------------------------ what is said
-    def show_surface(self, surface: Surface | None, more: Sequence[str] = ()) -> None:
-        """Its counts and its repairs; more: what else is to be known."""
+    def show_surface(self, surface: Surface | None, more: Sequence[str] = (), beside: Sequence[Surface] = ()) -> None:
+        """Its counts and its repairs, and those of surfaces beside it; more: what else is to be known."""
         if surface is None:
             self._vertices, self._faces = "No mesh", ""
             self.repairs.show_list([])
         else:
             self._vertices, self._faces = f"{len(surface.vertices):,} vertices", f"{len(surface.faces):,} faces"
-            self.repairs.show_list([*remarks(surface), *more], len(surface.remarks))
+            said, count = [*remarks(surface), *more], len(surface.remarks)
+            if beside:
+                lettered = list(zip("ABCDEFGH", (surface, *beside), strict=False))
+                self._vertices = "   ".join(f"{k}  {len(each.vertices):,} vertices" for k, each in lettered)
+                self._faces = ""
+                said = [f"{k}: {text}" for k, each in lettered for text in remarks(each)] + list(more)
+                count = sum(len(each.remarks) for _, each in lettered)
+            self.repairs.show_list(said, count)
         self.accuracy.show_list([])
         self.show_place(None, None)
         self._fit()
@@ -72,8 +79,10 @@ class StatusBar(QtWidgets.QStatusBar):
         poor = dict.fromkeys(f"{a.label}: only {a.accuracy.text}" for a in answers if a.accuracy.is_poor)
         self.accuracy.show_list(list(poor), len(poor))
 
-    def show_place(self, vertex: int | None, position: Sequence[float] | None) -> None:
-        self.vertex.show_text("" if vertex is None else f"vertex {vertex}")
+    def show_place(self, vertex: int | None, position: Sequence[float] | None, letter: str = "") -> None:
+        """letter: of the surface, where there are two."""
+        where = f" on {letter}" if letter else ""
+        self.vertex.show_text("" if vertex is None else f"vertex {vertex}{where}")
         self.place.show_text("" if position is None else "  ".join(number(x) for x in position))
 
     def say(self, text: str) -> None:

@@ -49,7 +49,7 @@ class AnchorExtrema(FactTable):
         if session.surface is None or "anchors" not in session.document.docks:
             return
         facts: list[tuple[str, ...]] = [("Panel", "at tips", "elsewhere")]
-        for panel in session.document.panels:
+        for panel in session.document.panels_of():
             counts = None
             (part, *others) = panel.shows.parts
             if not others and isinstance(part, Interpolant) and not part.total:

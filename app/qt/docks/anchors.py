@@ -316,7 +316,7 @@ class AnchorsDock(Instrument):
         """What the panels show of interpolants."""
         session = self.window_.session
         fields = {}
-        for panel in session.document.panels:
+        for panel in session.document.panels_of():
             shown = session.shown.get(panel.id)
             is_meant = any(isinstance(part, Interpolant) for part in panel.shows.parts)
             if is_meant and shown is not None and shown.answer.field is not None:

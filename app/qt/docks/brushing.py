@@ -60,10 +60,14 @@ class Brushing(QtCore.QObject):
     # ------------------------------------------------------------------ what is shown
     def show(self, document: Document) -> None:
         """The selections of the document on all panels."""
-        surface = self._window.session.surface
-        count = 0 if surface is None else len(surface.vertices)
-        chosen = [(vertices_of(each.runs), each.colour) for each in document.selections]
-        self._grid.show_selected(selected_colours(chosen, count))
+        colours = {}
+        for mesh in document.surfaces:
+            opened = self._window.session.opened(mesh.name)
+            if opened is not None:
+                here = [each for each in document.selections if each.surface == mesh.name]
+                chosen = [(vertices_of(each.runs), each.colour) for each in here]
+                colours[mesh.name] = selected_colours(chosen, len(opened.surface.vertices))
+        self._grid.show_selected(colours)
 
     @property
     def colour(self) -> int:
@@ -96,6 +100,11 @@ class Brushing(QtCore.QObject):
         if name in [each.name for each in after.selections]:
             self.current = name
         session.show(after)
+
+    @property
+    def _panels(self) -> list:
+        """Those of the first surface, which alone is painted on."""
+        return [panel for panel in self._grid.panels if panel.surface == self._grid.eye.surface]
 
     # ------------------------------------------------------------------ the brush
     def switch(self, is_on: bool) -> None:
@@ -151,7 +160,7 @@ class Brushing(QtCore.QObject):
         new = near[~self._stroke[near]]
         if len(new):
             self._stroke[new] = True
-            for panel in self._grid.panels:
+            for panel in self._panels:
                 panel.marks.show_dabs(new, ERASED if self._is_erasing else PINS[self.colour])
             self.stroked.emit(np.flatnonzero(self._stroke))
 

@@ -135,9 +135,10 @@ class Docks:
         for instrument in self._open():
             instrument.show_again()
 
-    def pointed(self, vertex: int | None) -> None:
+    def pointed(self, vertex: int | None, surface: str) -> None:
+        """The pointer is at a vertex of a surface; of others instruments are told that it has left."""
         for instrument in self._open():
-            instrument.show_pointed(vertex)
+            instrument.show_pointed(vertex if surface == instrument.pointed_surface else None)
 
     def _open(self) -> list[Instrument]:
         return [self._instrument(word) for word, dock in self._docks.items() if not dock.isHidden()]

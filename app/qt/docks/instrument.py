@@ -51,5 +51,10 @@ class Instrument(QtWidgets.QWidget):
     def show_closed(self) -> None:
         """The dock has been closed: take away what it has put elsewhere."""
 
+    @property
+    def pointed_surface(self) -> str:
+        """The name of the surface that it is about."""
+        return self.window_.session.document.surfaces[0].name
+
     def show_pointed(self, vertex: int | None) -> None:
-        """The pointer is at a vertex in some panel, or at none."""
+        """The pointer is at a vertex of that surface in some panel, or at none."""

@@ -30,7 +30,7 @@ class Levels:
 
 def levels_of(window: Any, panel: int) -> Levels | None:
     """Those of a panel by its id; None where it has no field."""
-    shown, opened = window.session.shown.get(panel), window.session.opened()
+    shown, opened = window.session.shown.get(panel), window.session.opened_in(panel)
     if shown is None or opened is None or shown.answer.field is None:
         return None
     answer = shown.answer

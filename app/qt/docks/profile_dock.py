@@ -119,11 +119,15 @@ class ProfileDock(Instrument):
             if self._echoed is not None:
                 self._echo(self._echoed)
 
+    @property
+    def pointed_surface(self) -> str:
+        return self.surface
+
     def show_pointed(self, vertex: int | None) -> None:
         """Near the path on a surface: where that is in the chart."""
         if self._echoed is not None or not self._has_path:
             return
-        surface = self.window_.session.surface
+        surface = self.surface_of(self.surface)
         arc = None if vertex is None else self._arc_near(surface.vertices[vertex])
         self.chart.show_at(arc, "" if vertex is None else f"vertex {vertex}")
 
@@ -164,7 +168,7 @@ class ProfileDock(Instrument):
 
     def seen(self) -> tuple[float, float, float]:
         """(3,) the direction in which the panels are looked at."""
-        seen = self.window_.grid.eye.seen
+        seen = self.window_.grid.eye_of(self.surface).seen
         way = np.subtract(seen.focal_point, seen.position)
         x, y, z = (way / np.linalg.norm(way)).tolist()
         return x, y, z
@@ -278,7 +282,8 @@ class ProfileDock(Instrument):
 
     def _unpoint(self) -> None:
         grid = self.window_.grid
-        grid.pointing.show(grid.panels[0].id, None)
+        for panel in grid.panels:
+            grid.pointing.show(panel.id, None)
 
     def leaveEvent(self, event: QtCore.QEvent) -> None:
         self._point(None)
@@ -288,8 +293,9 @@ class ProfileDock(Instrument):
         it."""
         path = self.path
         arc = nearest_arc(path, point)
-        grid = self.window_.grid
-        view = grid.panels[0].view
+        if not self._panels:
+            return None
+        view = self._panels[0].view
         there = view.place_of(path.at([arc]).values(self.surface_of(self.surface).vertices)[0])
         apart = there - view.place_of(point)
         return arc if np.hypot(apart.x(), apart.y()) <= NEAR else None

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 from qtpy import QtWidgets
 
-from bihdist_core import BihdistError
+from bihdist_core import BihdistError, Surface
 from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
 
 from ...document.document import Panel
@@ -82,7 +82,7 @@ class Sampler(QtWidgets.QWidget):
 
     def save_to(self, path: str) -> None:
         """Write them to a file once they are found."""
-        surface = self._window.session.surface
+        surface = self._surface
 
         def write(vertices: np.ndarray) -> None:
             written(self._window, path, lambda path: write_samples(path, surface, vertices))
@@ -90,7 +90,7 @@ class Sampler(QtWidgets.QWidget):
         self._ask(write)
 
     def _save(self) -> None:
-        surface = self._window.session.surface
+        surface = self._surface
 
         def ask(vertices: np.ndarray) -> None:
             save(
@@ -106,7 +106,7 @@ class Sampler(QtWidgets.QWidget):
     def _pin(self, vertices: np.ndarray) -> None:
         session = self._window.session
         try:
-            session.show(add_pins(session.document, vertices.tolist()))
+            session.show(add_pins(session.document, vertices.tolist(), self._name))
         except BihdistError as error:
             self._say(str(error), is_error=True)
 
@@ -127,12 +127,21 @@ class Sampler(QtWidgets.QWidget):
         self.show_state()
         if sampled.vertices is None:
             self._say(sampled.failure, is_error=True)
-        elif self._window.session.document.mesh() == sampled.question.mesh:
+        elif self._name and self._window.session.document.mesh(self._name) == sampled.question.mesh:
             self._then(sampled.vertices)
 
     def _show_going(self, fraction: float | None, text: str) -> None:
         if fraction is not None and self._sampling.is_going:
             self._say(f"{text}, {fraction:.0%}".replace("%", " %"))
+
+    @property
+    def _name(self) -> str:
+        """Of the panel's surface in the document; "" where there is no such panel."""
+        return "" if self._panel is None else self._panel.surface
+
+    @property
+    def _surface(self) -> Surface | None:
+        return self._window.session.surface if self._panel is None else self._window.session.surface_in(self._panel.id)
 
     @property
     def _panel(self) -> Panel | None:

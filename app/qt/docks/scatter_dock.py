@@ -185,8 +185,8 @@ class ScatterDock(Instrument):
     @staticmethod
     def _pair(document: Document) -> tuple[int | None, int | None]:
         """The panels across and up: those that are chosen, or the first that are left."""
-        ids = [panel.id for panel in document.panels]
-        across, up = document.scatter.across, document.scatter.up
+        ids = [panel.id for panel in document.panels_of()]
+        across, up = (id if id in ids else None for id in (document.scatter.across, document.scatter.up))
         if across is None:
             across = next((id for id in ids if id != up), ids[0] if ids else None)
         if up is None:
@@ -274,7 +274,7 @@ class ScatterDock(Instrument):
         menu.clear()
         document = self.window_.session.document
         chosen = self._pair(document)[0 if side == "across" else 1]
-        for panel in document.panels:
+        for panel in document.panels_of():
             action = menu.addAction(self._name(document, panel.id))
             action.setCheckable(True)
             action.setChecked(panel.id == chosen)
@@ -317,7 +317,10 @@ class ScatterDock(Instrument):
         vertex = None if at is None else self.chart.vertex_at(*at)
         self.chart.mark(vertex)
         window = self.window_
-        window.grid.pointing.show(window.grid.active, vertex)
+        panel = next((panel.id for panel in window.session.document.panels_of()), None)
+        if panel is None:
+            return
+        window.grid.pointing.show(panel, vertex)
         surface = window.session.surface
         window.status.show_place(vertex, None if vertex is None or surface is None else surface.vertices[vertex])
 

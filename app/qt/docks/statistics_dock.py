@@ -145,7 +145,7 @@ class StatisticsDock(Instrument):
         """For the numbers of the active panel, if they are not there."""
         window = self.window_
         session, id = window.session, window.grid.active
-        shown, opened = session.shown.get(id), session.opened()
+        shown, opened = session.shown.get(id), session.opened_in(id)
         self._panel = id
         if opened is None or shown is None:
             return  # on its way

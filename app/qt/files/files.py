@@ -10,7 +10,7 @@ from bihdist_core.whole_file import check_output, whole_file
 
 from ..pages.messages import ask_which
 from .curve_files import is_curve
-from .session_actions import FILES
+from .session_actions import FILES, MESH_FILES
 
 
 class Files(QtCore.QObject):
@@ -29,6 +29,16 @@ class Files(QtCore.QObject):
         if path:
             window.preferences = replace(window.preferences, last_folder=os.path.dirname(path))
             self.open(path)
+
+    def choose_beside(self) -> None:
+        """A second mesh, beside the first."""
+        window = self._window
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(
+            window, "Open beside", window.preferences.last_folder, MESH_FILES
+        )
+        if path:
+            window.preferences = replace(window.preferences, last_folder=os.path.dirname(path))
+            window.session.open_beside(path)
 
     def open(self, path: str) -> None:
         """A mesh, a session or recipe, or a curve for distances to start from."""

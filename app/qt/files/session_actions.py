@@ -12,6 +12,8 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
 
+from ...document.beside_edits import MOST_SHOWN
+from ...document.document import MeshFile, content
 from ...document.file import checksum, read_recipe
 from ...document.page import Recipe
 from ...drawing.style import style_of
@@ -57,8 +59,11 @@ class SessionFile:
         if self._saved is None:
             return False
         now, then = self.recipe(), self._saved
-        seen = replace(now.document, camera=then.document.camera, dock_places=then.document.dock_places)
-        return (seen, now.page) != (then.document, then.page)
+        seen, saved = (
+            replace(each.document, camera="home", beside=content(each.document).beside, dock_places=None)
+            for each in (now, then)
+        )
+        return (seen, now.page) != (saved, then.page)
 
     def save(self, path: str | None = None) -> None:
         """Into a file, the one it was saved in or opened from if none is given; OutputError if that cannot be."""
@@ -111,11 +116,12 @@ class SessionFile:
         """
         try:
             recipe = read_recipe(path)
-            if len(recipe.document.surfaces) > 1:
-                raise ParameterError(f"The window shows one mesh, and {path} has {len(recipe.document.surfaces)}.")
+            count = len(recipe.document.surfaces)
+            if count > MOST_SHOWN:
+                raise ParameterError(f"The window shows up to {MOST_SHOWN} meshes, and {path} has {count}.")
             style_of(recipe.page.style, recipe.document.colours)
             self._window.session.given.update(Given.read(recipe))
-            recipe = self._with_mesh(recipe)
+            recipe = self._with_meshes(recipe)
         except BihdistError as error:
             self._window.failed(str(error))
             return
@@ -130,23 +136,28 @@ class SessionFile:
         # Nothing changes before the mesh is there: it may not open.
         self._window.show_document(recipe.document, recipe.page, arrived)
 
-    def _with_mesh(self, recipe: Recipe) -> Recipe | None:
-        """The recipe of a mesh that is there: the one it names, or the one the user points at; None if neither."""
-        mesh = recipe.document.surfaces[0]
+    def _with_meshes(self, recipe: Recipe) -> Recipe | None:
+        """The recipe of meshes that are there: those it names, or those the user points at; None if neither."""
+        found: list[MeshFile] = []
+        for mesh in recipe.document.surfaces:
+            there = self._there(mesh)
+            if there is None:
+                return None
+            found.append(there)
+        return replace(recipe, document=replace(recipe.document, surfaces=tuple(found)))
+
+    def _there(self, mesh: MeshFile) -> MeshFile | None:
         if not mesh.path:
-            return recipe
+            return mesh
         known = mesh_path(mesh.path)
         if not os.path.exists(known):
             message, path = f"The mesh {mesh.path[:200]} is not there.", ""
         elif mesh.sha256 and checksum(known) != mesh.sha256:
             message, path = f"The mesh {mesh.path} is not what it was when this was written.", mesh.path
         else:
-            return recipe
+            return mesh
         chosen = _mesh_instead(self._window, message, path)
-        if not chosen:
-            return None
-        surfaces = (replace(mesh, path=chosen, sha256=""),)
-        return replace(recipe, document=replace(recipe.document, surfaces=surfaces))
+        return replace(mesh, path=chosen, sha256="") if chosen else None
 
     def _remember(self, path: str) -> None:
         if self._window.remembers:

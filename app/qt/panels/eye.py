@@ -1,4 +1,4 @@
-"""The camera from which all panels are seen."""
+"""The camera from which the panels of a surface are seen, and how those of two surfaces move together."""
 
 from collections.abc import Callable, Sequence
 
@@ -10,26 +10,45 @@ from bihdist_core.analysis.upright import axis_of
 
 from ...document.camera import Camera, View
 from ...document.quantities import Difference
-from ...drawing.camera import camera_seen, outwards_at, show_camera, standard_camera
+from ...drawing.camera import camera_seen, carried, outwards_at, show_camera, standard_camera
 from ...drawing.relief import rise
+from ...session.opened import Opened
 from ...session.questions import vertex_at
 from ...session.session import Session
 from .panel import DistancePanel
 
 
 class Eye(QtCore.QObject):
-    """panels: asks for those that are shown, which are equal in size."""
+    """panels: asks for those that are shown, which are equal in size.
+
+    place: of its surface among the document's, 0 for the first.  known: what it saw when that was told last.
+    """
 
     placed = QtCore.Signal()  # it sees something else, but not because the user has moved it
 
     def __init__(
-        self, session: Session, panels: Callable[[], Sequence[DistancePanel]], parent: QtCore.QObject | None = None
+        self,
+        session: Session,
+        panels: Callable[[], Sequence[DistancePanel]],
+        parent: QtCore.QObject | None = None,
+        place: int = 0,
     ) -> None:
         super().__init__(parent)
-        self._session, self._panels = session, panels
+        self._session, self._panels, self._place = session, panels, place
         self.camera = vtkCamera()
+        self.known: Camera | None = None
         self.is_turntable = False  # whether what is up stays upright while the surface turns
         self._fitted = QtCore.QSize()  # of the views that the camera was placed for
+
+    @property
+    def surface(self) -> str:
+        """The name of its surface in the document; "" where there is none."""
+        meshes = self._session.document.surfaces
+        return meshes[self._place].name if self._place < len(meshes) else ""
+
+    @property
+    def _opened(self) -> Opened | None:
+        return self._session.opened(self.surface) if self.surface else None
 
     @property
     def _size(self) -> QtCore.QSize:
@@ -50,39 +69,56 @@ class Eye(QtCore.QObject):
     @property
     def upright(self) -> np.ndarray | None:
         """(3,) what stays upright; None if the surface turns freely."""
-        up = self._session.document.up
+        up = self._session.document.up_of(self.surface)
         return axis_of(up) if self.is_turntable and up != "auto" else None
 
     @property
     def rise(self) -> float:
         """How far up the panels' reliefs go; 0 if they are none."""
-        opened, height = self._session.opened(), self._session.document.height
+        opened, height = self._opened, self._session.document.height
         return rise(opened.prepared.bounds, height) if height and opened and opened.prepared.is_flat else 0.0
 
     def look(self, view: View) -> None:
         """See the surface from a standard view, fitted closely, or as a camera saw it."""
+        if self._opened is None:
+            return
         self._fitted = self._size
         document = self._session.document
         is_parallel = document.projection == "orthographic"
         if not isinstance(view, Camera):
-            points, up = self._session.opened().prepared.points, self.rise
+            points, up = self._opened.prepared.points, self.rise
             if up:
-                signed = any(isinstance(panel.shows, Difference) for panel in document.panels)
+                signed = any(isinstance(panel.shows, Difference) for panel in document.panels_of(self.surface))
                 down = np.array([0, 0, up if signed else 0])
                 points = np.concatenate([points - down, points + np.array([0, 0, up])])
             name = "relief" if up and view == "home" else view
             outwards = self._source_seen() if name == "source" else None
-            view = standard_camera(points, self.aspect, name, None, document.up, outwards, is_parallel)
+            axis = document.up_of(self.surface)
+            view = standard_camera(points, self.aspect, name, None, axis, outwards, is_parallel)
         show_camera(self.camera, view, self.aspect, None, is_parallel)
+        self.known = self.seen
         self.placed.emit()
 
     def look_again(self) -> None:
         """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""
-        if self._session.surface is not None and self._panels() and self._size != self._fitted:
-            self.look(self._session.document.camera)
+        if self._opened is not None and self._panels() and self._size != self._fitted:
+            self.look(self._session.document.camera_of(self.surface))
+
+    def note(self) -> Camera:
+        """The user has moved it: what it sees now."""
+        self.known = self.seen
+        return self.known
+
+    def follow(self, before: Camera, after: Camera) -> Camera | None:
+        """Move as another camera has moved, from before to after; what it sees then, None if it has no surface."""
+        if self._opened is None or self.known is None:
+            return None
+        is_parallel = self._session.document.projection == "orthographic"
+        show_camera(self.camera, carried(self.known, before, after), self.aspect, None, is_parallel)
+        return self.note()
 
     def _source_seen(self) -> np.ndarray | None:
         """(3,) the way out of the surface where the first panel's field starts."""
-        document, surface = self._session.document, self._session.opened().surface
-        sources = document.sources
-        return outwards_at(surface, vertex_at(sources[0], surface)) if sources else None
+        document, surface = self._session.document, self._opened.surface
+        names = [name for panel in document.panels_of(self.surface) for name in panel.shows.points]
+        return outwards_at(surface, vertex_at(document.point(names[0]).at, surface)) if names else None

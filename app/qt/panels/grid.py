@@ -1,10 +1,13 @@
-"""The panels of the window, equal in size and seen from one camera.  Shows what a session knows; decides nothing."""
+"""The panels of the window, equal in size, those of a surface seen from one camera.
 
-from collections.abc import Callable
+Shows what a session knows; decides nothing."""
+
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
 from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
@@ -58,7 +61,7 @@ class PanelGrid(QtWidgets.QWidget):
     chosen = QtCore.Signal(int, object)  # panel, quantity
     asked = QtCore.Signal(int, str)  # panel, a word of PANEL_EDITS
     hovered = QtCore.Signal(int, object)  # panel, a `Met` or None beside the surface
-    looked = QtCore.Signal(Camera)  # where the user has turned or moved the camera to
+    looked = QtCore.Signal(Camera, str)  # where the user has turned or moved the camera of a surface to
     menu_wanted = QtCore.Signal(int, object, object)  # panel, a `Met` or None, where on the screen
     ended = QtCore.Signal(int, object)  # panel, where its colour bar is to end
     cancelled = QtCore.Signal(int)  # what is computed for a panel
@@ -76,8 +79,10 @@ class PanelGrid(QtWidgets.QWidget):
         self.labels = LineLabels(lambda: self.panels, self)
         self._shades = Shades(self)
         self._shades.made.connect(self.show_shading)
-        self.eye = Eye(session, lambda: self.panels, self)
-        self.eye.placed.connect(self._placed)
+        self.eyes = tuple(Eye(session, lambda: self.panels, self, place) for place in range(MOST_SHOWN))
+        self.eye = self.eyes[0]  # that of the first surface
+        for eye in self.eyes:
+            eye.placed.connect(self._placed)
         self.active = -1  # the id of the panel that the keys go to
         self.wheel_factor = 1.0
         self._is_drawn_on = False
@@ -89,7 +94,7 @@ class PanelGrid(QtWidgets.QWidget):
         self.pointing = Pointing()
         self.lit: tuple[str, ...] = ()  # the points of pins that stand out
         self.chosen_anchor = ""  # the point of the one that does
-        self._selected: np.ndarray | None = None
+        self._selected: Mapping[str, np.ndarray | None] = {}
         self._brush: QtGui.QCursor | None = None
         LOOK.changed.connect(self.update)
         self.show_panels(session.document)
@@ -131,7 +136,7 @@ class PanelGrid(QtWidgets.QWidget):
             row, column = divmod(number, columns)
             # The last in a row has what is left over: a pixel or two, no more than a panel has columns.
             panel.setGeometry(column * (width + LINE), row * (height + LINE), width, height)
-        self.eye.look_again()  # panels that were kept for later may have had this size before
+        self._look_again()  # panels that were kept for later may have had this size before
 
     # ------------------------------------------------------------------ the document
     def show_panels(self, document: Document) -> None:
@@ -146,9 +151,12 @@ class PanelGrid(QtWidgets.QWidget):
         for id, panel in wanted.items():
             if id not in self._panels:
                 self._panels[id] = self._spare.pop() if self._spare else self._new_panel()
-                self._begin(self._panels[id], id)
+                self._begin(self._panels[id], panel)
+            elif self._panels[id].surface != panel.surface:
+                self._begin(self._panels[id], panel)
             fields = [field.name for field in document.fields if field.surface == panel.surface]
             self._panels[id].head.show_quantity(panel.shows, fields)
+            self._panels[id].head.show_letter(letter_of(document, panel), self._mesh_name(panel.surface))
         self._panels = {id: self._panels[id] for id in wanted}
         self.pointing.begin(self._panels)
         self._arrange()
@@ -158,6 +166,10 @@ class PanelGrid(QtWidgets.QWidget):
         if self.active not in self._panels:
             self.activate(next(iter(self._panels), -1))
         self._show_active()
+
+    def _mesh_name(self, surface: str) -> str:
+        opened = self._session.opened(surface)
+        return "" if opened is None else opened.surface.name
 
     def _new_panel(self) -> DistancePanel:
         panel = DistancePanel(self.board, self)
@@ -174,9 +186,9 @@ class PanelGrid(QtWidgets.QWidget):
         view.stroked.connect(lambda met: self.stroked.emit(panel.id, met))
         view.stroke_ended.connect(lambda has_ctrl: self.stroke_ended.emit(panel.id, has_ctrl))
         view.hovered.connect(lambda met: self.hovered.emit(panel.id, met))
-        view.moved.connect(self._looked)
+        view.moved.connect(lambda: self._looked(panel))
         view.let_go.connect(self.moving.rest)
-        view.resized.connect(self.eye.look_again)
+        view.resized.connect(self._look_again)
         view.menu_wanted.connect(lambda met, where: self.menu_wanted.emit(panel.id, met, where))
         view.centred.connect(lambda met: view.centre(met.position))
         view.brushed.connect(self.brushed)
@@ -188,25 +200,25 @@ class PanelGrid(QtWidgets.QWidget):
         panel.head.asked.connect(lambda word: self.asked.emit(panel.id, word))
         panel.ended.connect(lambda end: self.ended.emit(panel.id, end))
         panel.cancelled.connect(lambda: self.cancelled.emit(panel.id))
-        view.scene.renderer.SetActiveCamera(self.eye.camera)
         panel.show_style(self._style)
         return panel
 
-    def _begin(self, panel: DistancePanel, id: int) -> None:
-        """Let a panel be that of an id, without a field yet."""
-        panel.id = id
-        opened = self._session.opened()
+    def _begin(self, panel: DistancePanel, shown: Panel) -> None:
+        """Let a panel be one of the document's, without a field yet."""
+        panel.id, panel.surface = shown.id, shown.surface
+        opened, eye = self._session.opened(panel.surface), self.eye_of(panel.surface)
+        panel.view.scene.renderer.SetActiveCamera(eye.camera)
         panel.show_style(self._style)
         if opened is not None:
             panel.show_surface(opened)
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
-        panel.view.upright = self.eye.upright
+        panel.view.upright = eye.upright
         panel.view.pointer.draw_on(self._is_drawn_on)
         panel.view.over.show_axes(self._session.document.axes)
         panel.show_isolines(self._session.document.isolines)
-        panel.marks.show_selected(self._selected)
-        panel.view.pointer.set_brush(self._brush)
+        panel.marks.show_selected(self._selected.get(panel.surface))
+        panel.view.pointer.set_brush(self._brush_of(panel))
         panel.show()
 
     def show_style(self, style: Style) -> bool:
@@ -220,20 +232,24 @@ class PanelGrid(QtWidgets.QWidget):
     def show_surface(self) -> None:
         """Another surface is there."""
         for panel in self.panels:
-            panel.show_surface(self._session.opened())
-            panel.marks.show_selected(self._selected)
+            opened = self._session.opened(panel.surface)
+            if opened is not None:
+                panel.show_surface(opened)
+                panel.marks.show_selected(self._selected.get(panel.surface))
+                panel.head.show_letter(panel.head.letter, opened.surface.name)
         self.pointing.forget()
         self.show_shading()
 
     def show_shading(self) -> None:
         """Shade all surfaces as the document says, once the mesh for it has been made."""
-        if self._session.opened() is not None and not self._is_closed:
+        if not self._is_closed:
             for panel in self.panels:
                 self._shade(panel)
 
     def _shade(self, panel: DistancePanel) -> None:
-        shading = self._session.document.shading
-        panel.show_shading(shading, self._shades.drawn(self._session.opened().prepared.meshes, shading))
+        shading, opened = self._session.document.shading, self._session.opened(panel.surface)
+        if opened is not None:
+            panel.show_shading(shading, self._shades.drawn(opened.prepared.meshes, shading))
 
     def expect_sources(self, document: Document) -> None:
         """Tell each panel where its field starts."""
@@ -280,18 +296,21 @@ class PanelGrid(QtWidgets.QWidget):
             if self._session.surface is not None:
                 self.show_pins(self._session.document)
 
-    def show_selected(self, colours: np.ndarray | None) -> None:
-        """Vertices that stand out in all panels, see `selected_colours`."""
+    def show_selected(self, colours: Mapping[str, np.ndarray | None]) -> None:
+        """Vertices that stand out in the panels of each surface, see `selected_colours`."""
         self._selected = colours
         for panel in self.panels:
-            panel.marks.show_selected(colours)
+            panel.marks.show_selected(colours.get(panel.surface))
         self.moving.moved(SELECTED_MS)
 
     def set_brush(self, brush: QtGui.QCursor | None) -> None:
-        """What a drag paints with in all panels, None if it turns them."""
+        """What a drag paints with in the panels of the first surface, None if it turns them."""
         self._brush = brush
-        for panel in (*self.panels, *self._spare):
-            panel.view.pointer.set_brush(brush)
+        for panel in self.panels:
+            panel.view.pointer.set_brush(self._brush_of(panel))
+
+    def _brush_of(self, panel: DistancePanel) -> QtGui.QCursor | None:
+        return self._brush if panel.surface == self.eye.surface else None
 
     def show_insets(self, document: Document) -> None:
         """Enlarge the document's places in each panel."""
@@ -342,16 +361,34 @@ class PanelGrid(QtWidgets.QWidget):
 
     def turn_upright(self, is_turntable: bool | None = None) -> None:
         """Let the surface turn as on a turntable, or freely; as it did, about what is up now, if None."""
-        self.eye.is_turntable = self.eye.is_turntable if is_turntable is None else is_turntable
-        for panel in (*self.panels, *self._spare):
-            panel.view.upright = self.eye.upright
+        for eye in self.eyes:
+            eye.is_turntable = self.eye.is_turntable if is_turntable is None else is_turntable
+        for panel in self.panels:
+            panel.view.upright = self.eye_of(panel.surface).upright
 
-    def _looked(self) -> None:
-        """The user has moved the camera."""
-        if self._session.surface is not None:
-            self.moving.moved()
-            self.redraw()
-            self.looked.emit(self.eye.seen)
+    def eye_of(self, surface: str) -> Eye:
+        """The camera of a surface, by its name in the document."""
+        return next((eye for eye in self.eyes if surface and eye.surface == surface), self.eye)
+
+    def _look_again(self) -> None:
+        for eye in self.eyes:
+            eye.look_again()
+
+    def _looked(self, panel: DistancePanel) -> None:
+        """The user has moved the camera of a panel; where they are linked, those of other surfaces follow."""
+        if self._session.surface is None:
+            return
+        eye = self.eye_of(panel.surface)
+        before, after = eye.known, eye.note()
+        seen = {eye.surface: after}
+        for other in self.eyes if self._session.document.linked and before is not None else ():
+            followed = None if other is eye else other.follow(before, after)
+            if followed is not None:
+                seen[other.surface] = followed
+        self.moving.moved()
+        self.redraw()
+        for surface, camera in seen.items():
+            self.looked.emit(camera, surface)
 
     def redraw(self) -> None:
         """Draw each panel once more, when Qt paints next."""

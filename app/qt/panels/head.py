@@ -21,6 +21,9 @@ SLIDERS_FROM, ALL_FROM, FIRST_FROM = 440, 300, 200
 
 MARGIN, BETWEEN = 8, 4
 WARNING_ROOM = 22
+LETTER_SIDE, LETTER_ROOM = 18, 24
+"""Of the badge with the letter of the surface, and with what is beside it."""
+
 DOT_ROOM, DOT = 13, 4.0
 """For the dot of a curve, and its radius."""
 
@@ -45,7 +48,7 @@ class PanelHead(QtWidgets.QWidget):
         self.controls: list[Control] = []
         self._choices = Choices()
         self._made_of: object = None
-        self._info = self._warning = self._dot = ""
+        self._info = self._warning = self._dot = self.letter = ""
         # Panels are equally wide whatever is in here.
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.name = FlatButton(self, bold=True)
@@ -131,6 +134,14 @@ class PanelHead(QtWidgets.QWidget):
         self.warning.setAccessibleName(text)
         self.show_info(self._info)
         self._restyle()
+
+    def show_letter(self, letter: str, name: str) -> None:
+        """Of the panel's surface, where there are two, and the name of that; "" for none."""
+        self.setToolTip(f"{letter}: {name}" if letter else "")
+        if letter != self.letter:
+            self.letter = letter
+            self._lay_out()
+            self.update()
 
     def show_dot(self, colour: str) -> None:
         """Of the panel's curve in a plot that is open; "" for none."""
@@ -247,7 +258,7 @@ class PanelHead(QtWidgets.QWidget):
     def _lay_out(self) -> None:
         """From the left name, warning, parameters; from the right the two buttons."""
         controls = [c for c in self.controls if not (self._warning and isinstance(c, FixedWord))]
-        left = MARGIN + (DOT_ROOM if self._dot else 0)
+        left = MARGIN + self._letter_room + (DOT_ROOM if self._dot else 0)
         right = self.width() - MARGIN - ICON_SIDE
         self.more.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)
         name = self.name.sizeHint().width()
@@ -314,8 +325,20 @@ class PanelHead(QtWidgets.QWidget):
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         painter = QtGui.QPainter(self)
         painter.fillRect(self.rect(), QtGui.QColor(LOOK.theme.canvas))
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        painter.setPen(QtCore.Qt.PenStyle.NoPen)
         if self._dot:
-            painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-            painter.setPen(QtCore.Qt.PenStyle.NoPen)
             painter.setBrush(QtGui.QColor(self._dot))
-            painter.drawEllipse(QtCore.QPointF(MARGIN + 8, self.height() / 2), DOT, DOT)
+            painter.drawEllipse(QtCore.QPointF(MARGIN + self._letter_room + 8, self.height() / 2), DOT, DOT)
+        if self.letter:
+            side = round(LETTER_SIDE * LOOK.scale)
+            badge = QtCore.QRectF(MARGIN + 4, self._top(side), side, side)
+            painter.setBrush(QtGui.QColor(LOOK.theme.pressed))
+            painter.drawRoundedRect(badge, 4, 4)
+            painter.setFont(LOOK.font(11, bold=True))
+            painter.setPen(QtGui.QColor(LOOK.theme.text))
+            painter.drawText(badge, QtCore.Qt.AlignmentFlag.AlignCenter, self.letter)
+
+    @property
+    def _letter_room(self) -> int:
+        return round(LETTER_ROOM * LOOK.scale) if self.letter else 0

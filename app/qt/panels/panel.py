@@ -44,14 +44,14 @@ NOT_CONNECTED, UNDEFINED = "not connected to the source", "undefined here"
 
 
 class DistancePanel(QtWidgets.QWidget):
-    """See the module.  id: that of the document's panel."""
+    """See the module.  id, surface: those of the document's panel."""
 
     cancelled = QtCore.Signal()
     ended = QtCore.Signal(object)  # where its colour bar is to end, None for the field's own maximum
 
     def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self.id = -1
+        self.id, self.surface = -1, ""
         self.head = PanelHead(DistanceFrom(COMPARISON[0]), self)
         self.view = View(board, self)
         self.marks = PanelMarks(self.view)

@@ -23,9 +23,12 @@ class Pointing:
         self._at = None
 
     def show(self, id: int, vertex: int | None) -> None:
-        """Mark a vertex in every panel, and show its values; id: the panel under the pointer."""
+        """Mark a vertex in every panel of its surface, and show its values; id: the panel under the pointer."""
         self._at = None if vertex is None else (id, vertex)
         for other, panel in self._panels.items():
+            if panel.surface != self._panels[id].surface:
+                panel.point_at(None, False)
+                continue
             # Panels with the same shape show the same of it.
             is_hidden = (
                 vertex is not None
