@@ -312,7 +312,7 @@ TOOLS = (
     Act("stop", "&Stop what is being computed", lambda w: w.cancel(), ("Esc",)),
 )
 INSTRUMENTS: tuple[Act, ...] = (
-    _dock("anchors", "&Interpolation", "I", "Values at anchors, interpolated by every panel's distance", "anchor"),
+    _dock("anchors", "Interpolation", "I", "Values at anchors, interpolated by every panel's distance", "anchor"),
     _dock("pins", "&Pins", "P", "Points with a number, what every panel has there, and how far apart they are", "pin"),
     _dock("profile", "P&rofile", "F", "Values along a path: the chart of all panels' fields", "profile"),
     _dock("quality", "&Quality", "Q", "Extrema, isotropy, kinks and triangles of every panel's distance", "quality"),

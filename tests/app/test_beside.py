@@ -1,0 +1,82 @@
+"""A second mesh in a document: what it brings, what goes with it, and how its camera follows."""
+
+import numpy as np
+import pytest
+
+from app.document.beside_edits import close_beside, open_beside, see, stand_beside
+from app.document.camera import Camera
+from app.document.document import MeshFile, comparison
+from app.document.edits import MOST_ADDED, add_another, show_in
+from app.document.file import read_recipe, recipe_text
+from app.document.history import History
+from app.document.measuring import add_pins
+from app.document.page import Recipe
+from app.document.quantities import quantity
+from app.drawing.camera import carried, frame, turned
+from bihdist_core.errors import ParameterError
+
+FIRST = comparison("first.off", (quantity("biharmonic"), quantity("biharmonic - geodesic")), (3,))
+SECOND = MeshFile("", "second.off")
+HOME = Camera((0, 0, 5), (0, 0, 0), (0, 1, 0), (0.2, 0.2))
+OTHER = Camera((7, 1, 1), (1, 1, 1), (0, 0, 1), (0.2, 0.2))
+
+
+def test_its_panels_show_the_same_from_a_source_of_its_own():
+    document = open_beside(FIRST, SECOND)
+    assert [str(panel.shows) for panel in document.panels_of("B")] == [str(p.shows) for p in FIRST.panels]
+    assert {name for panel in document.panels_of("B") for name in panel.shows.points} == {"source 2"}
+    assert document.point("source 2").surface == "B"
+    assert document.panels_of() == FIRST.panels
+
+
+def test_closed_again_nothing_of_it_is_left():
+    document = add_pins(open_beside(FIRST, SECOND), [4], "B")
+    closed = close_beside(document)
+    assert (closed.surfaces, closed.points, closed.panels, closed.pins) == (
+        FIRST.surfaces,
+        FIRST.points,
+        FIRST.panels,
+        (),
+    )
+    assert close_beside(FIRST) == FIRST
+
+
+def test_it_is_refused_where_there_is_no_room():
+    full = FIRST
+    while len(full.panels) < MOST_ADDED:
+        full = add_another(full)
+    with pytest.raises(ParameterError, match="6 panels already"):
+        open_beside(full, SECOND)
+
+
+def test_a_panel_starts_from_a_point_of_its_own_surface_whatever_is_chosen():
+    document = open_beside(FIRST, SECOND)
+    id = document.panels_of("B")[0].id
+    assert show_in(document, id, quantity("commute-time")).panel(id).shows.points == ("source 2",)
+    added = add_another(document, "B").panels[-1]
+    assert (added.surface, added.shows.points) == ("B", ("source 2",))
+
+
+def test_cameras_are_kept_in_files_and_are_no_steps(tmp_path):
+    document = stand_beside(see(open_beside(FIRST, SECOND), OTHER, "B"), "z", "B")
+    assert (document.camera_of("A"), document.up_of("B")) == ("home", "z")
+    document = see(document, OTHER, "B")
+    path = tmp_path / "r.json"
+    path.write_text(recipe_text(Recipe(document), "1"))
+    assert read_recipe(path).document == document
+    history = History(open_beside(FIRST, SECOND))
+    history.change(see(history.present, OTHER, "B"))
+    assert not history.can_undo
+    history.change(add_pins(history.present, [4], "B"))
+    assert history.undo().camera_of("B") == OTHER
+
+
+def test_a_camera_that_is_carried_turns_and_nears_as_the_other_does():
+    after = turned(HOME, 40.0, np.array([1.0, 2.0, 0.5]))
+    near = Camera(tuple(np.array(after.position) / 2), (0.0, 0.0, 0.0), after.up, after.extent)
+    assert np.allclose(carried(HOME, HOME, near).position, near.position)
+    found = carried(OTHER, HOME, near)
+    assert np.allclose(frame(OTHER).T @ frame(found), frame(HOME).T @ frame(near))
+    assert np.isclose(np.linalg.norm(np.subtract(found.position, found.focal_point)), 3.0)
+    # There and back again nothing has changed.
+    assert np.allclose(carried(found, near, HOME).position, OTHER.position)
