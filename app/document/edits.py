@@ -62,10 +62,10 @@ def stand(document: Document, up: str) -> Document:
 
 def put_point(document: Document, name: str, at: Source | None, surface: str = "A") -> Document:
     """Move a named point, or add it."""
-    point = Point(name, at, surface)
     if all(other.name != name for other in document.points):
-        return replace(document, points=(*document.points, point))
-    return replace(document, points=tuple(point if other.name == name else other for other in document.points))
+        return replace(document, points=(*document.points, Point(name, at, surface)))
+    points = (replace(p, at=at, surface=surface) if p.name == name else p for p in document.points)
+    return replace(document, points=tuple(points))
 
 
 def source_name(document: Document, panel: int) -> str:

@@ -1,5 +1,6 @@
 """Surfaces that are made from others: where points of these are on them, and how distances change."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,8 +13,9 @@ from bihdist_core.distances.answers import Answer, failed
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source, SourceSet
 
+from ..document.document import Document
 from ..document.sourcing import members_of
-from .questions import ChangeQuestion, DistanceQuestion
+from .questions import ChangeQuestion, DistanceQuestion, vertex_at
 
 if TYPE_CHECKING:
     from .opened import Opened
@@ -34,6 +36,26 @@ def carried(at: Source, opened: "Opened") -> Source:
         images[image_of(opened.origin.surface, opened.ids, member, opened.surface)] = None
     found = tuple(images)
     return found[0] if len(found) == 1 else SourceSet(found)
+
+
+def led(document: Document, before: Document, opened: "Opened") -> Document:
+    """Where a point on a changed surface has been moved there, what it is the image of moves, and it follows.
+
+    Onto what is new there it does not move at all.
+    """
+    were = {point.name: point for point in before.points}
+    for point in document.points:
+        was, original = were.get(point.name), were.get(point.image_of)
+        is_here = point.surface == opened.mesh.name and point.image_of
+        if not is_here or was is None or original not in document.points or point.at in (None, was.at):
+            continue
+        vertices = [vertex_at(member, opened.surface) for member in members_of(point.at)]
+        old = tuple(dict.fromkeys(int(opened.ids[vertex]) for vertex in vertices if opened.ids[vertex] >= 0))
+        if old:
+            at = old[0] if len(old) == 1 else SourceSet(old)
+            points = (replace(p, at=at) if p.name == point.image_of else p for p in document.points)
+            document = replace(document, points=tuple(points))
+    return document
 
 
 def change_of(question: ChangeQuestion, opened: "Opened", progress: Progress | None) -> Answer:

@@ -19,6 +19,7 @@ from ..document.document import Document, MeshFile, Point, starting_points
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
 from .answering import Answering, AnswerView, Shown
+from .changed import led
 from .given import Given
 from .lane import Lane
 from .opened import Opened, is_same, open_mesh, started_alike
@@ -365,6 +366,10 @@ class Session:
     # ------------------------------------------------------------------ asking
     def _change(self, document: Document, key: str = "") -> None:
         """A step of the history; the first document that can be shown is its beginning."""
+        for mesh in document.surfaces if self._is_begun else ():
+            opened = self._found(mesh) if mesh.change is not None else None
+            if opened is not None:
+                document = led(document, self.document, opened)
         document = self._settled(document)
         if not self._is_begun:
             self.history, self._is_begun = History(document), True

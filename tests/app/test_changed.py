@@ -24,7 +24,6 @@ from bihdist_core import BiharmonicDistance, ParameterError, Place, VertexError,
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.perturbation import image_of, perturbed
 from bihdist_core.distances.kinds import Spec
-from tests.app.conftest import Desk
 from tests.shapes import bumpy
 
 BIHARMONIC, EDGES = Spec.of("biharmonic"), Spec.of("geodesic", method="dijkstra")
@@ -197,8 +196,8 @@ def test_a_line_of_it_means_the_same_and_options_change_what_it_is_made_from(mes
     assert plain.document == replace(recipe.document, up="z")
 
 
-def test_the_session_shows_it_and_a_source_moves_on_both(mesh):
-    desk = Desk()
+def test_the_session_shows_it_and_a_source_moves_on_both(mesh, desk):
+    desk = desk()
     desk.session.show(changed(mesh, CHANGES[2]))
     session = desk.complete()
     assert session.opened("B").origin is session.opened("A")
@@ -213,6 +212,22 @@ def test_the_session_shows_it_and_a_source_moves_on_both(mesh):
     assert session.shown[1].answer.field == pytest.approx(expected, rel=1e-9, nan_ok=True)
     assert session.shown[2].answer.field[there] == 0
     session.undo()
+    desk.complete()
+    assert session.document == before
+    desk.click(90, panel=1)  # there, it moves on both as well
+    desk.complete()
+    assert session.document.point("source").at == ids[90]
+    assert session.document.point("source after").at == 90
+    assert session.document.point("source after").image_of == "source"
+
+
+def test_a_source_is_not_moved_onto_what_is_new(mesh, desk):
+    desk = desk()
+    desk.session.show(changed(mesh, CHANGES[3]))
+    session = desk.complete()
+    new = int(np.flatnonzero(session.opened("B").ids < 0)[0])
+    before = session.document
+    desk.click(new, panel=1)
     desk.complete()
     assert session.document == before
 
