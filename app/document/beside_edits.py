@@ -72,7 +72,9 @@ def close_beside(document: Document) -> Document:
 def see(document: Document, view: View, surface: str | None = None) -> Document:
     """A surface of the document, the first if none is named, is seen from elsewhere."""
     if surface is None or not document.surfaces or surface == document.surfaces[0].name:
-        return replace(document, camera=view)
+        # What has been seen from where the first was stays there.
+        beside = tuple(_beside_of(document, mesh.name) for mesh in document.surfaces[1:])
+        return replace(document, camera=view, beside=beside)
     return _with_beside(document, replace(_beside_of(document, surface), camera=view))
 
 

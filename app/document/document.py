@@ -337,7 +337,7 @@ def free_names(base: str, count: int, taken: list[str]) -> list[str]:
 
 def content(document: Document) -> Document:
     """What two documents have in common that differ in nothing but cameras, open docks and snapping."""
-    beside = tuple(replace(each, camera="home") for each in document.beside)
+    beside = tuple(Beside(mesh.name, "home", document.up_of(mesh.name)) for mesh in document.surfaces[1:])
     return replace(document, camera="home", docks=(), dock_places=None, snap=True, beside=beside, linked=True)
 
 

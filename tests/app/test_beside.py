@@ -1,5 +1,7 @@
 """A second mesh in a document: what it brings, what goes with it, and how its camera follows."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -80,3 +82,14 @@ def test_a_camera_that_is_carried_turns_and_nears_as_the_other_does():
     assert np.isclose(np.linalg.norm(np.subtract(found.position, found.focal_point)), 3.0)
     # There and back again nothing has changed.
     assert np.allclose(carried(found, near, HOME).position, OTHER.position)
+
+
+def test_of_two_that_were_seen_from_one_camera_the_second_stays_when_the_first_is_seen_from_elsewhere():
+    together = replace(open_beside(FIRST, SECOND), camera=HOME, beside=())
+    assert together.camera_of("B") == HOME
+    apart = see(together, OTHER)
+    assert (apart.camera_of("A"), apart.camera_of("B")) == (OTHER, HOME)
+    assert see(FIRST, OTHER).beside == ()
+    history = History(together)
+    history.change(apart)
+    assert not history.can_undo
