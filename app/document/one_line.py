@@ -124,9 +124,11 @@ def _panels(recipe: Recipe) -> Said:
         raise Unsaid("There are no panels.")
     names = list(dict.fromkeys(name for panel in document.panels for name in panel.shows.points))
     shows: list[Quantity] = [
-        from_point(p.shows, "source") for p in document.panels if set(p.shows.points) == {names[0]}
+        from_point(p.shows, "source") for p in document.panels if set(p.shows.points) == set(names[:1])
     ]
-    if [panel.shows for panel in document.panels] != [from_point(each, name) for name in names for each in shows]:
+    # What starts nowhere, such as interpolants, is named once.
+    repeated = [from_point(each, name) for name in names or ["source"] for each in shows]
+    if [panel.shows for panel in document.panels] != repeated:
         raise Unsaid("The panels start from different points, and not each distance from each.")
     places = [document.point(name).at for name in names]
     if None in places and len(places) > 1:

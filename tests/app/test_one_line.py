@@ -19,7 +19,7 @@ from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
 from app.document.measuring import add_pins, points_along, select_instead
 from app.document.page import Page, Recipe
 from app.document.profile_words import shows_path, with_profile
-from app.document.quantities import Difference, DistanceFrom, OwnField
+from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
 from app.document.starts import curves_in
 from bihdist_core import BoundaryLoop, Curve, ParameterError, Place, SourceSet
 from bihdist_core.applications.weights import Weights
@@ -378,3 +378,13 @@ def test_any_line_read_again_is_what_it_was_made_from(recipe):
     assert "\n" not in line
     assert shown(read_again(line)) == shown(recipe)
     assert one_line.command_line(read_again(line), "out.pdf") == line
+
+
+def test_interpolants_alone_are_said_without_a_source(mesh):
+    shows = (quantity("interpolant by biharmonic"), quantity("weights by geodesic"))
+    points = (Point("a", 3), Point("b", 9))
+    document = replace(comparison(mesh, shows, ()), points=points, anchors=(Anchor("a", 0.0), Anchor("b", 1.0)))
+    line = one_line.command_line(Recipe(document), "f.png")
+    assert "--distance 'interpolant by biharmonic' --distance 'weights by geodesic'" in line
+    assert "--anchors 3=0.0,9=1.0" in line
+    assert "--source" not in line

@@ -199,9 +199,9 @@ def test_recipes_that_the_window_cannot_show_say_so(screen, mesh_file, tmp_path)
     s.open(mesh_file(bumpy(300)), 5)
     before = s.document
     mesh = before.mesh()
-    two = replace(before, surfaces=(mesh, replace(mesh, name="B")))
-    opened_recipe(s, tmp_path, two)
-    assert "shows one mesh" in s.refusals[-1]
+    three = replace(before, surfaces=(mesh, replace(mesh, name="B"), replace(mesh, name="C")))
+    opened_recipe(s, tmp_path, three)
+    assert "shows up to 2 meshes" in s.refusals[-1]
     opened_recipe(s, tmp_path, before, style="pink")
     assert "no style 'pink'" in s.refusals[-1]
     opened_recipe(s, tmp_path, replace(before, points=(Point("source", 10**6),)))
