@@ -161,7 +161,7 @@ class InstrumentHands(Hands):
         docks = self.window.docks
         if "anchors" not in self.window.session.document.docks:
             docks.toggle("anchors")
-            self.spin(0.05)
+            self.spin(0.3)  # until the panels have given way
         dock = docks._docks["anchors"].content
         if dock.start.isVisible():
             dock.begin()

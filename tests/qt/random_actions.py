@@ -57,8 +57,8 @@ class RandomHands(InstrumentHands):
         if panel.view.source is None:
             return
         at = panel.view.place_of(panel.view.source)
-        if not panel.view.rect().contains(at.toPoint()):
-            return  # the camera looks past it
+        if not panel.view.visibleRegion().contains(at.toPoint()):
+            return  # the camera looks past it, or a dock is over it
         at = panel.view.mapToGlobal(QtCore.QPoint(round(at.x() - 0.5), round(at.y() - 0.5)))
         x, y = at.x(), at.y()
         to_x, to_y = self.place(panel.view)
