@@ -383,7 +383,7 @@ def test_any_line_read_again_is_what_it_was_made_from(recipe):
 def test_interpolants_alone_are_said_without_a_source(mesh):
     shows = (quantity("interpolant by biharmonic"), quantity("weights by geodesic"))
     points = (Point("a", 3), Point("b", 9))
-    document = replace(comparison(mesh, shows, ()), points=points, anchors=(Anchor("a", 0.0), Anchor("b", 1.0)))
+    document = replace(comparison(mesh, shows), points=points, anchors=(Anchor("a", 0.0), Anchor("b", 1.0)))
     line = one_line.command_line(Recipe(document), "f.png")
     assert "--distance 'interpolant by biharmonic' --distance 'weights by geodesic'" in line
     assert "--anchors 3=0.0,9=1.0" in line
