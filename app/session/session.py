@@ -7,7 +7,7 @@ becomes a step of the history, and what it asks is answered (`answering`), as so
 import os
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Protocol
 
 from bihdist_core import BihdistError, Surface
@@ -21,33 +21,15 @@ from ..document.history import History, Trail
 from .answering import Answering, AnswerView, Shown
 from .changed import led
 from .given import Given
-from .lane import Lane
-from .opened import Opened, is_same, open_mesh, started_alike
+from .opened import Opened, started_alike
 from .questions import questions
-
-SPARED = 120_000
-"""Surfaces no longer shown are kept up to so many vertices in all, for undo; with their factors these take 0.4 GB."""
+from .surfaces import LoadingView, Opening, Surfaces
 
 
-class View(AnswerView, Protocol):
+class View(AnswerView, LoadingView, Protocol):
     """What the session tells whoever shows it; panels are named by their ids."""
 
     def document_changed(self, before: Document) -> None: ...
-    def failed(self, message: str) -> None: ...
-
-
-@dataclass(frozen=True, eq=False)
-class _Opening:
-    """Meshes to be opened, and what becomes of the document once they are there.
-
-    steps: in the history, where that is all.
-    """
-
-    meshes: tuple[MeshFile, ...]
-    arrive: Callable[[], object]
-    arrived: Callable[[], None] = lambda: None
-    is_wanted: Callable[[], bool] = lambda: True
-    steps: int = 0
 
 
 class Session:
@@ -70,17 +52,11 @@ class Session:
         self.view = view
         self.given = Given()
         self.history = History(document or Document())
-        self._post = post
-        self._prepare, self._known_up = prepare, known_up
         self._answering = Answering(view, post)
-        self._opened: list[Opened] = []  # those shown last come last
-        self._loading: tuple[float, str] | None = None
-        self._opening: _Opening | None = None
+        self._surfaces = Surfaces(view, post, self.given, prepare, known_up, self._present, self._load_programs)
         self._is_begun = False  # whether a document has been shown
-        self._tried = False  # whether surfaces have been asked for
         self._walk: Trail[tuple[Point, ...]] | None = None
         self._walk_end: tuple[Point, ...] = ()
-        self._loader: Lane[_Opening] = Lane("load", self._load, self._report_loading, self._loading_failed)
 
     # ------------------------------------------------------------------ intents
     def show(self, document: Document, key: str = "", live: bool = False) -> None:
@@ -90,13 +66,13 @@ class Session:
         are there.  live: a drag goes on; stand-ins will do, and what is computed is shown though it is late.
         """
         if not self._is_begun:
-            is_edit = document.surfaces == self.document.surfaces and self._tried
+            is_edit = document.surfaces == self.document.surfaces and self._surfaces.tried
             self.history = History(document)
             if is_edit:
                 return  # shown with the mesh that is on its way, or with the next
-        missing = self._missing(document)
+        missing = self._surfaces.missing(document)
         if missing:
-            self._start_opening(_Opening(missing, lambda: self._change(self._wanted(document), key)))
+            self._surfaces.start(Opening(missing, lambda: self._change(self._wanted(document), key)))
         else:
             self._present(lambda: self._change(document, key), live)
 
@@ -105,7 +81,7 @@ class Session:
 
         arriving: called when it has become the present document, before the view is told; arrived: afterwards.
         """
-        self._opening = None
+        self._surfaces.drop()
         if not self._is_begun:
             self.history = History(document)
 
@@ -113,9 +89,9 @@ class Session:
             self._change(self._wanted(document))
             arriving()
 
-        missing = self._missing(document)
+        missing = self._surfaces.missing(document)
         if missing:
-            self._start_opening(_Opening(missing, arrive, arrived))
+            self._surfaces.start(Opening(missing, arrive, arrived))
         elif self._present(arrive):
             arrived()
 
@@ -133,7 +109,7 @@ class Session:
             # Until now the user went on with what is shown.
             self._change(with_mesh(self.document, mesh, source))
 
-        self._start_opening(_Opening((mesh,), arrive))
+        self._surfaces.start(Opening((mesh,), arrive))
 
     def open_beside(self, path: str) -> None:
         """Open a second mesh beside the first, in the place of the one that stands there."""
@@ -142,7 +118,7 @@ class Session:
         def arrive() -> None:
             self._change(open_beside(self.document, mesh))
 
-        self._start_opening(_Opening((mesh,), arrive))
+        self._surfaces.start(Opening((mesh,), arrive))
 
     def close_beside(self) -> None:
         """The first surface alone."""
@@ -193,14 +169,13 @@ class Session:
     def cancel(self, panel: int | None = None) -> None:
         """Stop what is going on, for one panel or everything; the next click or change asks again."""
         if panel is None:
-            self._opening = None
-            self._loader.submit(None)
+            self._surfaces.cancel()
         self._answering.cancel(panel)
 
     def close(self) -> None:
-        self._loader.end()
+        self._surfaces.end()
         self._answering.end()
-        self._loader.close()
+        self._surfaces.close()
         self._answering.close()
 
     # ------------------------------------------------------------------ what is known
@@ -212,7 +187,7 @@ class Session:
     def opened(self, name: str | None = None) -> Opened | None:
         """A surface of the document, the first if no name is given; None before there is one."""
         meshes = [mesh for mesh in self.document.surfaces if name in (None, mesh.name)]
-        return self._found(meshes[0]) if meshes and self._is_begun else None
+        return self._surfaces.found(meshes[0]) if meshes and self._is_begun else None
 
     @property
     def surface(self) -> Surface | None:
@@ -241,7 +216,7 @@ class Session:
     @property
     def is_opening(self) -> bool:
         """Whether a mesh is being read for a document that is still wanted."""
-        return self._opening is not None
+        return self._surfaces.on_their_way is not None
 
     @property
     def shown(self) -> dict[int, Shown]:
@@ -251,7 +226,8 @@ class Session:
     @property
     def progress(self) -> dict[str | int, tuple[float, str]]:
         """What is going on, as a share done and a text: for panels by their ids, and of "load"."""
-        going: dict[str | int, tuple[float, str]] = {} if self._loading is None else {"load": self._loading}
+        loading = self._surfaces.progress
+        going: dict[str | int, tuple[float, str]] = {} if loading is None else {"load": loading}
         going.update(self._answering.progress.items())
         return going
 
@@ -275,63 +251,17 @@ class Session:
         return self.surface is not None and all(self.is_answered(id) and self.shown[id].answer.is_final for id in ids)
 
     # ------------------------------------------------------------------ opening
-    def _found(self, mesh: MeshFile) -> Opened | None:
-        return next((opened for opened in reversed(self._opened) if is_same(mesh, opened.mesh)), None)
-
-    def _missing(self, document: Document) -> tuple[MeshFile, ...]:
-        """Surfaces that have to be read; where any content will do, what the file holds now."""
-        return tuple(mesh for mesh in document.surfaces if not mesh.sha256 or self._found(mesh) is None)
-
-    def _start_opening(self, opening: _Opening) -> None:
-        self._opening, self._tried = opening, True
-        self._loader.submit(opening)
-
-    def _load(self, opening: _Opening, lane: Lane[_Opening]) -> None:
-        # The first report comes before the reading, which has no others.
-        report = lane.progress(lambda latest: latest is opening, quiet=0)
-        found: list[Opened] = []
-        for k, mesh in enumerate(opening.meshes):
-            report(k / len(opening.meshes), f"reading {os.path.basename(mesh.path) or mesh.name}")
-            opened = open_mesh(mesh, self.given, there=[*self._opened, *found])
-            report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
-            opened.prepared = self._prepare(opened.surface)
-            opened.up = self._known_up(opened.mesh.sha256) or opened.up
-            # Told by the view, for whose thread going over all faces would take too long.
-            _ = opened.surface.remarks, opened.surface.nonmanifold_edge_count
-            found.append(opened)
-        report(1, "")
-        self._post(lambda: self._loaded(opening, found))
-        # While the window takes that in: at the start it is still busy with itself.
+    def _load_programs(self) -> None:
+        """While the window takes surfaces in: at the start it is still busy with itself."""
         for question in questions(self.document).values():
             for spec in question.specs:
                 with suppress(BihdistError):  # somebody else's, which says so when it is asked
                     spec.load()
 
-    def _loaded(self, opening: _Opening, found: list[Opened]) -> None:
-        if opening is not self._opening:
-            return  # cancelled, or another mesh was asked for, while it was on its way here
-        self._opening = None
-        if not opening.is_wanted():
-            return
-        before = list(self._opened)
-        self._opened += found
-        if self._present(opening.arrive):
-            opening.arrived()
-        else:
-            self._opened = before
-
-    def _loading_failed(self, opening: _Opening, error: Exception) -> None:
-        def tell() -> None:
-            if opening is self._opening:
-                self._opening = None
-                self.view.failed(failure_in_words(error))
-
-        self._post(tell)
-
     @property
     def _steps_on_their_way(self) -> int:
         """Taken to a document whose mesh is still being read, unless something has been done since."""
-        opening = self._opening
+        opening = self._surfaces.on_their_way
         return opening.steps if opening is not None and opening.is_wanted() else 0
 
     def _step(self, by: int) -> None:
@@ -339,24 +269,24 @@ class Session:
         document = self.history.at(steps)
         if document is None:
             return
-        self._opening = None  # a mesh on its way was a step not yet done
-        missing = self._missing(document)
+        self._surfaces.drop()  # a mesh on its way was a step not yet done
+        missing = self._surfaces.missing(document)
 
         def step() -> None:
             self.history.go(steps)
 
         if missing:
             # Whatever is done meanwhile takes its place.
-            wanted = _Opening(missing, step, is_wanted=lambda: self.history.at(steps) == document, steps=steps)
-            self._start_opening(wanted)
+            wanted = Opening(missing, step, is_wanted=lambda: self.history.at(steps) == document, steps=steps)
+            self._surfaces.start(wanted)
         else:
             self._present(step)
 
     def _settled(self, document: Document) -> Document:
         """With the checksums of the surfaces that are there, and points where there is a vertex."""
-        first = self._found(document.surfaces[0]) if document.surfaces else None
+        first = self._surfaces.found(document.surfaces[0]) if document.surfaces else None
         for mesh in document.surfaces:
-            opened = self._found(mesh)
+            opened = self._surfaces.found(mesh)
             if opened is not None and first is not None:
                 document = started_alike(document, mesh.name, first, opened)
             if opened is not None:
@@ -367,7 +297,7 @@ class Session:
     def _change(self, document: Document, key: str = "") -> None:
         """A step of the history; the first document that can be shown is its beginning."""
         for mesh in document.surfaces if self._is_begun else ():
-            opened = self._found(mesh) if mesh.change is not None else None
+            opened = self._surfaces.found(mesh) if mesh.change is not None else None
             if opened is not None:
                 document = led(document, self.document, opened)
         document = self._settled(document)
@@ -384,26 +314,17 @@ class Session:
         except BihdistError as error:  # a source that the mesh does not have
             self.view.failed(failure_in_words(error))
             return False
-        self._forget()
+        self._surfaces.forget(self.document)
         self._answering.expect(questions(self.document))
         self.view.document_changed(before)
         self._ask(live)
         return True
 
-    def _forget(self) -> None:
-        """Surfaces that are no longer shown, the oldest first; asked for again they are opened again."""
-        latest = {opened.mesh: opened for opened in self._opened}.values()  # of a file that was read again
-        shown = [opened for opened in latest if any(is_same(mesh, opened.mesh) for mesh in self.document.surfaces)]
-        others = [opened for opened in latest if opened not in shown]
-        while others and sum(len(opened.surface.vertices) for opened in others) > SPARED:
-            others.pop(0)
-        self._opened = [*others, *shown]
-
     def _ask(self, live: bool) -> None:
-        asked = {id: (question, self._found(question.mesh)) for id, question in questions(self.document).items()}
+        asked = {id: (each, self._surfaces.found(each.mesh)) for id, each in questions(self.document).items()}
         there = {id: (question, opened) for id, (question, opened) in asked.items() if opened is not None}
         self._answering.ask(there, live)
-        for opened in self._opened:
+        for opened in self._surfaces:
             wanted = {
                 spec
                 for question, surface in there.values()
@@ -411,11 +332,3 @@ class Session:
                 for spec in question.specs
             }
             opened.keep(self.document.areas, wanted)
-
-    # ------------------------------------------------------------------ progress
-    def _report_loading(self, fraction: float | None, text: str) -> None:
-        def note() -> None:
-            self._loading = None if fraction is None else (fraction, text)
-            self.view.progress_changed()
-
-        self._post(note)

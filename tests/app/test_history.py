@@ -10,6 +10,11 @@ from tests.shapes import bumpy, grid
 BIHARMONIC, COMMUTE = Spec.of("biharmonic"), Spec.of("commute-time")
 
 
+def is_read(kept):
+    """Whether what was posted has a mesh with it."""
+    return any("_take" in function.__code__.co_names for function in kept)
+
+
 # ---------------------------------------------------------------------- history
 def test_what_comes_back_by_undo_is_there_at_once(desk, mesh_file):
     d = desk()
@@ -40,7 +45,7 @@ def test_undo_brings_back_the_mesh_before(desk, mesh_file):
 
 
 def test_undo_to_a_mesh_that_is_gone_is_refused_and_nothing_changes(desk, mesh_file, tmp_path, monkeypatch):
-    monkeypatch.setattr("app.session.session.SPARED", 0)
+    monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
     session = d.opened(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
@@ -54,7 +59,7 @@ def test_undo_to_a_mesh_that_is_gone_is_refused_and_nothing_changes(desk, mesh_f
 
 
 def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
-    monkeypatch.setattr("app.session.session.SPARED", 0)
+    monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
     session = d.opened(mesh_file(bumpy(60)), source=5)
     first = session.document
@@ -85,7 +90,7 @@ def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
 
 
 def test_a_step_back_on_its_way_counts_no_more_once_something_was_done(desk, mesh_file, monkeypatch):
-    monkeypatch.setattr("app.session.session.SPARED", 0)
+    monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
     session = d.opened(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
@@ -113,14 +118,14 @@ def test_of_two_documents_from_files_the_later_is_shown_though_its_mesh_is_there
 
 
 def test_a_click_while_the_mesh_of_an_undone_step_is_read_takes_its_place(desk, mesh_file, monkeypatch):
-    monkeypatch.setattr("app.session.session.SPARED", 0)
+    monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
     session = d.opened(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
     d.until(lambda: session.surface.name == "other.off" and session.is_complete)
     kept, after = d.post_later()
     session.undo()
-    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.until(lambda: is_read(kept))
     d.post = after
     d.click(9)
     for function in kept:
@@ -134,7 +139,7 @@ def test_a_mesh_that_was_cancelled_is_not_shown_when_it_comes(desk, mesh_file):
     d = desk()
     kept, after = d.post_later()
     d.show(mesh_file(bumpy(60)))
-    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.until(lambda: is_read(kept))
     d.session.cancel()
     d.post = after
     for function in kept:
@@ -147,7 +152,7 @@ def test_of_two_meshes_the_later_is_shown_with_its_own_source(desk, mesh_file):
     d = desk()
     kept, after = d.post_later()
     d.show(mesh_file(bumpy(60)), source=5)
-    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.until(lambda: is_read(kept))
     d.post = after
     d.show(mesh_file(grid(3, 3), "other.off"), source=7)
     for function in kept:
@@ -164,7 +169,7 @@ def test_a_click_while_another_mesh_is_read_does_not_keep_it_away(desk, mesh_fil
     session = d.opened(mesh_file(bumpy(60)), source=5)
     kept, after = d.post_later()
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
-    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.until(lambda: is_read(kept))
     d.post = after
     d.click(9)
     assert d.source == 9
@@ -180,7 +185,7 @@ def begin_late(desk, document):
     d = desk(document=document)
     kept, after = d.post_later()
     d.session.show(document)
-    d.until(lambda: any("_loaded" in function.__code__.co_names for function in kept))
+    d.until(lambda: is_read(kept))
     d.post = after
     return d, kept
 

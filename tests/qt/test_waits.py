@@ -27,13 +27,13 @@ def pretend(screen, *progress):
 def test_a_mesh_being_read_is_told_in_the_status_bar(screen):
     s = screen()
     progress = s.window.status.progress
-    s.session._loading = (0.5, "reading mesh.off")
+    s.session._surfaces.progress = (0.5, "reading mesh.off")
     s.window.progress_changed()
     s.until(lambda: progress.text)
     s.settle()
     assert progress.text == "Reading mesh.off 50 %"
     assert progress.width() >= progress.sizeHint().width(), "and can be seen"
-    s.session._loading = None
+    s.session._surfaces.progress = None
     s.window.progress_changed()
     assert progress.text == ""
 

@@ -1,0 +1,153 @@
+"""The surfaces that are there: read in the background, and kept for undo when they are no longer shown."""
+
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from bihdist_core import Surface
+from bihdist_core.distances.answers import failure_in_words
+
+from ..document.document import Document, MeshFile
+from .given import Given
+from .lane import Lane
+from .opened import Opened, is_same, open_mesh
+
+SPARED = 120_000
+"""Surfaces no longer shown are kept up to so many vertices in all, for undo; with their factors these take 0.4 GB."""
+
+
+class LoadingView(Protocol):
+    """Who is told, on the view's thread."""
+
+    def progress_changed(self) -> None: ...
+    def failed(self, message: str) -> None: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Opening:
+    """Meshes to be opened, and what becomes of the document once they are there.
+
+    steps: in the history, where that is all.
+    """
+
+    meshes: tuple[MeshFile, ...]
+    arrive: Callable[[], object]
+    arrived: Callable[[], None] = lambda: None
+    is_wanted: Callable[[], bool] = lambda: True
+    steps: int = 0
+
+
+class Surfaces:
+    """Called on the view's thread, but for what the lane does.
+
+    prepare, known_up, post: see `Session`.  present(arrive): lets the document change; whether that could be.
+    loaded(): called in the background once surfaces are on their way to the view.
+    on_their_way: what is being read and is still wanted; progress: how far that is, as a share done and a text.
+    """
+
+    def __init__(
+        self,
+        view: LoadingView,
+        post: Callable[[Callable[[], None]], None],
+        given: Given,
+        prepare: Callable[[Surface], Any],
+        known_up: Callable[[str], str],
+        present: Callable[[Callable[[], object]], bool],
+        loaded: Callable[[], None],
+    ) -> None:
+        self._view, self._post, self._given = view, post, given
+        self._prepare, self._known_up = prepare, known_up
+        self._present, self._loaded = present, loaded
+        self._opened: list[Opened] = []  # those shown last come last
+        self.on_their_way: Opening | None = None
+        self.progress: tuple[float, str] | None = None
+        self.tried = False  # whether surfaces have been asked for
+        self._lane: Lane[Opening] = Lane("load", self._load, self._report, self._failed)
+
+    def __iter__(self) -> Iterator[Opened]:
+        return iter(self._opened)
+
+    def found(self, mesh: MeshFile) -> Opened | None:
+        """The surface of a mesh; None before it is there."""
+        return next((opened for opened in reversed(self._opened) if is_same(mesh, opened.mesh)), None)
+
+    def missing(self, document: Document) -> tuple[MeshFile, ...]:
+        """Surfaces that have to be read; where any content will do, what the file holds now."""
+        return tuple(mesh for mesh in document.surfaces if not mesh.sha256 or self.found(mesh) is None)
+
+    def start(self, opening: Opening) -> None:
+        """Read meshes, and nothing else that is on its way."""
+        self.on_their_way, self.tried = opening, True
+        self._lane.submit(opening)
+
+    def drop(self) -> None:
+        """What is on its way is no longer wanted; its reading may go on."""
+        self.on_their_way = None
+
+    def cancel(self) -> None:
+        """The same, and the reading stops."""
+        self.drop()
+        self._lane.submit(None)
+
+    def forget(self, document: Document) -> None:
+        """Surfaces that are no longer shown, the oldest first; asked for again they are opened again."""
+        latest = {opened.mesh: opened for opened in self._opened}.values()  # of a file that was read again
+        shown = [opened for opened in latest if any(is_same(mesh, opened.mesh) for mesh in document.surfaces)]
+        others = [opened for opened in latest if opened not in shown]
+        while others and sum(len(opened.surface.vertices) for opened in others) > SPARED:
+            others.pop(0)
+        self._opened = [*others, *shown]
+
+    def end(self) -> None:
+        """Stop reading, and soon the thread."""
+        self._lane.end()
+
+    def close(self) -> None:
+        """The same, and wait for it."""
+        self._lane.close()
+
+    def _load(self, opening: Opening, lane: Lane[Opening]) -> None:
+        # The first report comes before the reading, which has no others.
+        report = lane.progress(lambda latest: latest is opening, quiet=0)
+        found: list[Opened] = []
+        for k, mesh in enumerate(opening.meshes):
+            report(k / len(opening.meshes), f"reading {os.path.basename(mesh.path) or mesh.name}")
+            opened = open_mesh(mesh, self._given, there=[*self._opened, *found])
+            report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
+            opened.prepared = self._prepare(opened.surface)
+            opened.up = self._known_up(opened.mesh.sha256) or opened.up
+            # Told by the view, for whose thread going over all faces would take too long.
+            _ = opened.surface.remarks, opened.surface.nonmanifold_edge_count
+            found.append(opened)
+        report(1, "")
+        self._post(lambda: self._take(opening, found))
+        self._loaded()
+
+    def _take(self, opening: Opening, found: list[Opened]) -> None:
+        if opening is not self.on_their_way:
+            return  # cancelled, or another mesh was asked for, while it was on its way here
+        self.on_their_way = None
+        if not opening.is_wanted():
+            return
+        before = list(self._opened)
+        self._opened += found
+        if self._present(opening.arrive):
+            opening.arrived()
+        else:
+            self._opened = before
+
+    def _failed(self, opening: Opening, error: Exception) -> None:
+        def tell() -> None:
+            if opening is self.on_their_way:
+                self.on_their_way = None
+                self._view.failed(failure_in_words(error))
+
+        self._post(tell)
+
+    def _report(self, fraction: float | None, text: str) -> None:
+        def note() -> None:
+            self.progress = None if fraction is None else (fraction, text)
+            self._view.progress_changed()
+
+        self._post(note)
