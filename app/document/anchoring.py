@@ -7,6 +7,7 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
 from .document import Anchor, Document, Point, free_names
+from .predicting import show_distances as distances_again
 from .quantities import DistanceFrom, Interpolant
 
 MOST_ANCHORS = 500
@@ -48,6 +49,7 @@ def remove_anchors(document: Document, points: Iterable[str]) -> Document:
     document = replace(document, anchors=tuple(a for a in document.anchors if a.point not in gone))
     kept = {name for panel in document.panels for name in panel.shows.points}
     kept |= {pin.point for pin in document.pins} | set(document.isolines.through) | set(document.profile.points)
+    kept |= {name for pair in document.pairs for name in pair.points}
     return replace(
         document, points=tuple(point for point in document.points if point.name not in gone or point.name in kept)
     )
@@ -69,17 +71,5 @@ def interpolate(document: Document) -> Document:
 
 def show_distances(document: Document) -> Document:
     """Every panel of an interpolant shows its distance, from where the others start."""
-    names = [point.name for point in document.points if point.name.startswith("source")] or ["source"]
-    missing = names[0] not in {point.name for point in document.points}
-    points = (*document.points, Point(names[0], None, document.surfaces[0].name)) if missing else document.points
-    return replace(
-        document,
-        points=points,
-        range="own" if document.range == "shared" else document.range,
-        panels=tuple(
-            replace(panel, shows=DistanceFrom(panel.shows.spec, names[0]), maximum=None)
-            if isinstance(panel.shows, Interpolant)
-            else panel
-            for panel in document.panels
-        ),
-    )
+    document = distances_again(document, Interpolant)
+    return replace(document, range="own" if document.range == "shared" else document.range)

@@ -10,6 +10,8 @@ from .camera import View
 from .document import Document, MeshFile, Panel, Point, free_names
 from .edits import MOST_ADDED, add_panel, put_point
 from .instruments import ALONG_ALL_PINS
+from .pairing import remove_pairs
+from .predicting import show_distances
 from .quantities import DistanceFrom, Quantity, own_fields
 
 MOST_SHOWN = 2
@@ -47,6 +49,7 @@ def close_beside(document: Document) -> Document:
     if len(document.surfaces) < 2:
         return document
     first = document.surfaces[0].name
+    document = remove_pairs(document, document.pairs)
     gone = {point.name for point in document.points if point.surface != first}
     through = tuple(name for name in document.isolines.through if name not in gone)
     document = replace(
@@ -63,7 +66,7 @@ def close_beside(document: Document) -> Document:
         beside=(),
     )
     if document.panels:
-        return document
+        return show_distances(document)
     if all(point.name != "source" for point in document.points):
         document = replace(document, points=(*document.points, Point("source", None, first)))
     return add_panel(document, DistanceFrom(Spec.of("biharmonic")), first)

@@ -64,6 +64,7 @@ def without_changed(document: Document) -> Document:
         panels=tuple(replace(panel, id=numbers[panel.id]) for panel in panels),
         anchors=tuple(anchor for anchor in document.anchors if anchor.point not in on_them),
         pins=tuple(pin for pin in document.pins if pin.point not in on_them),
+        pairs=() if any(name in on_them for pair in document.pairs for name in pair.points) else document.pairs,
         selections=tuple(each for each in document.selections if each.surface not in made),
         fields=tuple(field for field in document.fields if field.surface not in made),
         regions=tuple(numbers[id] for id in document.regions if id in numbers),

@@ -21,6 +21,7 @@ from .instruments import (
     DOCKS,
     FIRST_TWO,
     DockPlaces,
+    Pair,
     Pin,
     PinList,
     Profile,
@@ -187,6 +188,7 @@ class Document:
     where docks are at first.
     snap: whether the pointer puts sources on vertices, and not anywhere in faces.
     beside: how surfaces but the first are seen, and linked: whether turning one of them turns the others.
+    pairs: of corresponding points on the first two surfaces, the last of them perhaps half a pair.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
@@ -220,6 +222,7 @@ class Document:
     snap: bool = True
     beside: tuple[Beside, ...] = ()
     linked: bool = True
+    pairs: tuple[Pair, ...] = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -238,6 +241,7 @@ class Document:
         _known(list(self.isolines.through), points, "point")
         _unlike([pin.point for pin in self.pins], "pin at")
         _known([pin.point for pin in self.pins], points, "point")
+        self._check_pairs()
         _known(list(self.profile.points), points, "point")
         _unlike([selection.name for selection in self.selections], "selection")
         _known([selection.surface for selection in self.selections], surfaces, "surface")
@@ -261,6 +265,20 @@ class Document:
             raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
         checked_view(self.camera)
         _known(list(_unlike([each.surface for each in self.beside], "surface")), surfaces, "surface")
+
+    def _check_pairs(self) -> None:
+        names = [name for pair in self.pairs for name in pair.points]
+        _known(names, {point.name for point in self.points}, "point")
+        if len(set(names)) < len(names):
+            raise ParameterError("Two pairs have a point in common.")
+        if self.pairs and len(self.surfaces) < 2:
+            raise ParameterError("Pairs are of points on two surfaces, and there are not two.")
+        for pair in self.pairs:
+            for name, mesh in zip((pair.first, pair.second), self.surfaces, strict=False):
+                if name and self.point(name).surface != mesh.name:
+                    raise ParameterError(f"The point {name!r} of a pair is not on the surface {mesh.name!r}.")
+        if any(pair.is_half for pair in self.pairs[:-1]):
+            raise ParameterError("Of all pairs only the last may still wait for one of its points.")
 
     def mesh(self, name: str = "A") -> MeshFile:
         return _named(self.surfaces, name, "surface")

@@ -13,10 +13,21 @@ from bihdist_core.sources.words import curve_rows, places_from
 from .beside import Beside
 from .camera import Camera, View
 from .document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom
-from .instruments import ALONG_ALL_PINS, AS_LISTED, FIRST_TWO, DockPlaces, Pin, PinList, Profile, Scatter, Selection
+from .instruments import (
+    ALONG_ALL_PINS,
+    AS_LISTED,
+    FIRST_TWO,
+    DockPlaces,
+    Pair,
+    Pin,
+    PinList,
+    Profile,
+    Scatter,
+    Selection,
+)
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
-from .quantities import ChangeOf, Difference, DistanceFrom, Interpolant, OwnField, Part, Quantity
+from .quantities import ChangeOf, Difference, DistanceFrom, Interpolant, OwnField, Part, Prediction, Quantity
 
 LATER: dict[str, Any] = {
     "fields": [],
@@ -39,6 +50,7 @@ LATER: dict[str, Any] = {
     "snap": True,
     "beside": [],
     "linked": True,
+    "pairs": [],
 }
 """Parts of a document that it need not have, and what then holds: as it was before there were any."""
 
@@ -59,6 +71,7 @@ def document_data(document: Document) -> dict[str, Any]:
         "fields": [plain(field) for field in document.fields],
         "pins": [plain(pin) for pin in document.pins],
         "pin_list": _pin_list_data(document.pin_list),
+        "pairs": [plain(pair) for pair in document.pairs],
         "profile": _unlike(document.profile, ALONG_ALL_PINS),
         "scatter": _unlike(document.scatter, FIRST_TWO),
         "selections": [plain(selection) for selection in document.selections],
@@ -131,6 +144,8 @@ def _quantity_data(shows: Quantity) -> dict[str, Any]:
         return {"field": shows.name}
     if isinstance(shows, Interpolant):
         return {"interpolant": shows.spec.in_full, **({"total": True} if shows.total else {})}
+    if isinstance(shows, Prediction):
+        return {"prediction": shows.spec.in_full}
     if isinstance(shows, ChangeOf):
         return {"change": shows.spec.in_full, "from": shows.point}
     return {"distance": shows.spec.in_full, "from": shows.point}
@@ -171,6 +186,7 @@ def document_from(data: Any, where: str = "document") -> Document:
         "snap": flag,
         "beside": listed(_beside),
         "linked": flag,
+        "pairs": listed(_pair),
     }
     values = record(data, where, readers, readers.keys() - LATER.keys() - {"shared_range"})
     return placed(Document, where, **with_range({"up": LATER["up"], **values}))
@@ -238,6 +254,8 @@ def _part(data: Any, where: str) -> Part:
     if isinstance(data, dict) and "interpolant" in data:
         values = record(data, where, {"interpolant": _spec, "total": flag}, {"interpolant"})
         return Interpolant(values["interpolant"], values.get("total", False))
+    if isinstance(data, dict) and "prediction" in data:
+        return Prediction(record(data, where, {"prediction": _spec})["prediction"])
     if isinstance(data, dict) and "change" in data:
         values = record(data, where, {"change": _spec, "from": text})
         return ChangeOf(values["change"], values["from"])
@@ -290,6 +308,10 @@ def _shading(data: Any, where: str) -> Shading:
 
 def _pin(data: Any, where: str) -> Pin:
     return placed(Pin, where, **record(data, where, {"point": text, "name": text, "colour": whole}, {"point"}))
+
+
+def _pair(data: Any, where: str) -> Pair:
+    return placed(Pair, where, **record(data, where, {"first": text, "second": text, "colour": whole}, set()))
 
 
 def _pin_list(data: Any, where: str) -> PinList:

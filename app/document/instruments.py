@@ -1,4 +1,4 @@
-"""What a document says of measuring: pins, the profile, the scatter, selections, regions, and which docks are open."""
+"""What a document says of instruments: pins, pairs, the profile, the scatter, selections, and which docks are open."""
 
 from base64 import b64decode
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from bihdist_core.errors import ParameterError
 
 from .looks import one_of
 
-DOCKS = ("pins", "profile", "scatter", "statistics", "quality", "regions", "sources", "anchors")
+DOCKS = ("pins", "profile", "scatter", "statistics", "quality", "regions", "sources", "anchors", "pairs")
 """The instruments, each in a dock of the window."""
 
 SECTIONS = {"section": "shorter", "section-longer": "longer", "section-whole": "whole"}
@@ -40,6 +40,34 @@ class Pin:
     def __post_init__(self) -> None:
         check_name(self.name, "pin")
         _check_colour(self.colour)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two points that correspond, by their names among the document's points.
+
+    first: on the document's first surface, second: on its second; one of them is empty as long as it waits for its
+    partner.  colour: one of PIN_COLOURS.
+    """
+
+    first: str = ""
+    second: str = ""
+    colour: int = 0
+
+    def __post_init__(self) -> None:
+        if not (self.first or self.second) or self.first == self.second:
+            raise ParameterError(f"A pair is of two points, not of {self.first!r} and {self.second!r}.")
+        _check_colour(self.colour)
+
+    @property
+    def is_half(self) -> bool:
+        """Whether one of its points still waits for the other."""
+        return not (self.first and self.second)
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The names of those that it has."""
+        return tuple(name for name in (self.first, self.second) if name)
 
 
 @dataclass(frozen=True)

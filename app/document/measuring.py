@@ -49,6 +49,7 @@ def remove_pins(document: Document, points: Iterable[str]) -> Document:
     document = replace(document, pins=tuple(pin for pin in document.pins if pin.point not in gone), profile=profile)
     kept = {name for panel in document.panels for name in panel.shows.points}
     kept |= {anchor.point for anchor in document.anchors} | set(document.isolines.through)
+    kept |= {name for pair in document.pairs for name in pair.points}
     return replace(
         document, points=tuple(point for point in document.points if point.name not in gone or point.name in kept)
     )

@@ -246,6 +246,7 @@ UNSEEN = {
     "Panel.surface": "with one mesh all panels are of it",
     "Document.beside": "with one mesh there is none beside it",
     "Document.linked": "what the cameras of the window do",
+    "Document.pairs": "with one mesh there are none",
     "Page.format": "the file's name says it",
 }
 """Parts that no line names, since no figure shows them, and what they are for."""

@@ -178,13 +178,57 @@ class ChangeOf:
         return "positive where it is larger after the change, negative where it was before"
 
 
+@dataclass(frozen=True)
+class Prediction:
+    """How badly each vertex fits the point that waits for its partner, by a distance (paper, section 5.2).
+
+    From the document's pairs; it starts nowhere.  Nothing where no point of the other surface waits.
+    """
+
+    spec: Spec
+
+    def __str__(self) -> str:
+        return f"{PREDICTION}{self.spec}"
+
+    @property
+    def parts(self) -> "tuple[Part, ...]":
+        return (self,)
+
+    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
+        (part,) = parts
+        return part
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return ()
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    @property
+    def word(self) -> str:
+        return f"{PREDICTION}{self.spec.word}"
+
+    @property
+    def title(self) -> str:
+        return f"{PREDICTION}{self.spec.kind.name.lower()}"
+
+    @property
+    def hint(self) -> str:
+        return "least where distances from the pairs are most like those of the point"
+
+
 CHANGE = "change of "
 """What the words of a change begin with."""
 
 INTERPOLANT, TOTAL = "interpolant by ", "weights by "
 """What the words of an interpolant begin with."""
 
-Part = DistanceFrom | OwnField | Interpolant | ChangeOf
+PREDICTION = "prediction by "
+"""What the words of a prediction begin with."""
+
+Part = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction
 """What a difference is made of."""
 
 
@@ -223,7 +267,7 @@ class Difference:
         return f"positive where {self.minuend.title} is larger, negative where {self.subtrahend.title} is"
 
 
-Quantity = DistanceFrom | OwnField | Interpolant | ChangeOf | Difference
+Quantity = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction | Difference
 """What a panel can show: something with a value at every vertex."""
 
 
@@ -235,7 +279,7 @@ def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
 def quantity(text: str, point: str = "source", fields: Collection[str] = (), **parameters: object) -> Quantity:
     """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
 
-    "interpolant by biharmonic" is as good as a distance.
+    "interpolant by biharmonic" and "prediction by biharmonic" are as good as a distance.
 
     fields: names of the user's own, each as good as a distance.  parameters: values of those not named in the text.
     ParameterError for what is neither.
@@ -253,6 +297,8 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
             elif part.startswith((INTERPOLANT, TOTAL)):
                 distance = part.removeprefix(INTERPOLANT).removeprefix(TOTAL)
                 found.append(Interpolant(Spec.parse(distance, **parameters), part.startswith(TOTAL)))
+            elif part.startswith(PREDICTION):
+                found.append(Prediction(Spec.parse(part.removeprefix(PREDICTION), **parameters)))
             elif part.startswith(CHANGE):
                 found.append(ChangeOf(Spec.parse(part.removeprefix(CHANGE), **parameters), point))
             else:

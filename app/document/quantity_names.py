@@ -2,7 +2,7 @@
 
 from bihdist_core.distances.kinds import Kind
 
-from .quantities import ChangeOf, Interpolant, OwnField, Part, Quantity
+from .quantities import ChangeOf, Interpolant, OwnField, Part, Prediction, Quantity
 
 
 def kind_name(kind: Kind) -> str:
@@ -15,6 +15,8 @@ def part_name(part: Part) -> str:
         return f"Change of {kind_name(part.spec.kind).lower()}"
     if isinstance(part, Interpolant):
         return "Weights" if part.total else "Interpolant"
+    if isinstance(part, Prediction):
+        return "Prediction"
     return part.name if isinstance(part, OwnField) else kind_name(part.spec.kind)
 
 

@@ -72,6 +72,8 @@ def open_document(recipe: Recipe, given: Given) -> tuple[Document, Surfaces]:
     for mesh in document.surfaces:
         surfaces[mesh.name] = opened = open_mesh(mesh, given, remedy, list(surfaces.values()))
         document = opened.settled(document)
+    for opened in surfaces.values():
+        opened.beside = tuple(surfaces.values())
     return document, surfaces
 
 

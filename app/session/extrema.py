@@ -16,6 +16,7 @@ from .questions import (
     DistanceQuestion,
     FieldQuestion,
     InterpolantQuestion,
+    PredictionQuestion,
     Question,
     source_at,
     vertex_at,
@@ -29,6 +30,8 @@ def start_of(question: Question, field: np.ndarray, surface: Surface) -> Source 
     on this surface.
     """
     if isinstance(question, FieldQuestion):
+        return apparent_source(field)
+    if isinstance(question, PredictionQuestion):
         return apparent_source(field)
     if isinstance(question, InterpolantQuestion):
         return SourceSet(tuple(vertex_at(at, surface) for at, _ in question.anchors))

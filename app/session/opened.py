@@ -33,11 +33,13 @@ from ..document.file import checksum
 from ..samples import mesh_path
 from .changed import carried, change_of
 from .given import Given
+from .predicted import KnownColumns, is_known, predicted
 from .questions import (
     ChangeQuestion,
     DifferenceQuestion,
     FieldQuestion,
     InterpolantQuestion,
+    PredictionQuestion,
     Question,
     source_at,
     vertex_at,
@@ -73,6 +75,8 @@ class Opened:
         self._distances: dict[str, Distances] = {}
         self._interpolants: dict[tuple[str, Spec], ShepardInterpolant] = {}
         self.columns = 0  # of distances from anchors, solved for so far
+        self.beside: tuple[Opened, ...] = ()  # what is shown with it
+        self.columns_of_pairs = KnownColumns()
         self._lock = threading.Lock()
 
     @cached_property
@@ -106,13 +110,21 @@ class Opened:
             return Answer(label=question.field.name, field=field, certificate=Certificate(), is_signed=is_signed)
         if isinstance(question, InterpolantQuestion):
             return self._interpolated(question, progress)
+        if isinstance(question, PredictionQuestion):
+            return predicted(question, self, progress)
         if isinstance(question, ChangeQuestion):
             return change_of(question, self, progress)
         source = source_at(question.at, self.surface)
         return self.distances(question.areas).answer(question.spec, source, progress, at_once)
 
+    def standing_beside(self, mesh: MeshFile | None) -> "Opened | None":
+        """A surface that is shown with this one, or itself; None if it is not there."""
+        return next((each for each in (*self.beside, self) if mesh is not None and is_same(mesh, each.mesh)), None)
+
     def is_at_hand(self, question: Question) -> bool:
-        """Whether nothing has to be solved for the answer: an interpolant of anchors whose distances are known."""
+        """Whether nothing has to be solved for the answer: of anchors or pairs whose distances are known."""
+        if isinstance(question, PredictionQuestion):
+            return is_known(question, self)
         if not isinstance(question, InterpolantQuestion):
             return False
         with self._lock:
@@ -204,6 +216,7 @@ class Opened:
             self._interpolants = {
                 key: i for key, i in self._interpolants.items() if key[0] == areas and key[1] in wanted
             }
+        self.columns_of_pairs.keep(areas, {*wanted})
         if areas in self._distances:
             self._distances[areas].keep(wanted)
 

@@ -13,7 +13,8 @@ from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document, FieldArray, MeshFile
-from ..document.quantities import ChangeOf, Difference, Interpolant, OwnField, Part, Quantity
+from ..document.pairing import other_side, waiting_point, whole_pairs
+from ..document.quantities import ChangeOf, Difference, Interpolant, OwnField, Part, Prediction, Quantity
 
 
 @dataclass(frozen=True)
@@ -122,7 +123,38 @@ class ChangeQuestion:
         return str(ChangeOf(self.spec))
 
 
-PartQuestion = DistanceQuestion | FieldQuestion | InterpolantQuestion | ChangeQuestion
+@dataclass(frozen=True)
+class PredictionQuestion:
+    """How badly each vertex fits a point of another surface, from pairs of points here and there.
+
+    other: that surface, None if there is none.  at: the point there; None where no point of it waits.
+    """
+
+    mesh: MeshFile
+    areas: str
+    spec: Spec
+    other: MeshFile | None
+    pairs: tuple[tuple[Source | None, Source | None], ...]
+    at: Source | None
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "PredictionQuestion":
+        (spec,) = specs
+        return replace(self, spec=spec)
+
+    @property
+    def about(self) -> Hashable:
+        """All but where the points are, and whether there is one."""
+        return (self.mesh, self.areas, self.spec, self.other, self.at is None, "prediction")
+
+    def __str__(self) -> str:
+        return str(Prediction(self.spec))
+
+
+PartQuestion = DistanceQuestion | FieldQuestion | InterpolantQuestion | ChangeQuestion | PredictionQuestion
 
 
 @dataclass(frozen=True)
@@ -166,6 +198,12 @@ def are_about_the_same(one: Question, other: Question) -> bool:
     return one.about == other.about
 
 
+def asks_of(question: Question, mesh: MeshFile) -> bool:
+    """Whether an answer depends on distances on this surface, too, on which it is not."""
+    parts = (question.minuend, question.subtrahend) if isinstance(question, DifferenceQuestion) else (question,)
+    return any(isinstance(each, PredictionQuestion) and each.other == mesh for each in parts)
+
+
 def questions(document: Document) -> dict[int, Question]:
     """The question of each panel, by the panel's id."""
     return {panel.id: _question(document, panel.surface, panel.shows) for panel in document.panels}
@@ -181,12 +219,24 @@ def _question(document: Document, surface: str, shows: Quantity) -> Question:
             anchors = [(document.point(anchor.point), anchor) for anchor in document.anchors if not anchor.left_out]
             known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
             return InterpolantQuestion(mesh, areas, part.spec, known, document.weights, part.total)
+        if isinstance(part, Prediction):
+            return _predicted(document, surface, part.spec)
         kind = ChangeQuestion if isinstance(part, ChangeOf) else DistanceQuestion
         return kind(mesh, areas, part.spec, document.point(part.point).at)
 
     if isinstance(shows, Difference):
         return DifferenceQuestion(asked(shows.minuend), asked(shows.subtrahend), shows.raw)
     return asked(shows)
+
+
+def _predicted(document: Document, surface: str, spec: Spec) -> PredictionQuestion:
+    there, waiting = other_side(document, surface), waiting_point(document)
+    other = None if there is None else document.mesh(there)
+    asked = PredictionQuestion(document.mesh(surface), document.areas, spec, other, (), None)
+    if there is None or waiting is None or waiting.surface != there:
+        return asked  # what is plain is the same whatever pairs there are
+    on = [{document.point(name).surface: document.point(name).at for name in p.points} for p in whole_pairs(document)]
+    return replace(asked, pairs=tuple((each[surface], each[there]) for each in on), at=waiting.at)
 
 
 def source_at(at: Source | None, surface: Surface, up: str = "y") -> Source:

@@ -22,7 +22,7 @@ from .answering import Answering, AnswerView, Shown
 from .changed import led
 from .given import Given
 from .opened import Opened, started_alike
-from .questions import questions
+from .questions import asks_of, questions
 from .surfaces import LoadingView, Opening, Surfaces
 
 
@@ -328,7 +328,7 @@ class Session:
             wanted = {
                 spec
                 for question, surface in there.values()
-                if opened in (surface, surface.origin)
+                if opened in (surface, surface.origin) or asks_of(question, opened.mesh)
                 for spec in question.specs
             }
             opened.keep(self.document.areas, wanted)

@@ -91,13 +91,18 @@ class Surfaces:
         self._lane.submit(None)
 
     def forget(self, document: Document) -> None:
-        """Surfaces that are no longer shown, the oldest first; asked for again they are opened again."""
+        """Surfaces that are no longer shown, the oldest first; asked for again they are opened again.
+
+        Those that are shown know each other.
+        """
         latest = {opened.mesh: opened for opened in self._opened}.values()  # of a file that was read again
         shown = [opened for opened in latest if any(is_same(mesh, opened.mesh) for mesh in document.surfaces)]
         others = [opened for opened in latest if opened not in shown]
         while others and sum(len(opened.surface.vertices) for opened in others) > SPARED:
             others.pop(0)
         self._opened = [*others, *shown]
+        for opened in self._opened:
+            opened.beside = tuple(shown) if opened in shown else ()
 
     def end(self) -> None:
         """Stop reading, and soon the thread."""

@@ -1,0 +1,122 @@
+"""Where a point of one surface is on another, as the pairs of a document predict it."""
+
+import threading
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bihdist_core import BihdistError, Cancelled, Correspondence, VertexError
+from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.answers import Answer, failed
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.progress import Progress, part
+
+from .questions import PredictionQuestion, vertex_at
+
+if TYPE_CHECKING:
+    from .opened import Opened
+
+NO_OTHER = "There is no second mesh: open one beside this to find corresponding points."
+NO_PAIRS = "There is no pair yet: click the partner of this point, and the next one is predicted."
+"""What a panel of a prediction says where there can be none."""
+
+MISFIT = "misfit"
+"""The unit of predictions: distances in them are shares of the largest one."""
+
+SPARE = 64
+"""Columns of points that are in no pair any more which are kept: of one that is dragged, of what is undone."""
+
+
+class KnownColumns:
+    """Distances of a surface's vertices from some of them, (n,) each, for any thread; the latest come last.
+
+    solved: how many were found so far.
+    """
+
+    def __init__(self) -> None:
+        self.solved = 0
+        self._columns: dict[tuple[str, Spec], dict[int, np.ndarray]] = {}
+        self._lock = threading.Lock()
+
+    def of(self, areas: str, spec: Spec) -> dict[int, np.ndarray]:
+        """What is known by a distance, by vertex: a copy, to which more can be added."""
+        with self._lock:
+            return dict(self._columns.get((areas, spec), {}))
+
+    def put(self, areas: str, spec: Spec, columns: dict[int, np.ndarray], wanted: set[int]) -> None:
+        """Keep these, as far as they are wanted or among the latest."""
+        with self._lock:
+            known = self._columns.setdefault((areas, spec), {})
+            self.solved += len(columns.keys() - known.keys())
+            for vertex in (*(columns.keys() - wanted), *wanted):
+                if vertex in columns:
+                    known[vertex] = known.pop(vertex, columns[vertex])
+            spare = [vertex for vertex in known if vertex not in wanted]
+            for vertex in spare[: max(len(spare) - SPARE, 0)]:
+                del known[vertex]
+
+    def keep(self, areas: str, wanted: "set[Spec]") -> None:
+        """Forget what is known with other areas and by other distances."""
+        with self._lock:
+            self._columns = {key: c for key, c in self._columns.items() if key[0] == areas and key[1] in wanted}
+
+
+def predicted(question: PredictionQuestion, opened: "Opened", progress: Progress | None) -> Answer:
+    """The misfit of every vertex to the point; neither field nor failure where no point waits."""
+    other = opened.standing_beside(question.other)
+    if question.other is None or other is None:
+        return Answer(label=str(question), failure=NO_OTHER)
+    if question.at is None:
+        return Answer(label=str(question), unit=MISFIT, certificate=Certificate())
+    if not question.pairs:
+        return Answer(label=str(question), failure=NO_PAIRS)
+    try:
+        known = correspondence(question, other, opened, progress)
+        field = known.misfit(vertex_at(question.at, other.surface))
+    except (Cancelled, VertexError):
+        raise
+    except (BihdistError, MemoryError) as error:
+        return failed(str(question), error)
+    field.flags.writeable = False
+    label = f"prediction by {known.distance_n.label}"
+    if np.isnan(field).all():
+        return Answer(label=label, failure="The point is on another component than one of the pairs' points.")
+    best, share = candidate_of(field)
+    said = f"the best is vertex {best}, misfit {field[best]:.4g}, {100 * share:.1f} % of the largest"
+    return Answer(label=label, unit=MISFIT, field=field, certificate=Certificate(), remark=said)
+
+
+def correspondence(
+    question: PredictionQuestion, there: "Opened", here: "Opened", progress: Progress | None = None
+) -> Correspondence:
+    """From the surface where a point waits to the one that is asked about; columns that are known are used again.
+
+    Raises what distances and vertices do.
+    """
+    areas, spec = question.areas, question.spec
+    on_there = there.distances(areas).get(spec, part(progress, 0.0, 0.3))
+    on_here = here.distances(areas).get(spec, part(progress, 0.3, 0.6))
+    pairs = [(vertex_at(b, there.surface), vertex_at(a, here.surface)) for a, b in question.pairs]
+    columns = there.columns_of_pairs.of(areas, spec), here.columns_of_pairs.of(areas, spec)
+    found = Correspondence(on_there, on_here, pairs, None, part(progress, 0.6, 1.0), columns)
+    for side, opened in enumerate((there, here)):
+        opened.columns_of_pairs.put(areas, spec, columns[side], {pair[side] for pair in pairs})
+    return found
+
+
+def is_known(question: PredictionQuestion, opened: "Opened") -> bool:
+    """Whether nothing has to be solved for the answer."""
+    other = opened.standing_beside(question.other)
+    if other is None or question.at is None:
+        return True
+    for side, each in enumerate((opened, other)):
+        known = each.columns_of_pairs.of(question.areas, question.spec)
+        if any(vertex_at(pair[side], each.surface) not in known for pair in question.pairs):
+            return False
+    return True
+
+
+def candidate_of(field: np.ndarray) -> tuple[int, float]:
+    """The vertex with the least misfit (n,), not all of them NaN, and that as a share of the largest."""
+    best, most = int(np.nanargmin(field)), float(np.nanmax(field))
+    return best, float(field[best]) / most if most > 0 else 0.0
