@@ -63,7 +63,7 @@ class AnchorGestures:
 
     def remove_chosen(self) -> None:
         """The anchor that stands out, if there is one."""
-        name = self._grid.chosen_anchor
+        name = self._grid.marks.chosen_anchor
         if any(anchor.point == name for anchor in self._window.session.document.anchors):
             self.remove([name])
 

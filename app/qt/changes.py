@@ -38,17 +38,17 @@ class Changes:
         if is_other or is_dressed:
             grid.show_surface()
         if other_panels or document.points != before.points:
-            grid.expect_sources(document)
+            grid.marks.expect_sources(document)
             window.typed_source.show()
         if other_panels or _anchored(document) != _anchored(before):
-            grid.mark_anchors(document)
+            grid.marks.mark_anchors(document)
         if other_panels or (document.points, document.pins) != (before.points, before.pins):
-            grid.show_pins(document)
+            grid.marks.show_pins(document)
         if other_panels or document.zooms != before.zooms:
-            grid.show_insets(document)
+            grid.marks.show_insets(document)
         passed = document.isolines.through and document.points != before.points
         if is_other or is_dressed or passed or document.isolines != before.isolines:
-            grid.show_isolines(document)
+            grid.marks.show_isolines(document)
         is_raised = document.height != before.height
         if document.shading != before.shading and not is_other:
             grid.show_shading()
@@ -77,11 +77,11 @@ class Changes:
             return
         document = session.document
         grid.show_surface()
-        grid.expect_sources(document)
-        grid.show_isolines(document)
-        grid.mark_anchors(document)
-        grid.show_pins(document)
-        grid.show_insets(document)
+        grid.marks.expect_sources(document)
+        grid.marks.show_isolines(document)
+        grid.marks.mark_anchors(document)
+        grid.marks.show_pins(document)
+        grid.marks.show_insets(document)
         window.docks.brushing.show(document)
         for id in session.shown:
             grid.show_answer(id)

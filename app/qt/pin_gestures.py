@@ -63,9 +63,9 @@ class PinGestures:
         """Where the list of pins is closed, it stands out, until it is clicked again, and is named."""
         if "pins" in self._window.session.document.docks:
             return  # the list does it
-        pin, lit = self._pin(number), set(self._grid.lit)
+        pin, lit = self._pin(number), set(self._grid.marks.lit)
         chosen = lit ^ {pin.point} if is_more else {pin.point} - lit
-        self._grid.light_pins(tuple(chosen))
+        self._grid.marks.light_pins(tuple(chosen))
         if pin.point in chosen:
             where = self._window.session.document.point(pin.point).at
             self._window.say(f"{_name(pin, number).capitalize()}: {_place(where)}")

@@ -193,7 +193,7 @@ class SourceGestures:
         """Whether the left button draws a source on the surface."""
         self.is_drawing = is_drawing
         self._forget_stroke()
-        self._grid.draw_on(is_drawing)
+        self._grid.marks.draw_on(is_drawing)
         self._window.say("Drag over the surface: a curve as source (with Ctrl it is added); Esc ends" * is_drawing)
 
     def _draw(self, panel: int, met: "Met | None") -> None:

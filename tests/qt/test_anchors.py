@@ -232,12 +232,12 @@ def test_up_and_down_go_through_the_list_and_delete_removes(opened):
     rows[1].slider.setFocus()
     values = [anchor.value for anchor in s.document.anchors]
     QtTest.QTest.keyClick(rows[1].slider, keys.Key_Down)
-    assert s.window.grid.chosen_anchor == rows[2].point
+    assert s.window.grid.marks.chosen_anchor == rows[2].point
     assert [anchor.value for anchor in s.document.anchors] == values
     QtTest.QTest.keyClick(rows[2].slider, keys.Key_Delete)
     complete(s)
     assert [a.point for a in s.document.anchors] == [rows[0].point, rows[1].point]
-    assert s.window.grid.chosen_anchor == rows[1].point
+    assert s.window.grid.marks.chosen_anchor == rows[1].point
     s.window.actions_by_word["remove anchor"].trigger()
     complete(s)
     assert [a.point for a in s.document.anchors] == [rows[0].point]

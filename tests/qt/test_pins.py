@@ -124,9 +124,9 @@ def test_a_drop_that_is_clicked_selects_its_row(opened):
 
     # As long as the list is closed, it stands out.
     click(first)
-    assert s.window.grid.lit == (points[0],)
+    assert s.window.grid.marks.lit == (points[0],)
     click(first)
-    assert s.window.grid.lit == ()
+    assert s.window.grid.marks.lit == ()
     dock = dock_of(s)
     click(second, 2)
     assert dock.table.points == (points[1],)
@@ -134,7 +134,7 @@ def test_a_drop_that_is_clicked_selects_its_row(opened):
     assert set(dock.table.points) == set(points)
     click(first)
     assert dock.table.points == (points[0],)
-    assert s.window.grid.lit == (points[0],)
+    assert s.window.grid.marks.lit == (points[0],)
     click(first)
     assert dock.table.points == ()
     assert s.source == 5  # which stays where it is
@@ -367,7 +367,7 @@ def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(opened):
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
     select_row(s, dock, 0)
-    assert s.window.grid.lit == (s.document.pins[0].point,)
+    assert s.window.grid.marks.lit == (s.document.pins[0].point,)
     press(s, dock.table, QtCore.Qt.Key.Key_F2)
     editor = next(box for box in dock.table.findChildren(QtWidgets.QLineEdit) if box.isVisible())
     QtTest.QTest.keyClicks(editor, "nose")
@@ -383,7 +383,7 @@ def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(opened):
     assert s.document.pins[1].colour == 8
     press(s, dock.table, QtCore.Qt.Key.Key_Delete)
     assert ids(s) == [40, 700]
-    assert s.window.grid.lit == ()
+    assert s.window.grid.marks.lit == ()
     for _ in range(4):
         s.session.undo()
     assert ids(s) == [12, 40, 700]

@@ -146,7 +146,7 @@ class AnchorsDock(Instrument):
 
     def show_closed(self) -> None:
         self.extrema.leave()
-        self.window_.grid.choose_anchor("")
+        self.window_.grid.marks.choose_anchor("")
 
     def _anchors(self, document: Document) -> list[Anchor]:
         surface = document.surfaces[0].name
@@ -168,7 +168,7 @@ class AnchorsDock(Instrument):
                 self._list.removeWidget(row)
                 self._list.insertWidget(number, row)
             row.show_anchor(anchor.name or anchor.point, anchor.value or 0.0, anchor.left_out, ends)
-            row.show_chosen(anchor.point == self.window_.grid.chosen_anchor)
+            row.show_chosen(anchor.point == self.window_.grid.marks.chosen_anchor)
 
     def _new_row(self, point: str) -> AnchorRow:
         row = AnchorRow(point)

@@ -67,7 +67,7 @@ class Brushing(QtCore.QObject):
                 here = [each for each in document.selections if each.surface == mesh.name]
                 chosen = [(vertices_of(each.runs), each.colour) for each in here]
                 colours[mesh.name] = selected_colours(chosen, len(opened.surface.vertices))
-        self._grid.show_selected(colours)
+        self._grid.marks.show_selected(colours)
 
     @property
     def colour(self) -> int:
@@ -126,7 +126,7 @@ class Brushing(QtCore.QObject):
         """Take the brush into the hand, or lay it down."""
         is_wanted = self.is_on or self._is_held
         surface = self._window.session.surface
-        self._grid.set_brush(_cursor(self.radius, self._grid.devicePixelRatioF()) if is_wanted else None)
+        self._grid.marks.set_brush(_cursor(self.radius, self._grid.devicePixelRatioF()) if is_wanted else None)
         if is_wanted and surface is not None and surface is not self._surface:
             self._surface, self._brush = surface, None
             self._making.ask((surface,))

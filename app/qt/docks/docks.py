@@ -89,7 +89,7 @@ class Docks:
 
     def choose_anchor(self, point: str) -> None:
         """Let the anchor at a point stand out, in the list, too."""
-        self._window.grid.choose_anchor(point)
+        self._window.grid.marks.choose_anchor(point)
         if "anchors" in self._window.session.document.docks:
             self._instrument("anchors").choose(point)
 

@@ -74,7 +74,7 @@ class PinsDock(Instrument):
         self.wrong = QtWidgets.QLabel(visible=False, wordWrap=True)
         self.wrong.setProperty("error", True)
         self.table = PinTable(self)
-        self.table.chosen.connect(window.grid.light_pins)
+        self.table.chosen.connect(window.grid.marks.light_pins)
         window.grid.pin_clicked.connect(self._choose)
         self.table.rows.named.connect(self.rename)
         self.table.moved.connect(self.move_to)

@@ -2,27 +2,21 @@
 
 Shows what a session knows; decides nothing."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
-import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
 from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
-from ...document.quantities import Interpolant
 from ...drawing.board import Board
 from ...drawing.style import PAPER, Style
-from ...session.anchors import anchors_on
 from ...session.bar_ends import bar_end
-from ...session.passed import Passed, passed
-from ...session.pinned import pinned_on
-from ...session.questions import pieces_at, vertex_at
 from ...session.session import Session
 from ..look.look import LOOK
-from ..look.numbers import tick
 from .eye import Eye
+from .grid_marks import GridMarks
 from .line_labels import LineLabels
 from .moving import Moving
 from .panel import DistancePanel
@@ -37,9 +31,6 @@ LEAST_WIDTH, LEAST_HEIGHT = 280, 220
 
 BRUSH_KEY, LIVE_KEY = QtCore.Qt.Key.Key_B, QtCore.Qt.Key.Key_L
 """Held, a drag paints a selection."""
-
-SELECTED_MS = 600
-"""After a selection has changed, until large surfaces are drawn with it in full; the next stroke may begin before."""
 
 LINE = 1
 """Pixels between panels."""
@@ -85,17 +76,13 @@ class PanelGrid(QtWidgets.QWidget):
             eye.placed.connect(self._placed)
         self.active = -1  # the id of the panel that the keys go to
         self.wheel_factor = 1.0
-        self._is_drawn_on = False
         self.keys: Callable[[QtGui.QKeyEvent], bool] = lambda event: False  # what a key does on a view
         self._panels: dict[int, DistancePanel] = {}
         self._spare: list[DistancePanel] = []
         self._style = PAPER
         self._is_closed = False
         self.pointing = Pointing()
-        self.lit: tuple[str, ...] = ()  # the points of pins that stand out
-        self.chosen_anchor = ""  # the point of the one that does
-        self._selected: Mapping[str, np.ndarray | None] = {}
-        self._brush: QtGui.QCursor | None = None
+        self.marks = GridMarks(session, lambda: self._panels, self.moving)
         LOOK.changed.connect(self.update)
         self.show_panels(session.document)
 
@@ -214,11 +201,8 @@ class PanelGrid(QtWidgets.QWidget):
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = eye.upright
-        panel.view.pointer.draw_on(self._is_drawn_on)
         panel.view.over.show_axes(self._session.document.axes)
-        panel.show_isolines(self._session.document.isolines)
-        panel.marks.show_selected(self._selected.get(panel.surface))
-        panel.view.pointer.set_brush(self._brush_of(panel))
+        self.marks.begin(panel)
         panel.show()
 
     def show_style(self, style: Style) -> bool:
@@ -235,8 +219,8 @@ class PanelGrid(QtWidgets.QWidget):
             opened = self._session.opened(panel.surface)
             if opened is not None:
                 panel.show_surface(opened)
-                panel.marks.show_selected(self._selected.get(panel.surface))
                 panel.head.show_letter(panel.head.letter, opened.surface.name)
+        self.marks.begin_surfaces()
         self.pointing.forget()
         self.show_shading()
 
@@ -251,89 +235,6 @@ class PanelGrid(QtWidgets.QWidget):
         if opened is not None:
             panel.show_shading(shading, self._shades.drawn(opened.prepared.meshes, shading))
 
-    def expect_sources(self, document: Document) -> None:
-        """Tell each panel where its field starts."""
-        for panel in document.panels:
-            opened = self._session.opened(panel.surface)
-            places = [document.point(name).at for name in panel.shows.points]
-            start = vertex_at(places[0], opened.surface) if places else None
-            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, opened.surface) for at in places])
-
-    def draw_on(self, is_drawn_on: bool) -> None:
-        """Whether the left button draws on the surfaces, and no longer turns them there."""
-        self._is_drawn_on = is_drawn_on
-        for panel in self.panels:
-            panel.view.pointer.draw_on(is_drawn_on)
-
-    def mark_anchors(self, document: Document) -> None:
-        """Put the anchors of each panel's surface where they are."""
-        for panel in document.panels:
-            opened, marks = self._session.opened(panel.surface), self._panels[panel.id].marks
-            self._panels[panel.id].mark_anchors(anchors_on(document, panel.surface, opened))
-            if not any(isinstance(part, Interpolant) for part in panel.shows.parts):
-                marks.hold_anchors(None)
-                continue
-            here = [a for a in document.anchors if document.point(a.point).surface == panel.surface]
-            texts = ["" if a.value is None or a.left_out else tick(a.value) for a in here]
-            marks.hold_anchors([a.point for a in here], texts, self.chosen_anchor)
-
-    def choose_anchor(self, point: str) -> None:
-        """Let the anchor at this point stand out, "" for none."""
-        if point != self.chosen_anchor:
-            self.chosen_anchor = point
-            self.mark_anchors(self._session.document)
-
-    def show_pins(self, document: Document) -> None:
-        """Put the pins of each panel's surface where they are."""
-        for panel in document.panels:
-            pins = pinned_on(document, panel.surface, self._session.opened(panel.surface).surface)
-            self._panels[panel.id].marks.show_pins(pins, self.lit)
-
-    def light_pins(self, points: tuple[str, ...]) -> None:
-        """Let the pins at these points stand out."""
-        if points != self.lit:
-            self.lit = points
-            if self._session.surface is not None:
-                self.show_pins(self._session.document)
-
-    def show_selected(self, colours: Mapping[str, np.ndarray | None]) -> None:
-        """Vertices that stand out in the panels of each surface, see `selected_colours`."""
-        self._selected = colours
-        for panel in self.panels:
-            panel.marks.show_selected(colours.get(panel.surface))
-        self.moving.moved(SELECTED_MS)
-
-    def set_brush(self, brush: QtGui.QCursor | None) -> None:
-        """What a drag paints with in the panels of the first surface, None if it turns them."""
-        self._brush = brush
-        for panel in self.panels:
-            panel.view.pointer.set_brush(self._brush_of(panel))
-
-    def _brush_of(self, panel: DistancePanel) -> QtGui.QCursor | None:
-        return self._brush if panel.surface == self.eye.surface else None
-
-    def show_insets(self, document: Document) -> None:
-        """Enlarge the document's places in each panel."""
-        for panel in self.panels:
-            panel.show_insets(document.zooms)
-        self._settle_insets()
-
-    def _settle_insets(self) -> None:
-        for panel in self.panels if self._session.surface is not None else ():
-            panel.settle_insets()
-
-    def show_isolines(self, document: Document) -> None:
-        """Those of the document, through its points, too."""
-        for panel in document.panels:
-            if panel.id in self._panels:
-                self._panels[panel.id].show_isolines(document.isolines, self._through(document, panel))
-
-    def _through(self, document: Document, panel: Panel) -> tuple[Passed, ...]:
-        opened, shown = self._session.opened(panel.surface), self._session.shown.get(panel.id)
-        if opened is None or shown is None:
-            return ()
-        return passed(document, panel.surface, opened, shown.answer)
-
     # ------------------------------------------------------------------ answers
     def show_answer(self, id: int) -> None:
         """The answer that the session has now for a panel."""
@@ -343,8 +244,7 @@ class PanelGrid(QtWidgets.QWidget):
                 in_shares = document.range == "shares"
                 widget = self._panels[other]
                 widget.show_answer(shown[other], bar_end(document, shown, other), document.height, in_shares)
-                if document.isolines.through:
-                    widget.show_isolines(document.isolines, self._through(document, document.panel(other)))
+                self.marks.show_isolines_again(document, other)
         self.pointing.show_again_soon()
 
     def show_certificate(self, id: int) -> None:
@@ -352,7 +252,7 @@ class PanelGrid(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ the camera
     def _placed(self) -> None:
-        self._settle_insets()
+        self.marks.settle_insets()
         self.redraw()
 
     def show_axes(self, has_axes: bool) -> None:

@@ -1,0 +1,148 @@
+"""What a document marks on its surfaces, in every panel of the grid: sources, anchors, pins, selections, insets."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from qtpy import QtGui
+
+from ...document.document import Document, Panel
+from ...document.quantities import Interpolant
+from ...session.anchors import anchors_on
+from ...session.passed import Passed, passed
+from ...session.pinned import pinned_on
+from ...session.questions import pieces_at, vertex_at
+from ...session.session import Session
+from ..look.numbers import tick
+from .moving import Moving
+from .panel import DistancePanel
+
+SELECTED_MS = 600
+"""After a selection has changed, until large surfaces are drawn with it in full; the next stroke may begin before."""
+
+
+class GridMarks:
+    """panels: asks for those that are shown, by their ids.
+
+    lit: the points of pins that stand out; chosen_anchor: the point of the one that does, "" for none.
+    """
+
+    def __init__(self, session: Session, panels: Callable[[], Mapping[int, DistancePanel]], moving: Moving) -> None:
+        self._session, self._shown, self._moving = session, panels, moving
+        self.lit: tuple[str, ...] = ()
+        self.chosen_anchor = ""
+        self._is_drawn_on = False
+        self._selected: Mapping[str, np.ndarray | None] = {}
+        self._brush: QtGui.QCursor | None = None
+
+    @property
+    def _panels(self) -> Mapping[int, DistancePanel]:
+        return self._shown()
+
+    def begin(self, panel: DistancePanel) -> None:
+        """A panel shows a surface from now on: what is marked there whatever the field."""
+        panel.view.pointer.draw_on(self._is_drawn_on)
+        panel.show_isolines(self._session.document.isolines)
+        self._select(panel)
+        panel.view.pointer.set_brush(self._brush_of(panel))
+
+    def begin_surfaces(self) -> None:
+        """Other surfaces are there."""
+        for panel in self._panels.values():
+            if self._session.opened(panel.surface) is not None:
+                self._select(panel)
+
+    # ------------------------------------------------------------------ sources and anchors
+    def expect_sources(self, document: Document) -> None:
+        """Tell each panel where its field starts."""
+        for panel in document.panels:
+            opened = self._session.opened(panel.surface)
+            places = [document.point(name).at for name in panel.shows.points]
+            start = vertex_at(places[0], opened.surface) if places else None
+            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, opened.surface) for at in places])
+
+    def draw_on(self, is_drawn_on: bool) -> None:
+        """Whether the left button draws on the surfaces, and no longer turns them there."""
+        self._is_drawn_on = is_drawn_on
+        for panel in self._panels.values():
+            panel.view.pointer.draw_on(is_drawn_on)
+
+    def mark_anchors(self, document: Document) -> None:
+        """Put the anchors of each panel's surface where they are."""
+        for panel in document.panels:
+            opened, marks = self._session.opened(panel.surface), self._panels[panel.id].marks
+            self._panels[panel.id].mark_anchors(anchors_on(document, panel.surface, opened))
+            if not any(isinstance(part, Interpolant) for part in panel.shows.parts):
+                marks.hold_anchors(None)
+                continue
+            here = [a for a in document.anchors if document.point(a.point).surface == panel.surface]
+            texts = ["" if a.value is None or a.left_out else tick(a.value) for a in here]
+            marks.hold_anchors([a.point for a in here], texts, self.chosen_anchor)
+
+    def choose_anchor(self, point: str) -> None:
+        """Let the anchor at this point stand out, "" for none."""
+        if point != self.chosen_anchor:
+            self.chosen_anchor = point
+            self.mark_anchors(self._session.document)
+
+    # ------------------------------------------------------------------ pins and selections
+    def show_pins(self, document: Document) -> None:
+        """Put the pins of each panel's surface where they are."""
+        for panel in document.panels:
+            pins = pinned_on(document, panel.surface, self._session.opened(panel.surface).surface)
+            self._panels[panel.id].marks.show_pins(pins, self.lit)
+
+    def light_pins(self, points: tuple[str, ...]) -> None:
+        """Let the pins at these points stand out."""
+        if points != self.lit:
+            self.lit = points
+            if self._session.surface is not None:
+                self.show_pins(self._session.document)
+
+    def show_selected(self, colours: Mapping[str, np.ndarray | None]) -> None:
+        """Vertices that stand out in the panels of each surface, see `selected_colours`."""
+        self._selected = colours
+        for panel in self._panels.values():
+            self._select(panel)
+        self._moving.moved(SELECTED_MS)
+
+    def _select(self, panel: DistancePanel) -> None:
+        panel.marks.show_selected(self._selected.get(panel.surface))
+
+    def set_brush(self, brush: QtGui.QCursor | None) -> None:
+        """What a drag paints with in the panels of the first surface, None if it turns them."""
+        self._brush = brush
+        for panel in self._panels.values():
+            panel.view.pointer.set_brush(self._brush_of(panel))
+
+    def _brush_of(self, panel: DistancePanel) -> QtGui.QCursor | None:
+        surfaces = self._session.document.surfaces
+        return self._brush if panel.surface == (surfaces[0].name if surfaces else "") else None
+
+    # ------------------------------------------------------------------ insets and isolines
+    def show_insets(self, document: Document) -> None:
+        """Enlarge the document's places in each panel."""
+        for panel in self._panels.values():
+            panel.show_insets(document.zooms)
+        self.settle_insets()
+
+    def settle_insets(self) -> None:
+        """Put them where there is room, seen from where the camera is now."""
+        for panel in self._panels.values() if self._session.surface is not None else ():
+            panel.settle_insets()
+
+    def show_isolines(self, document: Document) -> None:
+        """Those of the document, through its points, too."""
+        for panel in document.panels:
+            if panel.id in self._panels:
+                self._panels[panel.id].show_isolines(document.isolines, self._through(document, panel))
+
+    def show_isolines_again(self, document: Document, id: int) -> None:
+        """Those through its points, with the answer that a panel shows now."""
+        if document.isolines.through:
+            self._panels[id].show_isolines(document.isolines, self._through(document, document.panel(id)))
+
+    def _through(self, document: Document, panel: Panel) -> tuple[Passed, ...]:
+        opened, shown = self._session.opened(panel.surface), self._session.shown.get(panel.id)
+        if opened is None or shown is None:
+            return ()
+        return passed(document, panel.surface, opened, shown.answer)
