@@ -112,16 +112,30 @@ class Hands:
 
     def place(self, widget: object | None = None) -> tuple[int, int]:
         """Somewhere in a widget, in a view if None."""
+        widget = widget or self.chance.choice(self.window.grid.panels).view
+        at = self._somewhere(widget)
+        for _ in range(20):
+            if self.is_over(widget, at):
+                break
+            at = self._somewhere(widget)
+        return at.x(), at.y()
+
+    def is_over(self, widget: object, at: object) -> bool:
+        """Whether a place on the screen is seen to be the widget's, and not of a dock that floats over it."""
+        from qtpy import QtWidgets
+
+        under = QtWidgets.QApplication.widgetAt(at)
+        return under is not None and (under is widget or widget.isAncestorOf(under))
+
+    def _somewhere(self, widget: object) -> object:
         from qtpy import QtCore
 
-        widget = widget or self.chance.choice(self.window.grid.panels).view
         x, y = self.chance.random(), self.chance.random()
         if self.chance.random() < 0.6:  # more often near the middle, where the surface is
             x, y = 0.25 + x / 2, 0.25 + y / 2
         # Only what is seen of it: beside it are the docks, or the page it is scrolled out of.
         seen = widget.visibleRegion().boundingRect() or widget.rect()
-        at = widget.mapToGlobal(seen.topLeft() + QtCore.QPoint(int(x * seen.width()), int(y * seen.height())))
-        return at.x(), at.y()
+        return widget.mapToGlobal(seen.topLeft() + QtCore.QPoint(int(x * seen.width()), int(y * seen.height())))
 
     def panel(self) -> int:
         return self.chance.choice(self.window.session.document.panels).id

@@ -83,10 +83,9 @@ class InstrumentHands(Hands):
         self.tool("mousemove", x, y)
         if way == "drag" and not isinstance(under, QtWidgets.QAbstractButton):
             to_x, to_y = self.place(dock)
-            self.tool("mousedown", 1)
-            for corner in ((to_x, y), (to_x, to_y), (x, to_y)):
-                self.tool("mousemove", *corner)
-            self.tool("mouseup", 1)
+            corners = [("mousemove", *corner, "sleep", 0.02) for corner in ((to_x, y), (to_x, to_y), (x, to_y))]
+            # In one go: a row that is dragged has a loop of its own, which ends with the button.
+            self.tool("mousedown", 1, *(word for corner in corners for word in corner), "mouseup", 1)
         elif way == "wheel":
             self.tool("click", self.chance.choice([4, 5]))
         elif way in ("click", "right") and not any(word in said for word in ASKING):
@@ -161,7 +160,7 @@ class InstrumentHands(Hands):
         docks = self.window.docks
         if "anchors" not in self.window.session.document.docks:
             docks.toggle("anchors")
-            self.spin(0.3)  # until the panels have given way
+            self.spin(0.05)
         dock = docks._docks["anchors"].content
         if dock.start.isVisible():
             dock.begin()

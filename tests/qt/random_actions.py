@@ -57,9 +57,9 @@ class RandomHands(InstrumentHands):
         if panel.view.source is None:
             return
         at = panel.view.place_of(panel.view.source)
-        if not panel.view.visibleRegion().contains(at.toPoint()):
-            return  # the camera looks past it, or a dock is over it
         at = panel.view.mapToGlobal(QtCore.QPoint(round(at.x() - 0.5), round(at.y() - 0.5)))
+        if not self.is_over(panel.view, at):
+            return  # the camera looks past it, or a dock is over it
         x, y = at.x(), at.y()
         to_x, to_y = self.place(panel.view)
         words = ["mousemove", x, y, "mousedown", 1]
