@@ -10,6 +10,7 @@ from .camera import View
 from .document import Document, MeshFile, Panel, Point, free_names
 from .edits import MOST_ADDED, add_panel, put_point
 from .instruments import ALONG_ALL_PINS
+from .mapping import without_maps
 from .pairing import remove_pairs
 from .predicting import show_distances
 from .quantities import DistanceFrom, Quantity, own_fields
@@ -49,7 +50,7 @@ def close_beside(document: Document) -> Document:
     if len(document.surfaces) < 2:
         return document
     first = document.surfaces[0].name
-    document = remove_pairs(document, document.pairs)
+    document = without_maps(remove_pairs(document, document.pairs))
     gone = {point.name for point in document.points if point.surface != first}
     through = tuple(name for name in document.isolines.through if name not in gone)
     document = replace(

@@ -42,6 +42,7 @@ from .looks import (
     Shading,
     one_of,
 )
+from .map_colours import SAME_FACES, MapColours, MapFile, Truth
 from .quantities import OwnField, Quantity, from_point, own_fields
 
 COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
@@ -189,6 +190,7 @@ class Document:
     snap: whether the pointer puts sources on vertices, and not anywhere in faces.
     beside: how surfaces but the first are seen, and linked: whether turning one of them turns the others.
     pairs: of corresponding points on the first two surfaces, the last of them perhaps half a pair.
+    maps: from the first surface to the second, in files; truth: what such maps are measured by.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
@@ -223,6 +225,8 @@ class Document:
     beside: tuple[Beside, ...] = ()
     linked: bool = True
     pairs: tuple[Pair, ...] = ()
+    maps: tuple[MapFile, ...] = ()
+    truth: Truth = SAME_FACES
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -265,6 +269,17 @@ class Document:
             raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
         checked_view(self.camera)
         _known(list(_unlike([each.surface for each in self.beside], "surface")), surfaces, "surface")
+        self._check_maps()
+
+    def _check_maps(self) -> None:
+        known = _unlike([map.path for map in self.maps], "map")
+        shown = [(panel, panel.shows.by) for panel in self.panels if isinstance(panel.shows, MapColours)]
+        _known([by for _, by in shown if isinstance(by, str) and by], known, "map")
+        led = {panel.surface for panel, by in shown if by}
+        if (led or self.maps) and len(self.surfaces) < 2:
+            raise ParameterError("A map is from one surface to another, and there are not two.")
+        if led - {self.surfaces[0].name if self.surfaces else ""}:
+            raise ParameterError(f"Maps are from the surface {self.surfaces[0].name!r}, and shown on it.")
 
     def _check_pairs(self) -> None:
         names = [name for pair in self.pairs for name in pair.points]
@@ -288,6 +303,13 @@ class Document:
 
     def field(self, name: str) -> FieldArray:
         return _named(self.fields, name, "field")
+
+    def map(self, path: str) -> MapFile:
+        """The map in a file."""
+        found = next((each for each in self.maps if each.path == path), None)
+        if found is None:
+            raise ParameterError(f"There is no map {path!r}.")
+        return found
 
     def panel(self, id: int) -> Panel:
         for panel in self.panels:

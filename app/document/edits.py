@@ -10,6 +10,7 @@ from bihdist_core.sources.source import Source
 from .changing import without_changed
 from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
 from .instruments import ALONG_ALL_PINS
+from .mapping import without_maps
 from .measuring import show_regions
 from .pairing import without_pairs_on
 from .quantities import DistanceFrom, Quantity, from_point, own_fields
@@ -24,7 +25,7 @@ def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> 
     What was tied to vertices of the old one (insets, anchors, colour bars with an end of their own, fields of the
     user's own with the panels that show them) is left out; one panel there always is.
     """
-    document = without_pairs_on(without_changed(document), mesh.name)
+    document = without_maps(without_pairs_on(without_changed(document), mesh.name))
     others = tuple(field for field in document.fields if field.surface != mesh.name)
     names = {field.name for field in others}
     kept = tuple(panel for panel in document.panels if all(part.name in names for part in own_fields(panel.shows)))

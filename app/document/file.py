@@ -15,6 +15,7 @@ from bihdist_core.errors import ParameterError
 
 from .form import document_data, document_from, plain, read_view, view_data
 from .json_values import Reader, flag, listed, number, or_none, placed, record, text, whole
+from .mapping import with_map_paths
 from .page import Page, Recipe
 from .recipe_1 import recipe_of_format_1
 
@@ -71,7 +72,8 @@ def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
 def with_meshes_from(recipe: Recipe, file: str | os.PathLike[str]) -> Recipe:
     """The recipe as it is written at a path."""
     meshes = tuple(replace(mesh, path=mesh_reference(mesh.path, file)) for mesh in recipe.document.surfaces)
-    return replace(recipe, document=replace(recipe.document, surfaces=meshes))
+    document = with_map_paths(recipe.document, lambda path: mesh_reference(path, file))
+    return replace(recipe, document=replace(document, surfaces=meshes))
 
 
 # ---------------------------------------------------------------------- reading
@@ -96,7 +98,13 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
         # os.path, which takes a path that is too long for one that is not there.
         meshes.append(replace(mesh, path=str(beside)) if mesh.path and os.path.exists(beside) else mesh)
     arrays = str(Path(path).parent / recipe.arrays) if recipe.arrays else ""
-    return replace(recipe, document=replace(recipe.document, surfaces=tuple(meshes)), arrays=arrays)
+
+    def found(map: str) -> str:
+        beside = Path(path).parent / map
+        return str(beside) if os.path.exists(beside) else map
+
+    document = with_map_paths(recipe.document, found)
+    return replace(recipe, document=replace(document, surfaces=tuple(meshes)), arrays=arrays)
 
 
 def is_recipe(path: str | os.PathLike[str]) -> bool:

@@ -27,6 +27,7 @@ from .instruments import (
 )
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
+from .map_colours import SAME_FACES, MapColours, MapFile, Truth
 from .quantities import ChangeOf, Difference, DistanceFrom, Interpolant, OwnField, Part, Prediction, Quantity
 
 LATER: dict[str, Any] = {
@@ -51,6 +52,8 @@ LATER: dict[str, Any] = {
     "beside": [],
     "linked": True,
     "pairs": [],
+    "maps": [],
+    "truth": {},
 }
 """Parts of a document that it need not have, and what then holds: as it was before there were any."""
 
@@ -78,6 +81,8 @@ def document_data(document: Document) -> dict[str, Any]:
         "regions": list(document.regions),
         "docks": list(document.docks),
         "dock_places": document.dock_places and plain(document.dock_places),
+        "maps": [plain(map) for map in document.maps],
+        "truth": _truth_data(document.truth),
         "beside": [{**plain(each), "camera": view_data(each.camera)} for each in document.beside],
     }
     data = {f.name: own.get(f.name, getattr(document, f.name)) for f in fields(document)}
@@ -98,6 +103,11 @@ def _unlike(value: Any, usual: Any) -> dict[str, Any]:
 def _pin_list_data(pins: PinList) -> dict[str, Any]:
     data = _unlike(pins, AS_LISTED)
     return data if pins.distance is None else {**data, "distance": pins.distance.in_full}
+
+
+def _truth_data(truth: Truth) -> dict[str, Any]:
+    files = {name: getattr(truth, name) for name in ("file", "partners")}
+    return {**_unlike(truth, SAME_FACES), **{name: plain(file) for name, file in files.items() if file is not None}}
 
 
 def _mesh_data(mesh: MeshFile) -> dict[str, Any]:
@@ -146,6 +156,8 @@ def _quantity_data(shows: Quantity) -> dict[str, Any]:
         return {"interpolant": shows.spec.in_full, **({"total": True} if shows.total else {})}
     if isinstance(shows, Prediction):
         return {"prediction": shows.spec.in_full}
+    if isinstance(shows, MapColours):
+        return {"map": shows.by} if isinstance(shows.by, str) else {"map_by": shows.by.in_full}
     if isinstance(shows, ChangeOf):
         return {"change": shows.spec.in_full, "from": shows.point}
     return {"distance": shows.spec.in_full, "from": shows.point}
@@ -187,6 +199,8 @@ def document_from(data: Any, where: str = "document") -> Document:
         "beside": listed(_beside),
         "linked": flag,
         "pairs": listed(_pair),
+        "maps": listed(_map_file),
+        "truth": _truth,
     }
     values = record(data, where, readers, readers.keys() - LATER.keys() - {"shared_range"})
     return placed(Document, where, **with_range({"up": LATER["up"], **values}))
@@ -209,6 +223,15 @@ def _change(data: Any, where: str) -> Perturbation:
 
 def _beside(data: Any, where: str) -> Beside:
     return placed(Beside, where, **record(data, where, {"surface": text, "camera": read_view, "up": text}))
+
+
+def _map_file(data: Any, where: str) -> MapFile:
+    return placed(MapFile, where, **record(data, where, {"path": text, "sha256": text}, {"path"}))
+
+
+def _truth(data: Any, where: str) -> Truth:
+    readers = {"word": text, "file": _map_file, "partners": _map_file, "mirror": flag}
+    return placed(Truth, where, **record(data, where, readers, set()))
 
 
 def _field_array(data: Any, where: str) -> FieldArray:
@@ -256,6 +279,10 @@ def _part(data: Any, where: str) -> Part:
         return Interpolant(values["interpolant"], values.get("total", False))
     if isinstance(data, dict) and "prediction" in data:
         return Prediction(record(data, where, {"prediction": _spec})["prediction"])
+    if isinstance(data, dict) and "map" in data:
+        return MapColours(record(data, where, {"map": text})["map"])
+    if isinstance(data, dict) and "map_by" in data:
+        return MapColours(record(data, where, {"map_by": _spec})["map_by"])
     if isinstance(data, dict) and "change" in data:
         values = record(data, where, {"change": _spec, "from": text})
         return ChangeOf(values["change"], values["from"])

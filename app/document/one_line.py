@@ -247,6 +247,8 @@ UNSEEN = {
     "Document.beside": "with one mesh there is none beside it",
     "Document.linked": "what the cameras of the window do",
     "Document.pairs": "with one mesh there are none",
+    "Document.maps": "with one mesh there are none",
+    "Document.truth": "what maps are measured by, which no picture shows",
     "Page.format": "the file's name says it",
 }
 """Parts that no line names, since no figure shows them, and what they are for."""

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 
+from .map_colours import MAP, POSITIONS, MapColours, map_colours
+
 
 @dataclass(frozen=True)
 class DistanceFrom:
@@ -228,7 +230,7 @@ INTERPOLANT, TOTAL = "interpolant by ", "weights by "
 PREDICTION = "prediction by "
 """What the words of a prediction begin with."""
 
-Part = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction
+Part = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction | MapColours
 """What a difference is made of."""
 
 
@@ -239,6 +241,11 @@ class Difference:
     minuend: Part
     subtrahend: Part
     raw: bool = False
+
+    def __post_init__(self) -> None:
+        for part in self.parts:
+            if isinstance(part, MapColours):
+                raise ParameterError(f"A difference is of fields, and {part} is shown in colours.")
 
     def __str__(self) -> str:
         return f"{'raw ' if self.raw else ''}{self.minuend} - {self.subtrahend}"
@@ -267,8 +274,8 @@ class Difference:
         return f"positive where {self.minuend.title} is larger, negative where {self.subtrahend.title} is"
 
 
-Quantity = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction | Difference
-"""What a panel can show: something with a value at every vertex."""
+Quantity = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction | MapColours | Difference
+"""What a panel can show: something with a value, or a colour, at every vertex."""
 
 
 def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
@@ -280,6 +287,7 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
     """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
 
     "interpolant by biharmonic" and "prediction by biharmonic" are as good as a distance.
+    "map by biharmonic" and "position colours" are shown in colours.
 
     fields: names of the user's own, each as good as a distance.  parameters: values of those not named in the text.
     ParameterError for what is neither.
@@ -299,6 +307,8 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
                 found.append(Interpolant(Spec.parse(distance, **parameters), part.startswith(TOTAL)))
             elif part.startswith(PREDICTION):
                 found.append(Prediction(Spec.parse(part.removeprefix(PREDICTION), **parameters)))
+            elif part == POSITIONS or part.startswith(MAP):
+                found.append(map_colours(part, **parameters))
             elif part.startswith(CHANGE):
                 found.append(ChangeOf(Spec.parse(part.removeprefix(CHANGE), **parameters), point))
             else:

@@ -1,7 +1,8 @@
 """What quantities are called in heads and charts."""
 
-from bihdist_core.distances.kinds import Kind
+from bihdist_core.distances.kinds import Kind, Spec
 
+from .map_colours import MapColours, MapFile
 from .quantities import ChangeOf, Interpolant, OwnField, Part, Prediction, Quantity
 
 
@@ -17,6 +18,8 @@ def part_name(part: Part) -> str:
         return "Weights" if part.total else "Interpolant"
     if isinstance(part, Prediction):
         return "Prediction"
+    if isinstance(part, MapColours):
+        return ("Full map" if isinstance(part.by, Spec) else f"Map {MapFile(part.by).name}") if part.by else "Positions"
     return part.name if isinstance(part, OwnField) else kind_name(part.spec.kind)
 
 

@@ -20,6 +20,12 @@ _BACK = """//VTK::Color::Impl
   }
 """
 
+# Of what has colours of its own instead of a field; elsewhere it stays as it is.
+_CARRIED = """//VTK::Color::Impl
+  ambientColor = (1.0 - coloursAt.a) * ambientColor + ambientIntensity * coloursAt.rgb;
+  diffuseColor = (1.0 - coloursAt.a) * diffuseColor + diffuseIntensity * coloursAt.rgb;
+"""
+
 # Where vertices' normals lean away from the eye although their face is seen, at silhouettes and on rough scans, light
 # from the eye's side would miss it, and leave a dark speck.
 _TOWARDS_THE_EYE = """//VTK::Normal::Impl
@@ -48,12 +54,14 @@ _EDGES = f"""
 """
 
 
-def put_face_look(shader: vtkShaderProperty, has_edges: bool) -> None:
+def put_face_look(shader: vtkShaderProperty, has_edges: bool, has_colours: bool = False) -> None:
     """Let faces look like this; the uniforms are `hasBacks`, `backColour`, `edgeColour`, `edgeOnDark`, `edgeScale`.
 
     has_edges: needs the property's EdgeVisibilityOn, and EdgeOpacity 0, so that VTK's own edges are not seen.
+    has_colours: with the attribute `coloursAt`, colours multiplied by alpha.
     """
-    shader.AddFragmentShaderReplacement(_COLOUR, True, _BACK, False)
+    own = (_CARRIED if has_colours else f"{_COLOUR}\n") + _BACK.removeprefix(f"{_COLOUR}\n")
+    shader.AddFragmentShaderReplacement(_COLOUR, True, own, False)
     shader.AddFragmentShaderReplacement(_NORMAL, False, _TOWARDS_THE_EYE + (_EDGES if has_edges else ""), False)
 
 

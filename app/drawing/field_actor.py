@@ -25,6 +25,9 @@ allows, so that a face with an undefined corner is undefined up to the others, w
 FINE = 8192
 """Colours of a table with bands, so that each ends where its isoline is."""
 
+TINTS = ("selected", "colours")
+"""Colours of vertices besides those of the field, each with an attribute of the shader."""
+
 _LIT = "//VTK::Light::Impl"
 MOST_LINES = 2 * MOST_ISOLINES + 64
 """That the shader has room for: on both sides of 0, and through points."""
@@ -85,8 +88,9 @@ class FieldActor:
         self._edges = np.empty(0)
         self._own_maximum = 1.0
         self._own = vtkPolyData()
-        self._has_edges, self._has_selected, self._followed = False, False, None
-        self._selected: np.ndarray | None = None
+        self._has_edges, self._followed = False, None
+        self._tints: dict[str, np.ndarray] = {}
+        self._passed_on: set[str] = set()  # of these, what reaches the shader
         self._make()
         self.stand_in = StandInActor(self.actor)
         self.show_isolines(self._isolines, self._through)
@@ -115,31 +119,47 @@ class FieldActor:
         self._array.SetName("distance")
         own.GetPointData().AddArray(self._array)
         self._draw(own)
-        is_same = self._selected is not None and len(self._selected) == len(values)
-        self.show_selected(self._selected if is_same else None)
+        before, self._tints = self._tints, {}
+        for name in TINTS:
+            kept = before.get(name)
+            self._tint(name, kept if kept is not None and len(kept) == len(values) else None)
         self.actor.VisibilityOn()
 
     def show_selected(self, colours: np.ndarray | None) -> None:
         """Vertices that stand out: (n, 4) uint8, see `selected_colours`; None for no such."""
-        self._selected = colours
+        self._tint("selected", colours)
+
+    def show_colours(self, colours: np.ndarray) -> None:
+        """Colours (n, 3) of its own, from 0 to 1, instead of a field; grey where they are NaN."""
+        self.show_bare()
+        known = np.isfinite(colours).all(axis=1)
+        tint = np.zeros((len(colours), 4), np.uint8)
+        tint[known] = np.column_stack([np.round(255 * colours[known]), np.full(known.sum(), 255)])
+        self._tint("colours", tint)
+
+    def _tint(self, name: str, colours: np.ndarray | None) -> None:
+        """Let vertices have these colours (n, 4) uint8, multiplied by alpha, for one of TINTS; None for none."""
+        self._tints.pop(name, None)
         if colours is not None:
-            # Multiplied by alpha 0, what is not selected has no colour to lend.
+            self._tints[name] = colours
+            # Multiplied by alpha 0, what has none has no colour to lend.
             array = numpy_to_vtk(np.concatenate([colours, colours[self._copies]]).astype(np.float32) / 255, deep=True)
-            array.SetName("selected")
+            array.SetName(name)
             self._own.GetPointData().AddArray(array)
             self._own.Modified()
-        self._pass_selected(colours is not None)
+        self._pass_tints(set(self._tints))
 
-    def _pass_selected(self, has_selected: bool) -> None:
-        """Whether the array of what is selected reaches the shader, and is painted."""
-        if has_selected:
-            self._mapper.MapDataArrayToVertexAttribute(
-                "selectedAttribute", "selected", vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
-            )
-        else:
-            self._mapper.RemoveVertexAttributeMapping("selectedAttribute")
-        if has_selected != self._has_selected:
-            self._has_selected = has_selected
+    def _pass_tints(self, names: set[str]) -> None:
+        """Which of these arrays reach the shader, and are painted."""
+        for name in TINTS:
+            if name in names:
+                self._mapper.MapDataArrayToVertexAttribute(
+                    f"{name}Attribute", name, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
+                )
+            else:
+                self._mapper.RemoveVertexAttributeMapping(f"{name}Attribute")
+        if names != self._passed_on:
+            self._passed_on = names
             self._put_shaders(self._has_edges)
 
     def _draw(self, own: vtkPolyData) -> None:
@@ -163,8 +183,8 @@ class FieldActor:
             self.actor.SetProperty(look)
             self.stand_in.actor.SetProperty(look)
             self._put_shaders(bool(look.GetEdgeVisibility()))
-        if self._has_selected != other._has_selected:
-            self._pass_selected(other._has_selected)
+        if self._passed_on != other._passed_on:
+            self._pass_tints(other._passed_on)
         if self.stand_in.stand_in is not other.stand_in.stand_in:
             self.stand_in.take(other.stand_in.stand_in)
         self.show_stand_in(bool(other.stand_in.actor.GetVisibility()))
@@ -179,6 +199,8 @@ class FieldActor:
 
         signed: from -maximum to maximum, in the diverging colours, with a bold line at 0.
         """
+        if "colours" in self._tints:
+            self._tint("colours", None)
         own = float(np.nanmax(np.abs(field) if signed else field, initial=0.0))
         top = own if maximum is None else maximum
         shares = field / top if top > 0 else np.zeros_like(field)
@@ -194,6 +216,8 @@ class FieldActor:
 
     def show_bare(self) -> None:
         """All of the surface grey."""
+        if "colours" in self._tints:
+            self._tint("colours", None)
         self._values[:] = UNDEFINED
         self._array.Modified()
         self.maximum = self._own_maximum = 0.0
@@ -262,8 +286,8 @@ class FieldActor:
 
     def show_stand_in(self, is_shown: bool) -> None:
         """Draw what `stand_in` has taken instead of the surface, if it has anything, or the surface again."""
-        chosen = self._own.GetPointData().GetArray("selected") if self._has_selected else None
-        self.stand_in.show(is_shown, self._array, UNDEFINED, chosen)
+        data = self._own.GetPointData()
+        self.stand_in.show(is_shown, self._array, UNDEFINED, {name: data.GetArray(name) for name in self._passed_on})
 
     def set_scale(self, scale: float) -> None:
         """Device pixels per pixel have changed."""
@@ -311,11 +335,10 @@ class FieldActor:
         shader = self.actor.GetShaderProperty()
         shader.ClearAllShaderReplacements()
         attributes = [("isolineAttribute", "isolineValue", "float")]
-        if self._has_selected:
-            attributes.append(("selectedAttribute", "selectedAt", "vec4"))
+        attributes += [(f"{name}Attribute", f"{name}At", "vec4") for name in TINTS if name in self._passed_on]
         pass_on(shader, *attributes)
-        put_face_look(shader, has_edges)
-        paint = (PAINT_SELECTED if self._has_selected else "") + _PAINT
+        put_face_look(shader, has_edges, "colours" in self._passed_on)
+        paint = (PAINT_SELECTED if "selected" in self._passed_on else "") + _PAINT
         shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{paint}", False)
 
 

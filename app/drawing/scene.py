@@ -107,6 +107,10 @@ class PanelScene:
         """Vertices that stand out, see `selected_colours`."""
         self._field.show_selected(colours)
 
+    def show_colours(self, colours: np.ndarray) -> None:
+        """Colours (n, 3) of its own instead of a field, see `FieldActor.show_colours`."""
+        self._field.show_colours(colours)
+
     def show_bare(self) -> None:
         """The surface without a field."""
         self._field.show_bare()

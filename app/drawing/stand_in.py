@@ -4,6 +4,9 @@ Clusters are the cells of a grid, each parted where the surface turns away, so t
 Made in a third of a second for a million vertices, by NumPy, most of which releases the interpreter lock.
 """
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray
@@ -14,6 +17,8 @@ from .drawable import copies_of, faces_of, poly_data, with_backs_of
 
 CLUSTERS = 40_000
 """About how many there are."""
+
+NONE: Mapping[str, vtkDataArray] = MappingProxyType({})
 
 WORTHWHILE = 2
 """Surfaces with fewer than so many times as many vertices are drawn themselves."""
@@ -136,7 +141,7 @@ class StandInActor:
         self._stand_in: StandIn | None = None
         self._values = np.empty(0, np.float32)
         self._array = numpy_to_vtk(self._values)
-        self._chosen: vtkDataArray | None = None
+        self._tints: dict[str, vtkDataArray] = {}
         self._averaged: tuple[int, int] | None = None  # of which array, and when that was last changed
         self._mapper = vtkPolyDataMapper()
         self.actor = vtkActor()
@@ -148,7 +153,7 @@ class StandInActor:
     def take(self, stand_in: StandIn | None) -> None:
         """Stand in for another surface; None if there is nothing that could."""
         self.show(False)
-        self._stand_in, self._averaged, self._chosen = stand_in, None, None
+        self._stand_in, self._averaged, self._tints = stand_in, None, {}
         if stand_in is None:
             self._mapper.SetInputData(vtkPolyData())
             return
@@ -173,16 +178,17 @@ class StandInActor:
         is_shown: bool,
         values: vtkDataArray | None = None,
         undefined: float = 0.0,
-        selected: vtkDataArray | None = None,
+        tints: Mapping[str, vtkDataArray] = NONE,
     ) -> None:
         """Let this be drawn instead of the other actor, or that again.
 
-        values: (n,) of all points of the surface, under the name that they have there; selected: (n, 4) the same.
+        values: (n,) of all points of the surface, under the name that they have there; tints: (n, 4) the same, of each
+        of its colours that the shader knows.
         """
         is_shown = is_shown and self._stand_in is not None and values is not None
         if is_shown:
             self._follow(values, undefined)
-            self._follow_selected(selected)
+            self._follow_tints(tints)
         if is_shown != bool(self.actor.GetVisibility()):
             self.actor.SetVisibility(is_shown)
             self._full.SetVisibility(not is_shown)
@@ -209,20 +215,21 @@ class StandInActor:
         self._values[:] = self._stand_in.averaged(vtk_to_numpy(values), undefined)
         self._array.Modified()
 
-    def _follow_selected(self, selected: vtkDataArray | None) -> None:
-        """A cluster is selected by the share of its points that are."""
-        if selected is self._chosen:
-            return
-        self._chosen = selected
-        if selected is None:
-            self._mapper.RemoveVertexAttributeMapping("selectedAttribute")
-            return
-        means = [self._stand_in.averaged(each, np.nan) for each in vtk_to_numpy(selected).T]
-        array = numpy_to_vtk(np.ascontiguousarray(np.stack(means, 1)), deep=True)
-        array.SetName(selected.GetName())
-        own = self._mapper.GetInput()
-        own.GetPointData().AddArray(array)
-        own.Modified()
-        self._mapper.MapDataArrayToVertexAttribute(
-            "selectedAttribute", selected.GetName(), vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
-        )
+    def _follow_tints(self, tints: Mapping[str, vtkDataArray]) -> None:
+        """A cluster has the mean of its points' colours: it is selected by the share of them that are."""
+        for name in [name for name in self._tints if name not in tints]:
+            del self._tints[name]
+            self._mapper.RemoveVertexAttributeMapping(f"{name}Attribute")
+        for name, tint in tints.items():
+            if self._tints.get(name) is tint:
+                continue
+            self._tints[name] = tint
+            means = [self._stand_in.averaged(each, np.nan) for each in vtk_to_numpy(tint).T]
+            array = numpy_to_vtk(np.ascontiguousarray(np.stack(means, 1)), deep=True)
+            array.SetName(name)
+            own = self._mapper.GetInput()
+            own.GetPointData().AddArray(array)
+            own.Modified()
+            self._mapper.MapDataArrayToVertexAttribute(
+                f"{name}Attribute", name, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
+            )

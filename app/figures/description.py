@@ -56,7 +56,8 @@ class FigurePanel:
     up: which axis is up in standard views.  source: the vertex that the view from the source looks at.  is_parallel:
     nothing gets smaller with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.
     lines: those that the field starts from; regions: boundaries of the pins' regions; selected: (n, 4) uint8 colours of
-    vertices that stand out, see `selected_colours`; path: that of a profile.
+    vertices that stand out, see `selected_colours`; path: that of a profile.  colours: (n, 3) of the surface's own,
+    instead of a field, grey where they are NaN.
     """
 
     surface: Surface
@@ -83,6 +84,7 @@ class FigurePanel:
     regions: tuple[SourceLine, ...] = ()
     selected: np.ndarray | None = None
     path: tuple[SourceLine, ...] = ()
+    colours: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -90,6 +92,8 @@ class FigurePanel:
         count = len(self.surface.vertices)
         if self.field is not None and np.shape(self.field) != (count,):
             raise ParameterError(f"The field has the shape {np.shape(self.field)}; the surface has {count} vertices.")
+        if self.colours is not None and (self.field is not None or np.shape(self.colours) != (count, 3)):
+            raise ParameterError(f"{count} vertices have a colour each and no field, or a field.")
         if self.maximum is not None and not 0 < self.maximum < np.inf:
             raise ParameterError(f"A colour bar ends at a positive number, not at {self.maximum!r}.")
         if not self.views:

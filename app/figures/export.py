@@ -194,6 +194,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
     return FigurePanel(
         surface,
         answer.field,
+        colours=answer.colours,
         heading=heading,
         hint="; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text),
         label="" if answer.failure else answer.label,

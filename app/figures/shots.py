@@ -123,6 +123,8 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
             if panel.field is not None:
                 studio.shown.show_field(panel.field, tops[index], panel.signed)
                 studio.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
+            elif panel.colours is not None:
+                studio.shown.show_colours(panel.colours)
             curves = stage.curves or panel.isolines.labels  # which stand on curves
             for number, (view, box, shown) in enumerate(zip(panel.views, cell.views, cell.parts, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)

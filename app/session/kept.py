@@ -27,13 +27,18 @@ class KeptAnswers:
             return self._answers.get(question)
 
     def put(self, question: Question, answer: Answer) -> None:
-        """Keep an answer with a field; those not asked for the longest go."""
-        if answer.field is None:
+        """Keep an answer with a field or colours; those not asked for the longest go."""
+        if not _size(answer):
             return
         with self._lock:
             old = self._answers.pop(question, None)
-            self._bytes += answer.field.nbytes - (0 if old is None or old.field is None else old.field.nbytes)
+            self._bytes += _size(answer) - (0 if old is None else _size(old))
             self._answers[question] = answer
             while self._bytes > self._memory and len(self._answers) > 1:
                 _, gone = self._answers.popitem(last=False)
-                self._bytes -= 0 if gone.field is None else gone.field.nbytes
+                self._bytes -= _size(gone)
+
+
+def _size(answer: Answer) -> int:
+    """Bytes of its arrays."""
+    return sum(each.nbytes for each in (answer.field, answer.colours, answer.leads_to) if each is not None)

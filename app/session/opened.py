@@ -33,12 +33,15 @@ from ..document.file import checksum
 from ..samples import mesh_path
 from .changed import carried, change_of
 from .given import Given
+from .mapped import mapped, positions
 from .predicted import KnownColumns, is_known, predicted
 from .questions import (
     ChangeQuestion,
     DifferenceQuestion,
     FieldQuestion,
     InterpolantQuestion,
+    MapQuestion,
+    PositionQuestion,
     PredictionQuestion,
     Question,
     source_at,
@@ -112,6 +115,10 @@ class Opened:
             return self._interpolated(question, progress)
         if isinstance(question, PredictionQuestion):
             return predicted(question, self, progress)
+        if isinstance(question, PositionQuestion):
+            return positions(question, self)
+        if isinstance(question, MapQuestion):
+            return mapped(question, self, progress)
         if isinstance(question, ChangeQuestion):
             return change_of(question, self, progress)
         source = source_at(question.at, self.surface)

@@ -1,6 +1,7 @@
 """Where a point of one surface is on another, as the pairs of a document predict it."""
 
 import threading
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +11,7 @@ from bihdist_core.distances.accuracy import Certificate
 from bihdist_core.distances.answers import Answer, failed
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
+from bihdist_core.sources.source import Source
 
 from .questions import PredictionQuestion, vertex_at
 
@@ -71,7 +73,8 @@ def predicted(question: PredictionQuestion, opened: "Opened", progress: Progress
     if not question.pairs:
         return Answer(label=str(question), failure=NO_PAIRS)
     try:
-        known = correspondence(question, other, opened, progress)
+        pairs = [(there, here) for here, there in question.pairs]
+        known = correspondence(question.areas, question.spec, pairs, other, opened, progress)
         field = known.misfit(vertex_at(question.at, other.surface))
     except (Cancelled, VertexError):
         raise
@@ -87,20 +90,24 @@ def predicted(question: PredictionQuestion, opened: "Opened", progress: Progress
 
 
 def correspondence(
-    question: PredictionQuestion, there: "Opened", here: "Opened", progress: Progress | None = None
+    areas: str,
+    spec: Spec,
+    pairs: Sequence[tuple[Source | None, Source | None]],
+    one: "Opened",
+    two: "Opened",
+    progress: Progress | None = None,
 ) -> Correspondence:
-    """From the surface where a point waits to the one that is asked about; columns that are known are used again.
+    """From one surface to another, of pairs of points of the one and the other; columns that are known are used again.
 
     Raises what distances and vertices do.
     """
-    areas, spec = question.areas, question.spec
-    on_there = there.distances(areas).get(spec, part(progress, 0.0, 0.3))
-    on_here = here.distances(areas).get(spec, part(progress, 0.3, 0.6))
-    pairs = [(vertex_at(b, there.surface), vertex_at(a, here.surface)) for a, b in question.pairs]
-    columns = there.columns_of_pairs.of(areas, spec), here.columns_of_pairs.of(areas, spec)
-    found = Correspondence(on_there, on_here, pairs, None, part(progress, 0.6, 1.0), columns)
-    for side, opened in enumerate((there, here)):
-        opened.columns_of_pairs.put(areas, spec, columns[side], {pair[side] for pair in pairs})
+    on_one = one.distances(areas).get(spec, part(progress, 0.0, 0.3))
+    on_two = two.distances(areas).get(spec, part(progress, 0.3, 0.6))
+    places = [(vertex_at(a, one.surface), vertex_at(b, two.surface)) for a, b in pairs]
+    columns = one.columns_of_pairs.of(areas, spec), two.columns_of_pairs.of(areas, spec)
+    found = Correspondence(on_one, on_two, places, None, part(progress, 0.6, 1.0), columns)
+    for side, opened in enumerate((one, two)):
+        opened.columns_of_pairs.put(areas, spec, columns[side], {place[side] for place in places})
     return found
 
 

@@ -13,6 +13,7 @@ from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document, FieldArray, MeshFile
+from ..document.map_colours import MapColours, MapFile
 from ..document.pairing import other_side, waiting_point, whole_pairs
 from ..document.quantities import ChangeOf, Difference, Interpolant, OwnField, Part, Prediction, Quantity
 
@@ -154,7 +155,66 @@ class PredictionQuestion:
         return str(Prediction(self.spec))
 
 
-PartQuestion = DistanceQuestion | FieldQuestion | InterpolantQuestion | ChangeQuestion | PredictionQuestion
+@dataclass(frozen=True)
+class PositionQuestion:
+    """The colours of a surface by position."""
+
+    mesh: MeshFile
+    areas: str
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return ()
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "PositionQuestion":
+        return self
+
+    @property
+    def about(self) -> Hashable:
+        return self
+
+    def __str__(self) -> str:
+        return str(MapColours())
+
+
+@dataclass(frozen=True)
+class MapQuestion:
+    """Where a map to another surface leads: one in a file, or one that pairs of points here and there make.
+
+    other: that surface, None if there is none.
+    """
+
+    mesh: MeshFile
+    areas: str
+    by: Spec | MapFile
+    other: MeshFile | None
+    pairs: tuple[tuple[Source | None, Source | None], ...]
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.by,) if isinstance(self.by, Spec) else ()
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "MapQuestion":
+        return replace(self, by=specs[0]) if specs else self
+
+    @property
+    def about(self) -> Hashable:
+        """All but the pairs."""
+        return (self.mesh, self.areas, self.by, self.other, "map")
+
+    def __str__(self) -> str:
+        return str(MapColours(self.by.path if isinstance(self.by, MapFile) else self.by))
+
+
+PartQuestion = (
+    DistanceQuestion
+    | FieldQuestion
+    | InterpolantQuestion
+    | ChangeQuestion
+    | PredictionQuestion
+    | PositionQuestion
+    | MapQuestion
+)
 
 
 @dataclass(frozen=True)
@@ -201,7 +261,7 @@ def are_about_the_same(one: Question, other: Question) -> bool:
 def asks_of(question: Question, mesh: MeshFile) -> bool:
     """Whether an answer depends on distances on this surface, too, on which it is not."""
     parts = (question.minuend, question.subtrahend) if isinstance(question, DifferenceQuestion) else (question,)
-    return any(isinstance(each, PredictionQuestion) and each.other == mesh for each in parts)
+    return any(isinstance(each, PredictionQuestion | MapQuestion) and each.other == mesh for each in parts)
 
 
 def questions(document: Document) -> dict[int, Question]:
@@ -219,6 +279,8 @@ def _question(document: Document, surface: str, shows: Quantity) -> Question:
             anchors = [(document.point(anchor.point), anchor) for anchor in document.anchors if not anchor.left_out]
             known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
             return InterpolantQuestion(mesh, areas, part.spec, known, document.weights, part.total)
+        if isinstance(part, MapColours):
+            return _mapped(document, surface, part)
         if isinstance(part, Prediction):
             return _predicted(document, surface, part.spec)
         kind = ChangeQuestion if isinstance(part, ChangeOf) else DistanceQuestion
@@ -235,8 +297,23 @@ def _predicted(document: Document, surface: str, spec: Spec) -> PredictionQuesti
     asked = PredictionQuestion(document.mesh(surface), document.areas, spec, other, (), None)
     if there is None or waiting is None or waiting.surface != there:
         return asked  # what is plain is the same whatever pairs there are
+    return replace(asked, pairs=_places(document, surface, there), at=waiting.at)
+
+
+def _mapped(document: Document, surface: str, shows: MapColours) -> PositionQuestion | MapQuestion:
+    mesh, areas, there = document.mesh(surface), document.areas, other_side(document, surface)
+    if not shows.by:
+        return PositionQuestion(mesh, areas)
+    other = None if there is None else document.mesh(there)
+    if isinstance(shows.by, str):
+        return MapQuestion(mesh, areas, document.map(shows.by), other, ())
+    return MapQuestion(mesh, areas, shows.by, other, () if there is None else _places(document, surface, there))
+
+
+def _places(document: Document, surface: str, there: str) -> tuple[tuple[Source | None, Source | None], ...]:
+    """Of the pairs, on one surface and on the other."""
     on = [{document.point(name).surface: document.point(name).at for name in p.points} for p in whole_pairs(document)]
-    return replace(asked, pairs=tuple((each[surface], each[there]) for each in on), at=waiting.at)
+    return tuple((each[surface], each[there]) for each in on)
 
 
 def source_at(at: Source | None, surface: Surface, up: str = "y") -> Source:

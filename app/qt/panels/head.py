@@ -6,7 +6,7 @@ from html import escape
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.edits import PANEL_EDITS
-from ...document.quantities import Difference, Interpolant, OwnField, Quantity
+from ...document.quantities import Difference, Interpolant, Quantity
 from ..look.icons import pixmap
 from ..look.look import LOOK
 from .flat_button import ICON_SIDE, FlatButton
@@ -190,14 +190,14 @@ class PanelHead(QtWidgets.QWidget):
         for control in self.controls:
             control.hide()
             control.deleteLater()
-        parts = [part for part in self.shows.parts if not isinstance(part, OwnField)]
+        parts = [part for part in self.shows.parts if part.specs]
         signed = iter(signs([p for part in parts for p in part.spec.kind.parameters]))
         self._mode: ChoiceControl | None = None
         self._by: ChoiceControl | None = None
         self._of_parameter: dict[tuple[int, str], Control] = {}
         is_difference = isinstance(self.shows, Difference)
         for place, part in enumerate(self.shows.parts):
-            for parameter in () if isinstance(part, OwnField) else part.spec.kind.parameters:
+            for parameter in part.spec.kind.parameters if part.specs else ():
                 of_what = f" ({('first', 'second')[place]}: {part_name(part)})" if is_difference else ""
                 control = parameter_control(self, parameter, next(signed), of_what)
                 control.chosen.connect(lambda value, of=(place, parameter.name): self._set(*of, value))

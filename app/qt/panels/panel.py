@@ -215,7 +215,9 @@ class DistancePanel(QtWidgets.QWidget):
         self._in_shares = in_shares
         self.answer = answer = shown.answer
         self._raise(answer, maximum or answer.maximum, height)
-        if answer.field is None:
+        if answer.colours is not None:
+            self.view.scene.show_colours(answer.colours)
+        elif answer.field is None:
             self.view.scene.show_bare()
         else:
             self.view.scene.show_field(answer.field, maximum, answer.is_signed)

@@ -39,7 +39,7 @@ class Choices:
     def keep(self, shows: Quantity) -> None:
         """Remember the parameters of what is shown, for each place of a difference."""
         for before, part in zip(self._before, shows.parts, strict=False):
-            if not isinstance(part, OwnField):
+            if part.specs:
                 before[part.spec.word] = part.spec
 
     def with_part(self, shows: Quantity, place: int, chosen: str | OwnField | Spec) -> Quantity:
@@ -133,7 +133,7 @@ def _add_parts(
         if is_offered(DistanceFrom(Spec.of(kind.word))):
             hint = f"{kind.hint[:1].upper()}{kind.hint[1:]}"
             action = _add(menu, kind_name(kind), hint, lambda word=kind.word: choose(word))
-            tick(action, now is not None and not isinstance(now, OwnField) and now.spec.word == kind.word)
+            tick(action, now is not None and bool(now.specs) and now.spec.word == kind.word)
     fields = [field for field in map(OwnField, choices.fields) if is_offered(field)]
     if fields:
         menu.addSeparator()

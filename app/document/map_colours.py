@@ -1,0 +1,121 @@
+"""The quantity of a map between the document's two surfaces, and what the document says of such maps."""
+
+import os
+from dataclasses import dataclass
+
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
+
+from .looks import one_of
+
+MAP, MAP_BY, POSITIONS = "map ", "map by ", "position colours"
+"""What the words of a map begin with, of one that pairs make by a distance, and the words of what it leads to."""
+
+SAME_IDS = "identity"
+"""In the place of a file: each vertex is mapped to that of the same id."""
+
+TRUTHS = ("auto", "none", "identity", "file")
+"""Where it stands what is right: "auto" takes the same ids where both surfaces have the same faces."""
+
+
+@dataclass(frozen=True)
+class MapFile:
+    """A map from vertices to vertices: path of a file, or SAME_IDS.  sha256: of the file's bytes."""
+
+    path: str
+    sha256: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.path:
+            raise ParameterError(f"A map stands in a file, or is {SAME_IDS!r}.")
+
+    @property
+    def name(self) -> str:
+        """For the user."""
+        return "same ids" if self.path == SAME_IDS else os.path.splitext(os.path.basename(self.path))[0]
+
+
+@dataclass(frozen=True)
+class Truth:
+    """What maps from the document's first surface to its second are measured by.
+
+    word: one of TRUTHS.  file: the map that is right, where it stands in one.  partners: for each vertex of the second
+    surface its symmetric partner; mirror: whether that counts as right, too.
+    """
+
+    word: str = "auto"
+    file: MapFile | None = None
+    partners: MapFile | None = None
+    mirror: bool = False
+
+    def __post_init__(self) -> None:
+        one_of(self.word, TRUTHS, "truth")
+        if (self.word == "file") != (self.file is not None):
+            raise ParameterError("A truth that stands in a file, and no other, names it.")
+        if self.mirror and self.partners is None:
+            raise ParameterError("For symmetric partners to count as right, they have to be known: name their map.")
+
+
+SAME_FACES = Truth()
+"""As long as nobody has said anything."""
+
+
+@dataclass(frozen=True)
+class MapColours:
+    """Where a map from the document's first surface leads, in colours; see `bihdist_core.applications.carrying`.
+
+    by: the distance by which the document's pairs make the map, the path of one of its maps, or "": the surface's own
+    colours by position, which are those of the vertices that maps lead to.
+    """
+
+    by: Spec | str = ""
+
+    def __str__(self) -> str:
+        return f"{MAP_BY}{self.by}" if isinstance(self.by, Spec) else f"{MAP}{self.by}" if self.by else POSITIONS
+
+    @property
+    def parts(self) -> "tuple[MapColours, ...]":
+        return (self,)
+
+    def with_parts(self, parts: tuple) -> "MapColours":
+        (part,) = parts
+        return part
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return ()
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.by,) if isinstance(self.by, Spec) else ()
+
+    @property
+    def spec(self) -> Spec:
+        """The distance, of a map that pairs make."""
+        (spec,) = self.specs
+        return spec
+
+    @property
+    def word(self) -> str:
+        return f"{MAP_BY}{self.by.word}" if isinstance(self.by, Spec) else str(self)
+
+    @property
+    def title(self) -> str:
+        return f"{MAP_BY}{self.by.kind.name.lower()}" if isinstance(self.by, Spec) else str(self)
+
+    @property
+    def hint(self) -> str:
+        if not self.by:
+            return "red, green and blue from x, y and z: the colours that maps to this surface have"
+        return "each vertex has the colour of the one that it is mapped to"
+
+
+def map_colours(text: str, **parameters: object) -> MapColours:
+    """From words as `str` writes them; ParameterError for others."""
+    if text == POSITIONS:
+        return MapColours()
+    if text.startswith(MAP_BY):
+        return MapColours(Spec.parse(text.removeprefix(MAP_BY), **parameters))
+    if text.startswith(MAP) and text.removeprefix(MAP).strip():
+        return MapColours(text.removeprefix(MAP).strip())
+    raise ParameterError(f"{text!r} is no map: write 'map by biharmonic', 'map FILE' or {POSITIONS!r}.")
