@@ -35,6 +35,9 @@ PIXELS_PER_INCH = 300
 RULE, TICK = 0.6, 2.5
 """Points that an axis is wide, and its ticks long."""
 
+RIM = 3.0
+"""Points that words keep from the edge of the page."""
+
 FAINT = 0.25
 """How much of their colour the lines of a grid have."""
 
@@ -93,6 +96,7 @@ def _write(path: Path, extension: str, look: ChartLook, high: float, draw: Calla
     figure = Figure((look.inches, high), PIXELS_PER_INCH, facecolor=ground, layout="constrained")
     FigureCanvasAgg(figure)
     draw(figure)
+    _keep_on_page(figure)
     # Nothing in the file says when it was made, so that it is equal when made again.
     dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": {"Software": None}}.get(extension, {})
     made = {} if extension == ".png" else {"Creator": "bihdist"}
@@ -100,6 +104,22 @@ def _write(path: Path, extension: str, look: ChartLook, high: float, draw: Calla
     if extension == ".eps":
         content = path.read_bytes()
         path.write_bytes(re.sub(rb"^%%(CreationDate|Title):[^\n]*\n", b"", content, count=2, flags=re.MULTILINE))
+
+
+def _keep_on_page(figure: Figure) -> None:
+    """Words at an axis that are longer than it is move along it where they would leave the page."""
+    figure.get_layout_engine().execute(figure)
+    rim = RIM / 72 * figure.dpi
+    for axes in figure.axes:
+        room = axes.get_window_extent()
+        for axis, ends, length, page in (
+            (axes.xaxis, "intervalx", room.width, figure.bbox.width),
+            (axes.yaxis, "intervaly", room.height, figure.bbox.height),
+        ):
+            low, high = getattr(axis.label.get_window_extent(), ends)
+            moved = max(rim - low, 0.0) - max(high - (page - rim), 0.0)
+            if moved and high > low:
+                axis.label.set(**{ends[-1]: 0.5 + moved / length})
 
 
 def dress(axes: Axes, look: ChartLook, across: str = "", up: str = "") -> None:

@@ -10,11 +10,10 @@ from bihdist_core.distances.answers import Answer
 from ..document.document import Document
 from ..document.measuring import points_along
 from ..document.page import Page
-from ..document.quantities import Difference
-from ..document.quantity_names import quantity_name
 from ..drawing.style import PINS, Style, curve_colours, style_of
+from ..session.curves import profile_curve
 from .chart_page import ChartLook
-from .profile_figure import ProfileCurve, ProfileFigure, ProfileKnot
+from .profile_figure import ProfileFigure, ProfileKnot
 
 
 def profile_figure(document: Document, page: Page, path: SurfacePath, answers: Mapping[int, Answer]) -> ProfileFigure:
@@ -23,24 +22,19 @@ def profile_figure(document: Document, page: Page, path: SurfacePath, answers: M
     answers: those that there are of panels on the path's surface, by the panels' ids.
     """
     style = style_of(page.style, document.colours)
-    colours, curves = curve_colours(style), []
-    for place, panel in enumerate(document.panels):
-        answer = answers.get(panel.id)
-        if answer is None or answer.field is None:
-            continue
-        are_shares = isinstance(panel.shows, Difference) and not panel.shows.raw
-        values = path.along(answer.field)
-        if document.profile.shares and not are_shares:
-            values = values / answer.maximum if answer.maximum > 0 else 0 * values
-        if np.isfinite(values).any():
-            is_share, is_again = document.profile.shares or are_shares, place >= len(colours)
-            colour = colours[place % len(colours)]
-            name = quantity_name(panel.shows)
-            curves.append(ProfileCurve(name, values, colour, answer.unit, is_share, not are_shares, is_again))
+    found = {id: answer for id, answer in answers.items() if answer.field is not None}
+    along = {panel.id: path.along(found[panel.id].field) for panel in document.panels if panel.id in found}
+    curves = tuple(
+        profile_curve(document, id, found[id], values, curve_colours(style))
+        for id, values in along.items()
+        if np.isfinite(values).any()
+    )
     names = points_along(document)
     names = (*names, *names[:1])  # a whole section may come back to the first
     knots = [_knot(document, name, float(path.arcs[at]), style) for at, name in zip(path.knots, names, strict=False)]
-    return ProfileFigure(path.arcs, tuple(curves), "mesh units", tuple(knots), ChartLook.of(page, style))
+    return ProfileFigure(
+        path.arcs, curves, document.profile.shares, "mesh units", tuple(knots), ChartLook.of(page, style)
+    )
 
 
 def profile_fields(document: Document, answers: Mapping[int, Answer]) -> dict[str, np.ndarray]:

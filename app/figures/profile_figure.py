@@ -13,6 +13,7 @@ import numpy as np
 from bihdist_core import ParameterError
 from bihdist_core.progress import Progress
 
+from ..session.curves import ProfileCurve, parted
 from .chart_page import USUAL_LOOK, ChartLook, dress, faded, save_chart
 
 LEAST_ACROSS = 2.8
@@ -26,22 +27,6 @@ LONG = 14
 
 LINE = 1.4
 """Points that a curve is wide."""
-
-
-@dataclass(frozen=True, eq=False)
-class ProfileCurve:
-    """values: (k,) at the points of the path, NaN where there are none; colour: as #rrggbb.
-
-    is_share: the values are shares of 1, written in percent; else in `unit`.  is_whole: 1 is the most there can be.
-    """
-
-    name: str
-    values: np.ndarray
-    colour: str
-    unit: str = ""
-    is_share: bool = True
-    is_whole: bool = True
-    is_dashed: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,22 +44,20 @@ class ProfileKnot:
 class ProfileFigure:
     """arcs: (k,) lengths along the path, in `unit`.
 
-    Curves of one unit share a plot.
+    Curves of one unit share a plot; in_shares: all are drawn as shares of their maxima, in percent.
     """
 
     arcs: np.ndarray
     curves: tuple[ProfileCurve, ...]
+    in_shares: bool = True
     unit: str = ""
     knots: tuple[ProfileKnot, ...] = ()
     look: ChartLook = USUAL_LOOK
 
     @property
-    def plots(self) -> list[tuple[ProfileCurve, ...]]:
-        """The curves of each plot."""
-        found: dict[tuple[str, bool], list[ProfileCurve]] = {}
-        for curve in self.curves:
-            found.setdefault(("" if curve.is_share else curve.unit, curve.is_share), []).append(curve)
-        return [tuple(curves) for curves in found.values()]
+    def plots(self) -> list[tuple[str, bool, list[ProfileCurve]]]:
+        """See `parted`."""
+        return parted(self.curves, self.in_shares)
 
 
 def save_profile_figure(figure: ProfileFigure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
@@ -92,31 +75,38 @@ def _fill(page, figure: ProfileFigure, is_row: bool) -> None:
     plots = figure.plots
     rows = page.subplots(*((1, len(plots)) if is_row else (len(plots), 1)), squeeze=False)
     named = []
-    for k, (axes, curves) in enumerate(zip(rows.flat, plots, strict=True)):
-        _draw(axes, figure, curves, is_row or k == len(plots) - 1)
+    for k, (axes, (unit, in_shares, curves)) in enumerate(zip(rows.flat, plots, strict=True)):
+        drawn = [100 * curve.shares if in_shares else curve.values for curve in curves]
+        _draw(axes, figure, curves, drawn)
+        _fit(axes, in_shares, any(not curve.is_share for curve in curves))
+        is_lowest = is_row or k == len(plots) - 1
+        along = f"length along the path ({figure.unit})" if is_lowest else ""
+        dress(axes, figure.look, along, "% of the maximum" if in_shares else unit or "value")
+        axes.tick_params(labelbottom=is_lowest)
+        axes.locator_params(axis="y", nbins=5)
         _mark(axes, figure, is_row or k == 0)
-        named.append(_name(axes, figure, curves))
+        named.append(_name(axes, figure, curves, drawn))
     # How high the plots are is known once all words are there.
     page.get_layout_engine().execute(page)
     for axes, names in zip(rows.flat, named, strict=True):
         _spread(axes, figure.look.points, names)
 
 
-def _draw(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], is_lowest: bool) -> None:
-    in_shares = curves[0].is_share
-    for curve in curves:
-        dashes, scale = "--" if curve.is_dashed else "-", 100 if in_shares else 1
-        line = axes.plot(figure.arcs, scale * curve.values, dashes, color=curve.colour, linewidth=LINE)[0]
+def _draw(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[np.ndarray]) -> None:
+    """drawn: (k,) of each curve."""
+    for curve, values in zip(curves, drawn, strict=True):
+        dashes = "--" if curve.is_dashed else "-"
+        line = axes.plot(figure.arcs, values, dashes, color=curve.colour, linewidth=LINE)[0]
         line.set_gid(f"curve-{figure.curves.index(curve)}")
     axes.set_xlim(0, figure.arcs[-1] or 1.0)
-    if in_shares and min(axes.get_ylim()) > -5 and any(curve.is_whole for curve in curves):
+
+
+def _fit(axes, in_shares: bool, has_whole: bool) -> None:
+    """has_whole: 100% is the most that one of them can have."""
+    if in_shares and min(axes.get_ylim()) > -5 and has_whole:
         axes.set_ylim(0, max(100.0, axes.get_ylim()[1] if axes.get_ylim()[1] > 106 else 100.0))
     elif axes.dataLim.ymin >= 0:
         axes.set_ylim(bottom=0)
-    words = "% of the maximum" if in_shares else curves[0].unit or "value"
-    dress(axes, figure.look, f"length along the path ({figure.unit})" if is_lowest else "", words)
-    axes.tick_params(labelbottom=is_lowest)
-    axes.locator_params(axis="y", nbins=5)
 
 
 def _mark(axes, figure: ProfileFigure, has_discs: bool) -> None:
@@ -149,15 +139,17 @@ def _mark(axes, figure: ProfileFigure, has_discs: bool) -> None:
         )
 
 
-def _name(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve]) -> list:
+def _name(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[np.ndarray]) -> list:
     """Each curve's name at its end, from the lowest up."""
-    scale = 100 if curves[0].is_share else 1
-    known = [curve for curve in curves if np.isfinite(curve.values).any()]
-    ends = {id(curve): float(scale * curve.values[np.isfinite(curve.values)][-1]) for curve in known}
+    ends = [
+        (float(values[np.isfinite(values)][-1]), curve)
+        for values, curve in zip(drawn, curves, strict=True)
+        if np.isfinite(values).any()
+    ]
     return [
         axes.annotate(
             "\n".join(wrap(curve.name, LONG, break_long_words=False)),
-            (1.0, ends[id(curve)]),
+            (1.0, end),
             xycoords=("axes fraction", "data"),
             xytext=(5, 0),
             textcoords="offset points",
@@ -166,7 +158,7 @@ def _name(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve]) -> list:
             fontweight="bold",
             color=curve.colour,
         )
-        for curve in sorted(known, key=lambda each: ends[id(each)])
+        for end, curve in sorted(ends, key=lambda each: each[0])
     ]
 
 

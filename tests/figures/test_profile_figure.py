@@ -6,15 +6,16 @@ import numpy as np
 import pytest
 
 from app.figures.chart_page import ChartLook
-from app.figures.profile_figure import ProfileCurve, ProfileFigure, ProfileKnot, save_profile_figure
+from app.figures.profile_figure import ProfileFigure, ProfileKnot, save_profile_figure
+from app.session.curves import ProfileCurve
 from bihdist_core import ParameterError
 
 ARCS = np.linspace(0, 2, 50)
 CURVES = (
-    ProfileCurve("Biharmonic", 1 + ARCS, "#0A7358", "mesh units", False),
-    ProfileCurve("Geodesic", 1.01 + ARCS, "#B45309", "mesh units", False),
-    ProfileCurve("Diffusion", 9 - ARCS, "#6D4AC7", "1 / mesh units", False),
-    ProfileCurve("Biharmonic − Geodesic", ARCS / 9, "#1D2125", "", True),
+    ProfileCurve("Biharmonic", "#0A7358", 1 + ARCS, 3.0, "mesh units"),
+    ProfileCurve("Geodesic", "#B45309", 1.01 + ARCS, 3.01, "mesh units"),
+    ProfileCurve("Diffusion", "#6D4AC7", 9 - ARCS, 9.0, "1 / mesh units"),
+    ProfileCurve("Biharmonic − Geodesic", "#1D2125", ARCS / 9, 1.0, is_share=True),
 )
 KNOTS = (ProfileKnot(0, "1", "#1F7A3D"), ProfileKnot(1.99, "2", "#A84A00"), ProfileKnot(2, "", "#FFDB1A"))
 
@@ -41,8 +42,8 @@ def boxes(tmp_path, figure):
 
 
 def test_values_of_several_units_have_a_plot_each(tmp_path):
-    figure = ProfileFigure(ARCS, CURVES, "mesh units", KNOTS)
-    assert [[curve.name for curve in plot] for plot in figure.plots] == [
+    figure = ProfileFigure(ARCS, CURVES, False, "mesh units", KNOTS)
+    assert [[curve.name for curve in plot] for *_, plot in figure.plots] == [
         ["Biharmonic", "Geodesic"],
         ["Diffusion"],
         ["Biharmonic − Geodesic"],
@@ -58,7 +59,7 @@ def test_values_of_several_units_have_a_plot_each(tmp_path):
 @pytest.mark.parametrize("mm", [60, 85, 140, 178])
 def test_no_word_is_off_the_page_or_on_another(tmp_path, mm):
     words, (width, height) = boxes(
-        tmp_path, ProfileFigure(ARCS, CURVES, "mesh units", KNOTS, look=ChartLook(inches=mm / 25.4))
+        tmp_path, ProfileFigure(ARCS, CURVES, False, "mesh units", KNOTS, look=ChartLook(inches=mm / 25.4))
     )
     assert width == pytest.approx(72 * mm / 25.4, abs=0.01)
     # The boxes have empty rims.
@@ -72,7 +73,7 @@ def test_no_word_is_off_the_page_or_on_another(tmp_path, mm):
 
 def test_on_narrow_pages_plots_stand_below_each_other(tmp_path):
     heights = [
-        boxes(tmp_path, ProfileFigure(ARCS, CURVES[:3], "m", look=ChartLook(inches=mm / 25.4)))[1][1]
+        boxes(tmp_path, ProfileFigure(ARCS, CURVES[:3], False, "m", look=ChartLook(inches=mm / 25.4)))[1][1]
         for mm in (85, 178)
     ]
     assert heights[0] > 1.8 * 72 * 1.5

@@ -144,11 +144,11 @@ def test_values_have_a_chart_for_each_unit(screen, mesh_file):
 
 
 def test_charts_stand_below_each_other_where_the_dock_is_narrow(application):
-    from app.qt.docks.profile_chart import Curve
     from app.qt.docks.profile_charts import ProfileCharts
+    from app.session.curves import ProfileCurve
 
     charts = ProfileCharts()
-    charts.show_curves([Curve(unit, "#000000", np.ones(2), 1.0, unit) for unit in "ab"], in_shares=False)
+    charts.show_curves([ProfileCurve(unit, "#000000", np.ones(2), 1.0, unit) for unit in "ab"], in_shares=False)
     left, right = charts.shown
     for width, height, is_row in ((700, 160, True), (400, 400, False), (400, 160, True)):
         charts.resize(width, height)

@@ -1,11 +1,11 @@
 """A chart of a profile: curves of one unit over the length of a path, with their names at their ends."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ...session.curves import ProfileCurve
 from ..look.look import LOOK
 from ..look.numbers import number, number_width, paint_number, share
 from ..panels.flat_button import paint_ring
@@ -22,37 +22,6 @@ ROOM = 0.04
 """What is left above the highest value, as a share of it."""
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """A field along the path.
-
-    values: (k,) at its points, NaN where it has none.  whole: what a share of 1 is.  is_share: the values are shares
-    already, as a difference's may be.  is_dashed: the colour is another curve's, too.
-    """
-
-    name: str
-    colour: str
-    values: np.ndarray
-    whole: float
-    unit: str = ""
-    is_signed: bool = False
-    is_share: bool = False
-    is_dashed: bool = False
-
-    @property
-    def shares(self) -> np.ndarray:
-        return self.values if self.is_share else self.values / self.whole if self.whole > 0 else 0 * self.values
-
-    def words(self, at: float) -> tuple[str, str]:
-        """A value, and its share, for the card."""
-        if np.isnan(at):
-            return "–", ""
-        if self.is_share:
-            return "", share(at, signed=True)
-        part = share(at / self.whole, self.is_signed) if self.whole > 0 else ""
-        return number(at, self.is_signed), part
-
-
 class ProfileChart(Chart):
     """`show_at` puts the line of the pointer somewhere along the path."""
 
@@ -62,7 +31,7 @@ class ProfileChart(Chart):
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__("Profile", parent)
         self.arcs = np.array([0.0, 1.0])
-        self.curves: Sequence[Curve] = ()
+        self.curves: Sequence[ProfileCurve] = ()
         self.in_shares = True
         self.knots: Sequence[tuple[float, Badge]] = ()
         self.length_unit = self.unit = ""
@@ -76,7 +45,7 @@ class ProfileChart(Chart):
         self.arcs, self.length_unit, self.knots = arcs, unit, knots
         self._fit()
 
-    def show_curves(self, curves: Sequence[Curve], in_shares: bool, unit: str = "") -> None:
+    def show_curves(self, curves: Sequence[ProfileCurve], in_shares: bool, unit: str = "") -> None:
         """unit: of the values, where these are drawn and not their shares."""
         self.curves, self.in_shares, self.unit = curves, in_shares, unit
         self._fit()
@@ -94,7 +63,7 @@ class ProfileChart(Chart):
             self._head = ("" if arc is None else f"at {number(arc)} of {number(length)}", said)
             self.update()
 
-    def plotted(self, curve: Curve) -> np.ndarray:
+    def plotted(self, curve: ProfileCurve) -> np.ndarray:
         """(k,) what is drawn of a curve."""
         return curve.shares if self.in_shares else curve.values
 
@@ -178,12 +147,14 @@ class ProfileChart(Chart):
         self._paint_names(painter, plot, ends)
         self._paint_foot(painter, plot)
 
-    def _paint_names(self, painter: QtGui.QPainter, plot: QtCore.QRectF, ends: list[tuple[float, Curve]]) -> None:
+    def _paint_names(
+        self, painter: QtGui.QPainter, plot: QtCore.QRectF, ends: Sequence[tuple[float, ProfileCurve]]
+    ) -> None:
         """Each at the end of its curve, below the one before it."""
         painter.setFont(LOOK.font(12, bold=True))
         metrics = QtGui.QFontMetricsF(painter.font())
         step, rise = metrics.height(), (metrics.ascent() - metrics.descent()) / 2
-        ends.sort(key=lambda end: end[0])
+        ends = sorted(ends, key=lambda end: end[0])
         places = apart([y for y, _ in ends], step, plot.top(), plot.bottom())
         for y, (_, curve) in zip(places, ends, strict=True):
             painter.setPen(QtGui.QColor(curve.colour))
@@ -217,10 +188,20 @@ class ProfileChart(Chart):
             if np.isfinite(height):
                 heights.append(float(self.pixels(0, height)[1]))
                 paint_dot(painter, QtCore.QPointF(round(x) + 0.5, heights[-1]), curve.colour)
-            said = curve.words(float(value_at(self.arcs, curve.values, self.at)))
+            said = _words(curve, float(value_at(self.arcs, curve.values, self.at)))
             lines.append(CardLine(curve.name, said, curve.colour))
         is_low = bool(heights) and float(np.mean(heights)) < plot.center().y()
         paint_card(painter, QtCore.QPointF(x, 0), plot, self._head, lines, is_low)
+
+
+def _words(curve: ProfileCurve, at: float) -> tuple[str, str]:
+    """A value, and its share, for the card."""
+    if np.isnan(at):
+        return "–", ""
+    if curve.is_share:
+        return "", share(at, signed=True)
+    part = share(at / curve.whole, curve.is_signed) if curve.whole > 0 else ""
+    return number(at, curve.is_signed), part
 
 
 def value_at(arcs: np.ndarray, values: np.ndarray, arc: float) -> float:

@@ -5,9 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ...session.curves import ProfileCurve, parted
 from ..look.look import LOOK
 from .badges import Badge
-from .profile_chart import Curve, ProfileChart
+from .profile_chart import ProfileChart
 
 LEAST_WIDTH, LEAST_HEIGHT = 300, 110
 """Logical pixels that a chart has before the next stands below it instead of beside it, and the other way round."""
@@ -49,7 +50,7 @@ class ProfileCharts(QtWidgets.QWidget):
         return self.charts[0].sentence
 
     @property
-    def curves(self) -> list[Curve]:
+    def curves(self) -> list[ProfileCurve]:
         """Of all charts."""
         return [curve for chart in self.shown for curve in chart.curves]
 
@@ -65,7 +66,7 @@ class ProfileCharts(QtWidgets.QWidget):
         for chart in self.charts:
             chart.show_path(arcs, unit, knots)
 
-    def show_curves(self, curves: Sequence[Curve], in_shares: bool) -> None:
+    def show_curves(self, curves: Sequence[ProfileCurve], in_shares: bool) -> None:
         """Together as shares, else by their units."""
         parts = parted(curves, in_shares) or [("", in_shares, [])]
         first = self.charts[0]
@@ -104,12 +105,3 @@ class ProfileCharts(QtWidgets.QWidget):
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)
         self._arrange()
-
-
-def parted(curves: Sequence[Curve], in_shares: bool) -> list[tuple[str, bool, list[Curve]]]:
-    """What goes into one chart each: a unit, whether shares are drawn, and the curves."""
-    found: dict[tuple[str, bool], list[Curve]] = {}
-    for curve in curves:
-        are_shares = in_shares or curve.is_share
-        found.setdefault(("" if are_shares else curve.unit, are_shares), []).append(curve)
-    return [(*key, some) for key, some in found.items()]

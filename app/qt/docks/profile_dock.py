@@ -12,15 +12,13 @@ from bihdist_core.analysis.surface_paths import SurfacePath
 
 from ...document.document import Document
 from ...document.measuring import points_along
-from ...document.quantities import Difference
+from ...session.curves import ProfileCurve, profile_curve
 from ...session.profiling import PathLane, PathWanted, wanted_path
 from ..look.look import LOOK
 from ..look.segments import Segments
 from ..panels.flat_button import FlatButton
-from ..panels.quantity_menu import quantity_name
 from .badges import BadgeButton, BadgeRow, badge_of
 from .instrument import Instrument
-from .profile_chart import Curve
 from .profile_charts import ProfileCharts
 from .profile_choices import WAYS, ProfileChoices
 from .profile_files import ProfileFiles
@@ -43,7 +41,7 @@ class ProfileDock(Instrument):
         super().__init__(window)
         self.chart = ProfileCharts(self)
         self.path: SurfacePath | None = None
-        self.curves: dict[int, Curve] = {}
+        self.curves: dict[int, ProfileCurve] = {}
         self._places: Places | None = None
         self._path_surface: Surface | None = None
         self._wanted: PathWanted | None = None
@@ -230,24 +228,12 @@ class ProfileDock(Instrument):
     def _read(self, id: int) -> None:
         """The field of a panel along the path."""
         shown, document = self.window_.session.shown.get(id), self.document
-        place = next((k for k, panel in enumerate(document.panels) if panel.id == id), None)
+        panel = next((panel for panel in document.panels if panel.id == id), None)
         self.curves.pop(id, None)
-        if shown is None or place is None or shown.answer.field is None:
+        if shown is None or panel is None or panel.surface != self.surface or shown.answer.field is None:
             return
-        panel, answer = document.panels[place], shown.answer
-        if panel.surface != self.surface:
-            return
-        colours = LOOK.theme.curves
-        self.curves[id] = Curve(
-            quantity_name(panel.shows),
-            colours[place % len(colours)],
-            self._places.values(answer.field),
-            answer.maximum,
-            answer.unit,
-            answer.is_signed,
-            isinstance(panel.shows, Difference) and not panel.shows.raw,
-            place >= len(colours),
-        )
+        values = self._places.values(shown.answer.field)
+        self.curves[id] = profile_curve(document, id, shown.answer, values, LOOK.theme.curves)
 
     def _show_curves(self) -> None:
         order = [panel.id for panel in self.document.panels if panel.id in self.curves]
