@@ -26,7 +26,7 @@ from ..document.document import Document, Point
 from ..document.edits import move_source
 from ..document.quantities import Quantity
 from ..drawing.style import map_of
-from ..session.given import Mesh, given_comparison
+from ..session.given import Mesh, given_comparison, with_beside
 from ..session.opened import checked_path
 from ..session.questions import source_at
 from .application import application, check_screen, interrupts_noted, run_until
@@ -257,6 +257,7 @@ def show(
     *,
     areas: str = "voronoi",
     up: str = "auto",
+    beside: Mesh | None = None,
     on_pick: Callable[[Pick], object] | None = None,
     block: bool | None = None,
 ) -> Viewer:
@@ -266,9 +267,10 @@ def show(
     "diffusion(t=1/4)", "biharmonic - geodesic".  fields: your own by name, (n,) with NaN where undefined; each has a
     panel, coloured from 0 (from minus its largest absolute value, if it has negative values), or is named in
     `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None, or what else `figure` takes.  up:
-    which axis is, "z" or "-z"; "auto" for what was chosen for the mesh before, or a guess.  on_pick: called with a
-    `Pick` for each click on the surface, once the source is there.  block: wait until the window is closed; if None, in
-    scripts, but not in IPython, notebooks and Python's own prompt, where the window lives while you go on.
+    which axis is, "z" or "-z"; "auto" for what was chosen for the mesh before, or a guess.  beside: a second mesh, with
+    panels of the same distances and a camera of its own.  on_pick: called with a `Pick` for each click on a surface,
+    once the source is there.  block: wait until the window is closed; if None, in scripts, but not in IPython,
+    notebooks and Python's own prompt, where the window lives while you go on.
 
     Raises BihdistError: for input that cannot be shown, and where there is no display.
 
@@ -286,6 +288,8 @@ def show(
         raise ParameterError(f"on_pick is a function, not {on_pick!r}.")
     document, given = given_comparison(mesh, distances, {} if fields is None else fields, (source,), areas)
     document = replace(document, up=up)
+    if beside is not None:
+        document = with_beside(document, given, beside)
     for each in document.surfaces:
         checked_path(each)
     check_screen()

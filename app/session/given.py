@@ -20,6 +20,7 @@ import numpy.typing as npt
 from bihdist_core import ParameterError, Surface
 from bihdist_core.sources.source import Source
 
+from ..document.beside_edits import open_beside
 from ..document.document import Document, FieldArray, MeshFile, comparison
 from ..document.page import Recipe
 from ..document.quantities import Quantity, quantity
@@ -150,11 +151,19 @@ def given_comparison(
     if not isinstance(fields, Mapping):
         raise ParameterError(f"The fields are given by name, as a dict of arrays, not as {type(fields).__name__}.")
     given = Given()
-    is_file = isinstance(mesh, str | os.PathLike)
-    entry = MeshFile("A", str(mesh)) if is_file else given.add_surface(_surface(mesh))
+    entry = _entry(mesh, given)
     own = tuple(given.add_field(name, values) for name, values in fields.items())
     shows = tuple(_quantity(each, fields) for each in distances)
     return replace(comparison(entry.path, shows, sources, areas, own), surfaces=(entry,)), given
+
+
+def with_beside(document: Document, given: Given, mesh: Mesh) -> Document:
+    """A document with a second mesh beside the first, kept as the first one is."""
+    return open_beside(document, _entry(mesh, given))
+
+
+def _entry(mesh: Mesh, given: Given) -> MeshFile:
+    return MeshFile("A", str(mesh)) if isinstance(mesh, str | os.PathLike) else given.add_surface(_surface(mesh))
 
 
 def _quantity(shows: Any, fields: Mapping[str, npt.ArrayLike]) -> Quantity:

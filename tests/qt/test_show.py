@@ -22,7 +22,7 @@ from bihdist_core import (
     SourceSet,
     VertexError,
 )
-from tests.shapes import bumpy, grid, two_pieces
+from tests.shapes import bumpy, grid, torus, two_pieces
 
 pytest.importorskip("qtpy")
 
@@ -76,6 +76,16 @@ def test_vertices_and_faces_or_a_file_are_the_same_mesh(shown, mesh_file):
     for mesh in ((SURFACE.vertices.tolist(), SURFACE.faces.tolist()), Path(mesh_file(SURFACE))):
         (panel,) = shown(mesh, ["biharmonic"], source=7).panels
         assert np.allclose(panel.field, BiharmonicDistance(SURFACE).from_source(7), rtol=1e-6)
+
+
+def test_a_second_mesh_stands_beside_the_first(shown, mesh_file):
+    surface = torus(16, 8)
+    viewer = shown(mesh_file(SURFACE), ["biharmonic"], source=3, beside=(surface.vertices, surface.faces))
+    first, second = viewer.document.panels
+    assert [panel.surface for panel in (first, second)] == ["A", "B"]
+    there = BiharmonicDistance(surface)
+    source = viewer.document.point(second.shows.point).at
+    np.testing.assert_allclose(viewer.panels[1].field, there.from_source(source), rtol=1e-12, atol=1e-12)
 
 
 def test_the_source_moves_and_the_numbers_are_those_from_there(shown):
