@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 WORDS = "how far maps from one mesh to another are from the truth: mean, median, the cumulative curve"
 METHODS = ("auto", "exact", "heat", "dijkstra")
-EXACT_WORK = 5_000_000
-"""Vertices times right answers up to which `auto` takes the exact geodesic distance: some minutes at most."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -47,6 +45,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     import numpy as np
 
+    from bihdist_core.applications.map_errors import sampled_vertices
     from bihdist_core.formats.vertex_maps import read_map
     from bihdist_core.whole_file import check_output
 
@@ -58,8 +57,7 @@ def run(options: argparse.Namespace) -> None:
     truth = read_map(options.truth, one.surface, two.surface)
     maps = {path: read_map(path, one.surface, two.surface) for path in dict.fromkeys(options.maps)}
     partners = read_map(options.symmetry, two.surface, two.surface) if options.symmetry else None
-    n = len(truth)
-    ids = np.arange(n) if options.samples is None else np.unique(np.linspace(0, n - 1, options.samples).astype(int))
+    ids = sampled_vertices(len(truth), options.samples)
     curves = {}
     columns = np.stack([found[ids] for found in maps.values()], axis=1)
     for words, also in (("", None), *([(", partners count", partners)] if partners is not None else [])):
@@ -84,14 +82,9 @@ def judged(
     """The errors of maps (m, q) to a surface: of each in words and as a curve."""
     import numpy as np
 
-    from bihdist_core.applications.map_errors import LIMIT, error_curve, map_errors
-    from bihdist_core.distances.geodesic import GeodesicDistance
+    from bihdist_core.applications.map_errors import LIMIT, error_curve, error_distance, map_errors
 
-    surface = laplacian.surface
-    if method == "auto":
-        work = len(np.unique(truth)) * len(surface.vertices)
-        method = "exact" if surface.is_manifold and work <= EXACT_WORK else "heat"
-    distance = GeodesicDistance(laplacian, method, progress)
+    distance = error_distance(laplacian, len(np.unique(truth)), method, progress)
     said, curves = [], []
     for errors in map_errors(distance, found, truth, partners, progress).T:
         curve = error_curve(errors)

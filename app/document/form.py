@@ -230,7 +230,7 @@ def _map_file(data: Any, where: str) -> MapFile:
 
 
 def _truth(data: Any, where: str) -> Truth:
-    readers = {"word": text, "file": _map_file, "partners": _map_file, "mirror": flag}
+    readers = {"word": text, "file": _map_file, "partners": _map_file, "mirror": flag, "samples": whole}
     return placed(Truth, where, **record(data, where, readers, set()))
 
 

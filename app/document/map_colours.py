@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import whole_number
 
 from .looks import one_of
 
@@ -40,16 +41,20 @@ class Truth:
     """What maps from the document's first surface to its second are measured by.
 
     word: one of TRUTHS.  file: the map that is right, where it stands in one.  partners: for each vertex of the second
-    surface its symmetric partner; mirror: whether that counts as right, too.
+    surface its symmetric partner; mirror: whether that counts as right, too.  samples: of so many vertices errors are
+    found, 0 for all.
     """
 
     word: str = "auto"
     file: MapFile | None = None
     partners: MapFile | None = None
     mirror: bool = False
+    samples: int = 400
 
     def __post_init__(self) -> None:
         one_of(self.word, TRUTHS, "truth")
+        if whole_number(self.samples, "A number of sampled vertices") < 0:
+            raise ParameterError(f"Errors are found of a number of vertices, or of all for 0, not of {self.samples}.")
         if (self.word == "file") != (self.file is not None):
             raise ParameterError("A truth that stands in a file, and no other, names it.")
         if self.mirror and self.partners is None:

@@ -10,7 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..distances.distance import Distance
+from ..distances.geodesic import GeodesicDistance
 from ..errors import ParameterError
+from ..laplacian import Laplacian
 from ..progress import Progress, part, silent
 from ..surface import Surface
 from .correspondence import NOWHERE
@@ -20,6 +22,31 @@ BLOCK = 32
 
 LIMIT = 0.25
 """Where curves end, and the area under them."""
+
+EXACT_WORK = 5_000_000
+"""Vertices times right answers up to which errors are exact geodesic distances: some minutes at most."""
+
+
+def error_distance(
+    laplacian: Laplacian, count: int, method: str = "auto", progress: Progress | None = None
+) -> GeodesicDistance:
+    """The geodesic distance that errors are measured by, on the surface mapped to, from so many right answers.
+
+    method: of `GeodesicDistance`; "auto" is exact where that takes minutes at most, else heat.
+    """
+    return GeodesicDistance(laplacian, error_method(laplacian.surface, count) if method == "auto" else method, progress)
+
+
+def error_method(surface: Surface, count: int) -> str:
+    """What "auto" is."""
+    return "exact" if surface.is_manifold and count * len(surface.vertices) <= EXACT_WORK else "heat"
+
+
+def sampled_vertices(count: int, samples: int | None) -> np.ndarray:
+    """(k,) so many of the vertices 0 to count - 1, drawn evenly by id; all of them if None, or more than there are."""
+    if samples is None or samples >= count:
+        return np.arange(count)
+    return np.unique(np.linspace(0, count - 1, samples).astype(int))
 
 
 def map_errors(

@@ -1,0 +1,192 @@
+"""How far maps of a document are from the truth, as the window finds it, against slow references."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import app.session.judging as judging
+from app.document.beside_edits import open_beside
+from app.document.document import MeshFile, comparison
+from app.document.map_colours import MapFile, Truth
+from app.document.mapping import show_maps
+from app.document.page import Recipe
+from app.document.pairing import add_pairs
+from app.document.predicting import predict
+from app.figures.export import open_document
+from app.session.given import Given
+from app.session.judging import Judging, asked_of, maps_of, partners_of, right_places, truth_of
+from bihdist_core import (
+    BiharmonicDistance,
+    Cancelled,
+    Correspondence,
+    GeodesicDistance,
+    ParameterError,
+    noisy,
+    write_map,
+    write_mesh,
+)
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
+PLACES = [(3, 3), (150, 150), (250, 250), (90, 90)]
+
+
+@pytest.fixture
+def opened(tmp_path):
+    """A document of a shape and the same with a little noise, with pairs, and both surfaces."""
+    s = bumpy(300)
+    write_mesh(tmp_path / "a.off", s)
+    write_mesh(tmp_path / "b.off", noisy(s, 0.1))
+    shown = open_beside(
+        comparison(str(tmp_path / "a.off"), (BIHARMONIC, GEODESIC)), MeshFile("", str(tmp_path / "b.off"))
+    )
+    document, surfaces = open_document(Recipe(predict(add_pairs(shown, PLACES))), Given())
+    return document, surfaces["A"], surfaces["B"]
+
+
+def last(judging, document, one, two):
+    *_, found = judging.judge(asked_of(document, one, two))
+    return found
+
+
+def slow(one, two, truth, ids):
+    """Errors (m,) of the map by the biharmonic distance, from all geodesic distances."""
+    found = Correspondence(BiharmonicDistance(one.surface), BiharmonicDistance(two.surface), PLACES).map()
+    distances = GeodesicDistance(two.surface, "exact").pairwise(np.arange(len(two.surface.vertices)))
+    return distances[truth[ids], found[ids]] / np.sqrt(two.surface.face_areas.sum())
+
+
+def test_the_curve_is_that_of_a_slow_reference(opened):
+    document, one, two = opened
+    truth = np.arange(300)
+    whole = last(Judging(), document, one, two)
+    assert (whole.known, whole.wanted, whole.vertices) == (300, 300, 300)
+    assert whole.curves[BIHARMONIC].errors == pytest.approx(np.sort(slow(one, two, truth, truth)), abs=1e-6)
+    assert whole.curves.keys() == {BIHARMONIC, GEODESIC}
+    assert whole.method == "geodesic, exact"
+    ids = np.unique(np.linspace(0, 299, 40).astype(int))
+    sampled = last(Judging(), replace(document, truth=Truth(samples=40)), one, two)
+    assert sampled.wanted == 40
+    assert sampled.curves[BIHARMONIC].errors == pytest.approx(np.sort(slow(one, two, truth, ids)), abs=1e-6)
+
+
+def test_it_comes_bit_by_bit_and_each_part_is_right(opened, monkeypatch):
+    document, one, two = opened
+    monkeypatch.setattr(judging, "EVERY", 0.0)
+    document = replace(document, truth=Truth(samples=40))
+    found = list(Judging().judge(asked_of(document, one, two)))
+    assert [each.known for each in found] == [8, 16, 24, 32, 40]
+    ids = np.random.default_rng(judging.KEY).permutation(np.unique(np.linspace(0, 299, 40).astype(int)))
+    expected = slow(one, two, np.arange(300), ids[:16])
+    assert found[1].curves[BIHARMONIC].errors == pytest.approx(np.sort(expected), abs=1e-6)
+
+
+def test_another_pair_costs_no_geodesic_distance(opened):
+    document, one, two = opened
+    document = replace(document, truth=Truth(samples=40))
+    judge = Judging()
+    before = last(judge, document, one, two)
+    asked = []
+    kept = judge._kept.distance
+    from_sources = kept.from_sources
+    kept.from_sources = lambda *arguments: asked.append(arguments) or from_sources(*arguments)
+    found = list(judge.judge(asked_of(add_pairs(document, [(40, 40)]), one, two)))
+    assert not asked
+    assert [each.known for each in found] == [40]
+    assert found[0].curves[BIHARMONIC].mean != before.curves[BIHARMONIC].mean
+
+
+def test_what_is_kept_is_bounded(opened, monkeypatch):
+    document, one, two = opened
+    monkeypatch.setattr(judging, "MOST_KEPT", 300 * 25)
+    judge = Judging()
+    assert last(judge, document, one, two).wanted == 25
+    judge._kept.find(range(100, 110))
+    assert len(judge._kept._columns) == 25
+
+
+def test_a_map_of_a_file_is_judged_beside_the_others(opened, tmp_path):
+    document, one, two = opened
+    write_map(tmp_path / "ours.txt", np.roll(np.arange(300), 7))
+    document = replace(document, maps=(MapFile(str(tmp_path / "ours.txt")),))
+    assert maps_of(document) == (BIHARMONIC, GEODESIC, document.maps[0])
+    found = last(Judging(), document, one, two)
+    distances = GeodesicDistance(two.surface, "exact").pairwise(np.arange(300))
+    errors = distances[np.arange(300), np.roll(np.arange(300), 7)] / np.sqrt(two.surface.face_areas.sum())
+    assert found.curves[document.maps[0]].errors == pytest.approx(np.sort(errors), abs=1e-6)
+    alone = last(Judging(), replace(document, pairs=()), one, two)
+    assert list(alone.curves) == [document.maps[0]]
+    gone = replace(document, maps=(MapFile(str(tmp_path / "gone.npy")),))
+    assert "gone.npy" in next(iter(last(Judging(), gone, one, two).failures.values()))
+
+
+def test_symmetric_partners_count_where_they_are_to(opened, tmp_path):
+    document, one, two = opened
+    partners = np.roll(np.arange(300), 150)
+    write_map(tmp_path / "half.npy", partners)
+    half = MapFile(str(tmp_path / "half.npy"))
+    document = replace(document, maps=(half,), pairs=())
+    without = last(Judging(), replace(document, truth=Truth(partners=half)), one, two)
+    counted = last(Judging(), replace(document, truth=Truth(partners=half, mirror=True)), one, two)
+    assert without.curves[half].mean > 0.1
+    assert counted.curves[half].mean == 0
+
+
+def test_same_ids_are_the_truth_where_the_faces_are_the_same(opened, tmp_path):
+    _, one, two = opened
+    assert np.array_equal(truth_of(Truth(), one.surface, two.surface), np.arange(300))
+    assert truth_of(Truth("none"), one.surface, two.surface) is None
+    assert truth_of(Truth(), one.surface, bumpy(200)) is None
+    with pytest.raises(ParameterError, match="200"):
+        truth_of(Truth("identity"), one.surface, bumpy(200))
+    write_map(tmp_path / "t.npy", np.roll(np.arange(300), 1))
+    there = Truth("file", MapFile(str(tmp_path / "t.npy")))
+    assert np.array_equal(truth_of(there, one.surface, two.surface), np.roll(np.arange(300), 1))
+
+
+def test_without_a_truth_there_is_nothing(opened):
+    document, one, two = opened
+    assert list(Judging().judge(asked_of(replace(document, truth=Truth("none")), one, two))) == []
+    assert list(Judging().judge(asked_of(replace(document, panels=()), one, two))) == []
+
+
+def test_where_a_vertex_belongs_on_either_surface(opened, tmp_path):
+    _, one, two = opened
+    right, partners = np.roll(np.arange(300), 1), np.roll(np.arange(300), 150)
+    right[5] = -1
+    write_map(tmp_path / "t.npy", right)
+    write_map(tmp_path / "half.npy", partners)
+    truth = Truth("file", MapFile(str(tmp_path / "t.npy")), MapFile(str(tmp_path / "half.npy")))
+    assert partners_of(truth, two.surface) is None
+    both = replace(truth, mirror=True)
+    surfaces = one.surface, two.surface
+    assert right_places(truth, *surfaces, 7, True) == [6]
+    assert right_places(both, *surfaces, 7, True) == [6, int(partners[6])]
+    assert right_places(truth, *surfaces, 5, True) == []
+    assert right_places(truth, *surfaces, 6, False) == [7]
+    assert right_places(both, *surfaces, 6, False) == [7, int(np.flatnonzero(right == partners[6])[0])]
+    assert right_places(truth, *surfaces, 4, False) == []
+    assert right_places(Truth("none"), *surfaces, 4, False) == []
+
+
+def test_it_stops_when_nobody_wants_it(opened):
+    document, one, two = opened
+    seen = []
+
+    def cancelled(share, text):
+        seen.append(share)
+        if share > 0.4:
+            raise Cancelled("enough")
+
+    with pytest.raises(Cancelled):
+        list(Judging().judge(asked_of(document, one, two), cancelled))
+    assert seen == sorted(seen)
+
+
+def test_maps_are_those_of_predictions_and_full_maps(opened):
+    document, _, _ = opened
+    assert maps_of(document) == maps_of(show_maps(document)) == (BIHARMONIC, GEODESIC)
+    with pytest.raises(ParameterError, match="-1"):
+        Truth(samples=-1)
