@@ -25,6 +25,14 @@ def check_output(path: str | os.PathLike[str], formats: Sequence[str]) -> str:
     return extension
 
 
+def check_outputs(*outputs: tuple[str | os.PathLike[str] | None, Sequence[str]]) -> bool:
+    """`check_output` of each path that there is, with its formats; whether there is any."""
+    named = [(path, formats) for path, formats in outputs if path]
+    for path, formats in named:
+        check_output(path, formats)
+    return bool(named)
+
+
 @contextmanager
 def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path in the same folder, with the same extension, that replaces `path` when the block ends well.

@@ -17,6 +17,14 @@ needs_meshes = pytest.mark.skipif(not MESHES.is_dir(), reason="the shared meshes
 needs_oracle = pytest.mark.skipif(not ORACLE.is_dir(), reason="the shared reference distances are not here")
 
 
+def oracle_surface(name: str) -> Surface:
+    """The mesh of shared reference distances, read by nothing of ours."""
+    words = (ORACLE / f"{name}.off").read_text().split()
+    n, m = int(words[1]), int(words[2])
+    vertices = np.array(words[4 : 4 + 3 * n], float).reshape(n, 3)
+    return Surface(vertices, np.array(words[4 + 3 * n : 4 + 3 * n + 4 * m], int).reshape(m, 4)[:, 1:])
+
+
 def sphere(n: int, seed: int = 0) -> Surface:
     """Closed, genus 0: n points spread over the unit sphere, slightly irregular, in random order."""
     rng = np.random.default_rng(seed)

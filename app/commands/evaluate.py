@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .mesh import laplacian_of
+from .options import count
 from .terminal import counted, progress_line
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="for each vertex of B its symmetric partner, which counts as right, too; without it and with it is said",
     )
     parser.add_argument(
-        "--samples", type=_count, metavar="K", help="of so many vertices of A, drawn evenly by id (default: all)"
+        "--samples", type=count, metavar="K", help="of so many vertices of A, drawn evenly by id (default: all)"
     )
     parser.add_argument(
         "--geodesic",
@@ -47,12 +48,11 @@ def run(options: argparse.Namespace) -> None:
 
     from bihdist_core.applications.map_errors import sampled_vertices
     from bihdist_core.formats.vertex_maps import read_map
-    from bihdist_core.whole_file import check_output
+    from bihdist_core.whole_file import check_outputs
 
     from ..figures.error_figure import ERROR_FORMATS, ErrorFigure, save_error_figure
 
-    if options.output:
-        check_output(options.output, ERROR_FORMATS)
+    check_outputs((options.output, ERROR_FORMATS))
     one, two = (laplacian_of(mesh) for mesh in (options.mesh, options.other))
     truth = read_map(options.truth, one.surface, two.surface)
     maps = {path: read_map(path, one.surface, two.surface) for path in dict.fromkeys(options.maps)}
@@ -96,13 +96,3 @@ def judged(
         )
         curves.append(curve)
     return said, curves
-
-
-def _count(text: str) -> int:
-    try:
-        count = int(text)
-    except ValueError:
-        count = 0
-    if count < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of vertices (a whole number from 1)")
-    return count

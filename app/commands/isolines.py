@@ -37,20 +37,17 @@ def run(options: argparse.Namespace) -> None:
     from bihdist_core.analysis.selecting import SELECTION_WAYS, write_ids
     from bihdist_core.errors import ParameterError
     from bihdist_core.formats.field_output import write_fields
-    from bihdist_core.whole_file import check_output
+    from bihdist_core.whole_file import check_outputs
 
-    outputs = (
-        (options.output, ISOLINE_FORMATS),
-        (options.region_ids, SELECTION_WAYS["ids"]),
-        (options.region_mesh, SELECTION_WAYS["mesh"]),
-    )
     if not (options.output or options.region):
         raise ParameterError("There is nothing to do; name a file of isolines with -o, or values with --region.")
     if (options.region_ids or options.region_mesh) and not options.region:
         raise ParameterError("Which region? Name its values with --region, such as 20%:40%.")
-    for path, formats in outputs:
-        if path:
-            check_output(path, formats)
+    check_outputs(
+        (options.output, ISOLINE_FORMATS),
+        (options.region_ids, SELECTION_WAYS["ids"]),
+        (options.region_mesh, SELECTION_WAYS["mesh"]),
+    )
     wanted = isolines_of(options)
     with progress_line() as progress:
         it = field_of(options, options.distance, progress)

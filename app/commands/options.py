@@ -186,6 +186,17 @@ def vertices(text: str) -> list[int]:
     return [vertex(word) for word in text.split(",")]
 
 
+def count(text: str) -> int:
+    """How many of something."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = 0
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1")
+    return value
+
+
 def positive(text: str) -> float:
     try:
         value = float(text)

@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from .mesh import laplacian_of
-from .options import add_distance, positive, source, specs, vertices
+from .options import add_distance, count, positive, source, specs, vertices
 from .terminal import counted, progress_line
 
 if TYPE_CHECKING:
@@ -19,10 +19,10 @@ WORDS = "a mesh with noise, fewer vertices, holes, or parts grown together, to s
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
-    parser.add_argument("--simplify", type=_whole, metavar="N", help="leave N vertices, at their places")
+    parser.add_argument("--simplify", type=count, metavar="N", help="leave N vertices, at their places")
     parser.add_argument("--noise", type=positive, metavar="S", help="Gaussian, of S mean edge lengths")
     parser.add_argument("--along", choices=("xyz", "normals"), default="xyz", help="for --noise (default: xyz)")
-    parser.add_argument("--holes", type=_whole, metavar="N", help="N round holes at random vertices")
+    parser.add_argument("--holes", type=count, metavar="N", help="N round holes at random vertices")
     parser.add_argument(
         "--radius", type=positive, default=0.05, metavar="R", help="of holes, in roots of the area (default: 0.05)"
     )
@@ -89,16 +89,6 @@ def _say_changes(
                 f"{found.normalised_largest:.3g}; before each is divided by its own, {found.mean:.3g} and "
                 f"{found.largest:.3g}"
             )
-
-
-def _whole(text: str) -> int:
-    try:
-        count = int(text)
-    except ValueError:
-        count = 0
-    if count < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1")
-    return count
 
 
 def _seed(text: str) -> int:

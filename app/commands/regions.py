@@ -36,18 +36,14 @@ def run(options: argparse.Namespace) -> None:
     from bihdist_core.errors import ParameterError
     from bihdist_core.formats.curve_output import CURVE_FORMATS
     from bihdist_core.formats.pins import Pins
-    from bihdist_core.whole_file import check_output
+    from bihdist_core.whole_file import check_outputs
 
-    outputs = (
+    if not check_outputs(
         (options.output, LABEL_FORMATS),
         (options.mesh_output, REGION_MESH_FORMATS),
         (options.boundaries, CURVE_FORMATS),
-    )
-    if not any(path for path, _ in outputs):
+    ):
         raise ParameterError("There is nothing to write; name a file with -o, --mesh-output or --boundaries.")
-    for path, formats in outputs:
-        if path:
-            check_output(path, formats)
     (chosen,) = specs(options, [options.distance])
     with progress_line() as progress:
         laplacian = read_laplacian(options)

@@ -4,7 +4,7 @@ import argparse
 import os
 
 from .mesh import read_laplacian
-from .options import add_areas, add_distance, source, specs
+from .options import add_areas, add_distance, count, source, specs
 from .terminal import accuracy, counted, progress_line
 
 WORDS = "vertices spread over a mesh, each the farthest from those before it"
@@ -12,7 +12,7 @@ WORDS = "vertices spread over a mesh, each the farthest from those before it"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
-    parser.add_argument("--count", type=_count, metavar="K", required=True, help="so many, the source among them")
+    parser.add_argument("--count", type=count, metavar="K", required=True, help="so many, the source among them")
     parser.add_argument(
         "--source",
         type=source,
@@ -51,13 +51,3 @@ def run(options: argparse.Namespace) -> None:
         said = accuracy(distance)
     write_samples(options.output, surface, found)
     print(f"{options.output}: {counted(len(found), 'sample')} by {distance.label}{said}")
-
-
-def _count(text: str) -> int:
-    try:
-        count = int(text)
-    except ValueError:
-        count = 0
-    if count < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of samples (a whole number from 1)")
-    return count

@@ -32,15 +32,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     from bihdist_core.analysis.truncation import truncation_loss
     from bihdist_core.errors import ParameterError
-    from bihdist_core.whole_file import check_output
+    from bihdist_core.whole_file import check_outputs
 
     words = options.distance or ["biharmonic"]
     if len(words) > 2:
         raise ParameterError(f"Two distances can be compared, not {len(words)}.")
     if options.scatter and len(words) != 2:
         raise ParameterError("A scatter is of two distances; name both with --distance.")
-    for path in filter(None, (options.histogram, options.scatter)):
-        check_output(path, FIGURES + TABLES)
+    check_outputs((options.histogram, FIGURES + TABLES), (options.scatter, FIGURES + TABLES))
     with progress_line() as progress:
         first = field_of(options, words[0], progress)
         fields = [first, *(field_of(options, each, progress, first.laplacian) for each in words[1:])]

@@ -53,11 +53,9 @@ def run(options: argparse.Namespace) -> NoReturn:
     is_choice = options.mesh is None and not (options.screenshot or options.save_session)
     path = "" if is_choice else found_mesh(options.mesh or "figure")
     from bihdist_core import ParameterError
-    from bihdist_core.whole_file import check_output
+    from bihdist_core.whole_file import check_outputs
 
-    for output, extension in ((options.screenshot, ".png"), (options.save_session, ".json")):
-        if output:
-            check_output(output, (extension,))
+    check_outputs((options.screenshot, (".png",)), (options.save_session, (".json",)))
     shown: Document | str = path
     if path.lower().endswith(".json"):
         _refuse_options(options)

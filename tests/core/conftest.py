@@ -1,6 +1,9 @@
-"""What tests of files share."""
+"""What tests of files share, and those of fields on a surface."""
 
 import pytest
+
+from bihdist_core import BiharmonicDistance
+from tests.shapes import bumpy
 
 
 @pytest.fixture
@@ -13,3 +16,17 @@ def put(tmp_path):
         return path
 
     return write
+
+
+@pytest.fixture(scope="session")
+def rough():
+    """A closed surface without symmetry."""
+    return bumpy(300)
+
+
+@pytest.fixture(scope="session")
+def field(rough):
+    """(300,) the biharmonic distance on it from vertex 7."""
+    field = BiharmonicDistance(rough).from_source(7)
+    field.flags.writeable = False
+    return field

@@ -8,17 +8,7 @@ import pytest
 from bihdist_core import BiharmonicDistance, ParameterError, isolines, read_surface
 from bihdist_core.analysis.bands import band
 from bihdist_core.formats.field_output import write_fields
-from tests.shapes import MESHES, bumpy, fin, grid, needs_meshes, two_pieces
-
-
-@pytest.fixture(scope="module")
-def rough():
-    return bumpy(300)
-
-
-@pytest.fixture(scope="module")
-def field(rough):
-    return BiharmonicDistance(rough).from_source(7)
+from tests.shapes import MESHES, fin, grid, needs_meshes, two_pieces
 
 
 def test_on_a_plane_the_area_is_known():

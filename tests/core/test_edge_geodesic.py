@@ -1,15 +1,13 @@
 """Dijkstra along edges: path lengths, bounds and reference values."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.errors import VertexError
 from bihdist_core.surface import Surface
+from tests.shapes import ORACLE, ORACLE_NAMES, needs_oracle, oracle_surface
 
-ORACLE = Path(__file__).parents[2].parent / "shared" / "oracle"
 ROUNDING = 1e-12
 """Relative: sums of at most some hundred lengths."""
 
@@ -61,17 +59,12 @@ def test_refuses_ids_that_do_not_exist():
         EdgeGeodesic(strip(2)).distances([0, -1])
 
 
-@pytest.mark.parametrize("name", ["hand_lowres_boundary", "pelvis_genus1", "spot", "lilium_boundary"])
+@needs_oracle
+@pytest.mark.parametrize("name", ORACLE_NAMES)
 def test_reference_values(name):
-    if not ORACLE.exists():
-        pytest.skip("the reference distances are not in this checkout")
-    words = (ORACLE / f"{name}.off").read_text().split()
-    n, m = int(words[1]), int(words[2])
-    vertices = np.array(words[4 : 4 + 3 * n], float).reshape(n, 3)
-    faces = np.array(words[4 + 3 * n : 4 + 3 * n + 4 * m], int).reshape(m, 4)[:, 1:]
     expected = np.load(ORACLE / f"{name}_dijkstra_scipy.npy")
     sources = np.loadtxt(ORACLE / f"{name}_sources0.txt", dtype=int)
-    got = EdgeGeodesic(Surface(vertices, faces)).distances(sources)
+    got = EdgeGeodesic(oracle_surface(name)).distances(sources)
     np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12 * expected.max())
 
 

@@ -15,8 +15,8 @@ from bihdist_core.distances import exact_geodesic
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.errors import Cancelled, ParameterError, SolverError, VertexError
 from bihdist_core.surface import Surface
+from tests.shapes import ORACLE, ORACLE_NAMES, needs_oracle, oracle_surface
 
-ORACLE = Path(__file__).parents[2].parent / "shared" / "oracle"
 ROUNDING = 1e-9
 """Of the largest distance: pygeodesic drops windows shorter than about 1e-10 of an edge."""
 
@@ -103,15 +103,10 @@ def test_flat_faces_do_no_harm():
     np.testing.assert_allclose(ExactGeodesic(surface).distances(4), expected, atol=ROUNDING * 2)
 
 
-@pytest.mark.parametrize("name", ["hand_lowres_boundary", "pelvis_genus1", "spot", "lilium_boundary"])
+@needs_oracle
+@pytest.mark.parametrize("name", ORACLE_NAMES)
 def test_reference_values(name):
-    if not ORACLE.exists():
-        pytest.skip("the reference distances are not in this checkout")
-    words = (ORACLE / f"{name}.off").read_text().split()
-    n, m = int(words[1]), int(words[2])
-    vertices = np.array(words[4 : 4 + 3 * n], float).reshape(n, 3)
-    faces = np.array(words[4 + 3 * n : 4 + 3 * n + 4 * m], int).reshape(m, 4)[:, 1:]
-    solver = ExactGeodesic(Surface(vertices, faces))
+    solver = ExactGeodesic(oracle_surface(name))
     expected = np.load(ORACLE / f"{name}_exactgeo_pygeodesic.npy")
     for column, source in enumerate(np.loadtxt(ORACLE / f"{name}_sources0.txt", dtype=int)[:3]):
         error = np.abs(solver.distances(source) - expected[:, column]).max()

@@ -15,17 +15,7 @@ from bihdist_core import (
 from bihdist_core.analysis.field_statistics import corner_areas, field_agreement, field_statistics, rank_correlation
 from bihdist_core.analysis.truncation import truncation_loss
 from bihdist_core.applications.resizing import refined
-from tests.shapes import bumpy, grid, two_pieces
-
-
-@pytest.fixture(scope="module")
-def rough():
-    return bumpy(300)
-
-
-@pytest.fixture(scope="module")
-def field(rough):
-    return BiharmonicDistance(rough).from_source(7)
+from tests.shapes import grid, two_pieces
 
 
 def test_known_numbers_on_a_plane():

@@ -1,7 +1,5 @@
 """The heat method: accuracy against known distances, underflow, and meshes of any kind."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.sparse.linalg import splu
@@ -11,8 +9,7 @@ from bihdist_core.distances.heat_geodesic import HeatGeodesic, _FaceFlow, heat_m
 from bihdist_core.errors import Cancelled, ParameterError, SolverError, VertexError
 from bihdist_core.operators import stiffness, vertex_areas
 from bihdist_core.surface import Surface
-
-ORACLE = Path(__file__).parents[2].parent / "shared" / "oracle"
+from tests.shapes import ORACLE, needs_oracle, oracle_surface
 
 
 def heat_method(surface, factor=1.0):
@@ -60,19 +57,14 @@ def test_square_converges_to_euclidean():
     assert errors[2] < 0.01
 
 
+@needs_oracle
 @pytest.mark.parametrize(
     ("name", "mean"),
     # Measured means over the sources, in shares of the maximum, and some room.
     [("hand_lowres_boundary", 0.02), ("pelvis_genus1", 0.035), ("spot", 0.0125), ("lilium_boundary", 0.005)],
 )
 def test_mean_error_against_exact_distances(name, mean):
-    if not ORACLE.exists():
-        pytest.skip("the reference distances are not in this checkout")
-    words = (ORACLE / f"{name}.off").read_text().split()
-    n, m = int(words[1]), int(words[2])
-    vertices = np.array(words[4 : 4 + 3 * n], float).reshape(n, 3)
-    faces = np.array(words[4 + 3 * n : 4 + 3 * n + 4 * m], int).reshape(m, 4)[:, 1:]
-    solver = GeodesicDistance(Surface(vertices, faces), "heat")
+    solver = GeodesicDistance(oracle_surface(name), "heat")
     exact = np.load(ORACLE / f"{name}_exactgeo_pygeodesic.npy")
     sources = np.loadtxt(ORACLE / f"{name}_sources0.txt", dtype=int)
     assert np.abs(solver.from_sources(sources) - exact).mean() < mean * exact.max()

@@ -1,7 +1,6 @@
 """Reading mesh files: every format gives the file's ids, coordinates and faces."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,8 +21,7 @@ from tests.core.mesh_samples import (
     stl_text,
     written_by_vtk,
 )
-
-MESHES = Path(__file__).parents[2].parent / "shared" / "meshes"
+from tests.shapes import MESHES, needs_meshes
 
 
 # ---------------------------------------------------------------------- each format gives the same surface
@@ -138,7 +136,7 @@ def test_obj_vertices_and_normals_in_turn(put):
 
 
 # ---------------------------------------------------------------------- sample meshes
-@pytest.mark.skipif(not MESHES.is_dir(), reason="the shared sample meshes are not there")
+@needs_meshes
 def test_sample_meshes_have_the_counts_of_their_table():
     listed = re.findall(r"^\| (\S+\.o\w\w) \| (\d+) \| (\d+) \|", (MESHES / "TABLE.md").read_text(), re.MULTILINE)
     assert len(listed) == 20

@@ -6,7 +6,7 @@ import os
 import pytest
 
 from bihdist_core.errors import OutputError
-from bihdist_core.whole_file import check_output, whole_file
+from bihdist_core.whole_file import check_output, check_outputs, whole_file
 
 
 def test_a_new_file_and_a_replaced_one(tmp_path):
@@ -90,3 +90,10 @@ def test_places_that_cannot_be_written(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "access", lambda path, mode: False)
     with pytest.raises(OutputError, match="permission denied"):
         check_output(tmp_path / "a.txt", [".txt"])
+
+
+def test_every_output_that_is_named_is_checked(tmp_path):
+    assert not check_outputs((None, (".csv",)), ("", (".obj",)))
+    assert check_outputs((None, (".csv",)), (tmp_path / "a.OBJ", (".obj",)))
+    with pytest.raises(OutputError, match=r"this can be written as \.npy, \.txt"):
+        check_outputs((tmp_path / "a.csv", (".csv",)), (tmp_path / "a.obj", (".npy", ".txt")))

@@ -53,7 +53,17 @@ def dock_of(s):
     return s.window.docks._docks["profile"].content
 
 
+def profiled(s, count=2):
+    """The dock with the path through pins, once that is found."""
+    pinned(s, count)
+    s.window.docks.toggle("profile")
+    dock = dock_of(s)
+    s.until(lambda: dock.path is not None)
+    return dock
+
+
 def with_profile(s, count=2):
+    """The same by the key, with the pins' ids."""
     ids = pinned(s, count)
     run("windowfocus", "--sync", int(s.window.winId()), "key", "f")
     s.until(lambda: "profile" in s.document.docks)
@@ -177,10 +187,7 @@ def test_arrow_keys_go_along_the_path(opened):
 
 def test_the_path_is_dark_on_white_where_it_is_seen(opened):
     s = opened
-    pinned(s)
-    s.window.docks.toggle("profile")
-    dock = dock_of(s)
-    s.until(lambda: dock.path is not None)
+    profiled(s)
     s.window.reset_view("back")
     s.settle()
     view = s.panels[0].view
@@ -198,10 +205,7 @@ def test_the_path_is_dark_on_white_where_it_is_seen(opened):
 
 def test_curves_follow_the_source_and_the_path_stays(opened):
     s = opened
-    pinned(s)
-    s.window.docks.toggle("profile")
-    dock = dock_of(s)
-    s.until(lambda: dock.path is not None)
+    dock = profiled(s)
     path = dock.path
     s.session.show(move_source(s.document, 0, 100))
     s.until(lambda: s.session.is_complete)
@@ -212,10 +216,7 @@ def test_curves_follow_the_source_and_the_path_stays(opened):
 
 def test_ways_and_ends_are_steps_that_can_be_undone(opened):
     s = opened
-    pinned(s)
-    s.window.docks.toggle("profile")
-    dock = dock_of(s)
-    s.until(lambda: dock.path is not None)
+    dock = profiled(s)
     first = dock.path
     dock.choices.choose_way("section")
     s.until(lambda: dock.path is not None and dock.path is not first)
@@ -252,10 +253,7 @@ def test_what_is_saved_is_what_is_shown(opened, tmp_path):
     from app.figures.profile_figure import save_profile_figure
 
     s = opened
-    pinned(s, 3)
-    s.window.docks.toggle("profile")
-    dock = dock_of(s)
-    s.until(lambda: dock.path is not None)
+    dock = profiled(s, 3)
     assert len(dock.chart.knots) == 3
     dock.files.save_numbers(str(tmp_path / "along.csv"))
     lines = (tmp_path / "along.csv").read_text().splitlines()
@@ -277,10 +275,7 @@ def test_what_is_saved_is_what_is_shown(opened, tmp_path):
 
 def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(opened, screen, mesh_file, tmp_path):
     s = opened
-    pinned(s)
-    s.window.docks.toggle("profile")
-    dock = dock_of(s)
-    s.until(lambda: dock.path is not None)
+    dock = profiled(s)
     dock.choices.choose_way("edges")
     s.until(lambda: dock.path.label == "shortest path along edges")
     path = str(tmp_path / "it.json")
@@ -300,10 +295,7 @@ def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(opened, screen,
 
 def test_panels_come_and_go_while_the_chart_is_pointed_at(opened):
     s = opened
-    pinned(s)
-    s.window.docks.toggle("profile")
-    dock = dock_of(s)
-    s.until(lambda: dock.path is not None)
+    dock = profiled(s)
     dock._point((dock.path.length / 3, 0.5))
     s.window.choices.add_panel()
     s.until(lambda: s.session.is_complete and len(dock.curves) == 3)

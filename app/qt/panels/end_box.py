@@ -4,38 +4,19 @@ from qtpy import QtCore, QtWidgets
 
 from ...document.looks import LARGEST
 from ..look.numbers import MINUS, number
-from ..look.text_box import TextBox, mark_wrong
-from .number_box import PopUp
+from .number_box import TypedPopUp
 
 
-class EndPopUp(PopUp):
+class EndPopUp(TypedPopUp):
     """`chosen(float)` for a number, `chosen(None)` for the field's own maximum."""
 
-    chosen = QtCore.Signal(object)
-
     def __init__(self, parent: QtWidgets.QWidget) -> None:
-        super().__init__(parent)
-        self.words = QtWidgets.QLabel("The colours end at", self)
-        self.words.setProperty("quiet", True)
-        self.box = TextBox(self)
+        super().__init__("The colours end at", parent)
         self.box.setFixedWidth(110)
         self.box.setAccessibleName("Where the colours end")
-        self.box.returnPressed.connect(self._typed)
-        self.box.textEdited.connect(lambda: self._complain(""))
         self.own = QtWidgets.QPushButton("Its own maximum", self)
         self.own.clicked.connect(lambda: self._choose(None))
-        self.complaint = QtWidgets.QLabel("", self)
-        self.complaint.setProperty("error", True)
-        self.complaint.setWordWrap(True)
-        self.complaint.hide()
-        grid = QtWidgets.QGridLayout(self)
-        grid.setContentsMargins(12, 10, 12, 12)
-        grid.setHorizontalSpacing(12)
-        grid.setVerticalSpacing(8)
-        grid.addWidget(self.words, 0, 0, 1, 2)
-        grid.addWidget(self.box, 1, 0)
-        grid.addWidget(self.own, 1, 1)
-        grid.addWidget(self.complaint, 2, 0, 1, 2)
+        self._lay_out(self.box, self.own)
 
     def ask(self, control: QtWidgets.QWidget, end: float, maximum: float, unit: str) -> None:
         """Open under the colour bar; end: where the colours end now; maximum: the field's own."""
@@ -63,9 +44,3 @@ class EndPopUp(PopUp):
     def _choose(self, end: float | None) -> None:
         self.close()
         self.chosen.emit(end)
-
-    def _complain(self, text: str) -> None:
-        self.complaint.setText(text)
-        self.complaint.setVisible(bool(text))
-        mark_wrong(self.box, bool(text))
-        self.adjustSize()

@@ -146,39 +146,63 @@ class PopUp(QtWidgets.QFrame):
         self.closed.emit()
 
 
-class NumberPopUp(PopUp):
-    """The slider and the box of one number; `chosen(value)` by the user."""
+class TypedPopUp(PopUp):
+    """Words, a box for what they mean with something beside it, and what is wrong with what was typed.
+
+    `chosen(value)` by the user; `_typed` reads the box.
+    """
 
     chosen = QtCore.Signal(object)
 
-    def __init__(self, parameter: Parameter, parent: QtWidgets.QWidget) -> None:
+    def __init__(self, words: str, parent: QtWidgets.QWidget) -> None:
         super().__init__(parent)
+        self.words = QtWidgets.QLabel(words, self)
+        self.words.setProperty("quiet", True)
+        self.box = TextBox(self)
+        self.box.returnPressed.connect(self._typed)
+        self.box.textEdited.connect(lambda: self._complain(""))
+        self.complaint = QtWidgets.QLabel("", self)
+        self.complaint.setProperty("error", True)
+        self.complaint.setWordWrap(True)
+        self.complaint.hide()
+
+    def _lay_out(self, left: QtWidgets.QWidget, right: QtWidgets.QWidget) -> None:
+        grid = QtWidgets.QGridLayout(self)
+        grid.setContentsMargins(12, 10, 12, 12)
+        grid.setHorizontalSpacing(12)
+        grid.setVerticalSpacing(8)
+        grid.addWidget(self.words, 0, 0, 1, 2)
+        grid.addWidget(left, 1, 0)
+        grid.addWidget(right, 1, 1)
+        grid.addWidget(self.complaint, 2, 0, 1, 2)
+        self.setTabOrder(left, right)
+
+    def _typed(self) -> None:
+        raise NotImplementedError
+
+    def _complain(self, text: str) -> None:
+        if text != self.complaint.text():
+            self.complaint.setText(text)
+            self.complaint.setVisible(bool(text))
+            mark_wrong(self.box, bool(text))
+            self.adjustSize()
+
+
+class NumberPopUp(TypedPopUp):
+    """The slider and the box of one number."""
+
+    def __init__(self, parameter: Parameter, parent: QtWidgets.QWidget) -> None:
+        super().__init__(meaning(parameter), parent)
         self.parameter = parameter
         self._value: float = 0.0
         self.slider = ValueSlider(parameter, self)
         self.slider.setMinimumWidth(150)
         self.slider.sliderMoved.connect(lambda step: self._write(value_of_step(parameter, step)))
         self.slider.chosen.connect(self.chosen)
-        self.box = TextBox(self)
         self.box.setFixedWidth(76)
         self.box.setAccessibleName(f"{meaning(parameter)}, the exact value")
         self.box.setToolTip(f"{symbol(parameter)}: any number above {parameter.above:g}; Enter sets it")
-        self.box.returnPressed.connect(self._typed)
-        self.box.textEdited.connect(lambda: self._complain(""))
-        self.words = QtWidgets.QLabel(meaning(parameter), self)
-        self.words.setProperty("quiet", True)
-        self.complaint = QtWidgets.QLabel("", self)
-        self.complaint.setProperty("error", True)
-        self.complaint.setWordWrap(True)
-        self.complaint.hide()
-        grid = QtWidgets.QGridLayout(self)
-        grid.setContentsMargins(12, 10, 12, 12)
-        grid.setHorizontalSpacing(12)
-        grid.setVerticalSpacing(8)
-        grid.addWidget(self.words, 0, 0, 1, 2)
-        grid.addWidget(self.slider, 1, 0)
-        grid.addWidget(self.box, 1, 1)
-        grid.addWidget(self.complaint, 2, 0, 1, 2)
+        self._lay_out(self.slider, self.box)
 
     def show_value(self, value: float) -> None:
         """Without emitting; what is being typed stays."""
@@ -207,10 +231,3 @@ class NumberPopUp(PopUp):
         self.close()
         if value != self._value:
             self.chosen.emit(value)
-
-    def _complain(self, text: str) -> None:
-        if text != self.complaint.text():
-            self.complaint.setText(text)
-            self.complaint.setVisible(bool(text))
-            mark_wrong(self.box, bool(text))
-            self.adjustSize()
