@@ -93,3 +93,32 @@ def screen(application):
     for each in screens:
         each.window.close()
         each.settle(0.05)
+
+
+@pytest.fixture
+def head(application):
+    """Makes lines over panels, each in a window of its own; what is chosen there is in their `choices`."""
+    from qtpy import QtTest, QtWidgets
+
+    from app.document.quantities import quantity
+    from app.qt.panels.head import PanelHead
+
+    windows = []
+
+    def make(text="biharmonic", width=600, fields=(), point="source"):
+        window = QtWidgets.QWidget()
+        window.resize(1000, 100)
+        window.setPalette(QtWidgets.QApplication.palette())
+        made = PanelHead(quantity(text, point, fields), window)
+        made.show_quantity(made.shows, fields)
+        made.setGeometry(0, 0, width, made.height())
+        window.show()
+        assert QtTest.QTest.qWaitForWindowExposed(window)
+        made.choices = []
+        made.changed.connect(made.choices.append)
+        windows.append(window)
+        return made
+
+    yield make
+    for window in windows:
+        window.close()

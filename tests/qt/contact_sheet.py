@@ -32,6 +32,8 @@ def main() -> None:
     parser.add_argument("--beside", type=Path)
     parser.add_argument("--only", default="", help="looks whose names hold this")
     parser.add_argument("--scenes", default="", help="scenes whose names hold this, such as instruments")
+    parser.add_argument("--closed", default="beast", help="mesh with limbs that instruments are shown on")
+    parser.add_argument("--bounded", default="scan", help="mesh with a boundary that they are shown on")
     parser.add_argument("--drive", help=argparse.SUPPRESS)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
@@ -50,6 +52,7 @@ def _on_a_screen_of_its_own(look: Look, options: argparse.Namespace) -> None:
     screen = f"-screen 0 {look.width * look.scale}x{look.height * look.scale}x24 -dpi 96"
     command = ["xvfb-run", "-a", "-s", screen, sys.executable, "-m", "tests.qt.contact_sheet", str(options.out)]
     command += ["--drive", look.word, "--scenes", options.scenes]
+    command += ["--closed", options.closed, "--bounded", options.bounded]
     command += ["--meshes", str(options.meshes)] if options.meshes else []
     with tempfile.TemporaryDirectory() as home:
         scale = {"QT_SCALE_FACTOR": str(look.scale)} if look.scale > 1 else {}
@@ -79,7 +82,7 @@ def _write_page(out: Path, beside: Path | None) -> None:
 # ---------------------------------------------------------------------- one look
 def drive(look: Look, options: argparse.Namespace) -> None:
     """Through all there is to see."""
-    driver, meshes = Driver(look, options.out), options.meshes
+    driver, meshes = Driver(look, options.out, options.closed, options.bounded), options.meshes
     for scene in (
         _beginning, _pointing, _heads, _bars_and_menus, _looks, _panels, _waiting, _dialogs, _help, _talk, instruments,
     ):  # fmt: skip

@@ -25,15 +25,19 @@ class Look:
 
 
 class Driver:
-    """A window in the hands of a script, with a pointer."""
+    """A window in the hands of a script, with a pointer.
 
-    def __init__(self, look: Look, out: Path) -> None:
+    closed, bounded: meshes for scenes that need a boundary or none, as paths or names of samples.
+    """
+
+    def __init__(self, look: Look, out: Path, closed: str = "beast", bounded: str = "scan") -> None:
         from app.document.document import COMPARISON, comparison
         from app.qt.application import application
         from app.qt.look.look import LOOK
         from app.qt.main_window import MainWindow
 
         self.look, self._out, self._count = look, out / look.word, 0
+        self.closed, self.bounded = closed, bounded
         self._out.mkdir(exist_ok=True)
         self.application = application()
         LOOK.choose(look.theme)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import combinations
 from typing import Any
 
 from .driver import Driver
@@ -16,7 +17,7 @@ def instruments(d: Driver) -> None:
     """All of them on a closed surface with limbs, then what needs a boundary."""
     from app.samples import mesh_path
 
-    d.open(mesh_path("beast"))
+    d.open(mesh_path(d.closed))
     for scene in (_pins, _profile, _section, _scatter, _statistics, _quality, _regions, _all_open):
         scene(d)
         _close_all(d)
@@ -24,7 +25,7 @@ def instruments(d: Driver) -> None:
     _close_all(d)
     _sources(d)
     _live(d)
-    d.open(mesh_path("scan"))
+    d.open(mesh_path(d.bounded))
     _loop(d)
 
 
@@ -132,17 +133,19 @@ def _profile(d: Driver) -> None:
 
 
 def _section(d: Driver) -> None:
-    """Through two of the pins."""
+    """Through the first two of the pins that a section joins."""
     from app.document.instruments import Profile
+    from app.qt.docks.profile_dock import FINDING
 
-    before = d.window.session.document
-    points = [pin.point for pin in before.pins]
-    d.window.session.show(replace(before, profile=Profile(points=(points[0], points[4]))))
     dock = _dock(d, "profile", "f")
-    d.until(lambda: dock.path is not None)
-    dock.choices.choose_way("section")
+    before = d.window.session.document
+    for points in combinations([pin.point for pin in before.pins], 2):
+        path = dock.path
+        d.window.session.show(replace(before, profile=Profile(points, "section", dock.seen())))
+        d.until(lambda path=path: dock.path is not path or dock.chart.sentence not in ("", FINDING))
+        if dock.path is not None:
+            break
     d.complete()
-    d.until(lambda: dock.path is not None)
     d.pointer("mousemove", *_on(d, dock.chart, 0.6, 0.5))
     d.shot("section by a plane")
     d.window.session.show(before)

@@ -1,0 +1,70 @@
+"""The protocols of the experiments: what they start from, their tables, and the printed times."""
+
+import numpy as np
+import pytest
+
+from bihdist_core import ParameterError
+from bihdist_core.experiments import EXPERIMENTS, SEEDS, Shapes, table1, table2
+from bihdist_core.experiments.result import Table
+from bihdist_core.experiments.shapes import spread_points, start_vertex, vertex_at
+from tests.shapes import bumpy, grid, two_pieces
+
+
+def test_a_missing_surface_is_named():
+    with pytest.raises(ParameterError, match="needs the surface 'domain'"):
+        EXPERIMENTS["fig2"].compute(Shapes({}))
+
+
+def test_starts_and_sources_are_the_same_every_time():
+    s = two_pieces()
+    for seed in SEEDS:
+        assert start_vertex(s, seed) == start_vertex(s, seed)
+        assert s.component_of_vertex[start_vertex(s, seed)] == 0
+    assert start_vertex(s) == 0
+    assert len({start_vertex(bumpy(500), seed) for seed in SEEDS}) == 5
+    points = spread_points(grid(10, 10), 4)
+    assert points.tolist() == [0, 120, 10, 110]
+    assert spread_points(s, 5).tolist() == spread_points(s, 8).tolist()[:5]
+
+
+def test_vertices_are_found_by_their_place():
+    s = bumpy(2000)
+    x, y, z = s.vertices.T
+    for side, sign in (("front", 1), ("back", -1)):
+        # Within 1.5 edges of the ray: 6 % of the width.
+        v = vertex_at(s, 0.5, 0.7, side)
+        assert sign * z[v] > 0.3
+        assert (x[v] - x.min()) / np.ptp(x) == pytest.approx(0.5, abs=0.07)
+        assert (y[v] - y.min()) / np.ptp(y) == pytest.approx(0.7, abs=0.07)
+    # A ray beside the surface finds the vertex nearest to it.
+    assert vertex_at(grid(4, 4), 5, 5) == 24
+
+
+def test_tables_are_asked_by_their_columns():
+    table = Table("t", ("a", "b c"), ((1, "x"), (2, "y"), (3, "y")))
+    assert table.values("a", b_c="y") == [2, 3]
+    assert table.value("a", b_c="x") == 1
+    with pytest.raises(ParameterError, match=r"a where .* is \[2, 3\], not one number"):
+        table.value("a", b_c="y")
+
+
+def test_the_printed_times_are_the_papers():
+    biharmonic, dijkstra, diffusion = table1.PAPER[16_000]
+    assert dijkstra / biharmonic == pytest.approx(1.81, abs=0.005)
+    assert diffusion == 37.2
+    assert table2.PAPER[111_000] == ((11.18, 37.13, 185.28), (1.05, 52.8, 200.39), 202.2)
+    assert tuple(table1.PAPER) == table1.SIZES
+    assert tuple(table2.PAPER) == table2.SIZES
+
+
+def test_timed_distances_are_the_right_ones():
+    # What is timed must also be right.
+    s = bumpy(150)
+    for method in table1.METHODS:
+        columns = table1._columns(s, method)(np.array([3, 7]))
+        assert columns.shape == (150, 2)
+        assert columns[3, 0] == 0
+        assert columns[7, 0] == pytest.approx(columns[3, 1])
+        among = table2.distances_among(s, np.array([3, 7, 100]), method)
+        assert among[0, 1] == pytest.approx(columns[7, 0], rel=1e-9)
+        assert among[1, 2] == pytest.approx(columns[100, 1], rel=1e-9)
