@@ -13,7 +13,7 @@ from .instruments import ALONG_ALL_PINS
 from .mapping import without_maps
 from .measuring import show_regions
 from .pairing import without_pairs_on
-from .quantities import DistanceFrom, Quantity, from_point, own_fields
+from .quantities import DistanceFrom, Prediction, Quantity, from_point, own_fields
 
 MOST_ADDED = 6
 """Up to which panels can be added; a recipe may have more."""
@@ -153,6 +153,9 @@ def add_another(document: Document, surface: str | None = None) -> Document:
     words = [*(spec.word for spec in COMPARISON), *kinds()]
     word = next((word for word in words if word not in shown), words[0])
     surface = document.surfaces[0].name if surface is None else surface
+    here = document.panels_of(surface)
+    if here and all(isinstance(panel.shows, Prediction) for panel in here):
+        return add_panel(document, Prediction(Spec.of(word)), surface)
     starting = [name for panel in document.panels_of(surface) for name in panel.shows.points]
     starting += [point.name for point in document.points if point.name == "source" and point.surface == surface]
     if starting:

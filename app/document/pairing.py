@@ -5,7 +5,6 @@ from dataclasses import replace
 
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
-from bihdist_core.sources.words import short_words_of
 
 from .document import Document, Point, free_names
 from .instruments import PIN_COLOURS, Pair
@@ -127,15 +126,25 @@ def number_of(document: Document, pair: Pair) -> int:
     return document.pairs.index(pair) + 1
 
 
-def waiting_words(document: Document, surface: str) -> str:
-    """A sentence for a surface whose point waits: "Point 11, vertex 4440, waits for its partner on B"; else ""."""
+def pair_words(document: Document, surface: str) -> tuple[str, ...]:
+    """What a surface says where nothing is predicted: "Point 11, vertex 4440, waits for its partner on B", or what a
+    click does there; then the same in fewer words.
+    """
+    if other_side(document, surface) is None:
+        return "Open a second mesh beside this one", "Open a second mesh"
+    mine, other = ("A", "B") if surface == document.surfaces[0].name else ("B", "A")
     point, half = waiting_point(document), half_pair(document)
-    if point is None or half is None or point.surface != surface:
-        return ""
-    other = "B" if half.first else "A"
-    at = point.at
-    place = f"vertex {at}" if isinstance(at, int) else "somewhere" if at is None else short_words_of(at)
-    return f"Point {number_of(document, half)}, {place}, waits for its partner on {other}"
+    if point is None or half is None:
+        return f"Click a point, then its partner on {other}", "Click a point"
+    number = number_of(document, half)
+    if point.surface != surface:
+        return f"Click where point {number} of {other} is on {mine}", f"Where is point {number}?"
+    place = f"vertex {point.at}" if isinstance(point.at, int) else "in a face"
+    return (
+        f"Point {number}, {place}, waits for its partner on {other}",
+        f"Point {number}, {place}, waits",
+        f"Point {number} waits",
+    )
 
 
 def _with_point(document: Document, surface: str, at: Source) -> tuple[Document, str]:

@@ -32,7 +32,12 @@ def predict(document: Document) -> Document:
 
 def predicts(document: Document) -> bool:
     """Whether a panel shows a prediction."""
-    return any(isinstance(part, Prediction) for panel in document.panels for part in panel.shows.parts)
+    return any(predicts_in(panel) for panel in document.panels)
+
+
+def predicts_in(panel: Panel) -> bool:
+    """Whether this one does."""
+    return isinstance(panel.shows, Prediction)
 
 
 def show_distances(document: Document, kind: type[Part] = Prediction) -> Document:

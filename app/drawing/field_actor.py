@@ -79,7 +79,7 @@ class FieldActor:
     def __init__(self, style: Style, scale: float = 1.0) -> None:
         self.style = style
         self.table = lookup_table(style)
-        self.is_signed = False
+        self.is_signed = self._is_plain = False
         self.actor = vtkActor()
         self.maximum = 1.0
         self.mesh = vtkPolyData()
@@ -209,19 +209,26 @@ class FieldActor:
         self._values[len(values) :] = values[self._copies]
         self._array.Modified()
         self.maximum, self._own_maximum = top, own
+        self._be_plain(False)
         if signed != self.is_signed:
             self.is_signed = signed
             self._set_colours()
         self.show_isolines(self._isolines, self._through)
 
-    def show_bare(self) -> None:
-        """All of the surface grey."""
+    def show_bare(self, is_plain: bool = False) -> None:
+        """All of the surface grey; is_plain: as one that is meant to have no field."""
+        self._be_plain(is_plain)
         if "colours" in self._tints:
             self._tint("colours", None)
         self._values[:] = UNDEFINED
         self._array.Modified()
         self.maximum = self._own_maximum = 0.0
         self.show_isolines(self._isolines, self._through)
+
+    def _be_plain(self, is_plain: bool) -> None:
+        if is_plain != self._is_plain:
+            self._is_plain = is_plain
+            self._set_colours()
 
     def show_isolines(self, isolines: Isolines, through: tuple[float, ...] = ()) -> None:
         """These, and one of each value `through`, which stands out."""
@@ -248,6 +255,8 @@ class FieldActor:
     def _set_colours(self) -> None:
         """The field has another sign, or other bands."""
         self.table = lookup_table(self.style, self.is_signed, self._edges)
+        if self._is_plain:
+            self.table.SetBelowRangeColor(*self.style.plain, 1)
         self._take_table()
 
     def _take_table(self) -> None:

@@ -111,9 +111,9 @@ class PanelScene:
         """Colours (n, 3) of its own instead of a field, see `FieldActor.show_colours`."""
         self._field.show_colours(colours)
 
-    def show_bare(self) -> None:
-        """The surface without a field."""
-        self._field.show_bare()
+    def show_bare(self, is_plain: bool = False) -> None:
+        """The surface without a field, see `FieldActor.show_bare`."""
+        self._field.show_bare(is_plain)
 
     def show_isolines(self, isolines: Isolines, through: tuple[float, ...] = ()) -> None:
         """These, and one of each value `through`."""

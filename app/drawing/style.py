@@ -32,6 +32,7 @@ class Style:
     outline: width of the line around the shape and along its folds; 0 for none.  Without `shading` the colours are
     drawn as they are, and without `coloured` isolines alone tell the field.  back: of the inside of a surface, where
     it is seen; edge, edge_on_dark: of the wireframe, on light and on dark colours.
+    plain: of a surface that is meant to have no field.
     bands: one colour from isoline to isoline.  turn: the share of the maximum from which on, on both sides of 0,
     isolines have the other colour.
     """
@@ -47,6 +48,7 @@ class Style:
     shading: bool = True
     coloured: bool = True
     undefined: Colour = (0.72, 0.72, 0.7)
+    plain: Colour = (0.66, 0.68, 0.70)
     back: Colour = (0.80, 0.74, 0.62)
     edge: Colour = (0.05, 0.06, 0.08)
     edge_on_dark: Colour = (0.62, 0.65, 0.70)
@@ -131,6 +133,7 @@ LINES = Style(
     text=(0, 0, 0),
     quiet_text=(0.25, 0.25, 0.25),
     undefined=(0.86, 0.86, 0.86),
+    plain=(0.86, 0.86, 0.86),
     back=(0.93, 0.93, 0.93),
     edge=(0.55, 0.55, 0.55),
     source=(0, 0, 0),

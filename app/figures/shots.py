@@ -125,6 +125,8 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
                 studio.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
             elif panel.colours is not None:
                 studio.shown.show_colours(panel.colours)
+            else:
+                studio.shown.show_bare(is_plain=not panel.failure)
             curves = stage.curves or panel.isolines.labels  # which stand on curves
             for number, (view, box, shown) in enumerate(zip(panel.views, cell.views, cell.parts, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)

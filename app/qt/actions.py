@@ -55,6 +55,10 @@ def _step(right: int, up: int) -> Callable[[Any], object]:
     return lambda window: window.gestures.step_source(right, up)
 
 
+def _of_view(word: str, text: str, do: Callable[[Any], object], *keys: str) -> Act:
+    return Act(word, text, do, keys, of_view=True, needs_mesh=True)
+
+
 def _dock(word: str, text: str, key: str, tip: str, icon: str) -> Act:
     """Opens and closes an instrument."""
     return Act(f"dock {word}", text, lambda w: w.docks.toggle(word), (key,), tip, icon, needs_mesh=True, is_check=True)
@@ -237,14 +241,8 @@ TURNS = (
     Act("move down", "Move down", _shift(0, -1), ("Shift+Down",), of_view=True, needs_mesh=True),
     Act("nearer", "Nearer", _zoom(1.2), ("+", "="), of_view=True, needs_mesh=True),
     Act("farther", "Farther", _zoom(1 / 1.2), ("-",), of_view=True, needs_mesh=True),
-    Act(
-        "remove anchor",
-        "Remove the chosen anchor",
-        lambda w: w.gestures.anchors.remove_chosen(),
-        ("Delete",),
-        of_view=True,
-        needs_mesh=True,
-    ),
+    _of_view("remove anchor", "Remove the chosen anchor or pair", lambda w: w.gestures.remove_chosen(), "Delete"),
+    _of_view("accept pair", "Accept the predicted partner", lambda w: w.gestures.pairs.accept(), "Return", "Enter"),
 )
 PANELS = (
     Act(
@@ -313,6 +311,7 @@ TOOLS = (
 )
 INSTRUMENTS: tuple[Act, ...] = (
     _dock("anchors", "Interpolation", "I", "Values at anchors, interpolated by every panel's distance", "anchor"),
+    _dock("pairs", "Correspondence", "M", "Pairs of points on two meshes, and where the next is predicted", "pairs"),
     _dock("pins", "&Pins", "P", "Points with a number, what every panel has there, and how far apart they are", "pin"),
     _dock("profile", "P&rofile", "F", "Values along a path: the chart of all panels' fields", "profile"),
     _dock("quality", "&Quality", "Q", "Extrema, isotropy, kinks and triangles of every panel's distance", "quality"),

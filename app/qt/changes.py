@@ -44,6 +44,8 @@ class Changes:
             grid.marks.mark_anchors(document)
         if other_panels or (document.points, document.pins) != (before.points, before.pins):
             grid.marks.show_pins(document)
+        if other_panels or (document.points, document.pairs) != (before.points, before.pairs):
+            grid.marks.show_pairs(document)
         if other_panels or document.zooms != before.zooms:
             grid.marks.show_insets(document)
         passed = document.isolines.through and document.points != before.points
@@ -81,6 +83,7 @@ class Changes:
         grid.marks.show_isolines(document)
         grid.marks.mark_anchors(document)
         grid.marks.show_pins(document)
+        grid.marks.show_pairs(document)
         grid.marks.show_insets(document)
         window.docks.brushing.show(document)
         for id in session.shown:

@@ -11,6 +11,7 @@ from ..document.edits import move_source, show_in
 from ..document.quantities import Quantity
 from .anchor_gestures import AnchorGestures
 from .look.numbers import number
+from .pair_gestures import PairGestures
 from .pin_gestures import PinGestures
 from .source_gestures import SourceGestures
 
@@ -42,7 +43,7 @@ class Gestures:
         self._has_followed = False  # the source, since it became live
         self.sources = SourceGestures(window)
         self.pins = PinGestures(window, self.sources)
-        self.anchors = AnchorGestures(window)
+        self.anchors, self.pairs = AnchorGestures(window), PairGestures(window)
         self._rest_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
         self._rest_soon.timeout.connect(self._release)
         self._stepped_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
@@ -72,6 +73,8 @@ class Gestures:
         self._window.picked.emit(panel, met)
         if self.anchors.are_meant(panel):
             self.anchors.put(panel, met)
+        elif self.pairs.are_meant(panel):
+            self.pairs.put(panel, met)
         else:
             self._move(panel, self.sources.at(panel, met))
 
@@ -89,6 +92,7 @@ class Gestures:
         self.is_dragging = False
         self.sources.rest()
         self.anchors.rest()
+        self.pairs.rest()
         self._window.session.show(self._window.session.document)
 
     def set_live(self, is_live: bool) -> None:
@@ -135,6 +139,11 @@ class Gestures:
         self.sources.rest()
         self._window.session.show(self._window.session.document, key=f"steps in {self._grid.active}")
 
+    def remove_chosen(self) -> None:
+        """The pair or the anchor that stands out."""
+        if not self.pairs.remove_chosen():
+            self.anchors.remove_chosen()
+
     # ------------------------------------------------------------------ the pointer
     def _hover(self, panel: int, met: "Met | None") -> None:
         window = self._window
@@ -147,7 +156,7 @@ class Gestures:
         surface = window.session.surface_in(panel)
         window.docks.pointed(vertex, self._grid.panel(panel).surface)
         window.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], self._letter(panel))
-        is_led = self.is_live and not self.anchors.are_meant(panel)
+        is_led = self.is_live and not (self.anchors.are_meant(panel) or self.pairs.are_meant(panel))
         is_elsewhere = last is None or panel != last_in or self._at(panel, met) != self._at(panel, last)
         if is_led and met is not None and is_elsewhere:
             self.is_dragging = self._has_followed = True
@@ -195,6 +204,8 @@ class Gestures:
             self._grid.pointing.show(panel, vertex)
             if self.anchors.are_meant(panel):
                 self.anchors.offer(menu, panel, met)
+            elif self.pairs.are_meant(panel):
+                self.pairs.offer(menu, panel, met)
             else:
                 menu.addAction("Source here\tClick", lambda: self._click(panel, met))
                 self.sources.offer(menu, panel, met)

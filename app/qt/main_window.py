@@ -310,6 +310,8 @@ class MainWindow(QtWidgets.QMainWindow):
             self.actions_by_word["draw source"].trigger()
         elif self.gestures is not None and self.gestures.is_live:
             self.actions_by_word["live"].trigger()
+        elif self.gestures is not None and self.gestures.pairs.drop():
+            return
         elif self.session.progress or not self.choices.is_full_screen:
             self.session.cancel()
             self.waits.show()

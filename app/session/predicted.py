@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from .opened import Opened
 
 NO_OTHER = "There is no second mesh: open one beside this to find corresponding points."
-NO_PAIRS = "There is no pair yet: click the partner of this point, and the next one is predicted."
 """What a panel of a prediction says where there can be none."""
 
 MISFIT = "misfit"
@@ -64,14 +63,12 @@ class KnownColumns:
 
 
 def predicted(question: PredictionQuestion, opened: "Opened", progress: Progress | None) -> Answer:
-    """The misfit of every vertex to the point; neither field nor failure where no point waits."""
+    """The misfit of every vertex to the point; neither field nor failure where no point waits, or no pair is known."""
     other = opened.standing_beside(question.other)
     if question.other is None or other is None:
         return Answer(label=str(question), failure=NO_OTHER)
-    if question.at is None:
+    if question.at is None or not question.pairs:
         return Answer(label=str(question), unit=MISFIT, certificate=Certificate())
-    if not question.pairs:
-        return Answer(label=str(question), failure=NO_PAIRS)
     try:
         pairs = [(there, here) for here, there in question.pairs]
         known = correspondence(question.areas, question.spec, pairs, other, opened, progress)

@@ -128,7 +128,8 @@ class ChangeQuestion:
 class PredictionQuestion:
     """How badly each vertex fits a point of another surface, from pairs of points here and there.
 
-    other: that surface, None if there is none.  at: the point there; None where no point of it waits.
+    other: that surface, None if there is none.  at: the point there; None where no point of it waits, or none can be
+    predicted.
     """
 
     mesh: MeshFile
@@ -295,7 +296,7 @@ def _predicted(document: Document, surface: str, spec: Spec) -> PredictionQuesti
     there, waiting = other_side(document, surface), waiting_point(document)
     other = None if there is None else document.mesh(there)
     asked = PredictionQuestion(document.mesh(surface), document.areas, spec, other, (), None)
-    if there is None or waiting is None or waiting.surface != there:
+    if there is None or waiting is None or waiting.surface != there or not whole_pairs(document):
         return asked  # what is plain is the same whatever pairs there are
     return replace(asked, pairs=_places(document, surface, there), at=waiting.at)
 

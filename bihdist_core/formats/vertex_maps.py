@@ -13,6 +13,7 @@ from ..whole_file import check_output, whole_file
 from .field_output import write_array
 
 MAP_FORMATS = (".npy", ".txt")
+PAIR_FORMATS = (".csv", ".txt")
 WHOLE = re.compile("-?[0-9]{1,18}")
 IDENTITY = "identity"
 
@@ -83,8 +84,12 @@ def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
         temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")
 
 
-def read_pairs(path: str | os.PathLike[str]) -> np.ndarray:
+def read_pairs(
+    path: str | os.PathLike[str], source: Surface | None = None, target: Surface | None = None
+) -> np.ndarray:
     """(k, 2) ids from a file with a line `i,j` for each pair; a first line of words is a header.
+
+    source, target: the surfaces whose vertices i and j must be, if they are known.
 
     Raises ParameterError, a sentence with the file, the line and the value, for anything else.
     """
@@ -96,9 +101,21 @@ def read_pairs(path: str | os.PathLike[str]) -> np.ndarray:
         if len(words) < 2 or not all(WHOLE.fullmatch(word) for word in words[:2]):
             raise ParameterError(f"{path}, line {number}: {line!r} is not a pair of ids such as 1,2.")
         pairs.append((int(words[0]), int(words[1])))
+        for id, surface in zip(pairs[-1], (source, target), strict=True):
+            if surface is not None and not 0 <= id < len(surface.vertices):
+                most = len(surface.vertices) - 1
+                raise ParameterError(f"{path}, line {number}: {surface.name} has vertices 0 to {most}, not {id}.")
     if not pairs:
         raise ParameterError(f"{path} holds no pairs; each line is two vertex ids such as 1,2.")
     return np.array(pairs)
+
+
+def write_pairs(path: str | os.PathLike[str], pairs: npt.ArrayLike) -> None:
+    """Write pairs (k, 2) so that `read_pairs` reads them.  Raises OutputError if the file cannot be written."""
+    check_output(path, PAIR_FORMATS)
+    ids = np.asarray(pairs, np.int64).reshape(-1, 2)
+    with whole_file(path) as temporary:
+        temporary.write_text("".join(f"{i},{j}\n" for i, j in ids.tolist()), encoding="ascii")
 
 
 def _lines(path: Path, what: str) -> list[tuple[int, str]]:

@@ -21,17 +21,17 @@ from app.document.pairing import (
     move_pair_point,
     number_of,
     pair_instead,
+    pair_words,
     place_point,
     remove_pairs,
     waiting_point,
-    waiting_words,
     whole_pairs,
 )
 from app.document.predicting import predict, predicts, show_distances
 from app.document.quantities import Prediction, quantity
 from app.figures.export import compute, open_document
 from app.session.given import Given
-from app.session.predicted import NO_OTHER, NO_PAIRS, SPARE, KnownColumns, candidate_of
+from app.session.predicted import NO_OTHER, SPARE, KnownColumns, candidate_of
 from bihdist_core import BiharmonicDistance, Correspondence, ParameterError, write_mesh
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, two_pieces
@@ -59,8 +59,10 @@ def places(document):
 def test_a_click_on_each_surface_makes_a_pair():
     document = place_point(both(), "A", 5)
     assert half_pair(document) == Pair("pair")
-    assert waiting_words(document, "A") == "Point 1, vertex 5, waits for its partner on B"
-    assert waiting_words(document, "B") == ""
+    assert pair_words(document, "A")[0] == "Point 1, vertex 5, waits for its partner on B"
+    assert pair_words(document, "B")[0] == "Click where point 1 of A is on B"
+    assert pair_words(both(), "B")[0] == "Click a point, then its partner on A"
+    assert pair_words(comparison("first.off"), "A")[0] == "Open a second mesh beside this one"
     moved = place_point(document, "A", 6)
     assert (len(moved.pairs), waiting_point(moved).at) == (1, 6)
     whole = place_point(moved, "B", 9)
@@ -88,7 +90,7 @@ def test_pairs_are_moved_and_removed_with_their_points():
 def test_what_is_read_goes_before_the_half_pair_and_none_is_there_twice():
     document = add_pairs(place_point(both(), "B", 8), [*PAIRS, PAIRS[0]])
     assert places(document) == [*PAIRS, (8,)]
-    assert waiting_words(document, "B") == "Point 5, vertex 8, waits for its partner on A"
+    assert pair_words(document, "B")[0] == "Point 5, vertex 8, waits for its partner on A"
     assert add_pairs(document, PAIRS[1:]) == document
     with pytest.raises(ParameterError, match=f"at most {MOST_PAIRS} pairs"):
         add_pairs(document, [(k, k) for k in range(MOST_PAIRS)])
@@ -187,7 +189,7 @@ def test_panels_show_the_misfit_of_the_other_surface_to_the_point_that_waits(mes
 def test_without_pairs_or_another_surface_it_is_said_why_there_is_none(meshes):
     document = predict(both(*meshes))
     answers = answered(place_point(document, "A", 44))
-    assert [answer.failure for answer in answers] == ["", NO_PAIRS, NO_PAIRS]
+    assert [(answer.field, answer.failure) for answer in answers] == [(None, "")] * 3
     answers = answered(document)
     assert [answer.failure for answer in answers] == ["", "", ""]
     alone = comparison(meshes[0], (Prediction(BIHARMONIC), quantity("biharmonic")), (3,))

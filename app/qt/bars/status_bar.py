@@ -117,7 +117,8 @@ class StatusBar(QtWidgets.QStatusBar):
         is_narrow = width < 800 * LOOK.scale
         self.counts.show_text(self._vertices if is_narrow or not self._faces else f"{self._vertices}  {self._faces}")
         self.counts.fix(number_width(font, self.counts.text) + 4)
-        self.vertex.fix(number_width(font, "vertex 0000000"))
+        on = " on B" if "   " in self._vertices else ""
+        self.vertex.fix(number_width(font, f"vertex 0000000{on}"))
         self.place.fix(3 * number_width(font, WIDEST_PLACE) + 2 * number_width(font, "  "))
         self.place.setVisible(width >= 640 * LOOK.scale)
         self.progress.setMaximumWidth(width // 3)

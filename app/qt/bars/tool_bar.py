@@ -10,7 +10,13 @@ from .tool_button import FULL, ICONS, VALUES, ToolButton
 
 HEIGHT = 44
 
-DOCKS = {"dock pins": "pin", "dock profile": "profile", "dock scatter": "scatter", "dock anchors": "anchor"}
+DOCKS = {
+    "dock pins": "pin",
+    "dock profile": "profile",
+    "dock scatter": "scatter",
+    "dock anchors": "anchor",
+    "dock pairs": "pairs",
+}
 """Instruments with a button of their own, and its icon; the others are in the menu Tools."""
 
 LAST_TO_GO = (*reversed(DOCKS), "up", "views", "colours", "range", "isolines", "live", "tools", "redo", "undo")

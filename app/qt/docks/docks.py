@@ -35,6 +35,7 @@ STACKED = 2
 def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
     """By word: the title, and what makes the instrument; the imports wait until one is opened."""
     from .anchors import AnchorsDock
+    from .pairs import PairsDock
     from .pins import PinsDock
     from .profile_dock import ProfileDock
     from .quality import QualityDock
@@ -44,6 +45,7 @@ def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
 
     return {
         "anchors": ("Anchors", AnchorsDock),
+        "pairs": ("Pairs", PairsDock),
         "pins": ("Pins", PinsDock),
         "profile": ("Profile", ProfileDock),
         "quality": ("Quality", QualityDock),
@@ -82,7 +84,9 @@ class Docks:
             self.close(word)
         else:
             self._keep((*document.docks, word))
-            self._docks[word].raise_()
+            if word in self._docks:
+                self._docks[word].raise_()
+                self._instrument(word).opened()
 
     def close(self, word: str) -> None:
         self._keep(tuple(each for each in self._window.session.document.docks if each != word))
@@ -92,6 +96,12 @@ class Docks:
         self._window.grid.marks.choose_anchor(point)
         if "anchors" in self._window.session.document.docks:
             self._instrument("anchors").choose(point)
+
+    def choose_pair(self, point: str) -> None:
+        """The same of the pair of a point, "" for none."""
+        self._window.grid.marks.choose_pair(point)
+        if "pairs" in self._window.session.document.docks:
+            self._instrument("pairs").choose(point)
 
     def close_all(self) -> None:
         """The window closes."""

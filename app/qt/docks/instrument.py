@@ -36,6 +36,9 @@ class Instrument(QtWidgets.QWidget):
         """The same, beside the title."""
         return []
 
+    def opened(self) -> None:
+        """The user has opened the dock."""
+
     def show_document(self, document: Document, before: Document | None) -> None:
         """Another document is there; before: the one that was shown, None if none was."""
 

@@ -1,6 +1,8 @@
 """The colour bar under a panel's view: what the colours mean, and the value under the pointer."""
 
 import math
+import re
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -16,6 +18,9 @@ from .bar_layout import UNDEFINED, Reading, lay_out
 POINT = 6
 """Pixels by which a bar goes on, as a point, where there are values beyond its end."""
 
+SENTENCE_MARGIN = 12
+"""Pixels beside a sentence, at least."""
+
 FAINT = 1.3
 """Colours of less contrast with the ground need an outline."""
 
@@ -28,12 +33,15 @@ class ColourBar(QtWidgets.QWidget):
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self._reading: Reading | None = None
+        self._unit = ""
         self._has_shares, self._is_compact = True, False
         self._colours, self._line_colour = QtGui.QBrush(), QtGui.QColor()
         self._through: tuple[QtGui.QColor, ...] = ()
         self._ends: tuple[str, ...] = ()
         self._bands: list[tuple[float, QtGui.QColor]] = []
         self._beyond, self._far = (False, False), (2.0, QtGui.QColor())
+        self._at_rest: tuple[float, str] | None = None
+        self._sentence: tuple[str, ...] = ()
         self._layout = lay_out(None, self.width())
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -77,6 +85,7 @@ class ColourBar(QtWidgets.QWidget):
         self._reading = Reading(
             low, high, values, unit, signed, own, self._has_shares, in_shares=in_shares, bold=bold, through=through
         )
+        self._unit = unit
         if high == low:
             colours, bands = colours[[len(colours) // 2 if signed else 0]], ()
         self._colours = _gradient(colours)
@@ -86,7 +95,24 @@ class ColourBar(QtWidgets.QWidget):
         self._line_colour = QtGui.QColor.fromRgbF(*line_colour)
         self._through = tuple(QtGui.QColor.fromRgbF(*colour) for colour in through_colours)
         self._far = (2.0, self._line_colour) if far is None else (far[0], QtGui.QColor.fromRgbF(*far[1]))
+        self.show_value(None)
         self._lay_out()
+
+    def show_rest(self, value: float | None, words: str = "") -> None:
+        """What is said while nothing is pointed at: a value with these words for its unit; None for nothing."""
+        at_rest = None if value is None else (value, words)
+        if at_rest != self._at_rest:
+            self._at_rest = at_rest
+            self.show_value(None)
+
+    def show_sentence(self, sentence: Sequence[str]) -> None:
+        """Instead of the bar, where there is no field to have one: the first of these for which there is room.
+
+        Ids of vertices stand out.  () for the bar.
+        """
+        if tuple(sentence) != self._sentence:
+            self._sentence = tuple(sentence)
+            self._lay_out()
 
     def show_shares(self, shown: bool) -> None:
         """Whether the value is also given as a share of the maximum."""
@@ -96,7 +122,11 @@ class ColourBar(QtWidgets.QWidget):
     def show_value(self, value: float | None) -> None:
         """The value at the pointer, NaN where there is none, or None for no pointer."""
         undefined = value is not None and not math.isfinite(value)
-        self._say(value=None if undefined else value, words=UNDEFINED if undefined else "")
+        is_resting = value is None and self._at_rest is not None
+        if is_resting:
+            value = self._at_rest[0]
+        unit = self._at_rest[1] if is_resting else self._unit
+        self._say(value=None if undefined else value, words=UNDEFINED if undefined else "", unit=unit)
 
     def show_words(self, text: str) -> None:
         """Words in the place of a value."""
@@ -130,8 +160,10 @@ class ColourBar(QtWidgets.QWidget):
         self._layout, reading = lay_out(self._reading, self.width(), self._is_compact), self._reading
         said = "" if reading is None else reading.sentence
         ends = "no values" if reading is None else f"{number(reading.low)} to {number(reading.high)}"
-        self.setToolTip("" if self._layout.is_whole else said)
-        self.setAccessibleDescription(f"{ends}: {said}" if said else ends)
+        is_sentence = bool(self._sentence) and reading is None
+        self.setToolTip(self._sentence[0] if is_sentence else "" if self._layout.is_whole else said)
+        described = f"{ends}: {said}" if said else ends
+        self.setAccessibleDescription(self._sentence[0] if is_sentence else described)
         self.update()
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
@@ -152,6 +184,9 @@ class ColourBar(QtWidgets.QWidget):
         painter, theme, layout = QtGui.QPainter(self), LOOK.theme, self._layout
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
         painter.fillRect(self.rect(), QtGui.QColor(theme.canvas))
+        if self._sentence and self._reading is None:
+            self._paint_sentence(painter)
+            return
         self._paint_bar(painter)
         for word in (*layout.line, *layout.ticks):
             metrics, box = QtGui.QFontMetricsF(word.font), word.box
@@ -159,6 +194,22 @@ class ColourBar(QtWidgets.QWidget):
             painter.setFont(word.font)
             painter.setPen(QtGui.QColor(theme.quiet if word.is_quiet else theme.text))
             paint_number(painter, box.left(), baseline, word.text)
+
+    def _paint_sentence(self, painter: QtGui.QPainter) -> None:
+        """In the middle of the line over the bar."""
+        usual, bold = LOOK.font(), LOOK.font(bold=True)
+        metrics, room = QtGui.QFontMetricsF(bold), self.width() - 2 * SENTENCE_MARGIN
+        fitting = (words for words in self._sentence if metrics.horizontalAdvance(words) <= room)
+        parts = re.split(r"(?<=vertex )(\d+)", next(fitting, self._sentence[-1]))
+        fonts = [bold if k % 2 else usual for k in range(len(parts))]
+        widths = [QtGui.QFontMetricsF(font).horizontalAdvance(part) for font, part in zip(fonts, parts, strict=True)]
+        x = (self.width() - sum(widths)) / 2
+        baseline = round((0.4 * self.height() + metrics.ascent() - metrics.descent()) / 2)
+        for k, (part, font, width) in enumerate(zip(parts, fonts, widths, strict=True)):
+            painter.setFont(font)
+            painter.setPen(QtGui.QColor(LOOK.theme.text if k % 2 else LOOK.theme.quiet))
+            painter.drawText(QtCore.QPointF(x, baseline), part)
+            x += width
 
     def _paint_bar(self, painter: QtGui.QPainter) -> None:
         theme, bar = LOOK.theme, self._layout.bar

@@ -43,7 +43,9 @@ class PanelGrid(QtWidgets.QWidget):
     pinned = QtCore.Signal(int, object)  # the same with Shift
     pin_clicked = QtCore.Signal(int, int, bool)  # panel, a pin by its number, whether with Ctrl
     pin_dragged = QtCore.Signal(int, int, object)  # panel, a pin by its number, the `Met` where its tip is
-    pin_released = QtCore.Signal()
+    pin_released = QtCore.Signal()  # or that of a pair
+    pair_clicked = QtCore.Signal(int, int)  # panel, a pair by its number
+    pair_dragged = QtCore.Signal(int, int, object)  # panel, a pair by its number, the `Met` where its tip is
     added = QtCore.Signal(int, object)  # the same with Ctrl
     dragged = QtCore.Signal(int, int, object)  # panel, a mark of its source by its number, the `Met` it is over
     released = QtCore.Signal()
@@ -168,6 +170,8 @@ class PanelGrid(QtWidgets.QWidget):
         view.pin_clicked.connect(lambda number, is_more: self.pin_clicked.emit(panel.id, number, is_more))
         view.pin_dragged.connect(lambda number, met: self.pin_dragged.emit(panel.id, number, met))
         view.pin_released.connect(self.pin_released)
+        view.pair_clicked.connect(lambda number: self.pair_clicked.emit(panel.id, number))
+        view.pair_dragged.connect(lambda number, met: self.pair_dragged.emit(panel.id, number, met))
         view.dragged.connect(lambda mark, met: self.dragged.emit(panel.id, mark, met))
         view.released.connect(self.released)
         view.stroked.connect(lambda met: self.stroked.emit(panel.id, met))
@@ -245,6 +249,7 @@ class PanelGrid(QtWidgets.QWidget):
                 widget = self._panels[other]
                 widget.show_answer(shown[other], bar_end(document, shown, other), document.height, in_shares)
                 self.marks.show_isolines_again(document, other)
+                self.marks.show_pairs_in(document, other)
         self.pointing.show_again_soon()
 
     def show_certificate(self, id: int) -> None:

@@ -6,8 +6,11 @@ import numpy as np
 from qtpy import QtGui
 
 from ...document.document import Document, Panel
+from ...document.pairing import pair_words
+from ...document.predicting import predicts_in
 from ...document.quantities import Interpolant
 from ...session.anchors import anchors_on
+from ...session.paired import candidate_in, paired_on
 from ...session.passed import Passed, passed
 from ...session.pinned import pinned_on
 from ...session.questions import pieces_at, vertex_at
@@ -23,13 +26,14 @@ SELECTED_MS = 600
 class GridMarks:
     """panels: asks for those that are shown, by their ids.
 
-    lit: the points of pins that stand out; chosen_anchor: the point of the one that does, "" for none.
+    lit: the points of pins that stand out; chosen_anchor: the point of the one that does, "" for none; chosen_pair: a
+    point of the pair that does.
     """
 
     def __init__(self, session: Session, panels: Callable[[], Mapping[int, DistancePanel]], moving: Moving) -> None:
         self._session, self._shown, self._moving = session, panels, moving
         self.lit: tuple[str, ...] = ()
-        self.chosen_anchor = ""
+        self.chosen_anchor = self.chosen_pair = ""
         self._is_drawn_on = False
         self._selected: Mapping[str, np.ndarray | None] = {}
         self._brush: QtGui.QCursor | None = None
@@ -83,6 +87,37 @@ class GridMarks:
         if point != self.chosen_anchor:
             self.chosen_anchor = point
             self.mark_anchors(self._session.document)
+
+    # ------------------------------------------------------------------ pairs
+    def show_pairs(self, document: Document) -> None:
+        """Put the points of pairs on each panel's surface, and say in panels without a prediction what waits."""
+        for panel in document.panels:
+            self.show_pairs_in(document, panel.id)
+
+    def show_pairs_in(self, document: Document, id: int) -> None:
+        panel, widget = document.panel(id), self._panels[id]
+        opened, shown = self._session.opened(panel.surface), self._session.shown.get(id)
+        if opened is None:
+            return
+        answer = None if shown is None else shown.answer
+        candidate = candidate_in(document, panel, answer)
+        widget.marks.show_pairs(paired_on(document, panel.surface, opened), candidate, self.chosen_pair)
+        is_plain = predicts_in(panel) and candidate is None and (answer is None or not answer.failure)
+        alone = sum(other.surface == panel.surface and predicts_in(other) for other in document.panels) == 1
+        is_first = document.panels_of(panel.surface)[0] == panel
+        widget.show_prediction(
+            None if candidate is None else candidate.misfit,
+            # Once for each surface, and where it waits.
+            (pair_words(document, panel.surface) if is_first else ("",)) if is_plain else (),
+            opened.surface.name if is_plain and alone else "",
+        )
+
+    def choose_pair(self, point: str) -> None:
+        """Let the pair of this point stand out, "" for none."""
+        if point != self.chosen_pair:
+            self.chosen_pair = point
+            if self._session.surface is not None:
+                self.show_pairs(self._session.document)
 
     # ------------------------------------------------------------------ pins and selections
     def show_pins(self, document: Document) -> None:

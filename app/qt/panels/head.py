@@ -6,7 +6,7 @@ from html import escape
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.edits import PANEL_EDITS
-from ...document.quantities import Difference, Interpolant, Quantity
+from ...document.quantities import Difference, Interpolant, Prediction, Quantity
 from ..look.icons import pixmap
 from ..look.look import LOOK
 from .flat_button import ICON_SIDE, FlatButton
@@ -48,7 +48,7 @@ class PanelHead(QtWidgets.QWidget):
         self.controls: list[Control] = []
         self._choices = Choices()
         self._made_of: object = None
-        self._info = self._warning = self._dot = self.letter = ""
+        self._info = self._warning = self._dot = self.letter = self._plain = ""
         # Panels are equally wide whatever is in here.
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.name = FlatButton(self, bold=True)
@@ -95,7 +95,7 @@ class PanelHead(QtWidgets.QWidget):
         if made_of != self._made_of:
             self._made_of = made_of
             self._make_controls()
-        name = quantity_name(shows)
+        name = self._plain or quantity_name(shows)
         self.name.setText(name)
         self._show_values()
         self.name.setToolTip(f"{name}\nClick to show something else here")
@@ -138,10 +138,17 @@ class PanelHead(QtWidgets.QWidget):
     def show_letter(self, letter: str, name: str) -> None:
         """Of the panel's surface, where there are two, and the name of that; "" for none."""
         self.setToolTip(f"{letter}: {name}" if letter else "")
+        self._choices.has_other = bool(letter)
         if letter != self.letter:
             self.letter = letter
             self._lay_out()
             self.update()
+
+    def show_plain(self, name: str) -> None:
+        """The name of a surface that is shown as it is; "" where it is said what is shown on it."""
+        if name != self._plain:
+            self._plain = name
+            self.show_quantity(self.shows)
 
     def show_dot(self, colour: str) -> None:
         """Of the panel's curve in a plot that is open; "" for none."""
@@ -209,9 +216,10 @@ class PanelHead(QtWidgets.QWidget):
                 lambda raw: self._choose(Difference(self.shows.minuend, self.shows.subtrahend, raw))
             )
             self.controls.append(self._mode)
-        elif isinstance(self.shows, Interpolant):
+        elif isinstance(self.shows, Interpolant | Prediction):
             words = {kind.word: f"by {kind_name(kind).lower()}" for kind in offered_kinds()}
-            self._by = ChoiceControl(self, words, "By which distance it is interpolated")
+            done = "predicted" if isinstance(self.shows, Prediction) else "interpolated"
+            self._by = ChoiceControl(self, words, f"By which distance it is {done}")
             self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
             self.controls.insert(0, self._by)
         elif not self.controls and self.shows.word in EXACT:
@@ -258,6 +266,7 @@ class PanelHead(QtWidgets.QWidget):
     def _lay_out(self) -> None:
         """From the left name, warning, parameters; from the right the two buttons."""
         controls = [c for c in self.controls if not (self._warning and isinstance(c, FixedWord))]
+        controls = [] if self._plain else controls
         left = MARGIN + self._letter_room + (DOT_ROOM if self._dot else 0)
         right = self.width() - MARGIN - ICON_SIDE
         self.more.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)

@@ -14,6 +14,7 @@ from . import overlay
 from .anchor_labels import AnchorLabel, paint_anchor_labels
 from .extremum_marks import ExtremumMarks, paint_note
 from .overlay import Pointed
+from .pair_marks import PairMarks, paint_legend
 from .path_marks import PathMarks
 from .pin_marks import PinMark, drop_under, paint_pins
 
@@ -31,6 +32,7 @@ class MarksOver:
         self._view = view
         self.extrema = ExtremumMarks(view)
         self.path = PathMarks()
+        self.pairs = PairMarks(view)
         self.pointed: Pointed | None = None
         self.sentence = ""
         self.notes: Sequence[str] = ()
@@ -83,6 +85,16 @@ class MarksOver:
             self._labels, self._unlabelled = tuple(labels), None
             self._view.update()
 
+    def drop_at(self, position: QtCore.QPoint) -> tuple[str, int] | None:
+        """What drop is under a point of the view: ("pin", number) or ("pair", number); None for none."""
+        pair = self.pairs.number_at(position)
+        pin = 0 if pair else self.pin_at(position)
+        return ("pair", pair) if pair else ("pin", pin) if pin else None
+
+    def tip_of_drop(self, kind: str, number: int) -> QtCore.QPoint:
+        """The pixel of its place."""
+        return self.pairs.tip_of(number) if kind == "pair" else self.tip_of(number)
+
     def pin_at(self, position: QtCore.QPoint) -> int:
         """The number of the pin whose drop is under a point of the view; 0 for none."""
         return drop_under(QtCore.QPointF(position), self._seen_pins(), self._hidden_pins()) if self._pins else 0
@@ -110,6 +122,7 @@ class MarksOver:
     def see(self) -> None:
         """Another picture has been drawn: what is hidden in it?"""
         self._unseen = self._unlabelled = None
+        self.pairs.see()
         self.path.see(self._view.scene, self._view.board)
         self._covered = self._cover()
 
@@ -130,7 +143,10 @@ class MarksOver:
             paint_anchor_labels(painter, self._seen_labels(), QtCore.QRectF(view.rect()))
         if self._pins:
             paint_pins(painter, self._seen_pins(), self._hidden_pins())
-        if self.notes and not self.sentence:
+        self.pairs.paint(painter)
+        if self.pairs.names() and not self.sentence:
+            paint_legend(painter, QtCore.QRectF(view.rect()), self.pairs.names())
+        elif self.notes and not self.sentence:
             paint_note(painter, QtCore.QRectF(view.rect()), self.notes)
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)

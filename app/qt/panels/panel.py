@@ -218,7 +218,7 @@ class DistancePanel(QtWidgets.QWidget):
         if answer.colours is not None:
             self.view.scene.show_colours(answer.colours)
         elif answer.field is None:
-            self.view.scene.show_bare()
+            self.view.scene.show_bare(is_plain=not answer.failure)
         else:
             self.view.scene.show_field(answer.field, maximum, answer.is_signed)
             self._show_bands()
@@ -259,6 +259,15 @@ class DistancePanel(QtWidgets.QWidget):
             self.bar.show_note(f"largest {number(value, signed=True)} at vertex {answer.largest}")
         else:
             self.bar.show_note(f"no isolines: {lines.wanted:,} are too many" if scene.too_many else "")
+
+    def show_prediction(self, best: float | None, sentence: Sequence[str], plain: str) -> None:
+        """Of a prediction: the misfit of the best, None for none; a sentence where nothing is predicted, also shorter.
+
+        plain: the name of a surface that is shown as it is, instead of what is predicted there.
+        """
+        self.bar.show_rest(best, "misfit of the best")
+        self.bar.show_sentence(sentence)
+        self.head.show_plain(plain)
 
     def ask_end(self) -> None:
         """Let it be typed where the colour bar ends."""

@@ -13,9 +13,12 @@ from bihdist_core.sources.pieces import Pieces
 from ...drawing.source_lines import SourceLine, source_lines
 from ...drawing.style import PINS
 from ...session.anchors import anchor_value
+from ...session.paired import Candidate, PairedPoint
 from ...session.passed import Passed
 from ...session.pinned import PinnedPlace
+from ..look.numbers import share
 from .anchor_labels import AnchorLabel
+from .pair_marks import WAITING, CandidateMark
 from .pin_marks import PinMark
 from .view import View
 
@@ -36,6 +39,9 @@ class PanelMarks:
         self._held: Sequence[AnchorLabel] | None = None
         self._pins: Sequence[PinnedPlace] = ()
         self._lit: Collection[str] = ()
+        self._pairs: Sequence[PairedPoint] = ()
+        self._candidate: Candidate | None = None
+        self._chosen_pair = ""
         self._path: Places | None = None
         self._regions: Sequence[Boundary] = ()
         self._extrema = np.empty(0, np.int64), np.empty(0, np.int64)
@@ -46,6 +52,7 @@ class PanelMarks:
         self.positions = np.empty((0, 3))
         self._forget()
         self._view.over.show_pins(())
+        self._view.over.pairs.show((), None)
         self._view.over.show_anchors(())
         self._view.handles, self._view.over.strokes = np.empty((0, 3)), ()
         self._put_extrema()
@@ -60,6 +67,7 @@ class PanelMarks:
         self.begin(surface)
         self._put_path()
         self._put_pins()
+        self._put_pairs()
         self._put_regions()
         self._put_extrema()
 
@@ -126,6 +134,30 @@ class PanelMarks:
                     for each in self._pins
                 )
             )
+
+    def show_pairs(self, pairs: Sequence[PairedPoint], candidate: Candidate | None, chosen: str = "") -> None:
+        """Drops at these vertices, and where the next would be; chosen: a point of the pair that stands out."""
+        self._pairs, self._candidate, self._chosen_pair = pairs, candidate, chosen
+        self._put_pairs()
+
+    def _put_pairs(self) -> None:
+        if not len(self.positions):
+            return
+        marks = [
+            PinMark(
+                each.number,
+                self.positions[each.vertex],
+                WAITING if each.is_waiting else PINS[each.pair.colour],
+                self._chosen_pair in each.pair.points,
+            )
+            for each in self._pairs
+        ]
+        candidate = self._candidate
+        mark = None
+        if candidate is not None:
+            position = self.positions[candidate.vertex]
+            mark = CandidateMark(candidate.number, position, str(candidate.vertex), share(candidate.share))
+        self._view.over.pairs.show(tuple(marks), mark)
 
     def show_selected(self, colours: np.ndarray | None) -> None:
         """Vertices that stand out, see `selected_colours`."""

@@ -1,4 +1,4 @@
-"""What the mouse does in a view: it turns, holds a mark of the source or a pin, draws or paints;
+"""What the mouse does in a view: it turns, holds a mark of the source, a pin or a pair, draws or paints;
 each becomes a signal."""
 
 from typing import TYPE_CHECKING
@@ -35,7 +35,8 @@ class Pointer:
         self._last = QtCore.QPoint()
         self._is_dragging = self._is_stroke = self._is_brushing = False
         self._held = -1  # which mark
-        self._pin, self._grip = 0, QtCore.QPoint()  # which pin is held, and from where to its tip
+        self._drop: tuple[str, int] | None = None  # the pin or pair that is held, by its number
+        self._grip = QtCore.QPoint()  # and from where to its tip
 
     @property
     def is_up(self) -> bool:
@@ -74,10 +75,10 @@ class Pointer:
         if self._is_stroke:
             view.stroked.emit(met)
         may_hold = is_left and not self._is_stroke and (is_plain or event.modifiers() == _CTRL)
-        self._pin = view.over.pin_at(event.pos()) if may_hold else 0
-        self._grip = view.over.tip_of(self._pin) - event.pos() if self._pin else QtCore.QPoint()
-        self._held = view.mark_at(event.pos()) if may_hold and is_plain and not self._pin else -1
-        if self._held >= 0 or self._pin:
+        self._drop = view.over.drop_at(event.pos()) if may_hold else None
+        self._grip = view.over.tip_of_drop(*self._drop) - event.pos() if self._drop else QtCore.QPoint()
+        self._held = view.mark_at(event.pos()) if may_hold and is_plain and not self._drop else -1
+        if self._held >= 0 or self._drop:
             view.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
 
     def move(self, event: QtGui.QMouseEvent) -> None:
@@ -100,10 +101,11 @@ class Pointer:
             self._draw_to(event.pos())
             return
         step, self._last = event.pos() - self._last, event.pos()
-        if self._pin:
+        if self._drop:
             met = view.met_at(event.pos() + self._grip)
             if met is not None:
-                view.pin_dragged.emit(self._pin, met)
+                kind, number = self._drop
+                (view.pin_dragged if kind == "pin" else view.pair_dragged).emit(number, met)
         elif self._held >= 0:
             met = view.met_at(event.pos())
             if met is not None:
@@ -123,25 +125,29 @@ class Pointer:
             view.point_again()
             return
         held, self._held = self._held >= 0, -1
-        pin, self._pin = self._pin, 0
+        drop, self._drop = self._drop, None
         is_stroke, self._is_stroke = self._is_stroke, False
         has_ctrl = bool(event.modifiers() & _CTRL)
-        if held or pin:
+        if held or drop:
             view.unsetCursor()
         if is_stroke:
             if self._is_dragging and event.pos() != self._last:
                 view.stroked.emit(view.met_at(event.pos()))
             view.stroke_ended.emit(has_ctrl)
         elif self._is_dragging:
-            if pin:
+            if drop:
                 view.pin_released.emit()
             elif held:
                 view.released.emit()
             else:
                 view.let_go.emit()
             view.point_again()
-        elif pin:
-            view.pin_clicked.emit(pin, has_ctrl)
+        elif drop:
+            kind, number = drop
+            if kind == "pin":
+                view.pin_clicked.emit(number, has_ctrl)
+            else:
+                view.pair_clicked.emit(number)
         elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
             view.menu_wanted.emit(view.met_at(press), view.mapToGlobal(press))
         elif press is not None and event.button() == QtCore.Qt.MouseButton.LeftButton and not held:
@@ -152,7 +158,7 @@ class Pointer:
 
     def double_click(self, event: QtGui.QMouseEvent) -> None:
         """The first click has moved the source there, or has chosen a pin."""
-        if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._view.over.pin_at(event.pos()):
+        if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._view.over.drop_at(event.pos()):
             met = self._view.met_at(event.pos())
             if met is not None:
                 self._view.centred.emit(met)
@@ -165,7 +171,7 @@ class Pointer:
             self._view.setCursor(self.brush)
         elif self.is_drawn_on:
             self._view.setCursor(QtCore.Qt.CursorShape.CrossCursor)
-        elif self._view.over.pin_at(position) or self._view.mark_at(position) >= 0:
+        elif self._view.over.drop_at(position) or self._view.mark_at(position) >= 0:
             self._view.setCursor(QtCore.Qt.CursorShape.OpenHandCursor)
         else:
             self._view.unsetCursor()

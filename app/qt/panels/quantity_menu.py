@@ -8,7 +8,7 @@ from qtpy import QtWidgets
 from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Kind, Spec, kind_of, kinds
 
-from ...document.quantities import Difference, DistanceFrom, Interpolant, OwnField, Part, Quantity
+from ...document.quantities import Difference, DistanceFrom, Interpolant, OwnField, Part, Prediction, Quantity
 from ...document.quantity_names import kind_name as kind_name
 from ...document.quantity_names import part_name as part_name
 from ...document.quantity_names import quantity_name as quantity_name
@@ -34,6 +34,7 @@ class Choices:
 
     def __init__(self) -> None:
         self.fields: tuple[str, ...] = ()
+        self.has_other = False  # whether there is another surface, with points to be found on this one
         self._before: tuple[dict[str, Spec], dict[str, Spec]] = ({}, {})
 
     def keep(self, shows: Quantity) -> None:
@@ -48,9 +49,9 @@ class Choices:
         # Where distances start, nobody chooses here.
         point = [*parts[place].points, *shows.points, "source"][0]
         now, found = parts[place], self._part(chosen, place, point)
-        # An interpolant goes over to another distance.
-        is_interpolant = isinstance(now, Interpolant) and isinstance(found, DistanceFrom)
-        parts[place] = replace(now, spec=found.spec) if is_interpolant else found
+        if isinstance(now, Interpolant | Prediction) and isinstance(found, DistanceFrom):
+            found = replace(now, spec=found.spec)  # it goes over to another distance
+        parts[place] = found
         return shows.with_parts(tuple(parts))
 
     def difference(self, shows: Part, chosen: str | OwnField) -> Difference:
@@ -73,11 +74,17 @@ def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: 
     if isinstance(shows, Interpolant):
         _fill_for_interpolant(menu, shows, choices, choose)
         return
+    if isinstance(shows, Prediction):
+        _fill_distances(menu, shows, choices, choose)
+        return
     _add_parts(menu, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
     menu.addSeparator()
     if isinstance(shows, DistanceFrom):
         interpolant = Interpolant(shows.spec)
         _add(menu, "Interpolant by it", "Values at anchors, interpolated by this distance", lambda: choose(interpolant))
+    if isinstance(shows, DistanceFrom) and choices.has_other:
+        prediction, tip = Prediction(shows.spec), "Where points of the other mesh are on this one, by this distance"
+        _add(menu, "Prediction by it", tip, lambda: choose(prediction))
     inner = _inner(menu, "Difference with")
     _add_parts(inner, choices, None, lambda chosen: choose(choices.difference(shows, chosen)), _can_differ_from(shows))
 
@@ -93,6 +100,13 @@ def _fill_for_interpolant(
         other = replace(shows, total=total)
         tick(_add(menu, words, tip, lambda other=other: choose(other)), shows.total == total)
     menu.addSeparator()
+    _fill_distances(menu, shows, choices, choose)
+
+
+def _fill_distances(
+    menu: QtWidgets.QMenu, shows: Interpolant | Prediction, choices: Choices, choose: Callable[[Quantity], None]
+) -> None:
+    """By which; and back to the distance itself."""
     inner = _inner(menu, f"By {kind_name(shows.spec.kind)}")
     _add_parts(inner, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
     _add(menu, "The distance itself", "", lambda: choose(DistanceFrom(shows.spec)))

@@ -40,7 +40,9 @@ class View(QtWidgets.QWidget):
     added = QtCore.Signal(object)  # the same with Ctrl
     pin_clicked = QtCore.Signal(int, bool)  # its drop, by its number; whether with Ctrl
     pin_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Met`
-    pin_released = QtCore.Signal()
+    pin_released = QtCore.Signal()  # or that of a pair
+    pair_clicked = QtCore.Signal(int)  # its drop, or its candidate, by its number
+    pair_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Met`
     dragged = QtCore.Signal(int, object)  # a mark of the source by its number, over a `Met`
     released = QtCore.Signal()  # the mark
     stroked = QtCore.Signal(object)  # over a `Met`, or None beside the surface, while that is drawn on

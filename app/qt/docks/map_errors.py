@@ -1,0 +1,244 @@
+"""The section "Error" of the dock of pairs: how far maps are from the truth, and the full map.  `window` is the main
+window."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from qtpy import QtWidgets
+
+from bihdist_core.applications.map_errors import ErrorCurve
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.formats.vertex_maps import MAP_FORMATS, write_map
+from bihdist_core.progress import Progress
+
+from ...document.document import Document
+from ...document.map_colours import MapColours, MapFile
+from ...document.mapping import show_maps, shows_maps
+from ...document.pairing import whole_pairs
+from ...document.predicting import predict
+from ...document.quantities import Prediction
+from ...document.quantity_names import kind_name
+from ...session.judging import Asked, Judgement, Judging, Map, asked_of, maps_of
+from ..look.look import LOOK
+from ..panels.flat_button import FlatButton
+from .background import Background
+from .dock import PAD
+from .error_chart import ErrorChart, ErrorTable, MapCurve
+from .map_truth import MapTruth
+from .panel_dots import curve_colour
+from .saving import save
+
+NO_TRUTH = "Without a truth there is no error. Choose the same ids, or a map's file, where it is known."
+NO_MAP = "Errors come with the first pair."
+
+
+class MapErrors(QtWidgets.QWidget):
+    """See the module.  judgement: what is shown, None for nothing."""
+
+    def __init__(self, window: Any) -> None:
+        super().__init__()
+        self.window_ = window
+        self.judgement: Judgement | None = None
+        self.asked: Asked | None = None
+        self._dots: dict[int, str] = {}
+        self.truth = MapTruth(self)
+        self.chart, self.table = ErrorChart(), ErrorTable()
+        self.said = QtWidgets.QLabel(wordWrap=True)
+        self.said.setProperty("quiet", True)
+        self.full = QtWidgets.QPushButton("Compute full map", autoDefault=False)
+        self.full.setToolTip("Where every vertex of A is on B, by each distance, in colours")
+        self.full.clicked.connect(self.show_or_leave_maps)
+        self.save = FlatButton(self, "save")
+        self.save.setToolTip("Save a full map: for each vertex of A one of B")
+        self.save.setAccessibleName("Save a full map")
+        self.save.setMenu(QtWidgets.QMenu(self.save))
+        self.save.menu().aboutToShow.connect(self._fill_maps)
+        self.mirror = QtWidgets.QCheckBox("mirror counts")
+        self.mirror.setToolTip("The symmetric partner of the right place is as good; where it is, a map's file says")
+        self.mirror.clicked.connect(self._count_mirror)
+        self._lay_out()
+        self._background = Background("map errors", self._judge, window)
+        self._judging = Judging()
+        self._background.answered.connect(self._take)
+        self._background.failed.connect(self._refuse)
+        LOOK.follow(self, self._show)
+
+    def _lay_out(self) -> None:
+        line = QtWidgets.QFrame(objectName="hairline")
+        heading = QtWidgets.QLabel("Error")
+        heading.setProperty("heading", True)
+        top = QtWidgets.QHBoxLayout()
+        top.addWidget(heading)
+        top.addStretch(1)
+        top.addWidget(self.truth.button)
+        bottom = QtWidgets.QHBoxLayout()
+        bottom.setSpacing(8)
+        bottom.addWidget(self.full)
+        bottom.addWidget(self.save)
+        bottom.addStretch(1)
+        bottom.addWidget(self.mirror)
+        inside = QtWidgets.QVBoxLayout()
+        inside.setContentsMargins(PAD, 8, PAD, PAD)
+        inside.setSpacing(8)
+        inside.addLayout(top)
+        for widget in (self.chart, self.table, self.said):
+            inside.addWidget(widget)
+        inside.addLayout(bottom)
+        whole = QtWidgets.QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addWidget(line)
+        whole.addLayout(inside)
+
+    # ------------------------------------------------------------------ what is told
+    def show_document(self, document: Document) -> None:
+        """The document is another: are its maps, or is what is right?"""
+        opened = [self.window_.session.opened(mesh.name) for mesh in document.surfaces[:2]]
+        is_there = len(opened) == 2 and None not in opened
+        self.setVisible(is_there)
+        if not is_there:
+            self._ask(None)
+            return
+        self._ask(asked_of(document, *opened))
+        self._show()
+
+    def show_answer(self) -> None:
+        """A panel has another answer: perhaps a full map."""
+        self.save.setVisible(bool(self._full_maps()))
+
+    def show_closed(self) -> None:
+        self._ask(None)
+        self._put_dots({})
+
+    def _ask(self, asked: Asked | None) -> None:
+        before, self.asked = self.asked, asked
+        if asked is None or before is None or asked.about != before.about:
+            if asked is None or before is None or asked.about[:2] != before.about[:2]:
+                self.judgement = None
+            self._background.ask(asked)
+
+    def _judge(self, asked: Asked, progress: Progress) -> Iterator[Judgement]:
+        yield from self._judging.judge(asked, progress)
+
+    def _take(self, asked: Asked, judgement: Judgement) -> None:
+        # Over a part of the vertices nothing is said that was known over more of them, but for what is new.
+        self.judgement = judgement
+        self._show()
+
+    def _refuse(self, asked: Asked, sentence: str) -> None:
+        self.judgement = None
+        self._show()
+        self.said.setText(sentence)
+
+    # ------------------------------------------------------------------ what is seen
+    @property
+    def _document(self) -> Document:
+        return self.window_.session.document
+
+    def _show(self) -> None:
+        asked, document = self.asked, self._document
+        if asked is None:
+            return
+        word = self.truth.word
+        self.truth.show()
+        self.mirror.setChecked(document.truth.mirror)
+        self.mirror.setEnabled(word != "none")
+        has_maps = bool(document.maps or (whole_pairs(document) and asked.maps))
+        judged = self.judgement if word != "none" and has_maps else None
+        curves = [] if judged is None else self._curves(judged)
+        self.chart.setVisible(bool(curves))
+        self.chart.show_curves(curves)
+        failures = [] if judged is None else self._failures(judged)
+        self.table.setVisible(bool(curves or failures))
+        self.table.show_rows(curves, failures)
+        self.said.setText(NO_TRUTH if word == "none" else NO_MAP if not has_maps else self._over(judged))
+        has_full = shows_maps(document)
+        self.full.setText("Show predictions" if has_full else "Compute full map")
+        self.full.setEnabled(bool(has_full or document.maps or whole_pairs(document)))
+        self.show_answer()
+        self._put_dots(self._colours())
+
+    def _over(self, judged: Judgement | None) -> str:
+        """Over how many vertices, by which distance."""
+        if judged is None or not judged.curves:
+            return "Finding errors …"
+        known = f"{judged.known:,}" if judged.is_whole else f"{judged.known:,} of {judged.wanted:,}"
+        sampled = "" if judged.wanted == judged.vertices else " sampled"
+        return f"over {known}{sampled} vertices, {judged.method}"
+
+    def name_of(self, map: Map) -> str:
+        """In the table."""
+        if isinstance(map, MapFile):
+            return map.name
+        same = [each for each in maps_of(self._document) if isinstance(each, Spec) and each.word == map.word]
+        return kind_name(map.kind) if len(same) < 2 else str(map)
+
+    def _colour_of(self, map: Map) -> str:
+        maps = maps_of(self._document)
+        return curve_colour(maps.index(map)) if map in maps else LOOK.theme.quiet
+
+    def _curves(self, judged: Judgement) -> list[MapCurve]:
+        return [
+            MapCurve(self.name_of(map), self._colour_of(map), curve)
+            for map, curve in judged.curves.items()
+            if map in maps_of(self._document)
+        ]
+
+    def _failures(self, judged: Judgement) -> list[tuple[str, str, str]]:
+        return [(self.name_of(map), self._colour_of(map), why) for map, why in judged.failures.items()]
+
+    def _colours(self) -> dict[int, str]:
+        """Of the dots in the heads of panels: those of their curves."""
+        document, found = self._document, {}
+        for panel in document.panels:
+            shows = panel.shows
+            if isinstance(shows, Prediction) and panel.surface == document.surfaces[1].name:
+                found[panel.id] = self._colour_of(shows.spec)
+            elif isinstance(shows, MapColours) and shows.by:
+                found[panel.id] = self._colour_of(document.map(shows.by) if isinstance(shows.by, str) else shows.by)
+        return found
+
+    def _put_dots(self, colours: dict[int, str]) -> None:
+        before, self._dots = self._dots, colours
+        for panel in self.window_.grid.panels:
+            if panel.id in colours or panel.id in before:
+                panel.head.show_dot(colours.get(panel.id, ""))
+
+    def named_curves(self) -> dict[str, ErrorCurve]:
+        """What the chart shows."""
+        return {curve.name: curve.errors for curve in self.chart.curves}
+
+    def _count_mirror(self, counts: bool) -> None:
+        self.truth.count_mirror(counts)
+        self.mirror.setChecked(self._document.truth.mirror)
+
+    # ------------------------------------------------------------------ maps
+    def show_or_leave_maps(self) -> None:
+        """The full map by each distance, or predictions again."""
+        document = self._document
+        self.window_.session.show(predict(document) if shows_maps(document) else show_maps(document))
+
+    def _full_maps(self) -> dict[Spec, Any]:
+        """Those that are there, (n,) each."""
+        session = self.window_.session
+        found = {}
+        for panel in self._document.panels:
+            shown = session.shown.get(panel.id)
+            if isinstance(panel.shows, MapColours) and panel.shows.specs and shown is not None:
+                if session.is_answered(panel.id) and shown.answer.leads_to is not None:
+                    found[panel.shows.spec] = shown.answer.leads_to
+        return found
+
+    def _fill_maps(self) -> None:
+        menu = self.save.menu()
+        menu.clear()
+        for spec, found in self._full_maps().items():
+            action = menu.addAction(f"Save the map by {self.name_of(spec).lower()} …")
+            action.triggered.connect(lambda *_, spec=spec, found=found: self.save_map(spec, found))
+
+    def save_map(self, spec: Spec, found: Any) -> None:
+        asked = self.asked
+        stems = [] if asked is None else [Path(each.surface.name).stem for each in (asked.one, asked.two)]
+        name = "-".join([*stems, spec.word])
+        save(self.window_, "Save the map", name, MAP_FORMATS, lambda path: write_map(path, found))

@@ -1,0 +1,162 @@
+"""What is done to pairs on panels that predict: put, accepted, chosen, dragged, removed.  `window`: the main window."""
+
+from typing import TYPE_CHECKING
+
+from qtpy import QtWidgets
+
+from bihdist_core import ParameterError
+
+from ..document.document import Document
+from ..document.instruments import Pair
+from ..document.pairing import (
+    drop_half,
+    half_pair,
+    move_pair_point,
+    place_point,
+    remove_pairs,
+    waiting_point,
+    whole_pairs,
+)
+from ..document.predicting import predicts_in
+from ..session.paired import Candidate, candidate_in
+
+if TYPE_CHECKING:
+    from ..drawing.picking import Met
+
+
+class PairGestures:
+    """See the module."""
+
+    def __init__(self, window) -> None:
+        self._window, self._grid = window, window.grid
+        self._grid.pair_clicked.connect(self._click)
+        self._grid.pair_dragged.connect(self._drag)
+        self._is_dragging = False
+
+    @property
+    def _document(self) -> Document:
+        return self._window.session.document
+
+    def are_meant(self, panel: int) -> bool:
+        """Whether a panel predicts, so that what is done there is done to pairs."""
+        return predicts_in(self._document.panel(panel)) and len(self._document.surfaces) > 1
+
+    # ------------------------------------------------------------------ points
+    def put(self, panel: int, met: "Met") -> None:
+        """A point that waits for its partner, or the partner of the one that waits."""
+        self.put_at(panel, met.vertex)
+
+    def put_at(self, panel: int, vertex: int) -> None:
+        """The same at a vertex; where a pair has its point already, that pair is chosen."""
+        document, surface = self._document, self._document.panel(panel).surface
+        waiting = waiting_point(document)
+        there = self._pair_at(surface, vertex)
+        if there is not None and (waiting is None or waiting.surface == surface):
+            self.choose(there.points[0])
+            return
+        try:
+            changed = place_point(document, surface, vertex)
+        except ParameterError as error:
+            self._window.failed(str(error))
+            return
+        self._window.session.show(changed)
+        self.choose("")
+
+    def _pair_at(self, surface: str, vertex: int) -> Pair | None:
+        document = self._document
+        for pair in whole_pairs(document):
+            points = [document.point(name) for name in pair.points]
+            if any((point.surface, point.at) == (surface, vertex) for point in points):
+                return pair
+        return None
+
+    def candidate(self) -> tuple[int, Candidate] | None:
+        """That of the active panel, or else of the first that has one, with the panel's id."""
+        session, active = self._window.session, self._grid.active
+        panels = sorted(self._document.panels, key=lambda panel: panel.id != active)
+        for panel in panels:
+            shown = session.shown.get(panel.id)
+            found = candidate_in(self._document, panel, None if shown is None else shown.answer)
+            if found is not None and session.is_answered(panel.id):
+                return panel.id, found
+        return None
+
+    def accept(self) -> None:
+        """The best candidate is the partner."""
+        found = self.candidate()
+        if found is not None:
+            self.put_at(found[0], found[1].vertex)
+
+    def drop(self) -> bool:
+        """Without the point that waits; whether there was one, on panels that predict."""
+        document = self._document
+        if half_pair(document) is None or not any(map(predicts_in, document.panels)):
+            return False
+        self._window.session.show(drop_half(document))
+        return True
+
+    def remove(self, pairs: list[Pair]) -> None:
+        self._window.session.show(remove_pairs(self._document, pairs))
+
+    def remove_chosen(self) -> bool:
+        """The pair that stands out; whether there is one."""
+        name = self._grid.marks.chosen_pair
+        found = [pair for pair in self._document.pairs if name and name in pair.points]
+        if found:
+            self.choose("")
+            self.remove(found)
+        return bool(found)
+
+    def choose(self, point: str) -> None:
+        """Let the pair of a point stand out, in the list, too."""
+        self._window.docks.choose_pair(point)
+
+    def offer(self, menu: QtWidgets.QMenu, panel: int, met: "Met") -> None:
+        """In a menu: what can be done with the place."""
+        document = self._document
+        pair, half = self._pair_at(document.panel(panel).surface, met.vertex), half_pair(document)
+        if pair is not None:
+            number = document.pairs.index(pair) + 1
+            menu.addAction(f"Remove pair {number}", lambda: self.remove([pair]))
+            return
+        waiting = waiting_point(document)
+        is_partner = waiting is not None and waiting.surface != document.panel(panel).surface
+        words = f"The partner of point {len(document.pairs)} is here" if is_partner else "A point of a pair is here"
+        menu.addAction(f"{words}\tClick", lambda: self.put(panel, met))
+        if half is not None and self.candidate() is not None:
+            menu.addAction("Accept the candidate\tEnter", self.accept)
+        if half is not None:
+            menu.addAction(f"Give point {len(document.pairs)} up\tEsc", self.drop)
+
+    # ------------------------------------------------------------------ drops
+    def _click(self, panel: int, number: int) -> None:
+        """A candidate is accepted, another drop stands out, or no longer."""
+        document = self._document
+        pair, surface = document.pairs[number - 1], document.panel(panel).surface
+        if not self._has_point(pair, surface):
+            shown = self._window.session.shown.get(panel)
+            found = candidate_in(document, document.panel(panel), None if shown is None else shown.answer)
+            if found is not None:
+                self.put_at(panel, found.vertex)
+            return
+        name = pair.points[0]
+        self.choose("" if self._grid.marks.chosen_pair in pair.points else name)
+
+    def _has_point(self, pair: Pair, surface: str) -> bool:
+        return any(self._document.point(name).surface == surface for name in pair.points)
+
+    def _drag(self, panel: int, number: int, met: "Met") -> None:
+        """All the way is one step; a place that another pair has is passed."""
+        session, document = self._window.session, self._document
+        surface, pair = document.panel(panel).surface, document.pairs[number - 1]
+        names = [name for name in pair.points if document.point(name).surface == surface]
+        if not names or document.point(names[0]).at == met.vertex or self._pair_at(surface, met.vertex) is not None:
+            return
+        if not self._is_dragging:
+            self._is_dragging = True
+            self._window.gestures.sources.rate.begin()
+        session.show(move_pair_point(document, names[0], met.vertex), key=f"drag of {names[0]}", live=True)
+
+    def rest(self) -> None:
+        """It has arrived."""
+        self._is_dragging = False

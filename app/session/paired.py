@@ -1,0 +1,78 @@
+"""The pairs of a document on one of its surfaces: where their points are, and where the best partner would be."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bihdist_core import ParameterError, Surface
+from bihdist_core.distances.answers import Answer
+
+from ..document.document import Document, Panel
+from ..document.instruments import Pair
+from ..document.pairing import half_pair, number_of, waiting_point, whole_pairs
+from ..document.predicting import predicts_in
+from .opened import Opened
+from .predicted import candidate_of
+from .questions import vertex_at
+
+
+@dataclass(frozen=True)
+class PairedPoint:
+    """A point of a pair, by its name, at a vertex.  number: of the pair, from 1."""
+
+    number: int
+    pair: Pair
+    point: str
+    vertex: int
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether it has no partner yet."""
+        return self.pair.is_half
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """The vertex that fits the waiting point best.  misfit: of it; share: of the largest misfit, 0 to 1."""
+
+    number: int
+    vertex: int
+    misfit: float
+    share: float
+
+
+def paired_on(document: Document, surface: str, opened: Opened) -> tuple[PairedPoint, ...]:
+    """Those on the surface of a name, which is there; what is no vertex stands at the nearest."""
+    found = []
+    for pair in document.pairs:
+        for name in pair.points:
+            point = document.point(name)
+            if point.surface == surface:
+                vertex = vertex_at(point.at, opened.surface)
+                found.append(PairedPoint(number_of(document, pair), pair, name, vertex))
+    return tuple(found)
+
+
+def candidate_in(document: Document, panel: Panel, answer: Answer | None) -> Candidate | None:
+    """That of a panel which predicts; None where it shows no prediction, or nothing waits."""
+    half, waiting = half_pair(document), waiting_point(document)
+    if not predicts_in(panel) or half is None or waiting is None or waiting.surface == panel.surface:
+        return None
+    if answer is None or answer.field is None or np.isnan(answer.field).all():
+        return None
+    vertex, share = candidate_of(answer.field)
+    return Candidate(number_of(document, half), vertex, float(answer.field[vertex]), share)
+
+
+def vertex_pairs(document: Document, first: Surface, second: Surface) -> np.ndarray:
+    """(k, 2) the vertices of whole pairs on both surfaces, for a file.  ParameterError if there are none."""
+    pairs = [
+        [
+            vertex_at(document.point(name).at, surface)
+            for name, surface in zip(pair.points, (first, second), strict=True)
+        ]
+        for pair in whole_pairs(document)
+    ]
+    if not pairs:
+        raise ParameterError("There are no pairs to be written.")
+    return np.array(pairs)
