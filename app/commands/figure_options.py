@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..document.looks import PROJECTIONS
 from .colour_options import add_colours, add_range, tell_if_unseen, with_colours, with_range
 from .isoline_options import add_isolines, with_isolines
+from .map_options import add_maps, with_maps
 from .options import (
     PANELS,
     SOURCE,
@@ -55,6 +56,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         help="each distance before and after a change to the mesh, and the difference: simplify=N, noise=S, "
         "along=normals, holes=N, radius=R, weld=I:J, handle=I:J, seed=K, with commas between them",
     )
+    add_maps(parser)
     add_isolines(parser)
     parser.add_argument(
         "--view",
@@ -197,6 +199,7 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
         document = with_changed(document, change)
         was = page.columns if options.perturb is None else None
         columns = options.columns or was or COLUMNS
+    document = with_maps(document, options)
     if views:
         document = replace(document, camera=views[0])
         page = replace(page, views=tuple(views) if len(views) > 1 else ())

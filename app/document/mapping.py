@@ -1,6 +1,6 @@
 """Edits of a document's maps between its two surfaces, and of what they are measured by; pure functions."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec
@@ -14,17 +14,19 @@ MOST_MAPS = 5
 """Shown beside the surface that they lead to."""
 
 
-def show_maps(document: Document) -> Document:
-    """The second surface in its colours by position, and the first once for each map: by each distance, of each file.
+def show_maps(document: Document, by: Sequence[Spec | str] | None = None) -> Document:
+    """The second surface in its colours by position, and the first once for each map.
 
-    Those of the distances that panels show or that maps are by.  ParameterError where there are not two surfaces.
+    by: distances, and paths of the document's maps; if None all of these, and the distances that panels show or that
+    maps are by.  ParameterError where there are not two surfaces.
     """
     if len(document.surfaces) < 2:
         raise ParameterError("A map is from one mesh to another; open a second one beside the first.")
     first, second = (mesh.name for mesh in document.surfaces[:2])
     specs = list(dict.fromkeys(spec for panel in document.panels for spec in panel.shows.specs))
-    by: list[Spec | str] = [*(specs if document.pairs else ()), *(map.path for map in document.maps)]
-    by = by[:MOST_MAPS] or [Spec.of("biharmonic")]
+    if by is None:
+        by = [*(specs if document.pairs else ()), *(map.path for map in document.maps)][:MOST_MAPS]
+    by = by or [Spec.of("biharmonic")]
     wanted = [(second, MapColours()), *((first, MapColours(each)) for each in by)]
     ids = {name: [panel.id for panel in document.panels_of(name)] for name in (first, second)}
     panels, next_id = [], document.next_id

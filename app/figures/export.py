@@ -30,6 +30,7 @@ from ..session.anchors import anchor_value, anchors_on
 from ..session.changed import carried
 from ..session.extrema import extrema_of
 from ..session.given import Given
+from ..session.mapped import map_in
 from ..session.opened import Opened, open_mesh
 from ..session.passed import Passed, passed
 from ..session.pinned import pinned_on
@@ -74,6 +75,10 @@ def open_document(recipe: Recipe, given: Given) -> tuple[Document, Surfaces]:
         document = opened.settled(document)
     for opened in surfaces.values():
         opened.beside = tuple(surfaces.values())
+    if document.maps:
+        one, two, *_ = surfaces.values()
+        for map in document.maps:
+            map_in(map, one.surface, two.surface)
     return document, surfaces
 
 

@@ -225,9 +225,10 @@ class MapErrors(QtWidgets.QWidget):
         found = {}
         for panel in self._document.panels:
             shown = session.shown.get(panel.id)
-            if isinstance(panel.shows, MapColours) and panel.shows.specs and shown is not None:
-                if session.is_answered(panel.id) and shown.answer.leads_to is not None:
-                    found[panel.shows.spec] = shown.answer.leads_to
+            is_by_pairs = isinstance(panel.shows, MapColours) and panel.shows.specs
+            is_there = is_by_pairs and shown is not None and session.is_answered(panel.id)
+            if is_there and shown.answer.leads_to is not None:
+                found[panel.shows.spec] = shown.answer.leads_to
         return found
 
     def _fill_maps(self) -> None:

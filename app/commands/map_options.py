@@ -1,0 +1,55 @@
+"""The options for a second mesh in a figure, and for maps to it."""
+
+import argparse
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..document.document import Document
+
+PAIRS = "pairs"
+"""In the place of a map's file: the map that pairs make."""
+
+
+def add_maps(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("beside", nargs="?", help="a second mesh B, to stand beside the first, A")
+    parser.add_argument(
+        "--map",
+        metavar="MAP",
+        action="append",
+        help="instead of distances where each vertex of A is on B, in colours: a .npy or .txt file with one of B for "
+        f"each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; repeat",
+    )
+    parser.add_argument("--pairs", metavar="FILE", help="known pairs, a line `i,j` for each: vertex i of A is j of B")
+
+
+def with_maps(document: "Document", options: argparse.Namespace) -> "Document":
+    """The document with the second mesh, the pairs and the maps that are named, if any are."""
+    from bihdist_core import ParameterError
+    from bihdist_core.formats.vertex_maps import read_pairs
+
+    from ..document.beside_edits import open_beside
+    from ..document.document import MeshFile
+    from ..document.file import checksum
+    from ..document.map_colours import SAME_IDS, MapFile
+    from ..document.mapping import show_maps
+    from ..document.pairing import pair_instead
+    from .mesh import check_mesh
+
+    if options.beside is not None:
+        check_mesh(options.beside)
+        document = open_beside(document, MeshFile("", options.beside))
+    named = [*(["--pairs"] if options.pairs else []), *(["--map"] if options.map else [])]
+    if named and len(document.surfaces) < 2:
+        raise ParameterError(f"{named[0]} goes from one mesh to another; name a second one after the first.")
+    if options.pairs is not None:
+        document = pair_instead(document, [(int(i), int(j)) for i, j in read_pairs(options.pairs)])
+    if options.map is None:
+        return document
+    if PAIRS in options.map and not document.pairs:
+        raise ParameterError(f"--map {PAIRS} is made by pairs; name their file with --pairs.")
+    files = [path for path in dict.fromkeys(options.map) if path != PAIRS]
+    maps = tuple(MapFile(path, "" if path == SAME_IDS else checksum(path)) for path in files)
+    specs = dict.fromkeys(spec for panel in document.panels for spec in panel.shows.specs)
+    by = [each for path in dict.fromkeys(options.map) for each in (specs if path == PAIRS else [path])]
+    return show_maps(replace(document, maps=maps), by)
