@@ -3,10 +3,14 @@
 from dataclasses import replace
 
 from bihdist_core.applications.changes import Perturbation
+from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 
 from .document import Document, MeshFile, Panel, Point
-from .quantities import ChangeOf, DistanceFrom
+from .instruments import ALONG_ALL_PINS
+from .mapping import without_maps
+from .pairing import remove_pairs
+from .quantities import ChangeOf, DistanceFrom, Prediction
 
 COLUMNS = 3
 """Before, after, difference."""
@@ -14,32 +18,59 @@ COLUMNS = 3
 CHANGED = "B"
 
 
-def with_changed(document: Document, change: Perturbation) -> Document:
+def changed_mesh(document: Document) -> MeshFile | None:
+    """The mesh that is made from another, if there is one."""
+    return next((mesh for mesh in document.surfaces if mesh.change is not None), None)
+
+
+def with_changed(document: Document, change: Perturbation, with_others: bool = False) -> Document:
     """A document of one mesh, with the changed mesh besides: three panels for each of a distance.
 
-    ParameterError for several meshes, and for a panel that shows no distance.
+    with_others: whether panels that show no distance stay, behind those that do.
+
+    ParameterError for several meshes, for a panel that shows no distance if those do not stay, and where none does.
     """
     if len(document.surfaces) != 1:
         raise ParameterError(f"One mesh is changed at a time, and here there are {len(document.surfaces)}.")
     (mesh,) = document.surfaces
     name = CHANGED if mesh.name != CHANGED else "A"
+    meant = [panel for panel in document.panels if isinstance(panel.shows, DistanceFrom)]
+    others = [panel for panel in document.panels if panel not in meant]
+    if others and not with_others:
+        raise ParameterError(f"What a change does is shown of distances, and {others[0].shows} is none.")
+    if not meant:
+        raise ParameterError("What a change does is shown of distances; let a panel show one.")
     panels: list[Panel] = []
-    for panel in document.panels:
-        if not isinstance(panel.shows, DistanceFrom):
-            raise ParameterError(f"What a change does is shown of distances, and {panel.shows} is none.")
-        image = DistanceFrom(panel.shows.spec, image_name(panel.shows.point))
+    for panel in meant:
+        image = DistanceFrom(panel.shows.specs[0], image_name(panel.shows.points[0]))
         k = len(panels)
         panels.append(replace(panel, id=k))
         panels.append(Panel(k + 1, image, name, panel.maximum))
         panels.append(Panel(k + 2, ChangeOf(image.spec, image.point), name))
-    numbers = {panel.id: COLUMNS * k for k, panel in enumerate(document.panels)}
-    starts = dict.fromkeys(point for panel in document.panels for point in panel.shows.points)
+    numbers = {panel.id: COLUMNS * k for k, panel in enumerate(meant)}
+    numbers |= {panel.id: len(panels) + k for k, panel in enumerate(others)}
+    panels += [replace(panel, id=numbers[panel.id]) for panel in others]
+    starts = dict.fromkeys(point for panel in meant for point in panel.shows.points)
+    return _numbered(
+        replace(
+            document,
+            surfaces=(mesh, MeshFile(name, mesh.path, mesh.sha256, change)),
+            points=(*document.points, *(Point(image_name(point), None, name, point) for point in starts)),
+        ),
+        panels,
+        numbers,
+    )
+
+
+def _numbered(document: Document, panels: list[Panel], numbers: dict[int, int]) -> Document:
+    """With these panels, and all that names panels by their numbers before."""
+    scatter = document.scatter
+    across, up = (None if id is None else numbers.get(id) for id in (scatter.across, scatter.up))
     return replace(
         document,
-        surfaces=(mesh, MeshFile(name, mesh.path, mesh.sha256, change)),
-        points=(*document.points, *(Point(image_name(point), None, name, point) for point in starts)),
         panels=tuple(panels),
-        regions=tuple(numbers[id] for id in document.regions),
+        regions=tuple(numbers[id] for id in document.regions if id in numbers),
+        scatter=replace(scatter, across=across, up=up),
         next_id=len(panels),
     )
 
@@ -54,22 +85,50 @@ def without_changed(document: Document) -> Document:
     made = {mesh.name for mesh in document.surfaces if mesh.change is not None}
     if not made:
         return document
-    panels = [panel for panel in document.panels if panel.surface not in made]
+    document = without_maps(remove_pairs(document, document.pairs))
+    here = [panel for panel in document.panels if panel.surface not in made]
+    panels = [panel for panel in here if not any(isinstance(part, Prediction) for part in panel.shows.parts)]
+    panels = panels or _panels_before(document)
     numbers = {panel.id: k for k, panel in enumerate(panels)}
     on_them = {point.name for point in document.points if point.surface in made}
-    return replace(
+    through = tuple(name for name in document.isolines.through if name not in on_them)
+    document = replace(
         document,
         surfaces=tuple(mesh for mesh in document.surfaces if mesh.name not in made),
         points=tuple(point for point in document.points if point.name not in on_them),
-        panels=tuple(replace(panel, id=numbers[panel.id]) for panel in panels),
+        panels=tuple(panels),
         anchors=tuple(anchor for anchor in document.anchors if anchor.point not in on_them),
+        isolines=replace(document.isolines, through=through),
         pins=tuple(pin for pin in document.pins if pin.point not in on_them),
-        pairs=() if any(name in on_them for pair in document.pairs for name in pair.points) else document.pairs,
+        profile=ALONG_ALL_PINS if set(document.profile.points) & on_them else document.profile,
         selections=tuple(each for each in document.selections if each.surface not in made),
         fields=tuple(field for field in document.fields if field.surface not in made),
-        regions=tuple(numbers[id] for id in document.regions if id in numbers),
-        next_id=len(panels),
+        beside=tuple(each for each in document.beside if each.surface not in made),
     )
+    return _numbered(document, [replace(panel, id=numbers[panel.id]) for panel in panels], numbers)
+
+
+def _panels_before(document: Document) -> list[Panel]:
+    """A panel of the first surface, where all that there are show another."""
+    first, panel = document.surfaces[0].name, document.panels[0]
+    points = [document.point(name).image_of for name in panel.shows.points]
+    points += [point.name for point in document.points if point.surface == first]
+    spec = panel.shows.specs[0] if panel.shows.specs else Spec.of("biharmonic")
+    return [Panel(panel.id, DistanceFrom(spec, next(filter(None, points))), first)]
+
+
+def partner(document: Document, panel: Panel) -> Panel | None:
+    """The panel that shows the same distance after the change, or before it, if there is one."""
+    if not isinstance(panel.shows, DistanceFrom):
+        return None
+    spec, here = panel.shows.spec, document.point(panel.shows.point)
+    for other in document.panels:
+        if not isinstance(other.shows, DistanceFrom) or other.shows.spec != spec or other.surface == panel.surface:
+            continue
+        there = document.point(other.shows.point)
+        if there.image_of == here.name or here.image_of == there.name:
+            return other
+    return None
 
 
 def split(document: Document) -> tuple[Document, Perturbation | None]:
@@ -82,7 +141,7 @@ def split(document: Document) -> tuple[Document, Perturbation | None]:
         again = with_changed(base, changes[0])
     except ParameterError:
         return document, None
-    is_so = _content(again) == _content(document)
+    is_so = _content(again) == _content(replace(document, beside=()))
     return (base, changes[0]) if is_so else (document, None)
 
 

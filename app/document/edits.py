@@ -211,8 +211,10 @@ def place_of(document: Document, panel: int) -> int:
     return document.panels.index(document.panel(panel))
 
 
+ADD = "Add a panel"
+
 PANEL_EDITS: dict[str, Callable[[Document, int], Document]] = {
-    "Add a panel": lambda document, panel: add_another(document, document.panel(panel).surface),
+    ADD: lambda document, panel: add_another(document, document.panel(panel).surface),
     "Duplicate this panel": duplicate_panel,
     "Move it back": lambda document, panel: move_panel(document, panel, max(place_of(document, panel) - 1, 0)),
     "Move it on": lambda document, panel: move_panel(document, panel, place_of(document, panel) + 1),
@@ -225,7 +227,7 @@ PANEL_EDITS: dict[str, Callable[[Document, int], Document]] = {
 def possible_edits(document: Document, panel: int, most: int) -> set[str]:
     """Those of them that make sense; no more than `most` panels are made, and one stays."""
     count, place = len(document.panels), place_of(document, panel)
-    possible = {"Add a panel", "Duplicate this panel"} if count < most else set()
+    possible = {ADD, "Duplicate this panel"} if count < most else set()
     possible |= {"Move it back"} if place > 0 else set()
     possible |= {"Move it on"} if place < count - 1 else set()
     if panel in document.regions or can_divide(document, panel):

@@ -7,12 +7,14 @@ document has anything from Python.  Those of format 1, which version 0.1 wrote, 
 import hashlib
 import json
 import os
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from bihdist_core.errors import ParameterError
 
+from .document import MeshFile
 from .form import document_data, document_from, plain, read_view, view_data
 from .json_values import Reader, flag, listed, number, or_none, placed, record, text, whole
 from .mapping import with_map_paths
@@ -71,9 +73,17 @@ def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
 
 def with_meshes_from(recipe: Recipe, file: str | os.PathLike[str]) -> Recipe:
     """The recipe as it is written at a path."""
-    meshes = tuple(replace(mesh, path=mesh_reference(mesh.path, file)) for mesh in recipe.document.surfaces)
+    meshes = tuple(with_paths(mesh, lambda path: mesh_reference(path, file)) for mesh in recipe.document.surfaces)
     document = with_map_paths(recipe.document, lambda path: mesh_reference(path, file))
     return replace(recipe, document=replace(document, surfaces=meshes))
+
+
+def with_paths(mesh: MeshFile, named: Callable[[str], str]) -> MeshFile:
+    """The same mesh with other paths, where it has any."""
+    mesh = replace(mesh, path=named(mesh.path)) if mesh.path else mesh
+    if mesh.change is None or not mesh.change.pose:
+        return mesh
+    return replace(mesh, change=replace(mesh.change, pose=named(mesh.change.pose)))
 
 
 # ---------------------------------------------------------------------- reading
@@ -92,18 +102,15 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
         recipe = _recipe(data)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
-    meshes = []
-    for mesh in recipe.document.surfaces:
-        beside = Path(path).parent / mesh.path
+
+    def beside(named: str) -> str:
+        there = Path(path).parent / named
         # os.path, which takes a path that is too long for one that is not there.
-        meshes.append(replace(mesh, path=str(beside)) if mesh.path and os.path.exists(beside) else mesh)
+        return str(there) if os.path.exists(there) else named
+
+    meshes = [with_paths(mesh, beside) for mesh in recipe.document.surfaces]
     arrays = str(Path(path).parent / recipe.arrays) if recipe.arrays else ""
-
-    def found(map: str) -> str:
-        beside = Path(path).parent / map
-        return str(beside) if os.path.exists(beside) else map
-
-    document = with_map_paths(recipe.document, found)
+    document = with_map_paths(recipe.document, beside)
     return replace(recipe, document=replace(document, surfaces=tuple(meshes)), arrays=arrays)
 
 

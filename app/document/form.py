@@ -1,6 +1,6 @@
 """A document as JSON: records, lists, texts and numbers, written and read strictly."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
@@ -112,7 +112,10 @@ def _truth_data(truth: Truth) -> dict[str, Any]:
 
 def _mesh_data(mesh: MeshFile) -> dict[str, Any]:
     data = {"name": mesh.name, "path": mesh.path, "sha256": mesh.sha256}
-    return data if mesh.change is None else {**data, "change": words_of_change(mesh.change)}
+    if mesh.change is None:
+        return data
+    data["change"] = words_of_change(mesh.change)
+    return {**data, "pose_sha256": mesh.change.pose_sha256} if mesh.change.pose_sha256 else data
 
 
 def _point_data(point: Point) -> dict[str, Any]:
@@ -213,8 +216,14 @@ def with_range(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _mesh(data: Any, where: str) -> MeshFile:
-    readers = {"name": text, "path": text, "sha256": text, "change": _change}
-    return MeshFile(**record(data, where, readers, {"name", "path", "sha256"}))
+    readers = {"name": text, "path": text, "sha256": text, "change": _change, "pose_sha256": text}
+    values = record(data, where, readers, {"name", "path", "sha256"})
+    pose = values.pop("pose_sha256", "")
+    if pose and not values.get("change", Perturbation()).pose:
+        raise ParameterError(f"{where} has the checksum of another pose, and no pose.")
+    if pose:
+        values["change"] = replace(values["change"], pose_sha256=pose)
+    return MeshFile(**values)
 
 
 def _change(data: Any, where: str) -> Perturbation:

@@ -8,7 +8,7 @@ from bihdist_core.errors import ParameterError
 
 from .looks import one_of
 
-DOCKS = ("pins", "profile", "scatter", "statistics", "quality", "regions", "sources", "anchors", "pairs")
+DOCKS = ("pins", "profile", "scatter", "statistics", "quality", "regions", "sources", "anchors", "pairs", "robustness")
 """The instruments, each in a dock of the window."""
 
 SECTIONS = {"section": "shorter", "section-longer": "longer", "section-whole": "whole"}

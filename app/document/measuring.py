@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from bihdist_core.applications.changes import joined_runs
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Place, Source
 from bihdist_core.sources.words import short_words_of
@@ -152,13 +153,7 @@ def runs_from_words(text: str) -> Runs:
         if last < first:
             raise ParameterError(f"The range {word.strip()} ends before it begins.")
         runs.append((first, last))
-    joined: list[tuple[int, int]] = []
-    for first, last in sorted(runs):
-        if joined and first <= joined[-1][1] + 1:
-            joined[-1] = joined[-1][0], max(joined[-1][1], last)
-        else:
-            joined.append((first, last))
-    return tuple(joined)
+    return joined_runs(runs)
 
 
 def select_instead(document: Document, chosen: Iterable[Runs], surface: str = "A") -> Document:

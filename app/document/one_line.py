@@ -97,11 +97,10 @@ def _all_said(recipe: Recipe) -> Iterable[Said]:
         return (row.say(recipe) for row in ROWS)
     names = {name for panel in document.panels for name in panel.shows.points}
     columns = recipe.page.columns
-    if columns is None:
-        raise Unsaid("Before, after and difference are not in rows.")
-    if columns == COLUMNS:
+    if columns in (None, COLUMNS):
         columns = len(document.panels) // len(names) if len(names) > 1 else None
-    said = with_value("--perturb", "perturb", words_of_change(change))
+    pose = mesh_word(change.pose) if change.pose else ""
+    said = with_value("--perturb", "perturb", words_of_change(replace(change, pose=pose)))
     base = replace(recipe, document=document, page=replace(recipe.page, columns=columns))
     return (said, *(row.say(base) for row in ROWS))
 

@@ -17,6 +17,7 @@ from bihdist_core.sources.source import BoundaryLoop, Curve, Place, Source
 from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
+from ..document.changing import COLUMNS, changed_mesh
 from ..document.document import Document, Panel, Zoom, starting_points
 from ..document.measuring import vertices_of
 from ..document.page import Recipe
@@ -27,6 +28,7 @@ from ..drawing.selected import selected_colours
 from ..drawing.source_lines import SourceLine, source_lines
 from ..drawing.style import PINS, style_of
 from ..session.anchors import anchor_value, anchors_on
+from ..session.bar_ends import own_end
 from ..session.changed import carried
 from ..session.extrema import extrema_of
 from ..session.given import Given
@@ -106,14 +108,19 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
     if not document.panels:
         raise ParameterError("The recipe has no panels.")
     path, remarks = _path(document, surfaces)
+    shown = {panel.id: answer for panel, answer in zip(document.panels, answers, strict=True)}
     panels = tuple(
-        replace(_figure_panel(recipe, panel, surfaces[panel.surface], answer), path=path.get(panel.surface, ()))
+        replace(
+            _figure_panel(recipe, panel, surfaces[panel.surface], answer),
+            path=path.get(panel.surface, ()),
+            maximum=own_end(document, shown, panel.id, surfaces.get) if document.range == "own" else panel.maximum,
+        )
         for panel, answer in zip(document.panels, answers, strict=True)
     )
     return Figure(
         panels,
         remarks=remarks,
-        columns=page.columns,
+        columns=page.columns or (COLUMNS if changed_mesh(document) is not None else None),
         size=Size.parse(page.size) if page.size else Size(),
         style=style,
         range=document.range,

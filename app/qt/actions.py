@@ -322,6 +322,13 @@ INSTRUMENTS: tuple[Act, ...] = (
         "Points spread over the surface, and which part of it is nearest to each pin",
         "regions",
     ),
+    _dock(
+        "robustness",
+        "Ro&bustness",
+        "E",
+        "Distances before and after a change to the mesh: noise, holes, fewer vertices, another pose",
+        "robustness",
+    ),
     _dock("scatter", "S&catter", "S", "One panel's field against another's over all vertices; select in it", "scatter"),
     _dock(
         "statistics",

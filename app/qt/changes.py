@@ -33,9 +33,11 @@ class Changes:
         if other_panels:
             grid.show_panels(document)
         if is_other:
-            self._opened = opened
-            window.surface_changed(*opened)
-        if is_other or is_dressed:
+            shown, self._opened = self._opened, opened
+            is_remade = _is_remade(shown, opened)
+            (window.surface_remade if is_remade else window.surface_changed)(*opened)
+            grid.show_surface([mesh.name for mesh in document.surfaces[1:]] if is_remade and not is_dressed else None)
+        elif is_dressed:
             grid.show_surface()
         if other_panels or document.points != before.points:
             grid.marks.expect_sources(document)
@@ -90,6 +92,12 @@ class Changes:
             grid.show_answer(id)
         window.docks.show_again()
         window.waits.show()
+
+
+def _is_remade(before: tuple[Opened | None, ...], after: tuple[Opened | None, ...]) -> bool:
+    """Whether the first surface stays, and the others are made from it, or were."""
+    others = [*before[1:], *after[1:]]
+    return bool(before and after) and before[0] is after[0] and all(o and o.origin is after[0] for o in others)
 
 
 def _anchored(document: Document) -> list[tuple[Anchor, Point]]:

@@ -7,7 +7,9 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.edits import MOST_ADDED, PANEL_EDITS, add_another, end_at, has_ends, possible_edits, with_range
+from ..document.change_edits import add_row
+from ..document.changing import changed_mesh
+from ..document.edits import ADD, MOST_ADDED, PANEL_EDITS, add_another, end_at, has_ends, possible_edits, with_range
 from ..document.looks import Colours
 from ..drawing.colour_file import read_stops
 from ..drawing.colour_maps import MAPS
@@ -60,15 +62,25 @@ class Choices:
     def add_panel(self) -> None:
         """One more, with a distance that is not shown yet."""
         session = self._window.session
-        if session.surface is not None and len(session.document.panels) < MOST_ADDED:
+        if session.surface is not None and changed_mesh(session.document) is not None:
+            self._add_row()
+        elif session.surface is not None and len(session.document.panels) < MOST_ADDED:
             active = {panel.id: panel.surface for panel in session.document.panels}
             session.show(add_another(session.document, active.get(self._window.grid.active)))
+
+    def _add_row(self) -> None:
+        """The same of a changed mesh: before, after and difference."""
+        session = self._window.session
+        if len(session.document.panels) <= MOST_ADDED:
+            session.show(add_row(session.document))
 
     def edit_panel(self, panel: int, word: str) -> None:
         """One of PANEL_EDITS, where it is possible."""
         session = self._window.session
         is_there = any(shown.id == panel for shown in session.document.panels)
-        if is_there and word in possible_edits(session.document, panel, MOST_ADDED):
+        if is_there and word == ADD and changed_mesh(session.document) is not None:
+            self._add_row()
+        elif is_there and word in possible_edits(session.document, panel, MOST_ADDED):
             session.show(PANEL_EDITS[word](session.document, panel))
 
     # ------------------------------------------------------------------ how fields are shown

@@ -7,7 +7,8 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core.sources.source import Source
 
-from ..document.edits import move_source, show_in
+from ..document.change_edits import show_in_row
+from ..document.edits import move_source
 from ..document.quantities import Quantity
 from .anchor_gestures import AnchorGestures
 from .look.numbers import number
@@ -71,7 +72,9 @@ class Gestures:
     # ------------------------------------------------------------------ the source
     def _click(self, panel: int, met: "Met") -> None:
         self._window.picked.emit(panel, met)
-        if self.anchors.are_meant(panel):
+        if self._window.docks.picking.is_on:
+            self._window.docks.picking.take(panel, met.vertex)
+        elif self.anchors.are_meant(panel):
             self.anchors.put(panel, met)
         elif self.pairs.are_meant(panel):
             self.pairs.put(panel, met)
@@ -193,7 +196,7 @@ class Gestures:
         before = session.document.panel(panel).shows
         words = [tuple(part.word for part in each.parts) for each in (before, shows)]
         key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
-        session.show(show_in(session.document, panel, shows), key)
+        session.show(show_in_row(session.document, panel, shows), key)
 
     def _open_menu(self, panel: int, met: "Met | None", where: QtCore.QPoint) -> None:
         """On the surface: what can be done with the place; beside it, with the view."""

@@ -233,16 +233,20 @@ class MainWindow(QtWidgets.QMainWindow):
         """Another surface comes into the panels, or beside that which is there."""
         self._allow(True)
         self.views.begin()
-        self.gestures.begin()
-        names = ", ".join(each.surface.name for each in (opened, *beside))
-        self.setWindowTitle(f"{names} - Biharmonic distance")
-        recipe = Recipe(self.session.document, self.page)
-        more = unseen(recipe, STYLES[self.page.style])
-        self.status.show_surface(opened.surface, more, [each.surface for each in beside])
+        self.surface_remade(opened, *beside)
         self.leave_boxes()
         for each in (*beside, opened) if self.remembers else ():
             if each.mesh.path and os.path.exists(each.mesh.path):
                 remembered.remember(each.mesh.path)
+
+    def surface_remade(self, opened: Opened, *beside: Opened) -> None:
+        """The same of surfaces that are made from the first, which stays: whoever made them goes on."""
+        self.gestures.begin()
+        names = ", ".join(dict.fromkeys(each.surface.name for each in (opened, *beside)))
+        self.setWindowTitle(f"{names} - Biharmonic distance")
+        recipe = Recipe(self.session.document, self.page)
+        more = unseen(recipe, STYLES[self.page.style])
+        self.status.show_surface(opened.surface, more, [each.surface for each in beside])
 
     def answer_changed(self, panel: int) -> None:
         self.grid.show_answer(panel)
@@ -304,7 +308,7 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.source_box.hasFocus():
             self.source_box.give_up()
             self.leave_boxes()
-        elif self.guide.end_tour():
+        elif self.guide.end_tour() or (self.docks is not None and self.docks.put_down()):
             return
         elif self.gestures is not None and self.gestures.sources.is_drawing:
             self.actions_by_word["draw source"].trigger()

@@ -98,6 +98,10 @@ class Answering:
                 self._lanes[id] = self._new_lane(id)
             self._lanes[id].submit(_Request(question, opened, self._serial, live))
 
+    def keep(self, question: Question, answer: Answer) -> None:
+        """What somebody else has found out, on any thread."""
+        self._kept.put(question, answer)
+
     def expect(self, asked: Mapping[int, Question]) -> None:
         """These are the panels and their questions now; what is shown of other panels or meshes is forgotten."""
         self._asked = dict(asked)

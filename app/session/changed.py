@@ -1,11 +1,12 @@
 """Surfaces that are made from others: where points of these are on them, and how distances change."""
 
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bihdist_core import BihdistError, ParameterError
+from bihdist_core import BihdistError, Cancelled, ParameterError, SolverError
 from bihdist_core.analysis.diagnostics import field_change
 from bihdist_core.applications.perturbation import image_of
 from bihdist_core.distances.accuracy import Certificate
@@ -15,7 +16,7 @@ from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.document import Document
 from ..document.sourcing import members_of
-from .questions import ChangeQuestion, DistanceQuestion, vertex_at
+from .questions import ChangeQuestion, DistanceQuestion, Question, questions, source_at, vertex_at
 
 if TYPE_CHECKING:
     from .opened import Opened
@@ -27,15 +28,30 @@ def carried(at: Source, opened: "Opened") -> Source:
     ParameterError for what is not of vertices, VertexError for one that is not there.
     """
     assert opened.origin is not None
+    if opened.has_faces_of_origin:
+        source_at(at, opened.surface)
+        return at
     images: dict[int, None] = {}
     for member in members_of(at):
         if not isinstance(member, int):
             raise ParameterError(
-                "A source that is followed onto a changed mesh is a vertex or several, as faces and boundaries change."
+                "A source that is followed onto a mesh with other faces is a vertex or several, not a place or a curve."
             )
         images[image_of(opened.origin.surface, opened.ids, member, opened.surface)] = None
     found = tuple(images)
     return found[0] if len(found) == 1 else SourceSet(found)
+
+
+def counterpart(vertex: int | None, here: "Opened | None", there: "Opened | None") -> int | None:
+    """The vertex of another surface that one of this is, where one is made from the other; None if there is none."""
+    if vertex is None or here is None or there is None:
+        return None
+    if there.origin is here:
+        found = np.flatnonzero(there.ids == vertex)
+        return int(found[0]) if len(found) else None
+    if here.origin is there and here.ids[vertex] >= 0:
+        return int(here.ids[vertex])
+    return None
 
 
 def led(document: Document, before: Document, opened: "Opened") -> Document:
@@ -49,33 +65,50 @@ def led(document: Document, before: Document, opened: "Opened") -> Document:
         is_here = point.surface == opened.mesh.name and point.image_of
         if not is_here or was is None or original not in document.points or point.at in (None, was.at):
             continue
-        vertices = [vertex_at(member, opened.surface) for member in members_of(point.at)]
-        old = tuple(dict.fromkeys(int(opened.ids[vertex]) for vertex in vertices if opened.ids[vertex] >= 0))
-        if old:
-            at = old[0] if len(old) == 1 else SourceSet(old)
+        at: Source | None = point.at
+        if not opened.has_faces_of_origin:
+            vertices = [vertex_at(member, opened.surface) for member in members_of(point.at)]
+            old = tuple(dict.fromkeys(int(opened.ids[vertex]) for vertex in vertices if opened.ids[vertex] >= 0))
+            at = None if not old else old[0] if len(old) == 1 else SourceSet(old)
+        if at is not None:
             points = (replace(p, at=at) if p.name == point.image_of else p for p in document.points)
             document = replace(document, points=tuple(points))
     return document
 
 
+def answers_ahead(
+    document: Document, found: Sequence["Opened"], there: Sequence["Opened"], progress: Progress
+) -> Iterator[tuple[Question, Answer]]:
+    """What a document asks of surfaces that are not shown yet: so none is ever seen without its fields.
+
+    found: these; there: those that are.
+    """
+    by_name = {}
+    for mesh in document.surfaces:
+        matching = [opened for opened in (*found, *there) if opened.is_of(mesh)]
+        if matching:
+            by_name[mesh.name] = matching[0]
+            document = matching[0].settled(document)
+    surfaces = {panel.id: by_name.get(panel.surface) for panel in document.panels}
+    asked = [(question, surfaces[id]) for id, question in questions(document).items()]
+    new = [(question, opened) for question, opened in asked if opened is not None and opened in found]
+    for k, (question, opened) in enumerate(new):
+        yield question, opened.answer_once(question, part(progress, k / len(new), (k + 1) / len(new)))
+
+
 def change_of(question: ChangeQuestion, opened: "Opened", progress: Progress | None) -> Answer:
     """At the vertices that both surfaces have, each distance as a share of its maximum there; NaN elsewhere."""
-    origin, ids = opened.origin, opened.ids
-    if origin is None:
+    ids = opened.ids
+    if opened.origin is None:
         return Answer(label=str(question), failure="This mesh is made from no other, so that no distance changes.")
     try:
-        members = members_of(question.at)
-        starts = tuple(int(ids[member]) for member in members if isinstance(member, int) and ids[member] >= 0)
-        if len(starts) < len(members):
-            raise ParameterError("A change is seen from vertices that the mesh had before.")
-        start = starts[0] if len(starts) == 1 else SourceSet(starts)
-        areas, spec = question.areas, question.spec
-        after = opened.answer(DistanceQuestion(opened.mesh, areas, spec, question.at), part(progress, 0, 0.5))
-        before = origin.answer(DistanceQuestion(origin.mesh, areas, spec, start), part(progress, 0.5, 1))
+        before, after = _sides(question, opened, progress)
         for answer in (before, after):
             if answer.field is None:
                 return Answer(label=str(question), failure=answer.failure)
         field, remark = _compared(before.field, after.field, ids)
+    except Cancelled:
+        raise
     except (BihdistError, MemoryError) as error:
         return failed(str(question), error)
     shares = [answer.accuracy.share for answer in (before, after)]
@@ -88,6 +121,60 @@ def change_of(question: ChangeQuestion, opened: "Opened", progress: Progress | N
         is_signed=True,
         remark=remark,
     )
+
+
+def _sides(question: ChangeQuestion, opened: "Opened", progress: Progress | None) -> tuple[Answer, Answer]:
+    """Of the same distance, from the same vertices, before and after."""
+    origin, ids = opened.origin, opened.ids
+    assert origin is not None
+    areas, spec, start = question.areas, question.spec, question.at
+    if not opened.has_faces_of_origin:
+        members = members_of(question.at)
+        starts = tuple(int(ids[member]) for member in members if isinstance(member, int) and ids[member] >= 0)
+        if len(starts) < len(members):
+            raise ParameterError("A change is seen from vertices that the mesh had before.")
+        start = starts[0] if len(starts) == 1 else SourceSet(starts)
+    after = opened.answer_once(DistanceQuestion(opened.mesh, areas, spec, question.at), part(progress, 0, 0.5))
+    before = origin.answer_once(DistanceQuestion(origin.mesh, areas, spec, start), part(progress, 0.5, 1))
+    return before, after
+
+
+@dataclass(frozen=True)
+class ChangeNumbers:
+    """How far a distance changes at the vertices that both surfaces have: in its unit, and as shares of the maximum.
+
+    For shares each field is divided by its own maximum first.
+    """
+
+    mean: float
+    largest: float
+    unit: str
+    share_mean: float
+    share_largest: float
+
+
+def change_numbers(question: ChangeQuestion, opened: "Opened", progress: Progress | None = None) -> ChangeNumbers:
+    """In numbers; BihdistError where there are none."""
+    if opened.origin is None:
+        raise ParameterError("This mesh is made from no other, so that no distance changes.")
+    before, after = _sides(question, opened, progress)
+    for answer in (before, after):
+        if answer.field is None:
+            raise SolverError(answer.failure)
+    old, new = _common(before.field, after.field, opened.ids)
+    found, unit = field_change(old, new), float(np.nanmax(old))
+    return ChangeNumbers(
+        found.mean * unit, found.largest * unit, after.unit, found.normalised_mean, found.normalised_largest
+    )
+
+
+def _common(before: np.ndarray | None, after: np.ndarray | None, ids: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(k,) each: the fields at the vertices that both surfaces have, where they are finite."""
+    assert before is not None
+    assert after is not None
+    old = np.where(ids >= 0, before[np.maximum(ids, 0)], np.nan)
+    both = np.isfinite(old) & np.isfinite(after)
+    return old[both], after[both]
 
 
 def _compared(before: np.ndarray | None, after: np.ndarray | None, ids: np.ndarray) -> tuple[np.ndarray, str]:

@@ -20,6 +20,7 @@ from bihdist_core import (
     read_surface,
 )
 from bihdist_core.analysis.upright import guess_up
+from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.perturbation import perturbed
 from bihdist_core.distances.accuracy import Certificate
 from bihdist_core.distances.answers import Answer, Distances, difference_of, failed
@@ -51,6 +52,9 @@ from .questions import (
 NO_ANCHORS = "There is no anchor with a value: click the surface to set one."
 """What a panel of an interpolant says before there is one."""
 
+REMEMBERED = 8
+"""Answers that a surface keeps itself."""
+
 VALUE = "value"
 """The unit of what is interpolated, which is the user's own."""
 
@@ -77,10 +81,20 @@ class Opened:
         self._given = given or Given()
         self._distances: dict[str, Distances] = {}
         self._interpolants: dict[tuple[str, Spec], ShepardInterpolant] = {}
+        self._last: dict[Question, Answer] = {}
         self.columns = 0  # of distances from anchors, solved for so far
         self.beside: tuple[Opened, ...] = ()  # what is shown with it
         self.columns_of_pairs = KnownColumns()
         self._lock = threading.Lock()
+
+    def is_of(self, mesh: MeshFile) -> bool:
+        """Whether this is the surface of a mesh."""
+        return is_same(mesh, self.mesh)
+
+    @cached_property
+    def has_faces_of_origin(self) -> bool:
+        """Whether it differs from what it is made from in the places of its vertices alone."""
+        return self.origin is not None and np.array_equal(self.surface.faces, self.origin.surface.faces)
 
     @cached_property
     def up(self) -> str:
@@ -127,6 +141,19 @@ class Opened:
     def standing_beside(self, mesh: MeshFile | None) -> "Opened | None":
         """A surface that is shown with this one, or itself; None if it is not there."""
         return next((each for each in (*self.beside, self) if mesh is not None and is_same(mesh, each.mesh)), None)
+
+    def answer_once(self, question: Question, progress: Progress | None = None) -> Answer:
+        """The same; the last few are kept, for fields that are compared with others again and again."""
+        with self._lock:
+            known = self._last.get(question)
+        if known is None:
+            known = self.answer(question, progress)
+            with self._lock:
+                if known.field is not None:
+                    self._last[question] = known
+                while len(self._last) > REMEMBERED:
+                    del self._last[next(iter(self._last))]
+        return known
 
     def is_at_hand(self, question: Question) -> bool:
         """Whether nothing has to be solved for the answer: of anchors or pairs whose distances are known."""
@@ -197,7 +224,8 @@ class Opened:
                 )
         beside = (replace(b, up=self.up) if b.surface in mine and b.up == "auto" else b for b in document.beside)
         document = replace(document, beside=tuple(beside))
-        meshes = (replace(m, sha256=self.mesh.sha256) if m.name in mine else m for m in document.surfaces)
+        found, change = self.mesh.sha256, self.mesh.change
+        meshes = (replace(m, sha256=found, change=change) if m.name in mine else m for m in document.surfaces)
         points = []
         for point in document.points:
             if point.image_of and point.surface in mine:
@@ -230,7 +258,11 @@ class Opened:
 
 def is_same(asked: MeshFile, there: MeshFile) -> bool:
     """Whether what is there will do for what is asked for."""
-    return (asked.path, asked.change) == (there.path, there.change) and asked.sha256 in ("", there.sha256)
+    if (asked.path, asked.sha256 or there.sha256) != (there.path, there.sha256):
+        return False
+    if asked.change is None or there.change is None:
+        return asked.change is there.change
+    return replace(asked.change, pose_sha256=asked.change.pose_sha256 or there.change.pose_sha256) == there.change
 
 
 def started_alike(document: Document, name: str, first: Opened, opened: Opened) -> Document:
@@ -249,25 +281,46 @@ def started_alike(document: Document, name: str, first: Opened, opened: Opened) 
     return document
 
 
-def open_mesh(mesh: MeshFile, given: Given | None = None, remedy: str = "", there: Collection[Opened] = ()) -> Opened:
+def open_mesh(
+    mesh: MeshFile,
+    given: Given | None = None,
+    remedy: str = "",
+    there: Collection[Opened] = (),
+    progress: Progress | None = None,
+) -> Opened:
     """Read the file, or take what was given.  remedy: what to do, in a sentence, where a file is not the one meant.
 
-    there: surfaces that are open, for one that is made from another.
+    there: surfaces that are open, for one that is made from another; progress: of its making.
     Raises ParameterError if it is missing, or has changed since the checksum was taken; MeshError if it is no mesh.
     """
     if mesh.change is not None:
         itself = replace(mesh, change=None)
         origin = next((each for each in there if is_same(itself, each.mesh)), None) or open_mesh(itself, given, remedy)
-        made, ids = perturbed(origin.surface, mesh.change)
-        return Opened(replace(mesh, sha256=origin.mesh.sha256), made, given, origin, ids)
+        change, pose = _with_pose(mesh.change, remedy)
+        made, ids = perturbed(origin.surface, change, progress, pose)
+        return Opened(replace(mesh, sha256=origin.mesh.sha256, change=change), made, given, origin, ids)
     if not mesh.path:
         return Opened(mesh, (given or Given()).surface(mesh), given)
+    surface, found = _read(mesh, remedy)
+    return Opened(replace(mesh, sha256=found), surface, given)
+
+
+def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
+    """What a file holds, and its checksum."""
     path = checked_path(mesh, remedy)
     surface, found = read_surface(path), checksum(path)
     if mesh.sha256 and found != mesh.sha256:
         said = f"The mesh {mesh.path} is not what it was when it was written down (its checksum differs). {remedy}"
         raise ParameterError(said.strip())
-    return Opened(replace(mesh, sha256=found), surface, given)
+    return surface, found
+
+
+def _with_pose(change: Perturbation, remedy: str) -> tuple[Perturbation, Surface | None]:
+    """A change with the checksum of its other pose, and that; None if there is none."""
+    if not change.pose:
+        return change, None
+    pose, found = _read(MeshFile("", change.pose, change.pose_sha256), remedy)
+    return replace(change, pose_sha256=found), pose
 
 
 def checked_path(mesh: MeshFile, remedy: str = "") -> str:

@@ -5,21 +5,25 @@ becomes a step of the history, and what it asks is answered (`answering`), as so
 """
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any, Protocol
 
 from bihdist_core import BihdistError, Surface
+from bihdist_core.applications.changes import Perturbation
 from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.progress import Progress
 
 from ..document.beside_edits import close_beside, open_beside, see
 from ..document.camera import View as CameraView
+from ..document.change_edits import change_mesh
+from ..document.changing import changed_mesh
 from ..document.document import Document, MeshFile, Point, starting_points
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
-from .answering import Answering, AnswerView, Shown
-from .changed import led
+from .answering import SMALL, Answering, AnswerView, Shown
+from .changed import answers_ahead, led
 from .given import Given
 from .opened import Opened, started_alike
 from .questions import asks_of, questions
@@ -124,6 +128,35 @@ class Session:
         """The first surface alone."""
         if len(self.document.surfaces) > 1:
             self.show(close_beside(self.document))
+
+    def change_mesh(self, change: Perturbation, key: str = "") -> None:
+        """Let the first mesh be changed like this, besides: a step of the history (equal keys in a row are one).
+
+        What is shown stays until the changed mesh is there; a small one that takes the place of another comes with its
+        fields.
+        """
+        try:
+            document = change_mesh(self.document, change)
+        except BihdistError as error:
+            self.view.failed(failure_in_words(error))
+            return
+        missing = self._surfaces.missing(document)
+        if not missing:
+            self._surfaces.drop()  # a change that was asked for before
+            self.show(document, key)
+            return
+
+        def arrive() -> None:
+            # Until now the user went on with what is shown.
+            self._change(change_mesh(self.document, change), key)
+
+        def ahead(found: Sequence[Opened], progress: Progress) -> None:
+            for question, answer in answers_ahead(document, found, tuple(self._surfaces), progress):
+                self._answering.keep(question, answer)
+
+        is_small = self.surface is not None and len(self.surface.vertices) <= SMALL
+        is_next = changed_mesh(self.document) is not None
+        self._surfaces.start(Opening(missing, arrive, ahead=ahead if is_small and is_next else None))
 
     def look(self, camera: CameraView, surface: str | None = None) -> None:
         """A surface, the first if none is named, is seen from elsewhere, which is no step of the history."""

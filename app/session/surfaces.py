@@ -1,12 +1,13 @@
 """The surfaces that are there: read in the background, and kept for undo when they are no longer shown."""
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 from bihdist_core import Surface
 from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.progress import Progress, part
 
 from ..document.document import Document, MeshFile
 from .given import Given
@@ -28,7 +29,7 @@ class LoadingView(Protocol):
 class Opening:
     """Meshes to be opened, and what becomes of the document once they are there.
 
-    steps: in the history, where that is all.
+    steps: in the history, where that is all.  ahead(found, progress): in the background, before these are shown.
     """
 
     meshes: tuple[MeshFile, ...]
@@ -36,6 +37,7 @@ class Opening:
     arrived: Callable[[], None] = lambda: None
     is_wanted: Callable[[], bool] = lambda: True
     steps: int = 0
+    ahead: Callable[[Sequence[Opened], Progress], None] | None = None
 
 
 class Surfaces:
@@ -118,13 +120,16 @@ class Surfaces:
         found: list[Opened] = []
         for k, mesh in enumerate(opening.meshes):
             report(k / len(opening.meshes), f"reading {os.path.basename(mesh.path) or mesh.name}")
-            opened = open_mesh(mesh, self._given, there=[*self._opened, *found])
+            making = part(report, k / len(opening.meshes), (k + 0.5) / len(opening.meshes))
+            opened = open_mesh(mesh, self._given, there=[*self._opened, *found], progress=making)
             report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
             opened.prepared = self._prepare(opened.surface)
             opened.up = self._known_up(opened.mesh.sha256) or opened.up
             # Told by the view, for whose thread going over all faces would take too long.
             _ = opened.surface.remarks, opened.surface.nonmanifold_edge_count
             found.append(opened)
+        if opening.ahead is not None:
+            opening.ahead(found, part(report, 0.5, 1))
         report(1, "")
         self._post(lambda: self._take(opening, found))
         self._loaded()

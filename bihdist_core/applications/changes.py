@@ -1,6 +1,8 @@
 """Changes to a surface as a value, and in words: "noise=0.4,along=normals,seed=1"; `perturbation` makes them."""
 
-from collections.abc import Callable
+import os
+import re
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -10,15 +12,24 @@ WAYS = ("xyz", "normals")
 """Along what there is noise."""
 
 
+Runs = tuple[tuple[int, int], ...]
+"""Ids as runs: from the first to the last, both included, in order, apart."""
+
+
 @dataclass(frozen=True)
 class Perturbation:
-    """Changes to a surface, made in this order; those that are None or 0 are not made.
+    """Changes to a surface, made in this order; those that are None, 0 or empty are not made.
 
-    simplify: to so many vertices.  noise: see `noisy`.  holes, radius: see `with_holes`.  weld, handle: two vertices,
-    whose largest faces are joined (`welded`, `with_handle`).  seed: of noise and holes.  Vertices are those of the
-    surface as it was; one that simplification takes out is replaced by the nearest that stays.
+    pose: a file with another pose, whose vertices and faces are numbered alike.  pose_sha256: of its bytes, empty as
+    long as any content will do.  cut: faces that are taken out (`without_faces`).  simplify: to so many vertices.
+    noise: see `noisy`.  holes, radius: see `with_holes`.  weld, handle: two vertices, whose largest faces are joined
+    (`welded`, `with_handle`).  seed: of noise and holes.  Vertices and faces are those of the surface as it was; a
+    vertex that is taken out is replaced by the nearest that stays.
     """
 
+    pose: str = ""
+    pose_sha256: str = ""
+    cut: Runs = ()
     simplify: int | None = None
     noise: float = 0.0
     along: str = "xyz"
@@ -30,13 +41,17 @@ class Perturbation:
 
     def __str__(self) -> str:
         words = []
+        if self.pose:
+            words.append(f"in the pose of {os.path.basename(self.pose)}")
+        if self.cut:
+            words.append(f"without {counted(count_of(self.cut), 'face')}")
         if self.simplify is not None:
             words.append(f"simplified to {self.simplify}")
         if self.noise:
             way = "in x, y and z" if self.along == "xyz" else "along normals"
             words.append(f"noise of {self.noise:g} edges {way}, seed {self.seed}")
         if self.holes:
-            words.append(f"{self.holes} holes of radius {self.radius:g}, seed {self.seed}")
+            words.append(f"{counted(self.holes, 'hole')} of radius {self.radius:g}, seed {self.seed}")
         if self.weld is not None:
             words.append(f"grown together at {self.weld[0]} and {self.weld[1]}")
         if self.handle is not None:
@@ -45,27 +60,67 @@ class Perturbation:
 
     @property
     def changes_nothing(self) -> bool:
-        return not (self.simplify is not None or self.noise or self.holes or self.weld or self.handle)
+        parts = (self.pose, self.cut, self.simplify is not None, self.noise, self.holes, self.weld, self.handle)
+        return not any(parts)
+
+
+def count_of(runs: Runs) -> int:
+    """How many ids there are in runs."""
+    return sum(last - first + 1 for first, last in runs)
+
+
+def counted(count: int, word: str) -> str:
+    """ "1 hole", "12,345 holes"."""
+    return f"{count:,} {word}{'' if count == 1 else 's'}"
+
+
+def words_of_runs(runs: Runs) -> str:
+    """ "3+10-20", as `runs_from_words` reads them."""
+    return "+".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)
+
+
+def runs_from_words(text: str) -> Runs:
+    """Ids and runs of ids such as "3+10-20", in any order; ValueError for what is none."""
+    ends = []
+    for word in text.split("+"):
+        start, _, stop = word.partition("-")
+        ends.append((int(start), int(stop or start)))
+    if any(not 0 <= first <= last for first, last in ends):
+        raise ValueError
+    return joined_runs(ends)
+
+
+def joined_runs(ends: Iterable[tuple[int, int]]) -> Runs:
+    """Runs in any order, which may overlap, as runs in order and apart."""
+    runs: list[tuple[int, int]] = []
+    for first, last in sorted(ends):
+        if runs and first <= runs[-1][1] + 1:
+            runs[-1] = (runs[-1][0], max(runs[-1][1], last))
+        else:
+            runs.append((first, last))
+    return tuple(runs)
 
 
 def words_of_change(change: Perturbation) -> str:
-    """What is not as usual, as `change_from_words` reads it."""
+    """What is not as usual, but for checksums, as `change_from_words` reads it."""
     said = []
     for each in fields(change):
         value = getattr(change, each.name)
-        if value != each.default:
-            text = f"{value[0]}:{value[1]}" if isinstance(value, tuple) else value
-            said.append(f"{each.name}={text}")
+        if value == each.default or each.name == "pose_sha256":
+            continue
+        text = words_of_runs(value) if each.name == "cut" else value
+        said.append(f"{each.name}={value[0]}:{value[1]}" if each.name in ("weld", "handle") else f"{each.name}={text}")
     return ",".join(said)
 
 
 def change_from_words(text: str) -> Perturbation:
-    """Such as "noise=0.4,along=normals,seed=1" or "simplify=2000,weld=12:40".
+    """Such as "noise=0.4,along=normals,seed=1", "simplify=2000,weld=12:40" or "pose=lion-2.obj,cut=3+10-20".
 
     ParameterError for another word, for a value that is none, and where nothing would change.
     """
     values: dict[str, Any] = {}
-    for word in text.split(","):
+    # A path may hold commas, but none before one of the words.
+    for word in re.split(rf",(?=\s*(?:{'|'.join(READERS)})\s*=)", text):
         name, _, value = (part.strip() for part in word.partition("="))
         if name not in READERS or name in values:
             raise ParameterError(
@@ -79,7 +134,7 @@ def change_from_words(text: str) -> Perturbation:
             raise ParameterError(f"{name} is {what}, not {value!r}.") from None
     change = Perturbation(**values)
     if change.changes_nothing:
-        raise ParameterError(f"{text!r} changes nothing; say simplify, noise, holes, weld or handle.")
+        raise ParameterError(f"{text!r} changes nothing; say pose, cut, simplify, noise, holes, weld or handle.")
     return change
 
 
@@ -113,7 +168,15 @@ def _pair(text: str) -> tuple[int, int]:
     return first, second
 
 
+def _path(text: str) -> str:
+    if not text:
+        raise ValueError
+    return text
+
+
 READERS: dict[str, tuple[Callable[[str], Any], str]] = {
+    "pose": (_path, "a mesh file"),
+    "cut": (runs_from_words, "faces such as 3+10-20"),
     "simplify": (_count, "a number of vertices from 1"),
     "noise": (_size, "a number of mean edge lengths above 0"),
     "along": (_way, f"one of {', '.join(WAYS)}"),

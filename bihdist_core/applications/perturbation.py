@@ -7,9 +7,10 @@ import numpy.typing as npt
 
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import ParameterError
+from ..formats.mesh_io import read_surface
 from ..progress import Progress
 from ..surface import Surface
-from .changes import WAYS, Perturbation
+from .changes import WAYS, Perturbation, Runs
 from .resizing import simplified
 
 WIDTH = 0.25
@@ -89,6 +90,51 @@ def without(surface: Surface, vertices: npt.ArrayLike) -> Surface:
     return Surface(rest.vertices, rest.faces[largest], surface.name)
 
 
+def without_faces(surface: Surface, cut: Runs) -> Surface:
+    """The surface without some of its faces.  Vertex ids stay, and pieces that are apart then stay, too.
+
+    Raises ParameterError for faces that are not there, and if nothing is left.
+    """
+    count, last = len(surface.faces), max((last for _, last in cut), default=-1)
+    if last >= count:
+        raise ParameterError(f"{surface.name} has {count:,} faces, numbered from 0, and none is {last}.")
+    kept = np.ones(count, bool)
+    for first, last in cut:
+        kept[first : last + 1] = False
+    if not kept.any():
+        raise ParameterError(f"Nothing of {surface.name} would be left; take out less.")
+    return Surface(surface.vertices, surface.faces[kept], surface.name)
+
+
+def posed(surface: Surface, pose: Surface) -> Surface:
+    """The surface in another pose: its faces between the vertices of that.
+
+    Raises ParameterError where the other's vertices or faces are not numbered alike.
+    """
+    if len(pose.vertices) != len(surface.vertices):
+        raise ParameterError(
+            f"{pose.name} has {len(pose.vertices):,} vertices and {surface.name} {len(surface.vertices):,}; "
+            "another pose has the same, in the same order."
+        )
+    if not np.array_equal(_faces_in_order(surface), _faces_in_order(pose)):
+        raise ParameterError(
+            f"The faces of {pose.name} join other vertices than those of {surface.name}; another pose has the same."
+        )
+    return Surface(pose.vertices, surface.faces, surface.name)
+
+
+def _faces_in_order(surface: Surface) -> np.ndarray:
+    """(m, 3) whatever the order of faces and corners in the file."""
+    faces = np.sort(surface.faces, axis=1)
+    return faces[np.lexsort(faces.T)]
+
+
+def _without_loose_vertices(surface: Surface) -> tuple[Surface, np.ndarray]:
+    """Without vertices that are in no face; and (k,) what the others were."""
+    ids, index = np.unique(surface.faces, return_inverse=True)
+    return Surface(surface.vertices[ids], index.reshape(-1, 3), surface.name), ids
+
+
 def face_at(surface: Surface, vertex: int) -> int:
     """The largest of the faces at a vertex, the first of equal ones.  Raises VertexError for a bad vertex."""
     faces = np.flatnonzero((surface.faces == surface.check_vertex(vertex)).any(axis=1))
@@ -147,14 +193,24 @@ def _opposite_corners(surface: Surface, face_a: int, face_b: int) -> tuple[np.nd
     return a, min(turns, key=lambda turn: float(((x[a] - x[turn]) ** 2).sum()))
 
 
-def perturbed(surface: Surface, change: Perturbation, progress: Progress | None = None) -> tuple[Surface, np.ndarray]:
+def perturbed(
+    surface: Surface, change: Perturbation, progress: Progress | None = None, pose: Surface | None = None
+) -> tuple[Surface, np.ndarray]:
     """What becomes of a surface, and (n',) the vertex of the surface that each of its vertices is, -1 for new ones.
 
-    Raises ParameterError as the single changes, VertexError for vertices that are not there.
+    pose: what is in the file `change.pose`, which is read if None.  Raises ParameterError as the single changes,
+    VertexError for vertices that are not there, MeshError for a pose that cannot be read.
     """
     result, ids = surface, np.arange(len(surface.vertices))
+    if change.pose:
+        result = posed(result, read_surface(change.pose) if pose is None else pose)
+    if change.cut:
+        result = without_faces(result, change.cut)
     if change.simplify is not None:
-        result, ids = simplified(result, change.simplify, progress)
+        # Counted are vertices that belong to faces.
+        result, before = _without_loose_vertices(result) if change.cut else (result, ids)
+        result, kept = simplified(result, change.simplify, progress)
+        ids = before[kept]
     if change.noise:
         result = noisy(result, change.noise, change.seed, change.along)
     if change.holes:

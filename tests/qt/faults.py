@@ -49,7 +49,7 @@ def _untrue(hands: Hands) -> list[str]:
     for panel in document.panels:
         widget, shown = window.grid.panel(panel.id), session.shown[panel.id]
         answer, reading = widget.answer, widget.bar._reading
-        top = bar_end(document, session.shown, panel.id) or answer.maximum
+        top = bar_end(document, session.shown, panel.id, session.opened) or answer.maximum
         facts = {
             "answer": answer is shown.answer and shown.asked == asked[panel.id] and not shown.is_preview,
             "head": widget.head.shows == panel.shows and widget.head.name.text() == quantity_name(panel.shows),

@@ -16,6 +16,7 @@ DOCKS = {
     "dock scatter": "scatter",
     "dock anchors": "anchor",
     "dock pairs": "pairs",
+    "dock robustness": "robustness",
 }
 """Instruments with a button of their own, and its icon; the others are in the menu Tools."""
 

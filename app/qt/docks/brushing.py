@@ -34,23 +34,28 @@ class Brushing(QtCore.QObject):
     current: the selection that is added to, "" for a new one.  is_on: whether drags paint, switched on by a button;
     they do as well while the key is held.  `stroked` is emitted with the vertices (k,) of a stroke that goes on, which
     become a step of the history when the button is let go.
+
+    cuts: whether strokes are not selected, but told as faces (k,) that are to go, or with Ctrl to come back.
     """
 
     stroked = QtCore.Signal(object)
     switched = QtCore.Signal(bool)
+    cut = QtCore.Signal(object, bool)
+    cut_switched = QtCore.Signal(bool)
 
     def __init__(self, window: Any) -> None:
         super().__init__(window)
         self._window, self._grid = window, window.grid
         self.current = ""
         self.radius = RADIUS
-        self.is_on = self._is_held = False
+        self.is_on = self.cuts = self._is_held = False
         self._surface: Surface | None = None  # that the brush is for
         self._brush: Brush | None = None
         self._waiting: list[tuple[Met, float]] = []  # places touched before the brush is there
         self._is_lifted = True
         self._stroke: np.ndarray | None = None  # (n,) bool
         self._is_erasing = False
+        self._faces: set[int] = set()  # that the pointer itself has been in
         self._making = Background("brush", _made, window)
         self._making.answered.connect(self._ready)
         self._grid.brushed.connect(self._touch)
@@ -107,11 +112,12 @@ class Brushing(QtCore.QObject):
         return [panel for panel in self._grid.panels if panel.surface == self._grid.eye.surface]
 
     # ------------------------------------------------------------------ the brush
-    def switch(self, is_on: bool) -> None:
-        """By the button."""
-        self.is_on = is_on
+    def switch(self, is_on: bool, cuts: bool = False) -> None:
+        """By the button for selecting, or by that for cutting."""
+        self.is_on, self.cuts = is_on, is_on and cuts
         self._take()
-        self.switched.emit(is_on)
+        self.switched.emit(is_on and not cuts)
+        self.cut_switched.emit(self.cuts)
 
     def enlarge(self, radius: int) -> None:
         self.radius = min(max(radius, RADII[0]), RADII[1])
@@ -154,24 +160,37 @@ class Brushing(QtCore.QObject):
             self._stroke = np.zeros(len(surface.vertices), bool)
             keys = QtWidgets.QApplication.keyboardModifiers()
             known = [each.name for each in self._window.session.document.selections]
-            self._is_erasing = bool(keys & QtCore.Qt.KeyboardModifier.ControlModifier) and self.current in known
+            has_ctrl = bool(keys & QtCore.Qt.KeyboardModifier.ControlModifier)
+            self._is_erasing = has_ctrl and (self.cuts or self.current in known)
+        self._faces.add(met.face)
         position = met.weights @ surface.vertices[surface.faces[met.face]]  # not that in a relief
         near = self._brush.near(met.face, position, self.radius * pixel)
         new = near[~self._stroke[near]]
         if len(new):
             self._stroke[new] = True
             for panel in self._panels:
-                panel.marks.show_dabs(new, ERASED if self._is_erasing else PINS[self.colour])
-            self.stroked.emit(np.flatnonzero(self._stroke))
+                panel.marks.show_dabs(new, self._paint)
+            if not self.cuts:
+                self.stroked.emit(np.flatnonzero(self._stroke))
+
+    @property
+    def _paint(self) -> str:
+        """The colour of what the brush touches; faces that are cut out look as what is taken away."""
+        return ERASED if self._is_erasing != self.cuts else PINS[self.colour]
 
     def _lift(self) -> None:
         self._is_lifted = True
         if self._brush is None and self._waiting:
             return
         stroke, self._stroke = self._stroke, None
+        touched, self._faces = self._faces, set()
         for panel in self._grid.panels:
             panel.marks.show_dabs(None)
-        if stroke is not None and self._window.session.surface is self._surface:
+        surface = self._window.session.surface
+        if self.cuts and stroke is not None and surface is self._surface:
+            within = np.flatnonzero(stroke[surface.faces].all(axis=1))
+            self.cut.emit(np.union1d(within, np.array(sorted(touched), np.int64)), self._is_erasing)
+        elif stroke is not None and surface is self._surface:
             self.select(np.flatnonzero(stroke), "removed" if self._is_erasing else "added")
         self.stroked.emit(np.empty(0, np.int64))
 

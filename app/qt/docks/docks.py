@@ -11,6 +11,7 @@ from .dock import Dock
 from .findings import Findings
 from .instrument import Instrument
 from .isoline_files import Writing
+from .picking import Picking
 
 NARROW = 1_100
 """Logical pixels of the window's width under which the docks at the right are tabs of one."""
@@ -40,6 +41,7 @@ def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
     from .profile_dock import ProfileDock
     from .quality import QualityDock
     from .regions import RegionsDock
+    from .robustness import RobustnessDock
     from .scatter_dock import ScatterDock
     from .statistics_dock import StatisticsDock
 
@@ -50,6 +52,7 @@ def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
         "profile": ("Profile", ProfileDock),
         "quality": ("Quality", QualityDock),
         "regions": ("Regions", RegionsDock),
+        "robustness": ("Robustness", RobustnessDock),
         "scatter": ("Scatter", ScatterDock),
         "statistics": ("Statistics", StatisticsDock),
     }
@@ -63,7 +66,7 @@ class Docks:
         self._docks: dict[str, Dock] = {}
         self._shown: Document | None = None
         self.findings = Findings(window)
-        self.brushing, self.writing = Brushing(window), Writing(window)
+        self.brushing, self.picking, self.writing = Brushing(window), Picking(window), Writing(window)
         window.setDockNestingEnabled(True)
         window.setTabPosition(QtCore.Qt.DockWidgetArea.RightDockWidgetArea, QtWidgets.QTabWidget.TabPosition.North)
         for corner, area in (
@@ -89,7 +92,21 @@ class Docks:
                 self._instrument(word).opened()
 
     def close(self, word: str) -> None:
+        """By the user, to whom what it is about is no longer of interest."""
+        was_open = word in self._window.session.document.docks
         self._keep(tuple(each for each in self._window.session.document.docks if each != word))
+        if was_open and word in self._docks:
+            self._instrument(word).leave()
+
+    def put_down(self) -> bool:
+        """Let the pointer mean what it usually does; whether it has meant something else."""
+        if self.picking.is_on:
+            self.picking.stop()
+        elif self.brushing.cuts:
+            self.brushing.switch(False)
+        else:
+            return False
+        return True
 
     def choose_anchor(self, point: str) -> None:
         """Let the anchor at a point stand out, in the list, too."""

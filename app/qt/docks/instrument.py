@@ -54,6 +54,9 @@ class Instrument(QtWidgets.QWidget):
     def show_closed(self) -> None:
         """The dock has been closed: take away what it has put elsewhere."""
 
+    def leave(self) -> None:
+        """The user has closed the dock: end what makes no sense without it."""
+
     @property
     def pointed_surface(self) -> str:
         """The name of the surface that it is about."""

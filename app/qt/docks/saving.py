@@ -10,13 +10,17 @@ from qtpy import QtWidgets
 
 from bihdist_core import BihdistError
 
+MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
+"""What can be opened."""
+
 NAMES = {
     ".txt": "Text, an id on each line",
     ".npy": "NumPy array",
     ".csv": "Table",
     ".ply": "PLY mesh",
     ".vtp": "VTK PolyData",
-    ".obj": "OBJ lines",
+    ".obj": "OBJ",
+    ".off": "OFF",
     ".json": "JSON",
     ".pp": "MeshLab's picked points",
     ".pdf": "PDF",

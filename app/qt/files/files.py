@@ -8,9 +8,10 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import BihdistError, OutputError
 from bihdist_core.whole_file import check_output, whole_file
 
+from ..docks.saving import MESH_FILES
 from ..pages.messages import ask_which
 from .curve_files import is_curve
-from .session_actions import FILES, MESH_FILES
+from .session_actions import FILES
 
 
 class Files(QtCore.QObject):

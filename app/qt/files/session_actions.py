@@ -14,7 +14,7 @@ from bihdist_core import BihdistError, ParameterError
 
 from ...document.beside_edits import MOST_SHOWN
 from ...document.document import MeshFile, content
-from ...document.file import checksum, read_recipe
+from ...document.file import checksum, read_recipe, with_paths
 from ...document.page import Recipe
 from ...drawing.style import style_of
 from ...samples import mesh_path
@@ -22,8 +22,8 @@ from ...session.given import Given
 from ...session.recipe_file import recipe_written
 from ...version import version
 from .. import remembered
+from ..docks.saving import MESH_FILES
 
-MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 FILES = (
     "Meshes, sessions and recipes (*.off *.obj *.ply *.stl *.vtk *.vtp *.json);;"
     "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;Sessions and recipes (*.json);;All files (*)"
@@ -139,11 +139,19 @@ class SessionFile:
     def _with_meshes(self, recipe: Recipe) -> Recipe | None:
         """The recipe of meshes that are there: those it names, or those the user points at; None if neither."""
         found: list[MeshFile] = []
+        known: dict[tuple[str, str], MeshFile] = {}  # what stands for a file, which several are made from
         for mesh in recipe.document.surfaces:
-            there = self._there(mesh)
+            there = known.get((mesh.path, mesh.sha256)) or self._there(replace(mesh, change=None))
             if there is None:
                 return None
-            found.append(there)
+            known[mesh.path, mesh.sha256] = there
+            change = mesh.change
+            if change is not None and change.pose:
+                pose = self._there(MeshFile("", change.pose, change.pose_sha256))
+                if pose is None:
+                    return None
+                change = replace(change, pose=pose.path, pose_sha256=pose.sha256)
+            found.append(replace(mesh, path=there.path, sha256=there.sha256, change=change))
         return replace(recipe, document=replace(recipe.document, surfaces=tuple(found)))
 
     def _there(self, mesh: MeshFile) -> MeshFile | None:
@@ -172,7 +180,7 @@ class SessionFile:
     def _keep(self) -> None:
         if self._window.session.surface is not None:
             recipe = self.recipe()
-            meshes = tuple(replace(m, path=_absolute(m.path)) for m in recipe.document.surfaces)
+            meshes = tuple(with_paths(mesh, _absolute) for mesh in recipe.document.surfaces)
             recipe = replace(recipe, document=replace(recipe.document, surfaces=meshes))
             remembered.keep_state(lambda path: self._write(recipe, path, stays=True))
 

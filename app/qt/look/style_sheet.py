@@ -47,6 +47,7 @@ QPushButton {{ background: {theme.raised}; color: {theme.text}; border: 1px soli
   padding: 5px 12px; min-height: 20px; icon-size: 20px; }}
 QPushButton:hover {{ background: {theme.hover}; }}
 QPushButton:pressed {{ background: {theme.pressed}; }}
+QPushButton:checked {{ background: {theme.selection}; color: {theme.accent}; border-color: {theme.accent}; }}
 QPushButton:focus {{ border: 2px solid {theme.accent}; padding: 4px 11px; outline: none; }}
 QPushButton:disabled {{ color: {theme.disabled}; border-color: {theme.border}; }}
 QPushButton:default, QPushButton#fill, QToolButton#fill {{ background: {theme.fill}; color: {theme.on_fill};
@@ -135,7 +136,8 @@ QPushButton[segment="first"], QPushButton[segment="middle"], QPushButton[segment
 QPushButton[segment="middle"], QPushButton[segment="last"] {{ border-left: none; }}
 QPushButton[segment="first"] {{ border-top-left-radius: 5px; border-bottom-left-radius: 5px; }}
 QPushButton[segment="last"] {{ border-top-right-radius: 5px; border-bottom-right-radius: 5px; }}
-QPushButton[segment]:checked {{ background: {theme.selection}; color: {theme.accent}; font-weight: 600; }}
+QPushButton[segment]:checked {{ background: {theme.selection}; color: {theme.accent}; font-weight: 600;
+  border-color: {theme.strong}; }}
 QPushButton[segment]:focus {{ border: 2px solid {theme.accent}; }}
 
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {{ subcontrol-origin: border; width: 20px; border: none;

@@ -2,17 +2,18 @@
 
 Shows what a session knows; decides nothing."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
+from ...document.changing import COLUMNS, changed_mesh
 from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
 from ...drawing.board import Board
 from ...drawing.style import PAPER, Style
-from ...session.bar_ends import bar_end
+from ...session.bar_ends import bar_end, ends_with
 from ...session.session import Session
 from ..look.look import LOOK
 from .eye import Eye
@@ -31,6 +32,9 @@ LEAST_WIDTH, LEAST_HEIGHT = 280, 220
 
 BRUSH_KEY, LIVE_KEY = QtCore.Qt.Key.Key_B, QtCore.Qt.Key.Key_L
 """Held, a drag paints a selection."""
+
+LEAST_IN_ROW = 180
+"""The same width where panels that belong together stand in a row: before, after, difference."""
 
 LINE = 1
 """Pixels between panels."""
@@ -83,6 +87,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._spare: list[DistancePanel] = []
         self._style = PAPER
         self._is_closed = False
+        self._are_in_rows = False
         self.pointing = Pointing()
         self.marks = GridMarks(session, lambda: self._panels, self.moving)
         LOOK.changed.connect(self.update)
@@ -115,9 +120,12 @@ class PanelGrid(QtWidgets.QWidget):
         if not count:
             return
         room = self.parentWidget().size() if self.parentWidget() is not None else self.size()
-        fitting = max(1, (room.width() + LINE) // (round(LEAST_WIDTH * LOOK.scale) + LINE))
+        least = LEAST_IN_ROW if self._are_in_rows else LEAST_WIDTH
+        fitting = max(1, (room.width() + LINE) // (round(least * LOOK.scale) + LINE))
         rows = -(-count // min(SIDE_BY_SIDE, fitting))
         columns = -(-count // rows)
+        if self._are_in_rows and fitting >= COLUMNS:
+            rows, columns = -(-count // COLUMNS), COLUMNS
         self.setMinimumHeight(rows * (LEAST_HEIGHT + LINE) - LINE)
         width = (self.width() - (columns - 1) * LINE) // columns
         height = (self.height() - (rows - 1) * LINE) // rows
@@ -131,6 +139,7 @@ class PanelGrid(QtWidgets.QWidget):
     def show_panels(self, document: Document) -> None:
         """Make, leave out and put in order the panels, and let their heads say what they show."""
         wanted = {panel.id: panel for panel in document.panels}
+        self._are_in_rows = changed_mesh(document) is not None
         for id in self._panels.keys() - wanted.keys():
             gone = self._panels.pop(id)
             gone.hide()
@@ -217,11 +226,11 @@ class PanelGrid(QtWidgets.QWidget):
         changed = [panel.show_style(style) for panel in (*self.panels, *self._spare)]
         return any(changed)
 
-    def show_surface(self) -> None:
-        """Another surface is there."""
+    def show_surface(self, surfaces: Collection[str] | None = None) -> None:
+        """Other surfaces are there; surfaces: their names in the document, if these are not all."""
         for panel in self.panels:
             opened = self._session.opened(panel.surface)
-            if opened is not None:
+            if opened is not None and (surfaces is None or panel.surface in surfaces):
                 panel.show_surface(opened)
                 panel.head.show_letter(panel.head.letter, opened.surface.name)
         self.marks.begin_surfaces()
@@ -243,11 +252,13 @@ class PanelGrid(QtWidgets.QWidget):
     def show_answer(self, id: int) -> None:
         """The answer that the session has now for a panel."""
         document, shown = self._session.document, self._session.shown
-        for other in shown if document.range == "shared" else (id,):
+        for other in ends_with(document, shown, id):
             if other in self._panels:
                 in_shares = document.range == "shares"
                 widget = self._panels[other]
-                widget.show_answer(shown[other], bar_end(document, shown, other), document.height, in_shares)
+                widget.show_answer(
+                    shown[other], bar_end(document, shown, other, self._session.opened), document.height, in_shares
+                )
                 self.marks.show_isolines_again(document, other)
                 self.marks.show_pairs_in(document, other)
         self.pointing.show_again_soon()

@@ -44,6 +44,7 @@ class MarksOver:
         self._labels: tuple[AnchorLabel, ...] = ()
         self._unlabelled: frozenset[int] | None = None  # which of them the surface hides; None until it is looked
         self._dabs: list[tuple[str, QtGui.QPolygonF]] = []  # of a brush that is down
+        self.ends = np.empty((0, 3))  # of what is joined
 
     # ------------------------------------------------------------------ what there is
     def say(self, sentence: str) -> None:
@@ -119,6 +120,12 @@ class MarksOver:
             self._dabs.append((colour, QtGui.QPolygonF([QtCore.QPointF(*place) for place in at.tolist()])))
         self._view.update()
 
+    def show_ends(self, points: np.ndarray) -> None:
+        """Rings at points (k, 3) that are joined with each other, dashed where the surface hides them."""
+        if len(points) or len(self.ends):
+            self.ends = points
+            self._view.update()
+
     def see(self) -> None:
         """Another picture has been drawn: what is hidden in it?"""
         self._unseen = self._unlabelled = None
@@ -150,6 +157,8 @@ class MarksOver:
             paint_note(painter, QtCore.QRectF(view.rect()), self.notes)
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)
+        for end in self.ends:
+            overlay.paint_ring(painter, view.place_of(end), True, not view.sees(end))
         for stroke in self.strokes:
             style = view.scene.style
             overlay.paint_stroke(painter, [view.place_of(x) for x in stroke], style.source, style.mark_edge)

@@ -174,6 +174,11 @@ class DistancePanel(QtWidgets.QWidget):
         return band_edges(self._isolines, self.view.scene.maximum, is_signed)
 
     @property
+    def opened(self) -> Opened | None:
+        """The surface that it shows."""
+        return self._opened
+
+    @property
     def shape(self) -> Surface | None:
         """The surface as it is drawn, perhaps as a relief; None if there is none."""
         return self._opened.surface if self._opened is not None and self._raised is None else self._shape

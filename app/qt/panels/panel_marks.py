@@ -45,6 +45,7 @@ class PanelMarks:
         self._path: Places | None = None
         self._regions: Sequence[Boundary] = ()
         self._extrema = np.empty(0, np.int64), np.empty(0, np.int64)
+        self._ends: Sequence[int] = ()
         self.dots = np.empty((0, 3))  # on isolines through points
 
     def rest(self) -> None:
@@ -56,6 +57,7 @@ class PanelMarks:
         self._view.over.show_anchors(())
         self._view.handles, self._view.over.strokes = np.empty((0, 3)), ()
         self._put_extrema()
+        self._put_ends()
         self._put_path()
 
     def begin(self, surface: Surface) -> None:
@@ -70,6 +72,7 @@ class PanelMarks:
         self._put_pairs()
         self._put_regions()
         self._put_extrema()
+        self._put_ends()
 
     # ------------------------------------------------------------------ the source and the anchors
     def expect_source(self, vertex: int | None, pieces: Sequence[Pieces] = ()) -> None:
@@ -205,6 +208,15 @@ class PanelMarks:
         minima, maxima = self._extrema
         is_maximum = np.arange(len(minima) + len(maxima)) >= len(minima)
         self._view.over.extrema.show(self.positions[np.concatenate([minima, maxima])], is_maximum)
+
+    def mark_ends(self, vertices: Sequence[int] = ()) -> None:
+        """Rings at vertices that are joined with each other."""
+        self._ends = vertices
+        self._put_ends()
+
+    def _put_ends(self) -> None:
+        known = [vertex for vertex in self._ends if vertex < len(self.positions)]
+        self._view.over.show_ends(self.positions[known])
 
     def mark_passed(self, points: Sequence[Passed]) -> None:
         """Dots at points that isolines pass through."""

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from qtpy import QtCore
 
+from ...session.changed import counterpart
 from .panel import DistancePanel
 
 
@@ -23,11 +24,17 @@ class Pointing:
         self._at = None
 
     def show(self, id: int, vertex: int | None) -> None:
-        """Mark a vertex in every panel of its surface, and show its values; id: the panel under the pointer."""
+        """Mark a vertex in every panel of its surface, and show its values; id: the panel under the pointer.
+
+        In panels of a surface that is made from that, or that it is made from, the same vertex there.
+        """
         self._at = None if vertex is None else (id, vertex)
+        here = self._panels[id]
         for other, panel in self._panels.items():
-            if panel.surface != self._panels[id].surface:
-                panel.point_at(None, False)
+            if panel.surface != here.surface:
+                there = counterpart(vertex, here.opened, panel.opened)
+                is_hidden = there is not None and not panel.view.sees(panel.positions[there])
+                panel.point_at(there, False, is_hidden)
                 continue
             # Panels with the same shape show the same of it.
             is_hidden = (
