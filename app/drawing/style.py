@@ -113,6 +113,9 @@ PINS = (
 )
 """The colours of pins and selections, `PIN_COLOURS` of them; white numerals on them have a contrast of 5 : 1."""
 
+WAITING = "#14161A"
+"""The colour of a pair of points that is not whole yet."""
+
 PAPER = Style(stops=colour_maps.PAPER)
 """The paper's look: dark blue near, through cyan, grey and pink, to dark red far; white isolines."""
 

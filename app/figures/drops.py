@@ -71,7 +71,12 @@ def drop_of(
     radius = head_radius(page.layout)
     path, style = _outline(x, y, radius), page.figure.style
     rim = 0.17 * radius
-    if is_hidden:
+    if mark.is_candidate:
+        looks = [
+            {"facecolor": mark.colour, "edgecolor": style.mark_edge, "linewidth": 2.4 * rim},
+            {"fill": False, "edgecolor": "white", "linewidth": rim, "linestyle": (0, (2.2, 1.4))},
+        ]
+    elif is_hidden:
         looks = [
             {"facecolor": (1, 1, 1, 1.0 if page.is_opaque else 0.92), "edgecolor": "white", "linewidth": 2.4 * rim},
             {"fill": False, "edgecolor": mark.colour, "linewidth": rim, "linestyle": (0, (2.2, 1.4))},
@@ -89,7 +94,7 @@ def drop_of(
     text = str(mark.number)
     size = NUMERAL[min(len(text), 3) - 1] * radius
     look = {"ha": "center", "va": "baseline", "weight": "bold", "size": size * POINT, "zorder": order}
-    colour = mark.colour if is_hidden else "white"
+    colour = mark.colour if is_hidden and not mark.is_candidate else "white"
     parts.append(axes.text(x, y - RISE * radius + 0.36 * size, text, color=colour, **look))
     return parts
 

@@ -42,6 +42,7 @@ from ..session.recipe_file import check_recipe_beside, place_beside, recipe_path
 from ..session.regions import regions_of, regions_questions
 from .description import Figure, FigurePanel, Mark
 from .draw import FIGURE_FORMATS, check_offscreen, check_transparency, save_figure
+from .paired import pair_marks, plain_heading
 from .size import Size
 from .tex import tex_path, tex_snippet
 
@@ -201,6 +202,8 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
     starting = dict.fromkeys(point for point in starting_points(document) if not point.image_of)
     if starts and len(starting) > 1:
         heading += f", from {', '.join(map(short_words_of, starts))}"
+    hint = "; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text)
+    heading, hint = plain_heading(document, panel, opened, answer) or (heading, hint)
     through = passed(document, panel.surface, opened, answer)
     up = document.up_of(panel.surface)
     return FigurePanel(
@@ -208,7 +211,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         answer.field,
         colours=answer.colours,
         heading=heading,
-        hint="; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text),
+        hint=hint,
         label="" if answer.failure else answer.label,
         unit=answer.unit,
         failure=answer.failure,
@@ -223,6 +226,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
             *_anchor_marks(recipe, panel, opened, answer),
             *_largest(answer),
             *_pin_marks(document, panel, surface),
+            *pair_marks(document, panel, opened, answer),
         ),
         zooms=_zooms(document, opened),
         height=0.0 if answer.failure else document.height,

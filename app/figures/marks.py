@@ -73,6 +73,7 @@ def draw_marks(
                 dot.set_clip_path(frame)
             continue
         if mark.number is not None:
+            _write_beside(axes, page, shot, mark, (x, y), insets, written, order + 2, write)
             continue
         if mark.extremum:
             for patch in triangle_of(page, mark, x, y, False, order):
@@ -88,21 +89,35 @@ def draw_marks(
             axes.add_artist(patch)
             if shot.source is not None:
                 patch.set_clip_path(frame)
-        if mark.text and not panel.failure:
-            words = _beside(page, shot, mark.text, (x, y), [*insets, *written])
-            if words:
-                written.append(_box_of(page, words))
-                _draw_ground(axes, page, written[-1], order + 1)
-                write(words, order + 1)
+        _write_beside(axes, page, shot, mark, (x, y), insets, written, order + 1, write)
     _draw_pins(axes, page, shot, order + 1, frame, insets)
 
 
+def _write_beside(
+    axes: Axes,
+    page: Composition,
+    shot: Shot,
+    mark: Mark,
+    place: tuple[float, float],
+    insets: list[Box],
+    written: list[Box],
+    order: int,
+    write: Callable[[Words, int], None],
+) -> None:
+    """The words of a mark, if it has any, off what is written already, to which they are added."""
+    words = _beside(page, shot, mark.text, place, [*insets, *written]) if mark.text else None
+    if words and not page.figure.panels[shot.panel].failure:
+        written.append(_box_of(page, words))
+        _draw_ground(axes, page, written[-1], order)
+        write(words, order)
+
+
 def _draw_pins(axes: Axes, page: Composition, shot: Shot, order: int, frame, insets: list[Box]) -> None:
-    """Over all else: the hidden ones below the others, and the first on top."""
+    """Over all else: the hidden ones below the others, and the first on top, but for a candidate."""
     marks = page.figure.panels[shot.panel].marks
     drops = [(mark[0], True, *mark[1:]) for mark in shot.ghosts] + [(mark[0], False, *mark[1:]) for mark in shot.marks]
     drops = [drop for drop in drops if marks[drop[0]].number is not None]
-    drops.sort(key=lambda drop: (not drop[1], -(marks[drop[0]].number or 0)))
+    drops.sort(key=lambda drop: (marks[drop[0]].is_candidate, not drop[1], -(marks[drop[0]].number or 0)))
     for rank, (k, is_hidden, x, y) in enumerate(drops):
         if any(box.holds(x, y) for box in insets):
             continue
@@ -257,7 +272,7 @@ def hidden_words(page: Composition) -> list[str]:
             some = [mark for mark in marks if (mark.number is None) == (what == "ring")]
             rest = f"hidden in {views}: a dashed {what}; try --view source or --two-views."
             if len(some) > MOST_NAMED:
-                others = "marked places" if what == "ring" else "pins"
+                others = "marked places" if what == "ring" else "drops" if some[0].name else "pins"
                 found[f"{_named(some[0])} and {len(some) - 1} other {others} are {rest}"] = None
                 continue
             for mark in some:

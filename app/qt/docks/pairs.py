@@ -11,12 +11,11 @@ from ...document.document import Document
 from ...document.instruments import Pair
 from ...document.pairing import add_pairs, half_pair, number_of, remove_pairs
 from ...document.predicting import predict, predicts, show_distances
-from ...drawing.style import PINS
+from ...drawing.style import PINS, WAITING
 from ...session.paired import vertex_pairs
 from ...session.questions import vertex_at
 from ..look.look import LOOK
 from ..panels.flat_button import FlatButton
-from ..panels.pair_marks import WAITING
 from .dock import PAD
 from .instrument import Instrument
 from .pair_row import PairRow, column_ends

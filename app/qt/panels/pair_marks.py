@@ -18,9 +18,6 @@ from .pin_marks import BRIGHT, DARK, HEAD, RISE, PinMark, drop_at, drop_under, p
 if TYPE_CHECKING:
     from .view import View
 
-WAITING = "#14161A"
-"""The colour of a pair that is not whole yet."""
-
 CANDIDATE = "candidate"
 
 

@@ -11,14 +11,14 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.pieces import Pieces
 
 from ...drawing.source_lines import SourceLine, source_lines
-from ...drawing.style import PINS
+from ...drawing.style import PINS, WAITING
 from ...session.anchors import anchor_value
 from ...session.paired import Candidate, PairedPoint
 from ...session.passed import Passed
 from ...session.pinned import PinnedPlace
 from ..look.numbers import share
 from .anchor_labels import AnchorLabel
-from .pair_marks import WAITING, CandidateMark
+from .pair_marks import CandidateMark
 from .pin_marks import PinMark
 from .view import View
 
