@@ -18,6 +18,7 @@ from ..look.look import LOOK
 from ..panels.flat_button import FlatButton
 from .dock import PAD
 from .instrument import Instrument
+from .map_errors import MapErrors
 from .pair_row import PairRow, column_ends
 from .plain import fill
 from .saving import save
@@ -30,7 +31,7 @@ READ = f"Pairs ({' '.join(f'*{extension}' for extension in PAIR_FORMATS)});;All 
 
 
 class PairsDock(Instrument):
-    """See the module.  below: a layout for what is made of the pairs."""
+    """See the module.  errors: what is made of the pairs."""
 
     word, title = "pairs", "Pairs"
 
@@ -49,6 +50,7 @@ class PairsDock(Instrument):
         self.or_click = QtWidgets.QLabel(wordWrap=True)
         self.or_click.setProperty("quiet", True)
         self._head = _Columns()
+        self.errors = MapErrors(window)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -65,9 +67,6 @@ class PairsDock(Instrument):
         under.setSpacing(8)
         for widget in (self._waiting, self.hint, self.start, self.open_beside):
             under.addWidget(widget)
-        self.below = QtWidgets.QVBoxLayout()
-        self.below.setContentsMargins(0, 0, 0, 0)
-        self.below.setSpacing(0)
         inside = QtWidgets.QWidget()
         whole = QtWidgets.QVBoxLayout(inside)
         whole.setContentsMargins(0, 0, 0, 0)
@@ -76,7 +75,7 @@ class PairsDock(Instrument):
         whole.addLayout(self._list)
         whole.addLayout(under)
         whole.addStretch(1)
-        whole.addLayout(self.below)
+        whole.addWidget(self.errors)
         fill(self, inside)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
@@ -107,11 +106,14 @@ class PairsDock(Instrument):
     def show_document(self, document: Document, before: Document | None) -> None:
         self.said.emit(str(len(document.pairs)) if document.pairs else "")
         self._show_rows(document)
+        self.errors.show_document(document)
 
     def show_answer(self, panel: int) -> None:
         self._show_rows(self._document)
+        self.errors.show_answer()
 
     def show_closed(self) -> None:
+        self.errors.show_closed()
         self.window_.grid.marks.choose_pair("")
 
     def _show_rows(self, document: Document) -> None:
