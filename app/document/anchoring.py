@@ -8,7 +8,7 @@ from bihdist_core.sources.source import Source
 
 from .document import Anchor, Document, Point, free_names
 from .predicting import show_distances as distances_again
-from .quantities import DistanceFrom, Interpolant
+from .quantities import DistanceFrom, Interpolant, Quantity
 
 MOST_ANCHORS = 500
 """Each has a column of distances for each panel."""
@@ -53,6 +53,12 @@ def remove_anchors(document: Document, points: Iterable[str]) -> Document:
     return replace(
         document, points=tuple(point for point in document.points if point.name not in gone or point.name in kept)
     )
+
+
+def interpolated(shows: Quantity) -> Interpolant | None:
+    """The interpolant that a panel shows by itself; None for another quantity, and for a sum of weights."""
+    (part, *others) = shows.parts
+    return part if isinstance(part, Interpolant) and not others and not part.total else None
 
 
 def interpolate(document: Document) -> Document:

@@ -220,6 +220,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self._offer_steps()
         self.choices.show()
         self.docks.document_changed()
+        self.status.document_changed()
         self.waits.expect(before)
         self.session_file.document_changed()
 
@@ -361,6 +362,6 @@ class MainWindow(QtWidgets.QMainWindow):
         if self._start_page is not None:
             self._start_page.set_dropping(is_dropping)
 
-    def say(self, text: str) -> None:
-        """In the status bar, for a while."""
-        self.status.say(text)
+    def say(self, text: str, holds: Callable[[], bool] | None = None) -> None:
+        """In the status bar, for a while; holds: whether it is true, asked as the document changes."""
+        self.status.say(text, holds)

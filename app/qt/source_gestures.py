@@ -126,10 +126,15 @@ class SourceGestures:
         self._say(panel)
 
     def _say(self, panel: int) -> None:
-        document = self._window.session.document
-        name = source_name(document, panel)
-        if name and document.point(name).at is not None:
-            self._window.say(f"Source: {short_words_of(document.point(name).at)}")
+        session = self._window.session
+        name = source_name(session.document, panel)
+        at = session.document.point(name).at if name else None
+        if at is not None:
+
+            def holds() -> bool:
+                return any(point.name == name and point.at == at for point in session.document.points)
+
+            self._window.say(f"Source: {short_words_of(at)}", holds)
 
     def _members(self, panel: int) -> tuple[Member, ...]:
         document = self._window.session.document

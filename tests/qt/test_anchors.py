@@ -1,9 +1,13 @@
 """Interpolation in the window: anchors clicked, dragged, valued and left out, by mouse and keyboard."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from app.document.quantities import Interpolant
+from app.document.anchoring import add_anchor
+from app.document.edits import show_in
+from app.document.quantities import Interpolant, quantity
 from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolant, farthest_points, other_extrema
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import SourceSet
@@ -186,6 +190,42 @@ def test_weights_and_extrema_are_those_of_the_library(opened):
     for panel, (_, at_tips, elsewhere) in enumerate(dock.extrema.facts[1:]):
         found = other_extrema(s.session.surface, s.answers[panel].field, vertices).vertices
         assert int(at_tips) + int(elsewhere) == len(found)
+
+
+def test_extrema_are_marked_on_interpolants_only(opened):
+    s = opened
+    document = s.document
+    for k in range(12):
+        document, _ = add_anchor(document, 60 * k, float(k % 3))
+    # So steep, the one by the geodesic distance has an extremum elsewhere.
+    s.session.show(replace(document, weights=replace(document.weights, exponent=6.0)))
+    dock, marks = dock_of(s), [panel.view.over.extrema for panel in s.panels]
+
+    def rest():
+        complete(s)
+        s.until(lambda: s.window.docks.findings.is_complete)
+        s.settle(0.05)
+
+    def counted():
+        return [int(near) + int(elsewhere) for _, near, elsewhere in dock.extrema.facts[1:]]
+
+    rest()
+    assert [len(each.positions) for each in marks] == counted()
+    assert counted() == [0, 1]
+    dock.shows.buttons["total"].click()
+    rest()
+    assert not any(len(each.positions) for each in marks), "nobody asks for those of weights"
+    assert not dock.extrema.isVisible()
+    dock.shows.buttons["interpolant"].click()
+    rest()
+    assert dock.extrema.isVisible()
+    s.session.show(show_in(s.document, s.document.panels[1].id, quantity("geodesic")))
+    rest()
+    assert [len(each.positions) for each in marks] == [*counted(), 0]
+    dock.end_tool()
+    rest()
+    assert "anchors" in s.document.docks
+    assert not any(len(each.positions) for each in marks)
 
 
 def test_anchors_are_saved_and_read_and_kept_in_sessions(opened, tmp_path):

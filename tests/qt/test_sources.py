@@ -137,7 +137,9 @@ def test_ctrl_click_makes_a_set_and_takes_from_it_and_undo_goes_back(opened, tmp
     assert len(view.handles) == 3
     ctrl_click(s, where(s, first))
     assert s.source == SourceSet(tuple(others))
+    assert s.window.status.message.text.startswith("Source: ")
     s.session.undo()
+    assert s.window.status.message.text == "", "what was said of it is no longer so"
     s.session.undo()
     assert s.source == SourceSet((first, others[0]))
     s.session.undo()

@@ -64,6 +64,7 @@ def test_a_difference_has_its_parts_rank_correlation_and_signs(opened):
 
 def test_truncation_goes_with_the_slider_and_the_source(opened):
     from app.document.edits import move_source
+    from app.qt.look.look import LOOK
 
     s, box = opened, opened.dock.truncation
     assert box.loss is None
@@ -74,6 +75,10 @@ def test_truncation_goes_with_the_slider_and_the_source(opened):
     box.slider.setValue(12)
     facts = dict(box.facts.facts)
     assert facts["eigenpairs"] == "12"
+    s.settle()
+    table = box.facts.grab().toImage()
+    beside = {table.pixelColor(4, y).name() for y in range(table.height())}
+    assert {LOOK.theme.accent.lower(), LOOK.theme.text.lower()} <= beside, "the dots of the two curves"
     assert facts["mean loss, by area"].startswith(f"{100 * expected.means[11]:.3g}"[:3])
     s.session.show(move_source(s.document, 0, 900))
     s.until(lambda: box.loss is not None and box.loss.source == 900)

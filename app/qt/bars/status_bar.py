@@ -48,6 +48,7 @@ class StatusBar(QtWidgets.QStatusBar):
         row.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.addPermanentWidget(row, 1)
         self._vertices, self._faces = "", ""
+        self._holds: Callable[[], bool] | None = None
         self._forget_soon = QtCore.QTimer(self, singleShot=True, interval=SAID_MS)
         self._forget_soon.timeout.connect(self._forget)
         LOOK.changed.connect(self._fit)
@@ -85,17 +86,26 @@ class StatusBar(QtWidgets.QStatusBar):
         self.vertex.show_text("" if vertex is None else f"vertex {vertex}{where}")
         self.place.show_text("" if position is None else "  ".join(number(x) for x in position))
 
-    def say(self, text: str) -> None:
-        """For a while."""
+    def say(self, text: str, holds: Callable[[], bool] | None = None) -> None:
+        """For a while; holds: whether it is true, asked as the document changes."""
+        self._holds = holds
         self.message.show_text(text)
         self._forget_soon.start()
+
+    def document_changed(self) -> None:
+        """What was said of the document before may no longer hold."""
+        if self._holds is not None and not self._holds():
+            self._forget_soon.stop()
+            self._forget()
 
     def show_rate(self, text: str) -> None:
         """How quickly fields follow, as long as they do; "" afterwards."""
         self._forget_soon.stop()
+        self._holds = None
         self.message.show_text(text)
 
     def _forget(self) -> None:
+        self._holds = None
         self.message.show_text("")
 
     def show_progress(self, text: str) -> None:

@@ -8,8 +8,8 @@ from qtpy import QtWidgets
 
 from bihdist_core.applications.tips import at_tips, tips
 
+from ...document.anchoring import interpolated
 from ...document.document import Document
-from ...document.quantities import Interpolant
 from ..panels.quantity_menu import kind_name
 from .background import Background
 from .fact_table import FactTable
@@ -48,17 +48,17 @@ class AnchorExtrema(FactTable):
         session, grid = self._window.session, self._window.grid
         if session.surface is None or "anchors" not in session.document.docks:
             return
-        facts: list[tuple[str, ...]] = [("Panel", "at tips", "elsewhere")]
+        facts: list[tuple[str, ...]] = []
         for panel in session.document.panels_of():
             counts = None
-            (part, *others) = panel.shows.parts
-            if not others and isinstance(part, Interpolant) and not part.total:
+            part = interpolated(panel.shows)
+            if part is not None:
                 counts = self._counts(panel.id)
                 words = ("…", "…") if counts is None else tuple(map(str, counts))
                 facts.append((kind_name(part.spec.kind), *words))
             if any(shown.id == panel.id for shown in grid.panels):
                 grid.panel(panel.id).view.over.write(() if counts is None else in_words(*counts))
-        self.show_facts(facts)
+        self.show_facts([("Panel", "at tips", "elsewhere"), *facts] if facts else [])
 
     def _counts(self, panel: int) -> tuple[int, int] | None:
         found = self._window.docks.findings.found(panel).extrema

@@ -48,7 +48,7 @@ class AnchorRow(QtWidgets.QWidget):
         row = QtWidgets.QHBoxLayout(self)
         row.setContentsMargins(6, 0, PAD, 0)
         row.setSpacing(4)
-        for widget, stretch in ((self.eye, 0), (self.name, 3), (self.slider, 4), (self.box, 0), (self.cross, 0)):
+        for widget, stretch in ((self.eye, 0), (self.name, 1), (self.slider, 1), (self.box, 0), (self.cross, 0)):
             row.addWidget(widget, stretch)
         self.setFixedHeight(round(HEIGHT * LOOK.scale))
         self.eye.opened.connect(self._turn_eye)

@@ -9,7 +9,7 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
-from ...document.anchoring import add_anchor, change_anchor, interpolate, remove_anchors, show_distances
+from ...document.anchoring import add_anchor, change_anchor, interpolate, interpolated, remove_anchors, show_distances
 from ...document.document import Anchor, Document
 from ...document.quantities import Interpolant
 from ...session.questions import vertex_at
@@ -82,7 +82,13 @@ class AnchorsDock(Instrument):
         for widget in (_line(), _heading("Weights")):
             more.addWidget(widget)
         more.addLayout(form)
-        for widget in (_line(), _heading("Extrema besides the anchors"), self.extrema, _line()):
+        self._besides = QtWidgets.QWidget()
+        besides = QtWidgets.QVBoxLayout(self._besides)
+        besides.setContentsMargins(0, 0, 0, 0)
+        besides.setSpacing(8)
+        for widget in (_line(), _heading("Extrema besides the anchors"), self.extrema):
+            besides.addWidget(widget)
+        for widget in (self._besides, _line()):
             more.addWidget(widget)
         buttons = QtWidgets.QHBoxLayout()
         buttons.setSpacing(8)
@@ -135,6 +141,7 @@ class AnchorsDock(Instrument):
                 box.setText(f"{value:.6g}")
                 mark_wrong(box, False)
         self.shows.choose("total" if parts and all(part.total for part in parts) else "interpolant")
+        self._besides.setVisible(any(interpolated(panel.shows) for panel in document.panels_of()))
         self.extrema.show_document(document)
 
     def show_answer(self, panel: int) -> None:

@@ -1,11 +1,14 @@
 """What is found out in the background about what the panels show, and drawn on them: extrema while the dock of quality
-is open or the document says so, and regions of the pins where it does.  `window` is the main window."""
+is open or the document says so, those of interpolants beside the dock of anchors, and regions of the pins where the
+document says so.  `window` is the main window."""
 
 from collections.abc import Callable
 from contextlib import suppress
 
 from qtpy import QtCore
 
+from ...document.anchoring import interpolated
+from ...document.document import Panel
 from ...session.quality import Found, Quality
 from ...session.questions import Question, are_about_the_same, questions
 from ...session.regions import Divided, Dividing, regions_questions
@@ -80,10 +83,11 @@ class Findings(QtCore.QObject):
         """Whether there is nothing more to be found out."""
         if self._rest.isActive() or not self._dividing.is_complete:
             return False
-        judged = [panel.id for panel in self._window.session.document.panels if self._judged_question(panel.id)]
+        panels = self._window.session.document.panels
+        judged = [panel.id for panel in panels if self._is_marked(panel) and self._judged_question(panel.id)]
         if self._is_judging:
             return all(self.found(id).is_complete for id in judged)
-        return not self._is_marking or all(self.found(id).extrema or self.found(id).failure for id in judged)
+        return all(self.found(id).extrema or self.found(id).failure for id in judged)
 
     @property
     def _is_judging(self) -> bool:
@@ -91,8 +95,13 @@ class Findings(QtCore.QObject):
 
     @property
     def _is_marking(self) -> bool:
+        return any(self._is_marked(panel) for panel in self._window.session.document.panels)
+
+    def _is_marked(self, panel: Panel) -> bool:
+        """Whether the extrema of what a panel shows are drawn there."""
         document = self._window.session.document
-        return self._is_judging or ((document.extrema or "anchors" in document.docks) and self._is_there)
+        has_anchors = "anchors" in document.docks and interpolated(panel.shows) is not None
+        return self._is_judging or ((document.extrema or has_anchors) and self._is_there)
 
     @property
     def _is_there(self) -> bool:
@@ -125,7 +134,7 @@ class Findings(QtCore.QObject):
         for panel in session.document.panels:
             question, opened = self._judged_question(panel.id), session.opened(panel.surface)
             shown = session.shown.get(panel.id)
-            if opened is None or shown is None:
+            if opened is None or shown is None or not self._is_marked(panel):
                 continue
             if question is not None:
                 asked[question] = (opened, shown.answer)
@@ -138,8 +147,9 @@ class Findings(QtCore.QObject):
         self.quality_changed.emit()
 
     def _show_extrema(self) -> None:
+        marked = {panel.id for panel in self._window.session.document.panels if self._is_marked(panel)}
         for panel in self._window.grid.panels:
-            extrema = self.found(panel.id).extrema if self._is_marking else None
+            extrema = self.found(panel.id).extrema if panel.id in marked else None
             if extrema is None:
                 panel.marks.mark_extrema()
             else:

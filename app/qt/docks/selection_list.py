@@ -172,4 +172,6 @@ def _dot(colour: str) -> QtGui.QIcon:
     painter.setBrush(QtGui.QColor(colour))
     painter.drawEllipse(QtCore.QPointF(8, 8), 5, 5)
     painter.end()
-    return QtGui.QIcon(picture)
+    icon = QtGui.QIcon(picture)
+    icon.addPixmap(picture, QtGui.QIcon.Mode.Selected)  # which else is tinted
+    return icon

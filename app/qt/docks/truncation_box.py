@@ -23,6 +23,9 @@ MOST = 200
 
 FIRST = 50
 
+MEAN, LARGEST = "accent", "text"
+"""The colours of the curves, as fields of `Theme`."""
+
 CURVES = 64
 """Height of the curves, in logical pixels."""
 
@@ -141,7 +144,8 @@ class TruncationBox(QtWidgets.QWidget):
                 ("eigenpairs", str(int(loss.counts[at]))),
                 ("mean loss, by area", share_of_loss(float(loss.means[at]))),
                 (f"largest, at vertex {int(loss.at[at])}", share_of_loss(float(loss.largest[at]))),
-            ]
+            ],
+            {1: MEAN, 2: LARGEST},
         )
         self.curves.show_loss(loss, at)
 
@@ -178,7 +182,7 @@ class LossCurves(QtWidgets.QWidget):
         area = QtCore.QRectF(self.rect()).adjusted(5, 5, -5, -5)
         x = area.left() + (loss.counts - loss.counts[0]) / (loss.counts[-1] - loss.counts[0]) * area.width()
         painter.fillRect(QtCore.QRectF(round(float(x[self._at])), 0, 1, self.height()), QtGui.QColor(theme.strong))
-        for each, colour in zip(logs, (theme.text, theme.accent), strict=True):
+        for each, colour in zip(logs, (getattr(theme, LARGEST), getattr(theme, MEAN)), strict=True):
             y = area.bottom() - (each - low) / ((high - low) or 1) * area.height()
             line = QtGui.QPolygonF([QtCore.QPointF(*place) for place in zip(x.tolist(), y.tolist(), strict=True)])
             painter.setPen(QtGui.QPen(QtGui.QColor(colour), 1.5))

@@ -309,7 +309,7 @@ class DistancePanel(QtWidgets.QWidget):
         accuracy = shown.answer.accuracy
         self._warn()
         # "geodesic, heat method"
-        self.head.show_method(shown.answer.label.partition(", ")[2].partition(" ")[0])
+        self.head.show_method(shown.answer.label.partition(", ")[2].partition(" ")[0].rstrip(","))
         said = [shown.answer.label, self.head.shows.hint, accuracy.text]
         self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in said if text))
 
