@@ -63,6 +63,16 @@ def _said(found: np.ndarray, onto: Surface) -> str:
     return f"{said}, {lost:,} are mapped nowhere (grey)" if lost else said
 
 
+def colours_words(answer: Answer | None) -> tuple[str, ...]:
+    """What the colours of an answer say, and the same shorter; () of one that has none."""
+    if answer is None or answer.colours is None:
+        return ()
+    if answer.leads_to is None:
+        return "red, green and blue from x, y and z", "coloured by position", ""
+    reached = len(np.unique(answer.leads_to[answer.leads_to != NOWHERE]))
+    return answer.remark, f"{reached:,} vertices are reached", ""
+
+
 def map_file(path: str, one: Surface, two: Surface) -> MapFile:
     """What a document calls a map in a file, from one surface to another; ParameterError for what is none."""
     if path != SAME_IDS:

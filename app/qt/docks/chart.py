@@ -65,6 +65,8 @@ class Chart(QtWidgets.QWidget):
     LEFT, RIGHT, TOP, BOTTOM = 56.0, 24.0, 10.0, 30.0
     """Logical pixels about the plot, before the letters are enlarged."""
 
+    APART = LEAST_APART
+
     def __init__(self, name: str, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.across, self.up = Axis(), Axis()
@@ -89,14 +91,14 @@ class Chart(QtWidgets.QWidget):
         painter.setFont(LOOK.font(12))
         metrics = QtGui.QFontMetricsF(painter.font())
         rise = (metrics.ascent() - metrics.descent()) / 2
-        rows = self.up.ticks(plot.height(), LEAST_APART[1])
+        rows = self.up.ticks(plot.height(), self.APART[1])
         for value in rows:
             y = round(float(self.pixels(self.across.low, value)[1]))
             painter.fillRect(QtCore.QRectF(plot.left(), y, plot.width(), 1), QtGui.QColor(theme.border))
             words = self.up.words(value, value == rows[-1])
             painter.setPen(QtGui.QColor(theme.quiet))
             paint_number(painter, plot.left() - 8 - number_width(painter.font(), words), round(y + rise), words)
-        for value in self.across.ticks(plot.width(), LEAST_APART[0]):
+        for value in self.across.ticks(plot.width(), self.APART[0]):
             x = float(self.pixels(value, self.up.low)[0])
             self.paint_tick(painter, plot, value, x)
 

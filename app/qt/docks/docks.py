@@ -7,6 +7,7 @@ from qtpy import QtCore, QtWidgets
 from ...document.document import Document
 from ...document.instruments import DockPlaces
 from .brushing import Brushing
+from .candidate_errors import CandidateErrors
 from .dock import Dock
 from .findings import Findings
 from .instrument import Instrument
@@ -65,7 +66,7 @@ class Docks:
         self._window = window
         self._docks: dict[str, Dock] = {}
         self._shown: Document | None = None
-        self.findings = Findings(window)
+        self.findings, self.candidates = Findings(window), CandidateErrors(window)
         self.brushing, self.picking, self.writing = Brushing(window), Picking(window), Writing(window)
         window.setDockNestingEnabled(True)
         window.setTabPosition(QtCore.Qt.DockWidgetArea.RightDockWidgetArea, QtWidgets.QTabWidget.TabPosition.North)
@@ -123,6 +124,7 @@ class Docks:
     def close_all(self) -> None:
         """The window closes."""
         self.findings.close()
+        self.candidates.close()
         for dock in self._docks.values():
             dock.content.end()
             dock.hide()
@@ -136,6 +138,7 @@ class Docks:
         """Show what the document says, in the docks that it says."""
         document, kinds = self._window.session.document, _kinds()
         self.findings.document_changed()
+        self.candidates.document_changed()
         wanted = [word for word in document.docks if word in kinds and self._window.session.surface is not None]
         for word in wanted:
             dock = self._docks.get(word) or self._new(word)
@@ -153,12 +156,14 @@ class Docks:
 
     def answer_changed(self, panel: int) -> None:
         self.findings.answer_changed()
+        self.candidates.answer_changed()
         for instrument in self._open():
             instrument.show_answer(panel)
 
     def show_again(self) -> None:
         """The panels have forgotten what was drawn on them."""
         self.findings.show_again()
+        self.candidates.show_again()
         for instrument in self._open():
             instrument.show_again()
 

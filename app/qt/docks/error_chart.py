@@ -38,6 +38,7 @@ class ErrorChart(Chart):
 
     LEFT, RIGHT, TOP, BOTTOM = 46.0, 14.0, 8.0, 46.0
     HEIGHT = 208.0
+    APART = (44.0, 60.0)
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__("Errors of maps", parent)
@@ -47,6 +48,7 @@ class ErrorChart(Chart):
         self.show_axes(Axis(0.0, LIMIT), Axis(0.0, 1.0, in_percent=True))
         self.pointed.connect(self._point)
         LOOK.follow(self, self._fit)
+        self._fit()
 
     def _fit(self) -> None:
         self.setFixedHeight(round(self.HEIGHT * LOOK.scale))

@@ -107,6 +107,12 @@ class MapErrors(QtWidgets.QWidget):
         """A panel has another answer: perhaps a full map."""
         self.save.setVisible(bool(self._full_maps()))
 
+    def show_again(self) -> None:
+        """The panels have forgotten what was drawn on them."""
+        self._dots = {}
+        if self.asked is not None:
+            self._put_dots(self._colours())
+
     def show_closed(self) -> None:
         self._ask(None)
         self._put_dots({})
@@ -114,7 +120,7 @@ class MapErrors(QtWidgets.QWidget):
     def _ask(self, asked: Asked | None) -> None:
         before, self.asked = self.asked, asked
         if asked is None or before is None or asked.about != before.about:
-            if asked is None or before is None or asked.about[:2] != before.about[:2]:
+            if asked is None or before is None or not _is_judged_alike(asked, before):
                 self.judgement = None
             self._background.ask(asked)
 
@@ -165,7 +171,7 @@ class MapErrors(QtWidgets.QWidget):
             return "Finding errors …"
         known = f"{judged.known:,}" if judged.is_whole else f"{judged.known:,} of {judged.wanted:,}"
         sampled = "" if judged.wanted == judged.vertices else " sampled"
-        return f"over {known}{sampled} vertices, {judged.method}"
+        return f"over {known}{sampled} vertices; {judged.method}"
 
     def name_of(self, map: Map) -> str:
         """In the table."""
@@ -243,3 +249,8 @@ class MapErrors(QtWidgets.QWidget):
         stems = [] if asked is None else [Path(each.surface.name).stem for each in (asked.one, asked.two)]
         name = "-".join([*stems, spec.word])
         save(self.window_, "Save the map", name, MAP_FORMATS, lambda path: write_map(path, found))
+
+
+def _is_judged_alike(one: Asked, other: Asked) -> bool:
+    """Whether what is known of the one is near what is to come of the other: only pairs or maps differ."""
+    return (one.about[:3], one.truth) == (other.about[:3], other.truth)

@@ -9,6 +9,7 @@ from bihdist_core.formats.vertex_maps import PAIR_FORMATS, read_pairs, write_pai
 
 from ...document.document import Document
 from ...document.instruments import Pair
+from ...document.mapping import shows_maps
 from ...document.pairing import add_pairs, half_pair, number_of, remove_pairs
 from ...document.predicting import predict, predicts, show_distances
 from ...drawing.style import PINS, WAITING
@@ -100,7 +101,7 @@ class PairsDock(Instrument):
     # ------------------------------------------------------------------ what is told
     def opened(self) -> None:
         """The tool is wanted: panels predict, where there are two surfaces and none does yet."""
-        if len(self._document.surfaces) > 1 and not predicts(self._document):
+        if len(self._document.surfaces) > 1 and not (predicts(self._document) or shows_maps(self._document)):
             self.begin()
 
     def show_document(self, document: Document, before: Document | None) -> None:
@@ -111,6 +112,9 @@ class PairsDock(Instrument):
     def show_answer(self, panel: int) -> None:
         self._show_rows(self._document)
         self.errors.show_answer()
+
+    def show_again(self) -> None:
+        self.errors.show_again()
 
     def show_closed(self) -> None:
         self.errors.show_closed()
@@ -145,9 +149,10 @@ class PairsDock(Instrument):
         self.accept.setVisible(found is not None)
         enter = "Enter, or click another vertex on" if found is not None else "Click its partner on"
         self.or_click.setText(f"{enter} {other}")
-        self.hint.setVisible(is_alone or not is_on or half is None)
+        has_maps = shows_maps(document)  # the section of errors leads back to predictions
+        self.hint.setVisible(is_alone or (not is_on and not has_maps) or (is_on and half is None))
         self.hint.setText(ALONE if is_alone else NO_PANEL if not is_on else NEXT if document.pairs else HINT)
-        self.start.setVisible(not is_alone and not is_on)
+        self.start.setVisible(not is_alone and not is_on and not has_maps)
         self.open_beside.setVisible(is_alone)
 
     def _place(self, name: str) -> str:

@@ -10,6 +10,7 @@ from ...document.pairing import pair_words
 from ...document.predicting import predicts_in
 from ...document.quantities import Interpolant
 from ...session.anchors import anchors_on
+from ...session.mapped import colours_words
 from ...session.paired import candidate_in, paired_on
 from ...session.passed import Passed, passed
 from ...session.pinned import pinned_on
@@ -108,7 +109,7 @@ class GridMarks:
         widget.show_prediction(
             None if candidate is None else candidate.misfit,
             # Once for each surface, and where it waits.
-            (pair_words(document, panel.surface) if is_first else ("",)) if is_plain else (),
+            (pair_words(document, panel.surface) if is_first else ("",)) if is_plain else colours_words(answer),
             opened.surface.name if is_plain and alone else "",
         )
 

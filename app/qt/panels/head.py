@@ -6,6 +6,7 @@ from html import escape
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.edits import PANEL_EDITS
+from ...document.map_colours import MapColours
 from ...document.quantities import Difference, Interpolant, Prediction, Quantity
 from ..look.icons import pixmap
 from ..look.look import LOOK
@@ -216,9 +217,10 @@ class PanelHead(QtWidgets.QWidget):
                 lambda raw: self._choose(Difference(self.shows.minuend, self.shows.subtrahend, raw))
             )
             self.controls.append(self._mode)
-        elif isinstance(self.shows, Interpolant | Prediction):
+        elif isinstance(self.shows, Interpolant | Prediction | MapColours) and self.shows.specs:
             words = {kind.word: f"by {kind_name(kind).lower()}" for kind in offered_kinds()}
-            done = "predicted" if isinstance(self.shows, Prediction) else "interpolated"
+            done = "interpolated" if isinstance(self.shows, Interpolant) else "predicted"
+            done = "mapped" if isinstance(self.shows, MapColours) else done
             self._by = ChoiceControl(self, words, f"By which distance it is {done}")
             self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
             self.controls.insert(0, self._by)

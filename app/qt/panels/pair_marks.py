@@ -18,7 +18,10 @@ from .pin_marks import BRIGHT, DARK, HEAD, RISE, PinMark, drop_at, drop_under, p
 if TYPE_CHECKING:
     from .view import View
 
-CANDIDATE = "candidate"
+CANDIDATE, TRUTH = "candidate", "truth"
+
+ARM = 6.0
+"""From the middle of a cross to its ends, along each side, in logical pixels."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,12 +41,15 @@ class PairMarks:
         self._view = view
         self._marks: tuple[PinMark, ...] = ()
         self.candidate: CandidateMark | None = None
+        self.truth: tuple[np.ndarray, ...] = ()
         self._hidden: frozenset[int] | None = None  # what the surface is before; None until it is looked
 
-    def show(self, marks: tuple[PinMark, ...], candidate: CandidateMark | None) -> None:
-        """Put drops at these places."""
-        if marks or candidate or self._marks or self.candidate:
-            self._marks, self.candidate, self._hidden = marks, candidate, None
+    def show(
+        self, marks: tuple[PinMark, ...], candidate: CandidateMark | None, truth: tuple[np.ndarray, ...] = ()
+    ) -> None:
+        """Put drops at these places, and crosses at positions (3,)."""
+        if marks or candidate or truth or self._marks or self.candidate or self.truth:
+            self._marks, self.candidate, self.truth, self._hidden = marks, candidate, truth, None
             self._view.update()
 
     def see(self) -> None:
@@ -90,6 +96,10 @@ class PairMarks:
     def paint(self, painter: QtGui.QPainter) -> None:
         seen = self._seen()
         paint_pins(painter, seen, self._look())
+        for position in self.truth:
+            at = self._place(position)
+            if at is not None:
+                paint_cross(painter, at, not self._view.sees(position))
         candidate = self.candidate
         at = None if candidate is None else self._place(candidate.position)
         if candidate is not None and at is not None:
@@ -100,7 +110,20 @@ class PairMarks:
 
     def names(self) -> Sequence[str]:
         """What has to be said of marks that are not numbered alone."""
-        return () if self.candidate is None else (CANDIDATE,)
+        return (*([TRUTH] if self.truth else ()), *([] if self.candidate is None else [CANDIDATE]))
+
+
+def paint_cross(painter: QtGui.QPainter, at: QtCore.QPointF, is_hidden: bool = False) -> None:
+    """Where a point belongs; dashed on the far side."""
+    arm = ARM * LOOK.scale
+    for colour, width in ((DARK, 5.0), (BRIGHT, 2.4)):
+        pen = QtGui.QPen(colour, width * LOOK.scale)
+        pen.setCapStyle(QtCore.Qt.PenCapStyle.FlatCap if is_hidden else QtCore.Qt.PenCapStyle.RoundCap)
+        if is_hidden:
+            pen.setDashPattern([3.2 / width, 2.4 / width])
+        painter.setPen(pen)
+        for way in (-1, 1):
+            painter.drawLine(at + QtCore.QPointF(-arm, -arm * way), at + QtCore.QPointF(arm, arm * way))
 
 
 def paint_candidate(painter: QtGui.QPainter, tip: QtCore.QPointF, number: int) -> None:
@@ -152,11 +175,22 @@ def paint_legend(painter: QtGui.QPainter, view: QtCore.QRectF, names: Sequence[s
     metrics = QtGui.QFontMetricsF(painter.font())
     x, middle = NOTE_LEFT + 2, NOTE_TOP * LOOK.scale
     for name in names:
-        _paint_sample(painter, QtCore.QPointF(x, middle))
+        if name == TRUTH:
+            _paint_small_cross(painter, QtCore.QPointF(x, middle))
+        else:
+            _paint_sample(painter, QtCore.QPointF(x, middle))
         painter.setPen(QtGui.QColor(LOOK.theme.quiet))
         x += 14 * LOOK.scale
         painter.drawText(QtCore.QPointF(x, middle + (metrics.ascent() - metrics.descent()) / 2), name)
         x += metrics.horizontalAdvance(name) + 22 * LOOK.scale
+
+
+def _paint_small_cross(painter: QtGui.QPainter, middle: QtCore.QPointF) -> None:
+    """The same in quiet lines."""
+    arm = 0.7 * ARM * LOOK.scale
+    painter.setPen(QtGui.QPen(QtGui.QColor(LOOK.theme.text), 1.6))
+    for way in (-1, 1):
+        painter.drawLine(middle + QtCore.QPointF(-arm, -arm * way), middle + QtCore.QPointF(arm, arm * way))
 
 
 def _paint_sample(painter: QtGui.QPainter, middle: QtCore.QPointF) -> None:

@@ -362,6 +362,11 @@ class DistancePanel(QtWidgets.QWidget):
         else:
             self.bar.show_value(float(answer.field[vertex]))
 
+    def image_of(self, vertex: int) -> int | None:
+        """Where the map that is shown leads from a vertex; None for nowhere, and where no map is shown."""
+        leads_to = None if self.answer is None or self._is_waiting else self.answer.leads_to
+        return None if leads_to is None or leads_to[vertex] < 0 else int(leads_to[vertex])
+
     def echo(self, place: Places | None) -> None:
         """Put a ring at one place, and its value into the bar: somewhere else the pointer is there."""
         answer = self.answer
@@ -378,7 +383,11 @@ class DistancePanel(QtWidgets.QWidget):
     def _words_of(self, vertex: int | None) -> tuple[str, str]:
         """A vertex' value and its share of the maximum."""
         answer = self.answer
-        if vertex is None or answer is None or answer.field is None or self._is_waiting:
+        if vertex is None or answer is None or self._is_waiting:
+            return "", ""
+        if answer.leads_to is not None:
+            return (f"→ {self.image_of(vertex)}" if answer.leads_to[vertex] >= 0 else "mapped nowhere"), ""
+        if answer.field is None:
             return "", ""
         value = float(answer.field[vertex])
         if np.isnan(value):

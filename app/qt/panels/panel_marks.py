@@ -41,6 +41,8 @@ class PanelMarks:
         self._lit: Collection[str] = ()
         self._pairs: Sequence[PairedPoint] = ()
         self._candidate: Candidate | None = None
+        self._truth: Sequence[int] = ()
+        self._off: float | None = None
         self._chosen_pair = ""
         self._path: Places | None = None
         self._regions: Sequence[Boundary] = ()
@@ -143,6 +145,12 @@ class PanelMarks:
         self._pairs, self._candidate, self._chosen_pair = pairs, candidate, chosen
         self._put_pairs()
 
+    def show_truth(self, vertices: Sequence[int], off: float | None) -> None:
+        """Crosses where the partner of the point that waits is; off: how far the candidate is from there, if known."""
+        if (tuple(vertices), off) != (tuple(self._truth), self._off):
+            self._truth, self._off = vertices, off
+            self._put_pairs()
+
     def _put_pairs(self) -> None:
         if not len(self.positions):
             return
@@ -159,8 +167,9 @@ class PanelMarks:
         mark = None
         if candidate is not None:
             position = self.positions[candidate.vertex]
-            mark = CandidateMark(candidate.number, position, str(candidate.vertex), share(candidate.share))
-        self._view.over.pairs.show(tuple(marks), mark)
+            said = share(candidate.share) if self._off is None else f"{share(self._off)} off"
+            mark = CandidateMark(candidate.number, position, str(candidate.vertex), said)
+        self._view.over.pairs.show(tuple(marks), mark, tuple(self.positions[vertex] for vertex in self._truth))
 
     def show_selected(self, colours: np.ndarray | None) -> None:
         """Vertices that stand out, see `selected_colours`."""

@@ -26,13 +26,15 @@ class Pointing:
     def show(self, id: int, vertex: int | None) -> None:
         """Mark a vertex in every panel of its surface, and show its values; id: the panel under the pointer.
 
-        In panels of a surface that is made from that, or that it is made from, the same vertex there.
+        In panels of a surface that is made from that, or that it is made from, the same vertex there; where a map is
+        shown, in those of the other surface the vertex that it leads to.
         """
         self._at = None if vertex is None else (id, vertex)
         here = self._panels[id]
+        image = None if vertex is None else here.image_of(vertex)
         for other, panel in self._panels.items():
             if panel.surface != here.surface:
-                there = counterpart(vertex, here.opened, panel.opened)
+                there = image if image is not None else counterpart(vertex, here.opened, panel.opened)
                 is_hidden = there is not None and not panel.view.sees(panel.positions[there])
                 panel.point_at(there, False, is_hidden)
                 continue

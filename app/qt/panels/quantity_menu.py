@@ -8,6 +8,7 @@ from qtpy import QtWidgets
 from bihdist_core import ParameterError
 from bihdist_core.distances.kinds import Kind, Spec, kind_of, kinds
 
+from ...document.map_colours import MapColours
 from ...document.quantities import Difference, DistanceFrom, Interpolant, OwnField, Part, Prediction, Quantity
 from ...document.quantity_names import kind_name as kind_name
 from ...document.quantity_names import part_name as part_name
@@ -51,6 +52,8 @@ class Choices:
         now, found = parts[place], self._part(chosen, place, point)
         if isinstance(now, Interpolant | Prediction) and isinstance(found, DistanceFrom):
             found = replace(now, spec=found.spec)  # it goes over to another distance
+        elif isinstance(now, MapColours) and now.specs and isinstance(found, DistanceFrom):
+            found = MapColours(found.spec)
         parts[place] = found
         return shows.with_parts(tuple(parts))
 
@@ -74,7 +77,7 @@ def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: 
     if isinstance(shows, Interpolant):
         _fill_for_interpolant(menu, shows, choices, choose)
         return
-    if isinstance(shows, Prediction):
+    if isinstance(shows, Prediction) or (isinstance(shows, MapColours) and shows.specs):
         _fill_distances(menu, shows, choices, choose)
         return
     _add_parts(menu, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
@@ -85,6 +88,8 @@ def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: 
     if isinstance(shows, DistanceFrom) and choices.has_other:
         prediction, tip = Prediction(shows.spec), "Where points of the other mesh are on this one, by this distance"
         _add(menu, "Prediction by it", tip, lambda: choose(prediction))
+    if isinstance(shows, MapColours):
+        return  # of colours there are no differences
     inner = _inner(menu, "Difference with")
     _add_parts(inner, choices, None, lambda chosen: choose(choices.difference(shows, chosen)), _can_differ_from(shows))
 
@@ -104,7 +109,10 @@ def _fill_for_interpolant(
 
 
 def _fill_distances(
-    menu: QtWidgets.QMenu, shows: Interpolant | Prediction, choices: Choices, choose: Callable[[Quantity], None]
+    menu: QtWidgets.QMenu,
+    shows: Interpolant | Prediction | MapColours,
+    choices: Choices,
+    choose: Callable[[Quantity], None],
 ) -> None:
     """By which; and back to the distance itself."""
     inner = _inner(menu, f"By {kind_name(shows.spec.kind)}")

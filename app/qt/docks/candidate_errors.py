@@ -1,0 +1,101 @@
+"""Crosses where the point that waits for its partner belongs, and at the candidates how far they are from there.
+
+`window` is the main window.  Found beside its thread, wherever panels predict and it is known what is right.
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+from bihdist_core.progress import Progress
+
+from ...document.predicting import predicts_in
+from ...session.candidate_errors import CandidatesAsked, CandidatesJudged, CandidatesJudging, candidates_asked
+from ...session.paired import candidate_in
+from .background import Background
+
+
+class CandidateErrors:
+    """judged: what is shown, None for nothing."""
+
+    def __init__(self, window: Any) -> None:
+        self._window = window
+        self.judged: CandidatesJudged | None = None
+        self._asked: CandidatesAsked | None = None
+        self._judging = CandidatesJudging()
+        self._background: Background | None = None  # once something predicts
+
+    # ------------------------------------------------------------------ what is told
+    def document_changed(self) -> None:
+        asked, before = self._wanted(), self._asked
+        if asked is None and before is None:
+            return
+        if asked is not None and before is not None and asked.about == before.about:
+            if asked.candidates == before.candidates:
+                return
+            # The place stays; how far others are from there has still to be found.
+            self.judged = None if self.judged is None else CandidatesJudged(self.judged.places, {})
+        else:
+            self.judged = None
+        self._asked = asked
+        self._ask(asked)
+        self._show()
+
+    def answer_changed(self) -> None:
+        self.document_changed()
+
+    def show_again(self) -> None:
+        """The panels have forgotten what was drawn on them."""
+        self._show()
+
+    def close(self) -> None:
+        """Nothing more is found."""
+        if self._background is not None:
+            self._background.close()
+
+    # ------------------------------------------------------------------ asking
+    def _wanted(self) -> CandidatesAsked | None:
+        session = self._window.session
+        document = session.document
+        if not any(map(predicts_in, document.panels)):
+            return None
+        opened = [session.opened(mesh.name) for mesh in document.surfaces[:2]]
+        if len(opened) < 2 or None in opened:
+            return None
+        candidates = {}
+        for panel in document.panels:
+            shown = session.shown.get(panel.id)
+            found = candidate_in(document, panel, None if shown is None else shown.answer)
+            if found is not None and session.is_answered(panel.id):
+                candidates[panel.id] = found.vertex
+        return candidates_asked(document, *opened, candidates)
+
+    def _ask(self, asked: CandidatesAsked | None) -> None:
+        if self._background is None:
+            self._background = Background("candidate errors", self._judge, self._window)
+            self._background.answered.connect(self._take)
+        self._background.ask(asked)
+
+    def _judge(self, asked: CandidatesAsked, progress: Progress) -> Iterator[CandidatesJudged]:
+        yield from self._judging.judge(asked, progress)
+
+    def _take(self, asked: CandidatesAsked, judged: CandidatesJudged) -> None:
+        before = self.judged
+        if judged.errors or before is None or before.places != judged.places:
+            self.judged = judged
+            self._show()
+
+    def _show(self) -> None:
+        document, judged = self._window.session.document, self.judged
+        places, errors = ((), {}) if judged is None else (judged.places, judged.errors)
+        there = {panel.id: panel for panel in document.panels}
+        for panel in self._window.grid.panels:
+            shown = there.get(panel.id)
+            is_here = shown is not None and shown.surface == self._surface_name() and predicts_in(shown)
+            panel.marks.show_truth(places if is_here else (), errors.get(panel.id) if is_here else None)
+
+    def _surface_name(self) -> str:
+        """Of the candidates."""
+        document, asked = self._window.session.document, self._asked
+        if asked is None or len(document.surfaces) < 2:
+            return ""
+        return document.surfaces[1 if asked.is_on_first else 0].name

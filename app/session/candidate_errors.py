@@ -1,0 +1,89 @@
+"""Where the point that waits for its partner belongs, and how far the candidates are from there."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from bihdist_core.progress import Progress
+
+from ..document.document import Document
+from ..document.map_colours import Truth
+from ..document.pairing import other_side, waiting_point
+from .judging import KeptGeodesics, right_places
+from .opened import Opened
+from .questions import vertex_at
+
+
+@dataclass(frozen=True, eq=False)
+class CandidatesAsked:
+    """one, two: the document's surfaces; vertex: the one that waits, on the first or on the second.
+
+    candidates: on the other surface, by the ids of panels.
+    """
+
+    one: Opened
+    two: Opened
+    areas: str
+    truth: Truth
+    vertex: int
+    is_on_first: bool
+    candidates: tuple[tuple[int, int], ...]
+
+    @property
+    def about(self) -> tuple:
+        """What the answer depends on, but for the candidates."""
+        return id(self.one.surface), id(self.two.surface), self.areas, self.truth, self.vertex, self.is_on_first
+
+    @property
+    def there(self) -> Opened:
+        """The surface of the candidates."""
+        return self.two if self.is_on_first else self.one
+
+
+@dataclass(frozen=True, eq=False)
+class CandidatesJudged:
+    """places: the right vertex, and its symmetric partner if that counts.
+
+    errors: of the candidates, by the ids of panels, over the root of the area; empty as long as they are not known.
+    """
+
+    places: tuple[int, ...]
+    errors: dict[int, float]
+
+
+def candidates_asked(
+    document: Document, one: Opened, two: Opened, candidates: dict[int, int]
+) -> CandidatesAsked | None:
+    """None where nothing waits."""
+    point = waiting_point(document)
+    if point is None or other_side(document, point.surface) is None:
+        return None
+    is_on_first = point.surface == document.surfaces[0].name
+    vertex = vertex_at(point.at, (one if is_on_first else two).surface)
+    found = tuple(sorted(candidates.items()))
+    return CandidatesAsked(one, two, document.areas, document.truth, vertex, is_on_first, found)
+
+
+class CandidatesJudging:
+    """Judges candidates, on one thread; distances are kept as long as the surface stays."""
+
+    def __init__(self) -> None:
+        self._kept: KeptGeodesics | None = None
+
+    def judge(self, asked: CandidatesAsked, progress: Progress | None = None) -> Iterator[CandidatesJudged]:
+        """First where the point belongs, then how far the candidates are from there.  Raises ParameterError for a
+        truth that is none."""
+        one, two, there = asked.one.surface, asked.two.surface, asked.there.surface
+        places = tuple(right_places(asked.truth, one, two, asked.vertex, asked.is_on_first))
+        yield CandidatesJudged(places, {})
+        if not places or not asked.candidates:
+            return
+        laplacian = asked.there.distances(asked.areas).laplacian
+        if self._kept is None or self._kept.surface is not laplacian.surface:
+            self._kept = KeptGeodesics(laplacian, asked.truth.samples or len(one.vertices))
+        kept = self._kept
+        kept.find(places, progress)
+        unit = float(np.sqrt(there.face_areas.sum()))
+        nearest = kept.from_sources(np.array(places)).min(axis=1)
+        yield CandidatesJudged(places, {panel: float(nearest[vertex]) / unit for panel, vertex in asked.candidates})
