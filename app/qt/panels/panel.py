@@ -13,7 +13,7 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.document import COMPARISON, Zoom
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
-from ...document.quantities import Difference, DistanceFrom
+from ...document.quantities import DistanceFrom
 from ...drawing.bands import band_edges, beyond
 from ...drawing.board import Board
 from ...drawing.drawable import drawable
@@ -25,12 +25,13 @@ from ...session.answering import Shown
 from ...session.opened import Opened
 from ...session.passed import Passed
 from ..look.look import LOOK
-from ..look.numbers import number, share
+from ..look.numbers import number
 from .colour_bar import ColourBar
 from .end_box import EndPopUp
 from .head import PanelHead
 from .overlay import Pointed
 from .panel_marks import PanelMarks
+from .value_words import copied_words, value_words
 from .view import View
 from .waiting import Waiting
 
@@ -39,8 +40,6 @@ COMPACT_BELOW = 360
 
 ACCENT = 2
 """Height of the line over the panel that the keys go to."""
-
-NOT_CONNECTED, UNDEFINED = "not connected to the source", "undefined here"
 
 
 class DistancePanel(QtWidgets.QWidget):
@@ -348,7 +347,7 @@ class DistancePanel(QtWidgets.QWidget):
     # ------------------------------------------------------------------ the pointer
     def point_at(self, vertex: int | None, is_own: bool, is_hidden: bool = False) -> None:
         """Put the ring at a vertex, and its value into the bar and, under the pointer, beside it."""
-        words = self._words_of(vertex)
+        words = value_words(None if self._is_waiting else self.answer, vertex, self.head.shows)
         if vertex is None or self._opened is None:
             self.view.over.point_at(None)
         else:
@@ -380,26 +379,6 @@ class DistancePanel(QtWidgets.QWidget):
         else:
             self.bar.show_value(float(place.values(answer.field)[0]))
 
-    def _words_of(self, vertex: int | None) -> tuple[str, str]:
-        """A vertex' value and its share of the maximum."""
-        answer = self.answer
-        if vertex is None or answer is None or self._is_waiting:
-            return "", ""
-        if answer.leads_to is not None:
-            return (f"→ {self.image_of(vertex)}" if answer.leads_to[vertex] >= 0 else "mapped nowhere"), ""
-        if answer.field is None:
-            return "", ""
-        value = float(answer.field[vertex])
-        if np.isnan(value):
-            return (NOT_CONNECTED if self.head.shows.points else UNDEFINED), ""
-        if answer.is_signed:
-            return number(value, signed=True), ""
-        return number(value), share(value / answer.maximum) if answer.maximum > 0 else ""
-
     def said_of(self, vertex: int) -> str:
         """Its value in words, for the clipboard."""
-        value, part = self._words_of(vertex)
-        unit = self.answer.unit if self.answer is not None else ""
-        name = self.answer.label if self.answer is not None else ""
-        is_difference = isinstance(self.head.shows, Difference)
-        return f"{name}: {value} {unit}{f' ({part})' if part and not is_difference else ''}".strip()
+        return copied_words(None if self._is_waiting else self.answer, vertex, self.head.shows)
