@@ -8,6 +8,7 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import whole_number
 
 from .looks import one_of
+from .parts import Alone
 
 MAP, MAP_BY, POSITIONS = "map ", "map by ", "position colours"
 """What the words of a map begin with, of one that pairs make by a distance, and the words of what it leads to."""
@@ -66,7 +67,7 @@ SAME_FACES = Truth()
 
 
 @dataclass(frozen=True)
-class MapColours:
+class MapColours(Alone):
     """Where a map from the document's first surface leads, in colours; see `bihdist_core.applications.carrying`.
 
     by: the distance by which the document's pairs make the map, the path of one of its maps, or "": the surface's own
@@ -77,18 +78,6 @@ class MapColours:
 
     def __str__(self) -> str:
         return f"{MAP_BY}{self.by}" if isinstance(self.by, Spec) else f"{MAP}{self.by}" if self.by else POSITIONS
-
-    @property
-    def parts(self) -> "tuple[MapColours, ...]":
-        return (self,)
-
-    def with_parts(self, parts: tuple) -> "MapColours":
-        (part,) = parts
-        return part
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        return ()
 
     @property
     def specs(self) -> tuple[Spec, ...]:

@@ -7,44 +7,19 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 
 from .map_colours import MAP, POSITIONS, MapColours, map_colours
+from .parts import Alone, ByDistance
 
 
 @dataclass(frozen=True)
-class DistanceFrom:
+class DistanceFrom(ByDistance):
     """The distance of every vertex from a named point."""
 
     spec: Spec
     point: str = "source"
 
-    def __str__(self) -> str:
-        return str(self.spec)
-
-    @property
-    def parts(self) -> "tuple[Part, ...]":
-        return (self,)
-
-    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
-        (part,) = parts
-        return part
-
     @property
     def points(self) -> tuple[str, ...]:
         return (self.point,)
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        """The distances it is made of."""
-        return (self.spec,)
-
-    @property
-    def word(self) -> str:
-        """Which distance it is, whatever its parameters."""
-        return self.spec.word
-
-    @property
-    def title(self) -> str:
-        """Its name within a sentence."""
-        return self.spec.kind.name.lower()
 
     @property
     def hint(self) -> str:
@@ -53,29 +28,13 @@ class DistanceFrom:
 
 
 @dataclass(frozen=True)
-class OwnField:
+class OwnField(Alone):
     """One of the document's fields, by its name; it starts nowhere."""
 
     name: str
 
     def __str__(self) -> str:
         return self.name
-
-    @property
-    def parts(self) -> "tuple[Part, ...]":
-        return (self,)
-
-    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
-        (part,) = parts
-        return part
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        return ()
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return ()
 
     @property
     def word(self) -> str:
@@ -91,7 +50,7 @@ class OwnField:
 
 
 @dataclass(frozen=True)
-class Interpolant:
+class Interpolant(ByDistance):
     """The values of the document's anchors, interpolated by a distance (paper, section 5.2); it starts nowhere.
 
     total: the sum of the anchors' weights instead.
@@ -100,36 +59,9 @@ class Interpolant:
     spec: Spec
     total: bool = False
 
-    def __str__(self) -> str:
-        return f"{self._before}{self.spec}"
-
     @property
-    def _before(self) -> str:
+    def before(self) -> str:
         return TOTAL if self.total else INTERPOLANT
-
-    @property
-    def parts(self) -> "tuple[Part, ...]":
-        return (self,)
-
-    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
-        (part,) = parts
-        return part
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        return ()
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return (self.spec,)
-
-    @property
-    def word(self) -> str:
-        return f"{self._before}{self.spec.word}"
-
-    @property
-    def title(self) -> str:
-        return f"{self._before}{self.spec.kind.name.lower()}"
 
     @property
     def hint(self) -> str:
@@ -139,7 +71,7 @@ class Interpolant:
 
 
 @dataclass(frozen=True)
-class ChangeOf:
+class ChangeOf(ByDistance):
     """How a distance differs on a changed surface from what it was before, each as a share of its maximum.
 
     At the vertices that both have.  point: on the changed surface.
@@ -148,32 +80,13 @@ class ChangeOf:
     spec: Spec
     point: str = "source"
 
-    def __str__(self) -> str:
-        return f"{CHANGE}{self.spec}"
-
     @property
-    def parts(self) -> "tuple[Part, ...]":
-        return (self,)
-
-    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
-        (part,) = parts
-        return part
+    def before(self) -> str:
+        return CHANGE
 
     @property
     def points(self) -> tuple[str, ...]:
         return (self.point,)
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return (self.spec,)
-
-    @property
-    def word(self) -> str:
-        return f"{CHANGE}{self.spec.word}"
-
-    @property
-    def title(self) -> str:
-        return f"{CHANGE}{self.spec.kind.name.lower()}"
 
     @property
     def hint(self) -> str:
@@ -181,7 +94,7 @@ class ChangeOf:
 
 
 @dataclass(frozen=True)
-class Prediction:
+class Prediction(ByDistance):
     """How badly each vertex fits the point that waits for its partner, by a distance (paper, section 5.2).
 
     From the document's pairs; it starts nowhere.  Nothing where no point of the other surface waits.
@@ -189,32 +102,9 @@ class Prediction:
 
     spec: Spec
 
-    def __str__(self) -> str:
-        return f"{PREDICTION}{self.spec}"
-
     @property
-    def parts(self) -> "tuple[Part, ...]":
-        return (self,)
-
-    def with_parts(self, parts: "tuple[Part, ...]") -> "Part":
-        (part,) = parts
-        return part
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        return ()
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return (self.spec,)
-
-    @property
-    def word(self) -> str:
-        return f"{PREDICTION}{self.spec.word}"
-
-    @property
-    def title(self) -> str:
-        return f"{PREDICTION}{self.spec.kind.name.lower()}"
+    def before(self) -> str:
+        return PREDICTION
 
     @property
     def hint(self) -> str:

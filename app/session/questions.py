@@ -2,6 +2,7 @@
 
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -19,24 +20,53 @@ from ..document.quantities import ChangeOf, Difference, Interpolant, OwnField, P
 
 
 @dataclass(frozen=True)
-class DistanceQuestion:
-    """The distance of every vertex from a source; equal questions have equal answers.
-
-    mesh: the surface, by path and checksum; areas: of its operators.
-    """
+class _ByDistance:
+    """What is answered by one distance.  mesh: the surface, by path and checksum; areas: of its operators."""
 
     mesh: MeshFile
     areas: str
     spec: Spec
-    at: Source | None
 
     @property
     def specs(self) -> tuple[Spec, ...]:
         return (self.spec,)
 
-    def with_specs(self, specs: tuple[Spec, ...]) -> "DistanceQuestion":
+    def with_specs(self: "Asked", specs: tuple[Spec, ...]) -> "Asked":
+        """The same by another distance."""
         (spec,) = specs
         return replace(self, spec=spec)
+
+
+Asked = TypeVar("Asked", bound=_ByDistance)
+
+
+@dataclass(frozen=True)
+class _ByNothing:
+    """What is known without a distance."""
+
+    mesh: MeshFile
+    areas: str
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return ()
+
+    def with_specs(self: "Known", specs: tuple[Spec, ...]) -> "Known":
+        return self
+
+    @property
+    def about(self) -> Hashable:
+        return self
+
+
+Known = TypeVar("Known", bound=_ByNothing)
+
+
+@dataclass(frozen=True)
+class DistanceQuestion(_ByDistance):
+    """The distance of every vertex from a source; equal questions have equal answers."""
+
+    at: Source | None
 
     @property
     def about(self) -> Hashable:
@@ -48,46 +78,22 @@ class DistanceQuestion:
 
 
 @dataclass(frozen=True)
-class FieldQuestion:
+class FieldQuestion(_ByNothing):
     """A field of the user's own."""
 
-    mesh: MeshFile
-    areas: str
     field: FieldArray
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return ()
-
-    def with_specs(self, specs: tuple[Spec, ...]) -> "FieldQuestion":
-        return self
-
-    @property
-    def about(self) -> Hashable:
-        return self
 
     def __str__(self) -> str:
         return self.field.name
 
 
 @dataclass(frozen=True)
-class InterpolantQuestion:
+class InterpolantQuestion(_ByDistance):
     """Values at vertices, interpolated by a distance; or, if total, the sum of the weights."""
 
-    mesh: MeshFile
-    areas: str
-    spec: Spec
     anchors: tuple[tuple[Source | None, float], ...]
     weights: Weights = INVERSE_DISTANCES
     total: bool = False
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return (self.spec,)
-
-    def with_specs(self, specs: tuple[Spec, ...]) -> "InterpolantQuestion":
-        (spec,) = specs
-        return replace(self, spec=spec)
 
     @property
     def about(self) -> Hashable:
@@ -99,21 +105,10 @@ class InterpolantQuestion:
 
 
 @dataclass(frozen=True)
-class ChangeQuestion:
+class ChangeQuestion(_ByDistance):
     """How a distance from a vertex of a changed surface differs from what it was before."""
 
-    mesh: MeshFile
-    areas: str
-    spec: Spec
     at: Source | None
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return (self.spec,)
-
-    def with_specs(self, specs: tuple[Spec, ...]) -> "ChangeQuestion":
-        (spec,) = specs
-        return replace(self, spec=spec)
 
     @property
     def about(self) -> Hashable:
@@ -125,27 +120,16 @@ class ChangeQuestion:
 
 
 @dataclass(frozen=True)
-class PredictionQuestion:
+class PredictionQuestion(_ByDistance):
     """How badly each vertex fits a point of another surface, from pairs of points here and there.
 
     other: that surface, None if there is none.  at: the point there; None where no point of it waits, or none can be
     predicted.
     """
 
-    mesh: MeshFile
-    areas: str
-    spec: Spec
     other: MeshFile | None
     pairs: tuple[tuple[Source | None, Source | None], ...]
     at: Source | None
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return (self.spec,)
-
-    def with_specs(self, specs: tuple[Spec, ...]) -> "PredictionQuestion":
-        (spec,) = specs
-        return replace(self, spec=spec)
 
     @property
     def about(self) -> Hashable:
@@ -157,22 +141,8 @@ class PredictionQuestion:
 
 
 @dataclass(frozen=True)
-class PositionQuestion:
+class PositionQuestion(_ByNothing):
     """The colours of a surface by position."""
-
-    mesh: MeshFile
-    areas: str
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return ()
-
-    def with_specs(self, specs: tuple[Spec, ...]) -> "PositionQuestion":
-        return self
-
-    @property
-    def about(self) -> Hashable:
-        return self
 
     def __str__(self) -> str:
         return str(MapColours())
