@@ -53,8 +53,8 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     parser.add_argument(
         "--perturb",
         metavar="WORDS",
-        help="each distance before and after a change to the mesh, and the difference: simplify=N, noise=S, "
-        "along=normals, holes=N, radius=R, weld=I:J, handle=I:J, seed=K, with commas between them",
+        help="each distance before and after a change to the mesh, and the difference: pose=FILE, cut=FACES, "
+        "simplify=N, noise=S, along=normals, holes=N, radius=R, weld=I:J, handle=I:J, seed=K, with commas between them",
     )
     add_maps(parser)
     add_isolines(parser)

@@ -1,4 +1,4 @@
-"""`bihdist perturb`: a mesh with noise, fewer vertices, holes, or parts grown together; how far distances change."""
+"""`bihdist perturb`: a mesh with noise, fewer vertices, holes, parts grown together; how far distances change."""
 
 import argparse
 from typing import TYPE_CHECKING
@@ -10,6 +10,7 @@ from .terminal import counted, progress_line
 if TYPE_CHECKING:
     import numpy as np
 
+    from bihdist_core.applications.changes import Runs
     from bihdist_core.distances.kinds import Spec
     from bihdist_core.laplacian import Laplacian
     from bihdist_core.sources.source import Source
@@ -19,6 +20,8 @@ WORDS = "a mesh with noise, fewer vertices, holes, or parts grown together, to s
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
+    parser.add_argument("--cut", type=_faces, default=(), metavar="FACES", help="take out faces, as in 3+10-20")
     parser.add_argument("--simplify", type=count, metavar="N", help="leave N vertices, at their places")
     parser.add_argument("--noise", type=positive, metavar="S", help="Gaussian, of S mean edge lengths")
     parser.add_argument("--along", choices=("xyz", "normals"), default="xyz", help="for --noise (default: xyz)")
@@ -42,8 +45,12 @@ def run(options: argparse.Namespace) -> None:
     from bihdist_core.laplacian import Laplacian
     from bihdist_core.whole_file import check_output
 
+    from ..samples import mesh_path
+
     check_output(options.output, MESH_FORMATS)
     change = Perturbation(
+        pose=mesh_path(options.pose) if options.pose else "",
+        cut=options.cut,
         simplify=options.simplify,
         noise=options.noise or 0.0,
         along=options.along,
@@ -54,7 +61,8 @@ def run(options: argparse.Namespace) -> None:
         seed=options.seed,
     )
     if change.changes_nothing:
-        raise ParameterError("Nothing would change; say --noise, --simplify, --holes, --weld or --handle.")
+        said = "--pose, --cut, --simplify, --noise, --holes, --weld or --handle"
+        raise ParameterError(f"Nothing would change; say {said}.")
     chosen = specs(options, list(dict.fromkeys(options.distance or [])))
     with progress_line() as progress:
         before = laplacian_of(options.mesh)
@@ -89,6 +97,15 @@ def _say_changes(
                 f"{found.normalised_largest:.3g}; before each is divided by its own, {found.mean:.3g} and "
                 f"{found.largest:.3g}"
             )
+
+
+def _faces(text: str) -> "Runs":
+    from bihdist_core.applications.changes import runs_from_words
+
+    try:
+        return runs_from_words(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no face or range of faces, such as 3+10-20") from None
 
 
 def _seed(text: str) -> int:

@@ -198,7 +198,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
     starts = [source_at(document.point(name).at, surface) for name in panel.shows.points]
     heading = answer.label
     if opened.origin is not None and not isinstance(panel.shows, ChangeOf):
-        heading += f", after {opened.mesh.change}"
+        heading += f", after: {opened.mesh.change}"
     starting = dict.fromkeys(point for point in starting_points(document) if not point.image_of)
     if starts and len(starting) > 1:
         heading += f", from {', '.join(map(short_words_of, starts))}"

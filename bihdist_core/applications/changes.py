@@ -42,7 +42,7 @@ class Perturbation:
     def __str__(self) -> str:
         words = []
         if self.pose:
-            words.append(f"in the pose of {os.path.basename(self.pose)}")
+            words.append(f"pose of {os.path.basename(self.pose)}")
         if self.cut:
             words.append(f"without {counted(count_of(self.cut), 'face')}")
         if self.simplify is not None:

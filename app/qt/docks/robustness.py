@@ -24,7 +24,7 @@ from .instrument import Instrument
 from .plain import fill
 from .saving import MESH_FILES, save
 
-HINT = "Made together, always from the mesh as it was."
+HINT = "Made together, from the mesh as it was."
 BEGIN = "Change the mesh, and each distance is shown before and after, with the difference."
 """What the dock says at first."""
 
