@@ -86,7 +86,7 @@ def runs_from_words(text: str) -> Runs:
         start, _, stop = word.partition("-")
         ends.append((int(start), int(stop or start)))
     if any(not 0 <= first <= last for first, last in ends):
-        raise ValueError
+        raise ValueError(f"Ids go up from 0, and not as in {text!r}.")
     return joined_runs(ends)
 
 

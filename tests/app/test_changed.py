@@ -3,6 +3,7 @@
 import argparse
 import shlex
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,17 +11,20 @@ import pytest
 import app as bihdist
 from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document import one_line
-from app.document.changing import split, with_changed
+from app.document.beside_edits import see
+from app.document.change_edits import change_mesh, cut_by
+from app.document.changing import split, with_changed, without_changed
 from app.document.document import Document, comparison
 from app.document.edits import open_mesh as with_mesh
-from app.document.file import read_recipe, recipe_text
+from app.document.file import checksum, read_recipe, recipe_text
 from app.document.form import document_data, document_from
+from app.document.instruments import Scatter
 from app.document.page import Page, Recipe
 from app.document.quantities import ChangeOf, quantity
-from app.figures.export import compute, open_document
+from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.session.given import Given
-from bihdist_core import BiharmonicDistance, ParameterError, Place, VertexError, write_mesh
+from bihdist_core import BiharmonicDistance, ParameterError, Place, Surface, VertexError, write_mesh
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.perturbation import image_of, perturbed
 from bihdist_core.distances.kinds import Spec
@@ -32,6 +36,7 @@ CHANGES = (
     Perturbation(holes=2, radius=0.2, seed=1),
     Perturbation(simplify=150, noise=0.1),
     Perturbation(handle=(3, 200)),
+    Perturbation(cut=((0, 6), (40, 40)), noise=0.1),
 )
 
 
@@ -243,3 +248,100 @@ def test_the_command_says_the_numbers(mesh, tmp_path, capsys):
     main(["perturb", mesh, *noise, "-o", str(tmp_path / "m.off")])
     mean = answer.remark.removeprefix("mean ").split(", largest ")[0]
     assert f"changes by {mean} of its maximum" in capsys.readouterr().out
+
+
+@pytest.fixture
+def pose(tmp_path):
+    ball = bumpy(300)
+    path = tmp_path / "elsewhere" / "pose.off"
+    path.parent.mkdir()
+    write_mesh(path, Surface(ball.vertices * (1, 1.5, 0.8), ball.faces))
+    return path
+
+
+def test_a_pose_is_named_from_the_recipe_and_held_to_its_checksum(mesh, pose, tmp_path):
+    picture = bihdist.figure(mesh, ["biharmonic"], 5, perturb=f"pose={pose},noise=0.1", size="300x100")
+    picture.save(tmp_path / "posed.png")
+    written = (tmp_path / "posed.json").read_text()
+    assert "pose=elsewhere/pose.off,noise=0.1" in written
+    recipe = read_recipe(tmp_path / "posed.json")
+    change = recipe.document.surfaces[1].change
+    assert Path(change.pose) == pose
+    assert change.pose_sha256 == checksum(pose)
+    assert document_from(document_data(recipe.document)) == recipe.document
+    assert np.array_equal(bihdist.figure_again(tmp_path / "posed.json").pixels, picture.pixels)
+    line = shlex.split(one_line.command_line(recipe, "out.png"))
+    again = from_words(*line[2:-2])
+    assert again.document.surfaces[1].change == replace(change, pose_sha256="")
+    write_mesh(pose, bumpy(300))
+    with pytest.raises(ParameterError, match="not what it was"):
+        bihdist.figure_again(tmp_path / "posed.json")
+    pose.unlink()
+    with pytest.raises(ParameterError, match="is not there"):
+        bihdist.figure_again(tmp_path / "posed.json")
+
+
+def test_a_place_is_followed_where_the_faces_are_the_same(mesh):
+    place = Place.of(3, 0.2, 0.3)
+    document, surfaces, answers = opened(changed(mesh, CHANGES[0], (place,)))
+    assert document.point("source after").at == place
+    after = surfaces["B"].surface
+    assert answers[1].field == pytest.approx(BiharmonicDistance(after).from_source(place), rel=1e-9)
+
+
+def test_a_distance_before_and_after_ends_alike_in_figures_and_elsewhere_a_typed_end_holds(mesh):
+    document, surfaces, answers = opened(changed(mesh, Perturbation(handle=(3, 200))))
+    panels = figure_of(Recipe(document, Page()), surfaces, answers).panels
+    ids = surfaces["B"].ids
+    for row in (0, 3):
+        old = max(answers[row].maximum, float(np.nanmax(answers[row + 1].field[ids >= 0])))
+        assert panels[row].maximum == panels[row + 1].maximum == pytest.approx(old)
+        assert panels[row + 2].maximum is None
+    typed = replace(document, panels=(replace(document.panels[0], maximum=9.0), *document.panels[1:]))
+    panels = figure_of(Recipe(typed, Page()), surfaces, answers).panels
+    assert (panels[0].maximum, panels[1].maximum) == (9.0, None)
+
+
+def test_without_the_change_nothing_is_left_of_it(mesh):
+    base = comparison(mesh, (BIHARMONIC, EDGES), (5,))
+    base = replace(base, scatter=Scatter(across=1, up=0))
+    document = see(with_changed(base, CHANGES[0]), "back", "B")
+    document = replace(document, isolines=replace(document.isolines, through=("source after",)))
+    assert document.scatter.across == 3
+    assert without_changed(document) == replace(base, beside=())
+    first = replace(document, panels=document.panels[2:3])  # the user has removed the others
+    assert [str(panel.shows) for panel in without_changed(first).panels] == ["biharmonic"]
+    assert without_changed(first).panels[0].surface == "A"
+
+
+def test_a_mesh_is_changed_again_from_what_it_was(mesh):
+    base = comparison(mesh, (BIHARMONIC,), (5,))
+    once = change_mesh(base, Perturbation(noise=0.2))
+    moved = replace(once, panels=once.panels[::-1])
+    twice = change_mesh(moved, Perturbation(holes=2))
+    assert twice.surfaces[1].change == Perturbation(holes=2)
+    assert twice.panels == moved.panels
+    assert change_mesh(once, Perturbation(seed=4)) == base
+    assert cut_by(cut_by((), np.array([5, 3, 4])), np.array([4]), is_restored=True) == ((3, 3), (5, 5))
+
+
+def test_a_session_changes_the_mesh_from_where_it_is_by_then(mesh, desk):
+    desk = desk()
+    desk.session.show(comparison(mesh, (BIHARMONIC,), (5,)))
+    session = desk.complete()
+    session.change_mesh(Perturbation(noise=0.2), "noise")
+    desk.click(70)  # while it is made
+    desk.until(lambda: len(session.document.surfaces) == 2)
+    desk.complete()
+    assert session.document.point("source").at == 70
+    assert session.document.point("source after").at == 70
+    for amount in (0.3, 0.4):
+        session.change_mesh(Perturbation(noise=amount), "noise")
+        desk.until(lambda: not session.is_opening)
+        desk.complete()
+    assert session.document.surfaces[1].change == Perturbation(noise=0.4)
+    expected = BiharmonicDistance(session.opened("B").surface).from_source(70)
+    assert session.shown[1].answer.field == pytest.approx(expected, rel=1e-9)
+    session.undo()
+    desk.complete()
+    assert len(session.document.surfaces) == 1

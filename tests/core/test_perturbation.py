@@ -4,13 +4,16 @@ import numpy as np
 import pytest
 
 from bihdist_core import ParameterError, Surface, noisy, read_surface, with_holes, write_mesh
+from bihdist_core.applications.changes import change_from_words, runs_from_words, words_of_change
 from bihdist_core.applications.perturbation import (
     Perturbation,
     face_at,
     image_of,
     perturbed,
+    posed,
     vertex_normals,
     without,
+    without_faces,
 )
 from tests.shapes import bumpy, sphere
 
@@ -98,3 +101,70 @@ def test_meshes_are_read_as_they_were_written(tmp_path, name):
     again = read_surface(tmp_path / name)
     assert np.array_equal(again.vertices, lonely.vertices)
     assert np.array_equal(again.faces, lonely.faces)
+
+
+def test_faces_are_cut_out_and_everything_else_stays():
+    s = bumpy(300)
+    rest = without_faces(s, ((3, 5), (100, 100)))
+    assert np.array_equal(rest.faces, np.delete(s.faces, [3, 4, 5, 100], axis=0))
+    assert np.array_equal(rest.vertices, s.vertices)
+    ring = np.flatnonzero((s.faces == s.faces[0, 0]).sum(axis=1) == 0)
+    isolated = without_faces(s, tuple((int(f), int(f)) for f in ring[:40]))
+    assert len(isolated.faces) == len(s.faces) - 40
+    with pytest.raises(ParameterError, match=f"none is {len(s.faces)}"):
+        without_faces(s, ((len(s.faces), len(s.faces)),))
+    with pytest.raises(ParameterError, match="Nothing of bumpy"):
+        without_faces(s, ((0, len(s.faces) - 1),))
+
+
+def test_cut_faces_are_those_of_the_mesh_as_it_was_and_loose_vertices_are_not_counted():
+    s = bumpy(600)
+    fan = np.flatnonzero((s.faces == 7).any(axis=1))
+    cut = tuple((int(face), int(face)) for face in fan)
+    result, ids = perturbed(s, Perturbation(cut=cut, simplify=300))
+    assert len(result.vertices) == 300
+    assert (result.component_of_vertex >= 0).all()
+    assert 7 not in ids
+    assert result.boundary_loop_count == 1
+    assert np.array_equal(result.vertices, s.vertices[ids])
+
+
+def test_another_pose_has_the_same_faces(tmp_path):
+    s = bumpy(300)
+    other = Surface(s.vertices[:, ::-1] * (1, 2, 3), np.roll(s.faces[::-1], 1, axis=1), "other")
+    assert np.array_equal(posed(s, other).faces, s.faces)
+    path = str(tmp_path / "pose.off")
+    write_mesh(path, other)
+    result, ids = perturbed(s, Perturbation(pose=path))
+    assert np.array_equal(result.vertices, other.vertices)
+    assert np.array_equal(ids, np.arange(300))
+    with pytest.raises(ParameterError, match="bumpy has 200 vertices and bumpy 300"):
+        posed(s, bumpy(200))
+    swapped = s.faces.copy()
+    swapped[swapped == 0], swapped[swapped == 299] = -1, 0
+    swapped[swapped == -1] = 299
+    with pytest.raises(ParameterError, match="join other vertices"):
+        posed(s, Surface(s.vertices, swapped))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        Perturbation(cut=((3, 3), (10, 20)), pose="a, b=c/d.obj", noise=0.5),
+        Perturbation(pose="x,y.off", simplify=7),
+        Perturbation(cut=((0, 0),)),
+    ],
+)
+def test_words_of_poses_and_cut_faces_are_read_as_they_are_written(change):
+    assert change_from_words(words_of_change(change)) == change
+
+
+def test_runs_are_put_in_order():
+    assert runs_from_words("40+3-5+6+10-12+11-15") == ((3, 6), (10, 15), (40, 40))
+    for words in ("5-3", "-2", "x", ""):
+        with pytest.raises(ValueError, match="go up|invalid literal"):
+            runs_from_words(words)
+    with pytest.raises(ParameterError, match="cut is faces such as"):
+        change_from_words("cut=5-3")
+    with pytest.raises(ParameterError, match="pose is a mesh file"):
+        change_from_words("pose=")
