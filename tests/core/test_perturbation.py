@@ -162,7 +162,7 @@ def test_words_of_poses_and_cut_faces_are_read_as_they_are_written(change):
 def test_runs_are_put_in_order():
     assert runs_from_words("40+3-5+6+10-12+11-15") == ((3, 6), (10, 15), (40, 40))
     for words in ("5-3", "-2", "x", ""):
-        with pytest.raises(ValueError, match="go up|invalid literal"):
+        with pytest.raises(ValueError, match=r"go up|invalid literal"):
             runs_from_words(words)
     with pytest.raises(ParameterError, match="cut is faces such as"):
         change_from_words("cut=5-3")

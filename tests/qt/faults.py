@@ -67,7 +67,7 @@ def _untrue(hands: Hands) -> list[str]:
         found.append(f"the box says {window.source_box.text()!r}, the document {known}")
     if window.windowTitle() != f"{session.surface.name} - Biharmonic distance":
         found.append(f"title {window.windowTitle()}")
-    if window.status.counts.text.split()[0].replace(",", "") != str(len(session.surface.vertices)):
+    if window.status.counts.text.removeprefix("A").split()[0].replace(",", "") != str(len(session.surface.vertices)):
         found.append(f"counts {window.status.counts.text}")
     if window.status.vertex.text:
         found.append(f"still pointed at {window.status.vertex.text}")

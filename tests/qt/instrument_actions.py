@@ -192,8 +192,38 @@ class InstrumentHands(Hands):
             self.window.grid.focus()
             self.tool("key", "Delete")
 
+    def change_mesh(self) -> None:
+        """Noise, holes, fewer vertices, a stroke that cuts, two places that are joined; or as it was."""
+        docks = self.window.docks
+        if "robustness" not in self.window.session.document.docks:
+            docks.toggle("robustness")
+            self.spin(0.05)
+        dock = docks._docks["robustness"].content
+        way = self.chance.choice(["noise", "vertices", "holes", "radius", "seed", "cut", "weld", "handle", "remove"])
+        self.done[-1] += f" {way}"
+        if not dock._controls.isEnabled():
+            return
+        if way in ("noise", "vertices", "holes", "radius"):
+            slider = getattr(dock, way).slider
+            for _ in range(self.chance.randint(1, 3)):
+                slider.setValue(self.chance.randint(0, slider.maximum()))
+                self.spin(0.05)
+        elif way == "seed":
+            dock.another.click()
+        elif way == "cut":
+            dock.cut.button.click()
+            self._drag([], [])
+            self.key("Esc")
+        elif way == "remove":
+            dock.remove()
+        else:
+            getattr(dock, way).button.click()
+            for _ in range(2):
+                self.tool("mousemove", *self.place(), "click", 1)
+            self.key("Esc")
+
     INSTRUMENTS = (
         (pin, 8), (add_source, 5), (brush, 4), (live, 2), (draw_source, 3), (type_source, 3), (toggle_dock, 5),
         (in_dock, 14), (dock_menu, 6), (move_dock, 4), (profile, 4), (regions, 3), (farthest, 2),
-        (interpolate, 4), (in_anchors, 5),
+        (interpolate, 4), (in_anchors, 5), (change_mesh, 5),
     )  # fmt: skip

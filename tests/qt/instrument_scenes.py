@@ -23,6 +23,8 @@ def instruments(d: Driver) -> None:
         _close_all(d)
     _interpolation(d)
     _close_all(d)
+    _robustness(d)
+    _close_all(d)
     _sources(d)
     _live(d)
     d.open(mesh_path(d.bounded))
@@ -267,6 +269,50 @@ def _interpolation(d: Driver) -> None:
     d.shot("the sum of weights")
     d.window.session.show(before)
     d.complete()
+
+
+def _robustness(d: Driver) -> None:
+    before = d.window.session.document
+    dock = _dock(d, "robustness", "e")
+    d.shot("no change yet")
+    x, y = _on(d, dock.noise.slider, 0.03, 0.5)
+    width = dock.noise.slider.width() * d.look.scale
+    _drag(d, [(round(x + width * 0.03 * k), y) for k in range(10)], then=lambda: d.shot("noise on its way"))
+    d.complete()
+    _at(d, 4 if len(d.window.grid.panels) > 4 else 1, 0.5, 0.5)
+    d.shot("noise before and after")
+    _rest(d)
+    dock.remove()
+    _wait(d, lambda: len(d.window.session.document.surfaces) == 1)
+    _scroll_of(dock).ensureWidgetVisible(dock.cut)
+    _press(d, dock.cut.button)
+    d.spin(0.5)
+    places = []
+    for step in range(10):
+        _at(d, 0, 0.42 + 0.02 * step, 0.5)
+        from qtpy import QtGui
+
+        places.append((QtGui.QCursor.pos().x() * d.look.scale, QtGui.QCursor.pos().y() * d.look.scale))
+    _drag(d, places, then=lambda: d.shot("faces to be cut out"))
+    _wait(d, lambda: len(d.window.session.document.surfaces) == 2)
+    d.pointer("key", "Escape")
+    _scroll_of(dock).ensureWidgetVisible(dock.handle)
+    _press(d, dock.handle.button)
+    _click(d, 0, 0.3, 0.3)
+    d.shot("the first of two places")
+    _click(d, 0, 0.7, 0.7)
+    _wait(d, lambda: dock.settings.handle is not None)
+    _rest(d)
+    d.shot("a hole and a handle")
+    d.window.session.show(before)
+    d.complete()
+
+
+def _wait(d: Driver, is_so: Callable[[], bool]) -> None:
+    """Until a change has been made, and all is shown."""
+    d.until(lambda: is_so() and not d.window.session.is_opening)
+    d.complete()
+    d.spin(0.3)
 
 
 def _all_open(d: Driver) -> None:
