@@ -15,6 +15,7 @@ from bihdist_core.sources.source import Source, checked_source, whole_number
 
 from .beside import Beside
 from .camera import View, checked_view
+from .fitting import check_names
 from .instruments import (
     ALONG_ALL_PINS,
     AS_LISTED,
@@ -42,7 +43,7 @@ from .looks import (
     Shading,
     one_of,
 )
-from .map_colours import SAME_FACES, MapColours, MapFile, Truth
+from .map_colours import SAME_FACES, MapFile, Truth
 from .quantities import OwnField, Quantity, from_point, own_fields
 
 COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
@@ -231,29 +232,13 @@ class Document:
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
             object.__setattr__(self, "isolines", Isolines(self.isolines))  # a number of steps does
-        surfaces = _unlike([mesh.name for mesh in self.surfaces], "surface")
-        points = _unlike([point.name for point in self.points], "point")
-        ids = _unlike([panel.id for panel in self.panels], "panel")
-        _known([point.surface for point in self.points], surfaces, "surface")
-        _known([point.image_of for point in self.points if point.image_of], points, "point")
-        _known([panel.surface for panel in self.panels], surfaces, "surface")
-        _known([name for panel in self.panels for name in panel.shows.points], points, "point")
-        fields = _unlike([field.name for field in self.fields], "field")
-        _known([field.surface for field in self.fields], surfaces, "surface")
-        _known([part.name for panel in self.panels for part in own_fields(panel.shows)], fields, "field")
-        _known([anchor.point for anchor in self.anchors], points, "point")
-        _known(list(self.isolines.through), points, "point")
-        _unlike([pin.point for pin in self.pins], "pin at")
-        _known([pin.point for pin in self.pins], points, "point")
-        self._check_pairs()
-        _known(list(self.profile.points), points, "point")
-        _unlike([selection.name for selection in self.selections], "selection")
-        _known([selection.surface for selection in self.selections], surfaces, "surface")
+        check_names(self)
+        ids = {panel.id for panel in self.panels}
         # Of panels that are gone nothing more is shown.
         object.__setattr__(self, "regions", tuple(id for id in self.regions if id in ids))
         across, up = (id if id in ids else None for id in (self.scatter.across, self.scatter.up))
         object.__setattr__(self, "scatter", replace(self.scatter, across=across, up=up))
-        for dock in _unlike(list(self.docks), "dock"):
+        for dock in self.docks:
             one_of(dock, DOCKS, "dock")
         if ids and max(ids) >= self.next_id:
             raise ParameterError(f"next_id is {self.next_id}, and there is a panel {max(ids)}.")
@@ -268,32 +253,6 @@ class Document:
         if not 0 <= self.height <= 10:
             raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
         checked_view(self.camera)
-        _known(list(_unlike([each.surface for each in self.beside], "surface")), surfaces, "surface")
-        self._check_maps()
-
-    def _check_maps(self) -> None:
-        known = _unlike([map.path for map in self.maps], "map")
-        shown = [(panel, panel.shows.by) for panel in self.panels if isinstance(panel.shows, MapColours)]
-        _known([by for _, by in shown if isinstance(by, str) and by], known, "map")
-        led = {panel.surface for panel, by in shown if by}
-        if (led or self.maps) and len(self.surfaces) < 2:
-            raise ParameterError("A map is from one surface to another, and there are not two.")
-        if led - {self.surfaces[0].name if self.surfaces else ""}:
-            raise ParameterError(f"Maps are from the surface {self.surfaces[0].name!r}, and shown on it.")
-
-    def _check_pairs(self) -> None:
-        names = [name for pair in self.pairs for name in pair.points]
-        _known(names, {point.name for point in self.points}, "point")
-        if len(set(names)) < len(names):
-            raise ParameterError("Two pairs have a point in common.")
-        if self.pairs and len(self.surfaces) < 2:
-            raise ParameterError("Pairs are of points on two surfaces, and there are not two.")
-        for pair in self.pairs:
-            for name, mesh in zip((pair.first, pair.second), self.surfaces, strict=False):
-                if name and self.point(name).surface != mesh.name:
-                    raise ParameterError(f"The point {name!r} of a pair is not on the surface {mesh.name!r}.")
-        if any(pair.is_half for pair in self.pairs[:-1]):
-            raise ParameterError("Of all pairs only the last may still wait for one of its points.")
 
     def mesh(self, name: str = "A") -> MeshFile:
         return _named(self.surfaces, name, "surface")
@@ -379,19 +338,6 @@ def content(document: Document) -> Document:
     """What two documents have in common that differ in nothing but cameras, open docks and snapping."""
     beside = tuple(Beside(mesh.name, "home", document.up_of(mesh.name)) for mesh in document.surfaces[1:])
     return replace(document, camera="home", docks=(), dock_places=None, snap=True, beside=beside, linked=True)
-
-
-def _unlike(names: list, what: str) -> set:
-    for k, name in enumerate(names):
-        if name in names[:k]:
-            raise ParameterError(f"There are two {what}s {name!r}.")
-    return set(names)
-
-
-def _known(names: list[str], known: set[str], what: str) -> None:
-    for name in names:
-        if name not in known:
-            raise ParameterError(f"There is no {what} {name!r}.")
 
 
 def _named(items: tuple, name: str, what: str) -> Any:

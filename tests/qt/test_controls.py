@@ -39,7 +39,7 @@ def test_every_action_of_the_tool_bar_names_its_key(screen):
 
 
 def test_no_two_actions_have_one_key():
-    from app.qt.actions import ALL
+    from app.qt.acts import ALL
 
     keys = [key for act in ALL for key in act.keys]
     assert len(keys) == len(set(keys))

@@ -25,7 +25,7 @@ def test_every_menu_is_whole_on_a_small_screen(screen):
 
 
 def test_no_letter_means_two_things_in_a_menu_and_no_key_in_the_window(screen):
-    from app.qt.actions import ALL
+    from app.qt.acts import ALL
 
     s = screen()
     for menu in [*all_menus(s.window), s.window.menuBar()]:
@@ -40,7 +40,7 @@ def test_no_letter_means_two_things_in_a_menu_and_no_key_in_the_window(screen):
 def test_all_keys_are_in_the_help(screen):
     from qtpy import QtGui
 
-    from app.qt.actions import ALL
+    from app.qt.acts import ALL
     from app.qt.pages.keys import entries_of
 
     s = screen()

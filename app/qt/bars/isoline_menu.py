@@ -3,7 +3,7 @@
 from qtpy import QtWidgets
 
 from ...document.looks import Isolines
-from ..actions import ISOLINES
+from ..acts import ISOLINES
 from ..look.numbers import tick
 
 BOLD = 5

@@ -8,7 +8,7 @@ from bihdist_core.analysis.upright import DIRECTIONS
 
 from ...samples import mesh_path, sample_names, thumbnail
 from .. import remembered
-from ..actions import INSTRUMENTS, TURNS, VIEWS
+from ..acts import INSTRUMENTS, TURNS, VIEWS
 from ..look.numbers import MINUS
 from .colour_menu import ColourMenu
 from .isoline_menu import IsolineMenu
