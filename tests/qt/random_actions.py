@@ -72,7 +72,7 @@ class RandomHands(InstrumentHands):
                   self.chance.choice([4, 5]))  # fmt: skip
 
     def press_key(self) -> None:
-        from app.qt.actions import ALL
+        from app.qt.acts import ALL
 
         keys = [key for act in ALL if act.word not in DIALOGS_OF_FILES for key in act.keys]
         key = self.chance.choice(keys)

@@ -24,7 +24,7 @@ LAST_TO_GO = (*reversed(DOCKS), "up", "views", "colours", "range", "isolines", "
 """Where even the icons have no room: which buttons are left out, the first of these first; all are in the menus."""
 
 
-LAST_IN_WORDS = ("export", "open", "live", "add panel")
+LAST_IN_WORDS = ("export", "open", "live", "add panel", "isolines", "colours", "range", "views", "up")
 """Beside values that have room these keep their words as long as there is any, the last of these the shortest."""
 
 
