@@ -38,7 +38,7 @@ class ErrorChart(Chart):
 
     LEFT, RIGHT, TOP, BOTTOM = 46.0, 14.0, 8.0, 46.0
     HEIGHT = 208.0
-    APART = (44.0, 60.0)
+    APART = (44.0, 40.0)
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__("Errors of maps", parent)

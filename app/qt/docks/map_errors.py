@@ -41,6 +41,7 @@ class MapErrors(QtWidgets.QWidget):
         self.window_ = window
         self.judgement: Judgement | None = None
         self.asked: Asked | None = None
+        self._answered: tuple = ()  # what the judgement is about
         self._dots: dict[int, str] = {}
         self.truth = MapTruth(self)
         self.chart, self.table = ErrorChart(), ErrorTable()
@@ -128,14 +129,19 @@ class MapErrors(QtWidgets.QWidget):
         yield from self._judging.judge(asked, progress)
 
     def _take(self, asked: Asked, judgement: Judgement) -> None:
-        # Over a part of the vertices nothing is said that was known over more of them, but for what is new.
-        self.judgement = judgement
+        self.judgement, self._answered = judgement, asked.about
         self._show()
 
     def _refuse(self, asked: Asked, sentence: str) -> None:
         self.judgement = None
         self._show()
         self.said.setText(sentence)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether errors are shown of all vertices that are wanted, for the pairs that there are now."""
+        asked, judged = self.asked, self.judgement
+        return asked is not None and judged is not None and judged.is_whole and self._answered == asked.about
 
     # ------------------------------------------------------------------ what is seen
     @property
