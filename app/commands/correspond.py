@@ -29,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     from bihdist_core.applications.correspondence import Correspondence
-    from bihdist_core.distances.answers import Distances
+    from bihdist_core.distances.answers import Distances, same_on
     from bihdist_core.formats.vertex_maps import MAP_FORMATS, read_map, read_pairs, write_map
     from bihdist_core.whole_file import check_output
 
@@ -41,7 +41,9 @@ def run(options: argparse.Namespace) -> None:
     with progress_line() as progress:
         one, two = (laplacian_of(mesh, options.areas) for mesh in (options.mesh, options.other))
         truth = read_map(options.truth, one.surface, two.surface) if options.truth else None
-        on_one, on_two = (Distances(laplacian).get(chosen, progress) for laplacian in (one, two))
+        sides = Distances(one), Distances(two)
+        spec = same_on(chosen, sides, progress)
+        on_one, on_two = (side.get(spec, progress) for side in sides)
         found = Correspondence(on_one, on_two, pairs, progress=progress).map(progress=progress)
         said = accuracy(max(on_one, on_two, key=lambda distance: distance.accuracy or 0.0))
     write_map(options.output, found)

@@ -80,7 +80,7 @@ def _say_changes(
     """How far the fields from one vertex differ, at the vertices that both meshes have."""
     from bihdist_core.analysis.diagnostics import field_change
     from bihdist_core.applications.perturbation import image_of
-    from bihdist_core.distances.answers import Distances
+    from bihdist_core.distances.answers import Distances, same_on
 
     from ..session.questions import vertex_at
 
@@ -88,7 +88,8 @@ def _say_changes(
     start, common = int(kept[there]), kept >= 0
     with progress_line() as progress:
         one, two = Distances(before), Distances(after)
-        for spec in chosen:
+        for asked in chosen:
+            spec = same_on(asked, (one, two), progress)
             old = one.get(spec, progress).from_source(start, progress)[kept[common]]
             new = two.get(spec, progress).from_source(there, progress)[common]
             found = field_change(old, new)

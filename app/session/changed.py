@@ -10,7 +10,7 @@ from bihdist_core import BihdistError, Cancelled, ParameterError, SolverError
 from bihdist_core.analysis.diagnostics import field_change
 from bihdist_core.applications.perturbation import image_of
 from bihdist_core.distances.accuracy import Certificate
-from bihdist_core.distances.answers import Answer, failed
+from bihdist_core.distances.answers import Answer, failed, same_on
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source, SourceSet
 
@@ -127,14 +127,15 @@ def _sides(question: ChangeQuestion, opened: "Opened", progress: Progress | None
     """Of the same distance, from the same vertices, before and after."""
     origin, ids = opened.origin, opened.ids
     assert origin is not None
-    areas, spec, start = question.areas, question.spec, question.at
+    areas, start = question.areas, question.at
+    spec = same_on(question.spec, (origin.distances(areas), opened.distances(areas)), part(progress, 0, 0.1))
     if not opened.has_faces_of_origin:
         members = members_of(question.at)
         starts = tuple(int(ids[member]) for member in members if isinstance(member, int) and ids[member] >= 0)
         if len(starts) < len(members):
             raise ParameterError("A change is seen from vertices that the mesh had before.")
         start = starts[0] if len(starts) == 1 else SourceSet(starts)
-    after = opened.answer_once(DistanceQuestion(opened.mesh, areas, spec, question.at), part(progress, 0, 0.5))
+    after = opened.answer_once(DistanceQuestion(opened.mesh, areas, spec, question.at), part(progress, 0.1, 0.5))
     before = origin.answer_once(DistanceQuestion(origin.mesh, areas, spec, start), part(progress, 0.5, 1))
     return before, after
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from bihdist_core import BihdistError, Cancelled, Correspondence, VertexError
 from bihdist_core.distances.accuracy import Certificate
-from bihdist_core.distances.answers import Answer, failed
+from bihdist_core.distances.answers import Answer, failed, same_on
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
@@ -98,6 +98,7 @@ def correspondence(
 
     Raises what distances and vertices do.
     """
+    spec = same_on(spec, (one.distances(areas), two.distances(areas)), part(progress, 0.0, 0.5))
     on_one = one.distances(areas).get(spec, part(progress, 0.0, 0.3))
     on_two = two.distances(areas).get(spec, part(progress, 0.3, 0.6))
     places = [(vertex_at(a, one.surface), vertex_at(b, two.surface)) for a, b in pairs]
@@ -113,8 +114,12 @@ def is_known(question: PredictionQuestion, opened: "Opened") -> bool:
     other = opened.standing_beside(question.other)
     if other is None or question.at is None:
         return True
+    sides = opened.distances(question.areas), other.distances(question.areas)
+    if not all(side.is_ready(question.spec) for side in sides):
+        return False
+    spec = same_on(question.spec, sides)
     for side, each in enumerate((opened, other)):
-        known = each.columns_of_pairs.of(question.areas, question.spec)
+        known = each.columns_of_pairs.of(question.areas, spec)
         if any(vertex_at(pair[side], each.surface) not in known for pair in question.pairs):
             return False
     return True

@@ -5,7 +5,7 @@ computed, how accurate it is, and what is said where it cannot be done.
 """
 
 import threading
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -106,6 +106,18 @@ def failure_in_words(error: Exception) -> str:
     if isinstance(error, MemoryError):
         return "There is not enough memory for this mesh."
     return f"Something went wrong that should not have: {type(error).__name__}: {error}"
+
+
+def same_on(spec: Spec, surfaces: "Sequence[Distances]", progress: Progress | None = None) -> Spec:
+    """The distance that can be compared between surfaces: where its "auto" takes one method here and another there, the
+    method that all of them have, so that they differ by their shapes and not by their methods."""
+    free = [name for name, value in spec.values if value == "auto"]
+    taken = [tuple(getattr(each.get(spec, progress), name) for name in free) for each in surfaces]
+    if len(set(taken)) < 2:
+        return spec
+    # "auto" is exact wherever it can be.
+    chosen = next(each for each in taken if "exact" not in each)
+    return Spec.of(spec.word, **{**dict(spec.values), **dict(zip(free, chosen, strict=True))})
 
 
 class Distances:

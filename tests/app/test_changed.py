@@ -81,6 +81,25 @@ def test_the_three_panels_are_before_after_and_the_difference_of_shares(mesh, ch
     assert f"mean {mean:.3g}, largest {largest:.3g}, each" in answers[2].remark
 
 
+def test_both_sides_are_computed_by_one_method(mesh):
+    """Exact geodesics end where two faces that share a vertex alone are cut out; the difference is none of methods."""
+    faces = bumpy(300).faces
+    around = np.flatnonzero((faces == 200).any(axis=1)).tolist()
+    other = next(face for face in around if np.intersect1d(faces[face], faces[around[0]]).tolist() == [200])
+    cut = tuple((face, face) for face in sorted((around[0], other)))
+    document = with_changed(comparison(mesh, (Spec.of("geodesic"),), (5,)), Perturbation(cut=cut))
+    _, surfaces, answers = opened(document)
+    before, after, change = answers
+    assert before.label == "geodesic, exact"
+    assert after.label == "geodesic, heat method"
+    heat = surfaces["A"].distances("voronoi").get(Spec.of("geodesic", method="heat")).from_source(5)
+    ids = surfaces["B"].ids
+    kept = ids >= 0
+    old, new = heat[ids[kept]], after.field[kept]
+    np.testing.assert_allclose(change.field[kept], new / new.max() - old / old.max(), atol=1e-12)
+    assert np.abs(before.field - heat).max() > 0.01 * heat.max()
+
+
 def test_a_source_that_moves_is_followed(mesh):
     document, surfaces, _ = opened(changed(mesh, Perturbation(simplify=120)))
     first = document.points[0]
