@@ -155,6 +155,12 @@ class Gestures:
         vertex = self.hovered
         if window.session.surface is None or (vertex is None and before is None):
             return
+        if not self._grid.has(panel):  # it has gone from under the pointer
+            self._met = None
+            self._grid.pointing.leave()
+            window.docks.pointed(None, "")
+            window.status.show_place(None, None)
+            return
         self._grid.pointing.show(panel, vertex)
         surface = window.session.surface_in(panel)
         window.docks.pointed(vertex, self._grid.panel(panel).surface)

@@ -232,7 +232,9 @@ def are_about_the_same(one: Question, other: Question) -> bool:
 def asks_of(question: Question, mesh: MeshFile) -> bool:
     """Whether an answer depends on distances on this surface, too, on which it is not."""
     parts = (question.minuend, question.subtrahend) if isinstance(question, DifferenceQuestion) else (question,)
-    return any(isinstance(each, PredictionQuestion | MapQuestion) and each.other == mesh for each in parts)
+    others = [each.other for each in parts if isinstance(each, PredictionQuestion | MapQuestion)]
+    # Whatever they are called in documents.
+    return any(other is not None and replace(other, name=mesh.name) == mesh for other in others)
 
 
 def questions(document: Document) -> dict[int, Question]:

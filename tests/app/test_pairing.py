@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.document.beside_edits import close_beside, open_beside
-from app.document.document import Document, MeshFile, Point, comparison
+from app.document.document import Document, MeshFile, Panel, Point, comparison
 from app.document.edits import open_mesh
 from app.document.file import read_recipe, recipe_text
 from app.document.history import History
@@ -224,6 +224,22 @@ def test_a_new_pair_costs_a_solve_and_another_point_none(desk, meshes):
     work.complete()
     # The pair is new to both surfaces by the distance that is asked now, and the first surface is predicted by one.
     assert solved() == (9, 9)
+
+
+def test_what_the_other_surface_alone_is_asked_is_kept(desk, meshes):
+    work = desk(specs=(EDGES,))
+    session = work.session
+    work.opened(meshes[0])
+    session.open_beside(meshes[1])
+    work.until(lambda: len(session.document.surfaces) == 2)
+    panels = [Panel(0, Prediction(EDGES), "A"), Panel(1, Prediction(BIHARMONIC), "B")]
+    session.show(replace(session.document, panels=tuple(panels)))
+    session.show(place_point(add_pairs(session.document, PAIRS), "B", 44))
+    work.complete()
+    before = [session.opened(name).columns_of_pairs.solved for name in "AB"]
+    session.show(place_point(session.document, "B", 45))
+    work.complete()
+    assert [session.opened(name).columns_of_pairs.solved for name in "AB"] == before == [4, 4]
 
 
 def test_columns_of_what_is_dragged_are_forgotten():

@@ -52,20 +52,24 @@ def _untrue(hands: Hands) -> list[str]:
         top = bar_end(document, session.shown, panel.id, session.opened) or answer.maximum
         facts = {
             "answer": answer is shown.answer and shown.asked == asked[panel.id] and not shown.is_preview,
-            "head": widget.head.shows == panel.shows and widget.head.name.text() == quantity_name(panel.shows),
+            "head": widget.head.shows == panel.shows
+            and widget.head.name.accessibleName()
+            == f"Shown here: {_plain(panel, session) or quantity_name(panel.shows)}",
             "style": widget.view.scene.style == canvas_style(window.page.style, LOOK.theme, document.colours),
             "source": widget.source == _start(panel, document, session, vertex_at),
             "not dimmed": not widget.view._is_dimmed and widget.waiting.isHidden(),
             "maximum": answer.field is None or (reading.maximum == answer.maximum and reading.high == top),
-            "unit": answer.field is None or reading.unit == answer.unit,
+            "unit": answer.field is None or reading.unit in (answer.unit, "misfit of the best"),
             "isolines": answer.field is None or len(reading.lines) == len(widget.view.scene.isolines),
         }
         found += [f"panel {panel.id} {panel.shows}: {fact}" for fact, holds in facts.items() if not holds]
-    sources = document.sources
-    known = words_of(source_at(sources[0], session.surface)) if sources else ""
+    starting = [name for panel in document.panels for name in panel.shows.points]
+    points = [document.point(name) for name in starting[:1]]
+    known = "".join(words_of(source_at(point.at, session.opened(point.surface).surface)) for point in points)
     if window.source_box.text() != known:
         found.append(f"the box says {window.source_box.text()!r}, the document {known}")
-    if window.windowTitle() != f"{session.surface.name} - Biharmonic distance":
+    names = ", ".join(dict.fromkeys(session.opened(mesh.name).surface.name for mesh in document.surfaces))
+    if window.windowTitle() != f"{names} - Biharmonic distance":
         found.append(f"title {window.windowTitle()}")
     if window.status.counts.text.removeprefix("A").split()[0].replace(",", "") != str(len(session.surface.vertices)):
         found.append(f"counts {window.status.counts.text}")
@@ -109,7 +113,16 @@ def _pictures(window: object) -> list[np.ndarray]:
 
 def _start(panel, document, session, vertex_at) -> int | None:
     names = panel.shows.points
-    return vertex_at(document.point(names[0]).at, session.surface) if names else None
+    return vertex_at(document.point(names[0]).at, session.opened(panel.surface).surface) if names else None
+
+
+def _plain(panel, session) -> str:
+    """The name of its surface, where a panel is the only one of it that predicts, and there is nothing to predict."""
+    from app.document.predicting import predicts_in
+
+    answer = session.shown[panel.id].answer
+    alone = [other for other in session.document.panels_of(panel.surface) if predicts_in(other)] == [panel]
+    return session.opened(panel.surface).surface.name if alone and answer.field is None and not answer.failure else ""
 
 
 def _differing(when: str, before: list, after: list, slack: float = 0.0) -> list[str]:

@@ -116,9 +116,12 @@ class Hands:
         at = self._somewhere(widget)
         for _ in range(20):
             if self.is_over(widget, at):
-                break
+                return at.x(), at.y()
             at = self._somewhere(widget)
-        return at.x(), at.y()
+        # Docks leave nothing to be seen of it: the end of the menu bar, where nothing is.
+        bar = self.window.menuBar()
+        at = bar.mapToGlobal(bar.rect().topRight())
+        return at.x() - 2, at.y() + 2
 
     def is_over(self, widget: object, at: object) -> bool:
         """Whether a place on the screen is seen to be the widget's, and not of a dock that floats over it."""

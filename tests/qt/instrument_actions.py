@@ -222,8 +222,66 @@ class InstrumentHands(Hands):
                 self.tool("mousemove", *self.place(), "click", 1)
             self.key("Esc")
 
+    def correspond(self) -> None:
+        """A second mesh with the tool, or the first alone again; then clicks are points of pairs."""
+        session, docks = self.window.session, self.window.docks
+        if len(session.document.surfaces) < 2:
+            session.open_beside(self.chance.choice(self.meshes[:2]))
+            self.until(lambda: not session.is_opening)
+        elif self.chance.random() < 0.3:
+            session.close_beside()
+            return
+        if "pairs" not in session.document.docks:
+            docks.toggle("pairs")
+            self.spin(0.05)
+        dock = docks._docks["pairs"].content
+        if dock.start.isVisible():
+            dock.begin()
+        for _ in range(self.chance.randint(2, 4)):
+            self.tool("mousemove", *self.place(), "click", 1)
+
+    def in_pairs(self) -> None:
+        """A row of the list, a drop, and the keys of the tool."""
+        docks, document = self.window.docks, self.window.session.document
+        dock = docks._docks["pairs"].content if "pairs" in docks._docks else None
+        if dock is None or not document.pairs or not dock.isVisible():
+            return
+        way = self.chance.choice(["accept", "give up", "delete", "keys", "drop", "more"])
+        self.done[-1] += f" {way}"
+        if way in ("accept", "give up", "delete"):
+            self.window.grid.focus()
+            self.tool("key", {"accept": "Return", "give up": "Escape", "delete": "Delete"}[way])
+        elif way == "keys":
+            self.chance.choice(list(dock.rows.values())).setFocus()
+            self.tool("key", self.chance.choice(["Down", "Up", "Delete"]))
+        elif way == "drop":
+            self._drag_drop()
+        else:
+            from app.document.pairing import add_pairs
+
+            ids = [(self.chance.randrange(700), self.chance.randrange(700)) for _ in range(3)]
+            self.window.session.show(add_pairs(document, ids))
+
+    def _drag_drop(self) -> None:
+        """One of a pair, by its head, where it is seen."""
+        from qtpy import QtCore
+
+        view = self.chance.choice(self.window.grid.panels).view
+        seen = list(view.over.pairs._seen().values())
+        if not seen:
+            return
+        _, tip = self.chance.choice(seen)
+        at = view.mapToGlobal(QtCore.QPoint(round(tip.x()), round(tip.y()) - 16))
+        if not self.is_over(view, at):
+            return
+        to_x, to_y = self.place(view)
+        words = ["mousemove", at.x(), at.y(), "mousedown", 1]
+        for k in range(1, 6):
+            words += ["mousemove", at.x() + (to_x - at.x()) * k // 5, at.y() + (to_y - at.y()) * k // 5, "sleep", 0.01]
+        self.tool(*words, "mouseup", 1)
+
     INSTRUMENTS = (
         (pin, 8), (add_source, 5), (brush, 4), (live, 2), (draw_source, 3), (type_source, 3), (toggle_dock, 5),
         (in_dock, 14), (dock_menu, 6), (move_dock, 4), (profile, 4), (regions, 3), (farthest, 2),
-        (interpolate, 4), (in_anchors, 5), (change_mesh, 5),
+        (interpolate, 4), (in_anchors, 5), (change_mesh, 5), (correspond, 5), (in_pairs, 8),
     )  # fmt: skip

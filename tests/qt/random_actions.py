@@ -25,7 +25,7 @@ QUANTITIES = (
     "biharmonic - geodesic(method=heat)",
     "raw diffusion - commute-time",
 )
-DIALOGS_OF_FILES = {"open", "save", "save as", "screenshot", "quit"}
+DIALOGS_OF_FILES = {"open", "open beside", "save", "save as", "screenshot", "quit"}
 
 
 class RandomHands(InstrumentHands):
@@ -88,7 +88,9 @@ class RandomHands(InstrumentHands):
         """By the right button; sometimes something is chosen."""
         self.tool("mousemove", *self.place(), "click", 3)
         if self.chance.random() < 0.4:
-            self.tool("key", "--delay", 8, *["Down"] * self.chance.randint(1, 6), "Return")
+            downs = ["Down"] * self.chance.randint(1, 6)
+            # What asks for a file has a loop of its own meanwhile.
+            self.tool("key", "--delay", 8, *downs, "Return", "sleep", 0.2, "key", "--delay", 20, "Escape", "Escape")
         self.shut()
 
     def head_menu(self) -> None:
@@ -127,8 +129,9 @@ class RandomHands(InstrumentHands):
         elif way == "labels":
             self.window.menus.isolines.labels.trigger()
         elif way == "through" and self.window.session.surface is not None:
-            vertex = self.chance.choice(self.window.session.surface.faces.ravel().tolist())
-            choices.pass_through(self.panel(), vertex)
+            panel = self.panel()
+            vertex = self.chance.choice(self.window.session.surface_in(panel).faces.ravel().tolist())
+            choices.pass_through(panel, vertex)
         elif way == "none":
             choices.pass_through_none()
         else:

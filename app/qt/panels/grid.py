@@ -101,6 +101,10 @@ class PanelGrid(QtWidgets.QWidget):
     def panel(self, id: int) -> DistancePanel:
         return self._panels[id]
 
+    def has(self, id: int) -> bool:
+        """Whether there is a panel of this id."""
+        return id in self._panels
+
     # ------------------------------------------------------------------ where the panels are
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         theme, painter = LOOK.theme, QtGui.QPainter(self)

@@ -49,7 +49,7 @@ class PanelHead(QtWidgets.QWidget):
         self.controls: list[Control] = []
         self._choices = Choices()
         self._made_of: object = None
-        self._info = self._warning = self._dot = self.letter = self._plain = ""
+        self._info = self._warning = self._dot = self.letter = self._plain = self._name = ""
         # Panels are equally wide whatever is in here.
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.name = FlatButton(self, bold=True)
@@ -97,7 +97,7 @@ class PanelHead(QtWidgets.QWidget):
             self._made_of = made_of
             self._make_controls()
         name = self._plain or quantity_name(shows)
-        self.name.setText(name)
+        self._name = name
         self._show_values()
         self.name.setToolTip(f"{name}\nClick to show something else here")
         self.name.setAccessibleName(f"Shown here: {name}")
@@ -269,12 +269,17 @@ class PanelHead(QtWidgets.QWidget):
         """From the left name, warning, parameters; from the right the two buttons."""
         controls = [c for c in self.controls if not (self._warning and isinstance(c, FixedWord))]
         controls = [] if self._plain else controls
+        self.name.setText(self._name)
         left = MARGIN + self._letter_room + (DOT_ROOM if self._dot else 0)
         right = self.width() - MARGIN - ICON_SIDE
         self.more.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)
         name = self.name.sizeHint().width()
         warning = WARNING_ROOM if self._warning else 0
         shown, sliders, has_info = self._fitting(controls, right - left - name - warning)
+        if self._by in controls and self._by not in shown:
+            # By which distance it is tells panels apart, and what it is does not.
+            self.name.setText(f"{self._by.text()[:1].upper()}{self._by.text()[1:]}")
+            name = self.name.sizeHint().width()
         if has_info:
             right -= ICON_SIDE
             self.info.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)

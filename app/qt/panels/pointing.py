@@ -23,6 +23,12 @@ class Pointing:
         """Another surface is there."""
         self._at = None
 
+    def leave(self) -> None:
+        """Nothing is pointed at."""
+        self._at = None
+        for panel in self._panels.values():
+            panel.point_at(None, False)
+
     def show(self, id: int, vertex: int | None) -> None:
         """Mark a vertex in every panel of its surface, and show its values; id: the panel under the pointer.
 

@@ -1,0 +1,56 @@
+"""What there is to see of correspondence, for the contact sheet: two poses of one shape, by mouse and keys."""
+
+from .driver import Driver
+from .instrument_scenes import _at, _close_all, _dock, _on, _to_panels
+
+PAIRED = (30, 900, 1500, 2100, 2800, 3300)
+"""Vertices of both poses that are pairs before any is clicked."""
+
+
+def correspondence(d: Driver) -> None:
+    """The tool with one mesh, then pairs on two: by hand, from the prediction, and what goes wrong."""
+    from app.document.beside_edits import close_beside
+    from app.document.pairing import add_pairs
+    from app.samples import mesh_path
+
+    d.open(mesh_path("beast"))
+    dock, session = _dock(d, "pairs", "m"), d.window.session
+    d.shot("correspondence with one mesh")
+    session.open_beside(mesh_path("beast_pose2"))
+    d.until(lambda: len(session.document.surfaces) == 2 and not session.is_opening)
+    d.complete()
+    d.pointer("mousemove", *_on(d, dock.start, 0.5, 0.5), "click", 1)
+    d.complete()
+    d.shot("no pairs yet")
+    for panel in (0, 1):
+        _at(d, panel, 0.5, 0.4)
+        d.pointer("click", 1)
+        d.complete()
+        d.shot(f"a pair at {'AB'[panel]}")
+    session.undo()
+    session.undo()
+    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in PAIRED]))
+    d.complete()
+    _at(d, 0, 0.6, 0.5)
+    d.pointer("click", 1)
+    d.complete()
+    d.spin(2.0)
+    d.shot("a prediction")
+    d.point_at_surface(1)
+    d.shot("the misfit at the pointer")
+    row = list(dock.rows.values())[2]
+    d.pointer("mousemove", *_on(d, row, 0.5, 0.5), "click", 1)
+    d.shot("a pair stands out")
+    _to_panels(d)
+    d.pointer("key", "Return")
+    d.complete()
+    d.shot("accepted")
+    _at(d, 1, 0.4, 0.6)
+    d.pointer("click", 1)
+    d.complete()
+    d.shot("the other way round")
+    d.pointer("key", "Escape")
+    d.complete()
+    _close_all(d)
+    session.show(close_beside(session.document))
+    d.complete()
