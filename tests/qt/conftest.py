@@ -77,8 +77,29 @@ class Screen:
         """Where a vertex is seen in a panel's view, in its own coordinates."""
         from qtpy.QtCore import QPoint
 
-        place = panel.view.place_of(self.session.surface.vertices[vertex])
+        place = panel.view.place_of(panel.positions[vertex])
         return QPoint(round(place.x() - 0.5), round(place.y() - 0.5))
+
+    def seen(self, count, panel=0):
+        """Vertices that a panel shows, far apart, none of them under a drop."""
+        import numpy as np
+        from qtpy.QtCore import QPoint
+
+        shown, found = self.panels[panel], {}
+        view = shown.view
+        for x in range(3, 18):
+            for y in range(3, 18):
+                met = view.met_at(QPoint(view.width() * x // 20, view.height() * y // 20))
+                at = None if met is None else self.point_of(shown, met.vertex)
+                again = None if at is None or view.over.drop_at(at) is not None else view.met_at(at)
+                if again is not None and again.vertex == met.vertex:
+                    found[met.vertex] = met.position
+        ids = list(found)
+        chosen = [ids[0]]
+        while len(chosen) < count:
+            away = [min(np.linalg.norm(found[a] - found[b]) for b in chosen) for a in ids]
+            chosen.append(ids[int(np.argmax(away))])
+        return chosen
 
 
 @pytest.fixture

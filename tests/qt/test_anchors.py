@@ -48,23 +48,6 @@ def complete(s):
     s.settle(0.05)
 
 
-def seen_vertices(s, count):
-    """Vertices of the front, far apart."""
-    view = s.panels[0].view
-    found = {}
-    for x in range(3, 18):
-        for y in range(3, 18):
-            met = view.met_at(QtCore.QPoint(view.width() * x // 20, view.height() * y // 20))
-            if met is not None:
-                found[met.vertex] = met.position
-    ids = list(found)
-    chosen = [ids[0]]
-    while len(chosen) < count:
-        away = [min(np.linalg.norm(found[a] - found[b]) for b in chosen) for a in ids]
-        chosen.append(ids[int(np.argmax(away))])
-    return chosen
-
-
 def expected(s, panel, kind):
     anchors = [a for a in s.document.anchors if not a.left_out]
     vertices = [s.document.point(a.point).at for a in anchors]
@@ -84,14 +67,14 @@ def test_clicks_put_anchors_and_every_panel_interpolates_by_its_distance(opened)
     s = opened
     assert all(isinstance(panel.shows, Interpolant) for panel in s.document.panels)
     assert "no anchor" in s.answers[0].failure
-    vertices = seen_vertices(s, 3)
+    vertices = s.seen(3)
     for vertex in vertices:
         click(s, 0, vertex)
     assert [s.document.point(a.point).at for a in s.document.anchors] == vertices
     assert [a.value for a in s.document.anchors][:2] == [0, 1]
     check(s)
     before = s.answers[0].field
-    click(s, 1, seen_vertices(s, 5)[-1])  # its value is what the panel has there
+    click(s, 1, s.seen(5)[-1])  # its value is what the panel has there
     assert np.abs(s.answers[1].field - expected(s, 1, GeodesicDistance)).max() < 1e-9
     assert len(s.document.anchors) == 4
     s.window.session.undo()
@@ -101,7 +84,7 @@ def test_clicks_put_anchors_and_every_panel_interpolates_by_its_distance(opened)
 
 def test_values_are_typed_slid_and_left_out_and_undone(opened):
     s = opened
-    for vertex in seen_vertices(s, 3):
+    for vertex in s.seen(3):
         click(s, 0, vertex)
     rows = list(dock_of(s).rows.values())
     rows[1].box.setFocus()
@@ -133,7 +116,7 @@ def test_values_are_typed_slid_and_left_out_and_undone(opened):
 
 def test_letters_for_a_value_are_refused(opened):
     s = opened
-    click(s, 0, seen_vertices(s, 1)[0])
+    click(s, 0, s.seen(1)[0])
     (row,) = dock_of(s).rows.values()
     row.box.setFocus()
     row.box.selectAll()
@@ -145,7 +128,7 @@ def test_letters_for_a_value_are_refused(opened):
 
 def test_an_anchor_is_dragged_over_the_surface(opened):
     s = opened
-    start, stop, other = seen_vertices(s, 3)
+    start, stop, other = s.seen(3)
     click(s, 0, start)
     click(s, 0, other)
     view = s.panels[0].view
@@ -173,7 +156,7 @@ def move(view, place):
 
 def test_weights_and_extrema_are_those_of_the_library(opened):
     s = opened
-    for vertex in seen_vertices(s, 4):
+    for vertex in s.seen(4):
         click(s, 0, vertex)
     dock = dock_of(s)
     for box, text in ((dock.exponent, "2.5"), (dock.smoothness, "0.1")):
@@ -230,7 +213,7 @@ def test_extrema_are_marked_on_interpolants_only(opened):
 
 def test_anchors_are_saved_and_read_and_kept_in_sessions(opened, tmp_path):
     s = opened
-    for vertex in seen_vertices(s, 3):
+    for vertex in s.seen(3):
         click(s, 0, vertex)
     rows = list(dock_of(s).rows.values())
     rows[0].name.setFocus()
@@ -256,7 +239,7 @@ def test_anchors_are_saved_and_read_and_kept_in_sessions(opened, tmp_path):
 
 def test_panels_go_back_to_distances(opened):
     s = opened
-    click(s, 0, seen_vertices(s, 1)[0])
+    click(s, 0, s.seen(1)[0])
     dock_of(s).end_tool()
     complete(s)
     assert [panel.shows.spec for panel in s.document.panels] == [BIHARMONIC, GEODESIC]
@@ -266,7 +249,7 @@ def test_panels_go_back_to_distances(opened):
 
 def test_up_and_down_go_through_the_list_and_delete_removes(opened):
     s = opened
-    for vertex in seen_vertices(s, 3):
+    for vertex in s.seen(3):
         click(s, 0, vertex)
     rows, keys = list(dock_of(s).rows.values()), QtCore.Qt.Key
     rows[1].slider.setFocus()
@@ -285,7 +268,7 @@ def test_up_and_down_go_through_the_list_and_delete_removes(opened):
 
 def test_samples_are_farthest_from_the_anchors_and_change_no_value_there(opened):
     s = opened
-    first, second = seen_vertices(s, 2)
+    first, second = s.seen(2)
     click(s, 0, first)
     click(s, 0, second)
     dock = dock_of(s)
@@ -301,7 +284,7 @@ def test_samples_are_farthest_from_the_anchors_and_change_no_value_there(opened)
 
 def test_a_value_is_followed_without_a_solve_even_while_it_moves(opened):
     s = opened
-    for vertex in seen_vertices(s, 3):
+    for vertex in s.seen(3):
         click(s, 0, vertex)
     columns = s.session.opened().columns
     row = list(dock_of(s).rows.values())[2]

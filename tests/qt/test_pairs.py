@@ -51,33 +51,8 @@ def dock_of(s):
     return s.window.docks._instrument("pairs")
 
 
-def seen(s, panel, count=6):
-    """Vertices that a panel shows, far apart, none of them under a drop."""
-    view = s.panels[panel].view
-    found = {}
-    for x in range(3, 18):
-        for y in range(3, 18):
-            met = view.met_at(QtCore.QPoint(view.width() * x // 20, view.height() * y // 20))
-            if met is not None:
-                at = point_of(s, panel, met.vertex)
-                if view.over.drop_at(at) is None and view.met_at(at).vertex == met.vertex:
-                    found[met.vertex] = met.position
-    ids = list(found)
-    chosen = [ids[0]]
-    while len(chosen) < count:
-        away = [min(np.linalg.norm(found[a] - found[b]) for b in chosen) for a in ids]
-        chosen.append(ids[int(np.argmax(away))])
-    return chosen
-
-
-def point_of(s, panel, vertex):
-    view = s.panels[panel].view
-    place = view.place_of(s.panels[panel].positions[vertex])
-    return QtCore.QPoint(round(place.x() - 0.5), round(place.y() - 0.5))
-
-
 def click(s, panel, vertex):
-    QtTest.QTest.mouseClick(s.panels[panel].view, LEFT, pos=point_of(s, panel, vertex))
+    QtTest.QTest.mouseClick(s.panels[panel].view, LEFT, pos=s.point_of(s.panels[panel], vertex))
     complete(s)
 
 
@@ -95,7 +70,7 @@ def places(s):
 
 def paired(s, count=3):
     """So many pairs, alike on both."""
-    pairs = list(zip(seen(s, 0, count), seen(s, 1, count), strict=True))
+    pairs = list(zip(s.seen(count, 0), s.seen(count, 1), strict=True))
     for first, second in pairs:
         click(s, 0, first)
         click(s, 1, second)
@@ -139,7 +114,7 @@ def test_the_tool_shows_the_first_mesh_plain_and_the_second_for_each_distance(tw
 def test_a_click_predicts_by_every_distance_and_enter_accepts(two):
     s = two
     paired(s)
-    vertex = seen(s, 0)[-1]
+    vertex = s.seen(6, 0)[-1]
     click(s, 0, vertex)
     assert half_pair(s.document) is not None
     for panel, kind in ((1, BiharmonicDistance), (2, GeodesicDistance)):
@@ -165,7 +140,7 @@ def test_a_click_predicts_by_every_distance_and_enter_accepts(two):
 def test_the_active_panel_says_which_candidate_is_accepted_and_its_drop_can_be_clicked(two):
     s = two
     paired(s)
-    click(s, 0, seen(s, 0)[-1])
+    click(s, 0, s.seen(6, 0)[-1])
     best = [int(np.argmin(s.answers[k].field)) for k in (1, 2)]
     s.window.grid.activate(s.panels[2].id)
     assert s.window.gestures.pairs.candidate()[1].vertex == best[1]
@@ -179,7 +154,7 @@ def test_the_active_panel_says_which_candidate_is_accepted_and_its_drop_can_be_c
 def test_a_point_of_the_second_mesh_is_predicted_on_the_first_and_escape_gives_it_up(two):
     s = two
     pairs = paired(s)
-    vertex = seen(s, 1)[-1]
+    vertex = s.seen(6, 1)[-1]
     click(s, 1, vertex)
     assert s.answers[0].field == pytest.approx(misfit(s, BiharmonicDistance, vertex, turned=True), abs=1e-9)
     assert [answer.field for answer in s.answers[1:]] == [None, None]
@@ -195,21 +170,21 @@ def test_a_point_of_the_second_mesh_is_predicted_on_the_first_and_escape_gives_i
 def test_a_drag_of_a_drop_is_one_step_and_of_the_waiting_point_costs_no_solve(two):
     s = two
     paired(s)
-    start, stop = seen(s, 0)[-2:]
+    start, stop = s.seen(6, 0)[-2:]
     click(s, 0, start)
 
     def solved():
         return [s.session.opened(name).columns_of_pairs.solved for name in "AB"]
 
     before, view = solved(), s.panels[0].view
-    drag(s, view, point_of(s, 0, start), point_of(s, 0, stop))
+    drag(s, view, s.point_of(s.panels[0], start), s.point_of(s.panels[0], stop))
     assert (places(s)[-1], solved()) == ((stop,), before)
     assert s.answers[1].field == pytest.approx(misfit(s, BiharmonicDistance, stop), abs=1e-9)
     s.window.session.undo()
     complete(s)
     assert places(s)[-1] == (start,)
     first = places(s)[0][1]
-    drag(s, s.panels[1].view, point_of(s, 1, first), point_of(s, 1, seen(s, 1)[-1]))
+    drag(s, s.panels[1].view, s.point_of(s.panels[1], first), s.point_of(s.panels[1], s.seen(6, 1)[-1]))
     assert places(s)[0][1] != first
     assert s.answers[1].field == pytest.approx(misfit(s, BiharmonicDistance, start), abs=1e-9)
 
@@ -270,7 +245,7 @@ def test_pairs_are_read_and_saved_and_what_is_wrong_is_said(two, tmp_path, monke
 def test_a_session_keeps_them_and_a_figure_draws_them(two, tmp_path):
     s = two
     paired(s)
-    click(s, 0, seen(s, 0)[-1])
+    click(s, 0, s.seen(6, 0)[-1])
     s.window.session_file.save(str(tmp_path / "session.json"))
     recipe = read_recipe(str(tmp_path / "session.json"))
     assert recipe.document.pairs == s.document.pairs
