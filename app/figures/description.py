@@ -24,7 +24,7 @@ class Mark:
     is_largest: where a signed field is largest, in a colour of its own.  is_passed: an isoline passes through it, and
     has a dot there.  corners, weights: a place in a face, of which the vertex is a corner.  name: in sentences,
     its vertex if empty.  number, colour: of a pin, which is a drop with that number in a colour such as "#1F7A3D".
-    is_candidate: it is where a pin would be, and dashed.
+    is_candidate: it is where a pin would be, and dashed.  is_truth: where such a point belongs, which is a cross.
     extremum: "maximum" or "minimum", which is a triangle; "" for what is none.
     """
 
@@ -40,6 +40,7 @@ class Mark:
     colour: str = ""
     extremum: str = ""
     is_candidate: bool = False
+    is_truth: bool = False
 
     def on(self, vertices: np.ndarray) -> np.ndarray:
         """(3,) where it is on a surface with these vertices (n, 3)."""

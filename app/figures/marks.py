@@ -10,6 +10,7 @@ import numpy as np
 from ..drawing.corners import Rectangle, inside, joins
 from ..drawing.marks import DOT
 from .boxes import Box, Words
+from .crosses import cross_of
 from .description import Mark
 from .drops import drop_of
 from .shots import Shot
@@ -61,6 +62,9 @@ def draw_marks(
             for patch in triangle_of(page, panel.marks[k], x, y, True, order):
                 axes.add_artist(patch)
             continue
+        if panel.marks[k].is_truth:
+            cross_of(axes, page, x, y, True, order)
+            continue
         _draw_ghost(axes, x, y, across, style, order)
     for k, x, y in shot.marks:
         if any(box.holds(x, y, across / 2) for box in insets):
@@ -80,6 +84,11 @@ def draw_marks(
                 axes.add_artist(patch)
                 if shot.source is not None:
                     patch.set_clip_path(frame)
+            continue
+        if mark.is_truth:
+            for line in cross_of(axes, page, x, y, False, order):
+                if shot.source is not None:
+                    line.set_clip_path(frame)
             continue
         colour = style.largest if mark.is_largest else style.source
         if mark.value is not None:

@@ -1,11 +1,15 @@
 """Pairs of corresponding points in a figure: drops on both surfaces, and where the next would be, dashed."""
 
+from weakref import WeakKeyDictionary
+
 from bihdist_core.distances.answers import Answer
 
 from ..document.document import Document, Panel
+from ..document.map_colours import Truth
 from ..document.pairing import pair_words, waiting_point
 from ..document.predicting import predicts_in
 from ..drawing.style import PINS, WAITING
+from ..session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
 from ..session.opened import Opened
 from ..session.paired import candidate_in, paired_on
 from .description import Mark
@@ -19,9 +23,29 @@ def pair_marks(document: Document, panel: Panel, opened: Opened, answer: Answer)
         marks.append(Mark(each.vertex, number=each.number, colour=colour, name=f"Point {each.number}"))
     found = candidate_in(document, panel, answer)
     if found is not None:
-        words, name = f"{found.vertex}, {100 * found.share:.1f} %", f"The candidate for point {found.number}"
+        judged = _judged(document, panel, opened, answer, found.vertex)
+        name = f"The place where point {found.number} belongs"
+        marks += [Mark(vertex, name=name, is_truth=True) for vertex in judged.places]
+        off = judged.errors.get(panel.id)
+        said = f"{100 * found.share:.1f} %" if off is None else f"{100 * off:.1f} % off"
+        words, name = f"{found.vertex}, {said}", f"The candidate for point {found.number}"
         marks.append(Mark(found.vertex, text=words, number=found.number, colour=WAITING, name=name, is_candidate=True))
     return marks
+
+
+def _judged(document: Document, panel: Panel, opened: Opened, answer: Answer, vertex: int) -> CandidatesJudged:
+    """Where the point belongs, and how far the candidate is from there, as far as that is known; found once."""
+    known = _found.setdefault(answer, {})
+    if document.truth not in known:
+        known[document.truth] = CandidatesJudged((), {})
+        one, two = (opened.standing_beside(mesh) for mesh in document.surfaces[:2])
+        asked = None if one is None or two is None else candidates_asked(document, one, two, {panel.id: vertex})
+        for judged in () if asked is None else CandidatesJudging().judge(asked):
+            known[document.truth] = judged
+    return known[document.truth]
+
+
+_found: WeakKeyDictionary[Answer, dict[Truth, CandidatesJudged]] = WeakKeyDictionary()
 
 
 def plain_heading(document: Document, panel: Panel, opened: Opened, answer: Answer) -> tuple[str, str] | None:

@@ -11,9 +11,10 @@ from app.document.document import MeshFile, comparison
 from app.document.map_colours import MapFile, Truth
 from app.document.mapping import show_maps
 from app.document.page import Recipe
-from app.document.pairing import add_pairs
+from app.document.pairing import add_pairs, place_point
 from app.document.predicting import predict
-from app.figures.export import open_document
+from app.figures.draw import save_figure
+from app.figures.export import compute, figure_of, open_document
 from app.session.given import Given
 from app.session.judging import Judging, asked_of, maps_of, partners_of, right_places, truth_of
 from bihdist_core import (
@@ -190,3 +191,22 @@ def test_maps_are_those_of_predictions_and_full_maps(opened):
     assert maps_of(document) == maps_of(show_maps(document)) == (BIHARMONIC, GEODESIC)
     with pytest.raises(ParameterError, match="-1"):
         Truth(samples=-1)
+
+
+def test_a_figure_has_a_cross_where_the_point_belongs_and_says_how_far_off_the_candidate_is(opened, tmp_path):
+    document, one, two = opened
+    document = place_point(document, "A", 170)
+    surfaces = {"A": one, "B": two}
+    answers = compute(document, surfaces)
+    figure = figure_of(Recipe(document), surfaces, answers)
+    assert not [mark for mark in figure.panels[0].marks if mark.is_truth]
+    for panel, answer in zip(figure.panels[1:], answers[1:], strict=True):
+        assert [mark.vertex for mark in panel.marks if mark.is_truth] == [170]
+        best = int(answer.field.argmin())
+        error = GeodesicDistance(two.surface, "exact").between(170, best) / np.sqrt(two.surface.face_areas.sum())
+        assert f"{best}, {100 * error:.1f} % off" in [mark.text for mark in panel.marks if mark.is_candidate]
+    unknown = figure_of(Recipe(replace(document, truth=Truth("none"))), surfaces, answers)
+    assert not [mark for panel in unknown.panels for mark in panel.marks if mark.is_truth]
+    for drawn, name in ((figure, "with.png"), (unknown, "without.png")):
+        save_figure(drawn, str(tmp_path / name))
+    assert (tmp_path / "with.png").read_bytes() != (tmp_path / "without.png").read_bytes()
