@@ -1,6 +1,7 @@
 """Options that several commands have: the distance with its parameters, the vertex areas, vertex ids."""
 
 import argparse
+import math
 from collections.abc import Sequence
 
 from bihdist_core.distances.kinds import OURS, Spec, Value, kinds
@@ -197,21 +198,23 @@ def count(text: str) -> int:
     return value
 
 
-def positive(text: str) -> float:
+def _number(text: str) -> float:
+    """NaN for what is none."""
     try:
-        value = float(text)
+        return float(text)
     except ValueError:
-        value = float("nan")
-    if not 0 < value < float("inf"):
+        return math.nan
+
+
+def positive(text: str) -> float:
+    value = _number(text)
+    if not 0 < value < math.inf:
         raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
     return value
 
 
 def share(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
+    value = _number(text)
     if not 0 <= value <= 1:
         raise argparse.ArgumentTypeError(f"{text!r} is not a share from 0 to 1")
     return value
