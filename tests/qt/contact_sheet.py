@@ -17,6 +17,7 @@ from pathlib import Path
 
 from .driver import Driver, Look
 from .instrument_scenes import instruments
+from .map_scenes import full_maps
 from .pair_scenes import correspondence
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -86,7 +87,7 @@ def drive(look: Look, options: argparse.Namespace) -> None:
     driver, meshes = Driver(look, options.out, options.closed, options.bounded), options.meshes
     for scene in (
         _beginning, _pointing, _heads, _bars_and_menus, _looks, _panels, _waiting, _dialogs, _help, _talk, instruments,
-        correspondence,
+        correspondence, full_maps,
     ):  # fmt: skip
         if options.scenes in scene.__name__:
             scene(driver)

@@ -280,8 +280,37 @@ class InstrumentHands(Hands):
             words += ["mousemove", at.x() + (to_x - at.x()) * k // 5, at.y() + (to_y - at.y()) * k // 5, "sleep", 0.01]
         self.tool(*words, "mouseup", 1)
 
+    def in_maps(self) -> None:
+        """The section of errors: what is right, full maps, the map of a file, the chart."""
+        docks, document = self.window.docks, self.window.session.document
+        dock = docks._docks["pairs"].content if "pairs" in docks._docks else None
+        if dock is None or not dock.isVisible() or not dock.errors.isVisible():
+            return
+        section, truth = dock.errors, dock.errors.truth
+        way = self.chance.choice(["map", "truth", "samples", "file", "partners", "mirror", "chart"])
+        self.done[-1] += f" {way}"
+        if way == "map" and section.full.isEnabled():
+            section.full.click()
+        elif way == "truth":
+            truth._choose(word=self.chance.choice(["auto", "none"]), file=None)
+        elif way == "samples":
+            truth._choose(samples=self.chance.choice([5, 40]))
+        elif way in ("file", "partners"):
+            # Of the wrong length now and then.
+            count = len(section.asked.one.surface.vertices) if section.asked is not None else 3
+            path = self.folder / f"map{self.chance.randrange(3)}.txt"
+            path.write_text("".join(f"{self.chance.randint(-1, 700)}\n" for _ in range(count)))
+            take = truth.take_partners if way == "partners" else self.chance.choice([truth.take, truth.take_map])
+            take(str(path))
+        elif way == "mirror" and document.truth.partners is not None:
+            section.mirror.click()
+        elif way == "chart" and section.chart.isVisible():
+            at = section.chart.mapToGlobal(section.chart.rect().center())
+            self.tool("mousemove", at.x(), at.y())
+
     INSTRUMENTS = (
         (pin, 8), (add_source, 5), (brush, 4), (live, 2), (draw_source, 3), (type_source, 3), (toggle_dock, 5),
         (in_dock, 14), (dock_menu, 6), (move_dock, 4), (profile, 4), (regions, 3), (farthest, 2),
         (interpolate, 4), (in_anchors, 5), (change_mesh, 5), (correspond, 5), (in_pairs, 8),
+        (in_maps, 7),
     )  # fmt: skip

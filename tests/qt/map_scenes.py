@@ -1,0 +1,66 @@
+"""What there is to see of errors and full maps, for the contact sheet: two poses, and two meshes without a truth."""
+
+from .driver import Driver
+from .instrument_scenes import _close_all, _dock, _on
+from .pair_scenes import PAIRED
+
+
+def full_maps(d: Driver) -> None:
+    """The curves, the truth's menu, a map in colours by mouse, and meshes of which nobody knows what is right."""
+    from app.document.beside_edits import close_beside
+    from app.document.pairing import add_pairs
+    from app.samples import mesh_path
+
+    d.open(mesh_path("beast"))
+    session = d.window.session
+    _beside(d, "beast_pose2")
+    dock = _dock(d, "pairs", "m")
+    d.complete()
+    section = dock.errors
+    d.shot("errors without pairs")
+    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in PAIRED]))
+    d.complete()
+    d.until(lambda: section.judgement is not None)
+    d.shot("errors so far")
+    d.until(lambda: section.is_whole)
+    scroll = _scrolled(section)
+    if scroll is not None:
+        scroll.ensureWidgetVisible(section.full)
+    d.shot("errors of predictions")
+    d.pointer("mousemove", *_on(d, section.chart, 0.4, 0.4))
+    d.shot("errors at the pointer")
+    d.shot_while(section.truth.button.click, "menu of the truth")
+    d.pointer("mousemove", *_on(d, section.full, 0.5, 0.5), "click", 1)
+    d.complete()
+    d.shot("a full map")
+    d.point_at_surface(1)
+    d.shot("where a vertex is mapped")
+    d.shot_while(section.save.click, "menu of full maps")
+    d.pointer("mousemove", *_on(d, section.full, 0.5, 0.5), "click", 1)
+    d.complete()
+    _beside(d, "figure")
+    d.complete()
+    d.shot("errors without a truth")
+    _close_all(d)
+    session.show(close_beside(session.document))
+    d.complete()
+
+
+def _beside(d: Driver, name: str) -> None:
+    """Open a sample as the second mesh."""
+    from app.samples import mesh_path
+
+    session, path = d.window.session, mesh_path(name)
+    session.open_beside(path)
+    d.until(lambda: not session.is_opening and session.document.surfaces[-1].path == path)
+    d.complete()
+
+
+def _scrolled(widget: object) -> object:
+    """What scrolls a widget, if anything does."""
+    from qtpy import QtWidgets
+
+    above = widget
+    while above is not None and not isinstance(above, QtWidgets.QScrollArea):
+        above = above.parentWidget()
+    return above
