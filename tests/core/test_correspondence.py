@@ -1,5 +1,7 @@
 """The prediction function of section 5.2."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -124,3 +126,36 @@ def test_another_pair_costs_one_column_on_each_surface():
     more.changed([[140, 11], [3, 5]], [2.0, 1.0])
     assert asked == [[3, 77], [5, 90], [140], [11]]
     assert more.misfit(20) == pytest.approx(prediction(m, n, [[3, 5], [77, 90], [140, 11]], 20))
+
+
+def test_the_memory_of_a_full_map_is_that_of_the_vectors_and_a_block(monkeypatch):
+    import scipy.spatial
+
+    import bihdist_core.applications.correspondence as correspondence
+
+    n, k = 3000, 6
+    m = BiharmonicDistance(bumpy(n))
+    found = Correspondence(m, m, [[v, v] for v in range(0, n, n // k)][:k])
+    asked = []
+
+    class Counting(scipy.spatial.cKDTree):
+        def query(self, points, *arguments, **options):
+            asked.append(len(points))
+            return super().query(points, *arguments, **options)
+
+    monkeypatch.setattr(scipy.spatial, "cKDTree", Counting)
+    peaks = {}
+    for block in (50, 1500):
+        monkeypatch.setattr(correspondence, "BLOCK", block)
+        asked.clear()
+        tracemalloc.start()
+        chosen = found.map()
+        peaks[block] = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert asked == [block] * (n // block)
+        assert len(chosen) == n
+    # The vectors of the surface once more, without those that cannot be compared, and ids; then what each block needs.
+    kept = 8 * n * (k + 6)
+    for block, peak in peaks.items():
+        assert peak < kept + 8 * block * (2 * k + 8)
+    assert peaks[1500] < 8 * n * n / 20
