@@ -20,6 +20,13 @@ def add_maps(parser: argparse.ArgumentParser) -> None:
         help="instead of distances where each vertex of A is on B, in colours: a .npy or .txt file with one of B for "
         f"each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; repeat",
     )
+    parser.add_argument(
+        "--predict",
+        metavar="V",
+        type=int,
+        help="instead of distances how badly each vertex of B fits vertex V of A, by each --distance from --pairs, and "
+        "which fits best",
+    )
     parser.add_argument("--pairs", metavar="FILE", help="known pairs, a line `i,j` for each: vertex i of A is j of B")
 
 
@@ -33,17 +40,25 @@ def with_maps(document: "Document", options: argparse.Namespace) -> "Document":
     from ..document.file import checksum
     from ..document.map_colours import SAME_IDS, MapFile
     from ..document.mapping import show_maps
-    from ..document.pairing import pair_instead
+    from ..document.pairing import drop_half, pair_instead, place_point
+    from ..document.predicting import predict
     from .mesh import check_mesh
 
     if options.beside is not None:
         check_mesh(options.beside)
         document = open_beside(document, MeshFile("", options.beside))
-    named = [*(["--pairs"] if options.pairs else []), *(["--map"] if options.map else [])]
+    has = {"--pairs": options.pairs, "--map": options.map, "--predict": options.predict}
+    named = [name for name, value in has.items() if value is not None]
     if named and len(document.surfaces) < 2:
         raise ParameterError(f"{named[0]} goes from one mesh to another; name a second one after the first.")
     if options.pairs is not None:
         document = pair_instead(document, [(int(i), int(j)) for i, j in read_pairs(options.pairs)])
+    if options.predict is not None:
+        if options.map is not None:
+            raise ParameterError("--predict and --map are figures of their own; leave one of them out.")
+        if not document.pairs:
+            raise ParameterError("--predict goes by pairs; name their file with --pairs.")
+        return place_point(drop_half(predict(document)), document.surfaces[0].name, options.predict)
     if options.map is None:
         return document
     if PAIRS in options.map and not document.pairs:

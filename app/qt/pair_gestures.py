@@ -70,14 +70,17 @@ class PairGestures:
                 return pair
         return None
 
-    def candidate(self) -> tuple[int, Candidate] | None:
-        """That of the active panel, or else of the first that has one, with the panel's id."""
+    def candidate(self, may_be_late: bool = False) -> tuple[int, Candidate] | None:
+        """That of the active panel, or else of the first that has one, with the panel's id.
+
+        may_be_late: of where the point was, while it is dragged.
+        """
         session, active = self._window.session, self._grid.active
         panels = sorted(self._document.panels, key=lambda panel: panel.id != active)
         for panel in panels:
             shown = session.shown.get(panel.id)
             found = candidate_in(self._document, panel, None if shown is None else shown.answer)
-            if found is not None and session.is_answered(panel.id):
+            if found is not None and (may_be_late or session.is_answered(panel.id)):
                 return panel.id, found
         return None
 

@@ -122,7 +122,7 @@ class PairsDock(Instrument):
 
     def _show_rows(self, document: Document) -> None:
         half = half_pair(document)
-        found = self.window_.gestures.pairs.candidate() if half is not None else None
+        found = self.window_.gestures.pairs.candidate(may_be_late=True) if half is not None else None
         wanted = {pair.points[0]: pair for pair in document.pairs}
         for point in [point for point in self.rows if point not in wanted]:
             gone = self.rows.pop(point)
