@@ -83,6 +83,7 @@ class AnchorRow(QtWidgets.QWidget):
         self.eye.update()
         if not self.box.hasFocus() or not self.box.isModified():
             self.box.setText(tick(value))
+            self.box.setCursorPosition(0)  # of a long one the first digits are seen
             mark_wrong(self.box, False)
         if not self.slider.isSliderDown():
             share = (value - self._low) / (self._high - self._low) if self._high > self._low else 0.5

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-from qtpy import QtWidgets
+from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
@@ -75,7 +75,7 @@ class AnchorsDock(Instrument):
         more.setContentsMargins(0, 0, 0, 0)
         more.setSpacing(8)
         form = QtWidgets.QFormLayout()
-        form.setHorizontalSpacing(16)
+        form.setHorizontalSpacing(10)
         form.addRow("Exponent p", self.exponent)
         form.addRow("Smoothness", self.smoothness)
         form.addRow("Show", self.shows)
@@ -90,11 +90,8 @@ class AnchorsDock(Instrument):
             besides.addWidget(widget)
         for widget in (self._besides, _line()):
             more.addWidget(widget)
-        buttons = QtWidgets.QHBoxLayout()
-        buttons.setSpacing(8)
-        buttons.addWidget(self.save_field)
-        buttons.addWidget(self.samples, 1)
-        more.addLayout(buttons)
+        more.addWidget(self.samples)
+        more.addWidget(self.save_field, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
         below.addWidget(self._more)
         inside = QtWidgets.QWidget()
         whole = QtWidgets.QVBoxLayout(inside)

@@ -87,11 +87,16 @@ NOTE_LEFT, NOTE_TOP, NOTE_GAP = 14.0, 15.0, 10.0
 
 MOST_NOTE = 0.85
 """Of a view's width; in one that is lower than LOW logical pixels the shape needs the room, and the short form does."""
-LOW = 240
+LOW, TINY = 240, 170
 
 
 def paint_note(painter: QtGui.QPainter, view: QtCore.QRectF, notes: Sequence[str]) -> None:
-    """In the left upper corner of a view: how many of them there are, in the first words for which there is room."""
+    """In the left upper corner of a view: how many of them there are, in the first words for which there is room.
+
+    In a tiny view they would lie on the surface; the dock says them, too.
+    """
+    if view.height() < TINY * LOOK.scale:
+        return
     at = QtCore.QPointF(NOTE_LEFT, NOTE_TOP * LOOK.scale)
     painter.setFont(LOOK.font(12.5))
     metrics = QtGui.QFontMetricsF(painter.font())

@@ -80,7 +80,7 @@ class GridMarks:
                 marks.hold_anchors(None)
                 continue
             here = [a for a in document.anchors if document.point(a.point).surface == panel.surface]
-            texts = ["" if a.value is None or a.left_out else tick(a.value) for a in here]
+            texts = ["" if a.value is None or a.left_out else tick(float(f"{a.value:.4g}")) for a in here]
             marks.hold_anchors([a.point for a in here], texts, self.chosen_anchor)
 
     def choose_anchor(self, point: str) -> None:
