@@ -95,7 +95,6 @@ class Gestures:
         self.is_dragging = False
         self.sources.rest()
         self.anchors.rest()
-        self.pairs.rest()
         self._window.session.show(self._window.session.document)
 
     def set_live(self, is_live: bool) -> None:

@@ -31,6 +31,7 @@ class PairGestures:
         self._window, self._grid = window, window.grid
         self._grid.pair_clicked.connect(self._click)
         self._grid.pair_dragged.connect(self._drag)
+        self._grid.pin_released.connect(self._arrive)
         self._is_dragging = False
 
     @property
@@ -156,10 +157,13 @@ class PairGestures:
         if not names or document.point(names[0]).at == met.vertex or self._pair_at(surface, met.vertex) is not None:
             return
         if not self._is_dragging:
-            self._is_dragging = True
+            self._is_dragging = self._window.gestures.is_dragging = True
             self._window.gestures.sources.rate.begin()
         session.show(move_pair_point(document, names[0], met.vertex), key=f"drag of {names[0]}", live=True)
 
-    def rest(self) -> None:
-        """It has arrived."""
-        self._is_dragging = False
+    def _arrive(self) -> None:
+        """Now all is answered, and the next drag is a step of its own."""
+        if self._is_dragging:
+            self._is_dragging = self._window.gestures.is_dragging = False
+            self._window.gestures.sources.rest()
+            self._window.session.show(self._document)

@@ -47,7 +47,8 @@ class KnownColumns:
     def put(self, areas: str, spec: Spec, columns: dict[int, np.ndarray], wanted: set[int]) -> None:
         """Keep these, as far as they are wanted or among the latest."""
         with self._lock:
-            known = self._columns.setdefault((areas, spec), {})
+            known = self._columns.pop((areas, spec), {})
+            self._columns[areas, spec] = known  # the latest
             self.solved += len(columns.keys() - known.keys())
             for vertex in (*(columns.keys() - wanted), *wanted):
                 if vertex in columns:
@@ -57,9 +58,14 @@ class KnownColumns:
                 del known[vertex]
 
     def keep(self, areas: str, wanted: "set[Spec]") -> None:
-        """Forget what is known with other areas and by other distances."""
+        """Forget what is known with other areas and by other distances, but for the last of each word.
+
+        That may be the method that both surfaces have, or a stand-in; a slider leaves one at every step.
+        """
         with self._lock:
-            self._columns = {key: c for key, c in self._columns.items() if key[0] == areas and key[1] in wanted}
+            last = {spec.word: spec for _, spec in self._columns if spec not in wanted}
+            spared = {*wanted, *last.values()}
+            self._columns = {key: c for key, c in self._columns.items() if key[0] == areas and key[1] in spared}
 
 
 def predicted(question: PredictionQuestion, opened: "Opened", progress: Progress | None) -> Answer:

@@ -249,9 +249,17 @@ def test_columns_of_what_is_dragged_are_forgotten():
     kept = known.of("voronoi", BIHARMONIC)
     assert len(kept) == SPARE + 2
     assert {1000, SPARE + 39} <= kept.keys()
-    known.keep("voronoi", {EDGES})
-    assert known.of("voronoi", BIHARMONIC) == {}
     assert known.solved == SPARE + 41
+    known.keep("barycentric", {BIHARMONIC})
+    assert known.of("voronoi", BIHARMONIC) == {}
+
+
+def test_of_a_slider_the_last_distance_is_kept_besides_those_that_are_shown():
+    known, steps = KnownColumns(), [Spec.of("diffusion", t=0.1 * k) for k in (1, 2, 3, 4)]
+    for spec in steps:
+        known.put("voronoi", spec, {1: np.zeros(3)}, {1})
+    known.keep("voronoi", {steps[0]})
+    assert [len(known.of("voronoi", spec)) for spec in steps] == [1, 0, 0, 1]
 
 
 def test_half_pairs_have_no_part_in_predictions(meshes):
