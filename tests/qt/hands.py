@@ -19,6 +19,7 @@ SYMS = {
     "]": "bracketright",
     ",": "comma",
     "Esc": "Escape",
+    "Enter": "KP_Enter",
 }
 STUCK = 2.0
 """Seconds after which whatever has a loop of its own is told Escape."""
