@@ -67,15 +67,20 @@ def truth_of(truth: Truth, one: Surface, two: Surface) -> np.ndarray | None:
     ParameterError for a map that is none between these surfaces.
     """
     if truth.file is not None:
-        return map_in(truth.file, one, two)
-    if truth.word == "identity":
-        return map_in(MapFile(SAME_IDS), one, two)
-    return np.arange(len(one.vertices)) if truth.word == "auto" and is_same_ids(one, two) else None
+        return _on_faces(map_in(truth.file, one, two), two)
+    if truth.word == "identity" or (truth.word == "auto" and is_same_ids(one, two)):
+        return _on_faces(map_in(MapFile(SAME_IDS), one, two), two)
+    return None
+
+
+def _on_faces(right: np.ndarray, two: Surface) -> np.ndarray:
+    """From vertices of no face no distance is defined: what belongs there belongs nowhere."""
+    return np.where((right != NOWHERE) & (two.component_of_vertex[right] >= 0), right, NOWHERE)
 
 
 def partners_of(truth: Truth, two: Surface) -> np.ndarray | None:
     """(n,) the symmetric partner of each vertex of the second surface, if that counts; the same error."""
-    return map_in(truth.partners, two, two) if truth.mirror and truth.partners is not None else None
+    return _on_faces(map_in(truth.partners, two, two), two) if truth.mirror and truth.partners is not None else None
 
 
 def right_places(truth: Truth, one: Surface, two: Surface, vertex: int, is_on_first: bool) -> list[int]:
@@ -169,7 +174,7 @@ class Judgement:
 
     @property
     def is_whole(self) -> bool:
-        return self.known == self.wanted
+        return self.known == self.wanted or not self.curves
 
 
 class Judging:
@@ -190,7 +195,8 @@ class Judging:
             return
         partners = partners_of(asked.truth, two)
         ids = sampled_vertices(len(one.vertices), self._samples(asked))
-        ids = np.random.default_rng(KEY).permutation(ids[right[ids] != NOWHERE])
+        # Vertices of no face are mapped nowhere, and nobody can say where they belong.
+        ids = np.random.default_rng(KEY).permutation(ids[(right[ids] != NOWHERE) & (one.component_of_vertex[ids] >= 0)])
         if not len(ids):
             raise ParameterError("Of no sampled vertex it is known where it belongs.")
         found, failures = self._found(asked, ids, part(progress, 0, 0.2))

@@ -23,6 +23,7 @@ from bihdist_core import (
     Correspondence,
     GeodesicDistance,
     ParameterError,
+    Surface,
     noisy,
     write_map,
     write_mesh,
@@ -210,3 +211,21 @@ def test_a_figure_has_a_cross_where_the_point_belongs_and_says_how_far_off_the_c
     for drawn, name in ((figure, "with.png"), (unknown, "without.png")):
         save_figure(drawn, str(tmp_path / name))
     assert (tmp_path / "with.png").read_bytes() != (tmp_path / "without.png").read_bytes()
+
+
+def test_vertices_of_no_face_are_left_out(tmp_path):
+    s = bumpy(120)
+    loose = Surface(np.concatenate([s.vertices[:60], [[9, 9, 9]], s.vertices[60:]]), s.faces + (s.faces >= 60))
+    write_mesh(tmp_path / "a.off", loose)
+    write_mesh(tmp_path / "b.off", s)
+    write_map(tmp_path / "t.txt", np.concatenate([np.arange(60), [3], np.arange(60, 120)]))
+    shown = open_beside(comparison(str(tmp_path / "a.off"), (BIHARMONIC,)), MeshFile("", str(tmp_path / "b.off")))
+    shown = replace(shown, truth=Truth("file", MapFile(str(tmp_path / "t.txt"))))
+    document, surfaces = open_document(Recipe(predict(add_pairs(shown, [(3, 3), (101, 100)]))), Given())
+    found = last(Judging(), document, surfaces["A"], surfaces["B"])
+    assert (found.wanted, found.failures) == (120, {})
+    assert len(found.curves[BIHARMONIC].errors) == 120
+    back = replace(Truth("file", MapFile(str(tmp_path / "back.txt"))), samples=0)
+    write_map(tmp_path / "back.txt", np.concatenate([np.arange(60), [60], np.arange(62, 121)]))
+    there = truth_of(back, surfaces["B"].surface, surfaces["A"].surface)
+    assert np.flatnonzero(there < 0).tolist() == [60]

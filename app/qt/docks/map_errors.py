@@ -42,7 +42,7 @@ class MapErrors(QtWidgets.QWidget):
         self.judgement: Judgement | None = None
         self.asked: Asked | None = None
         self._answered: tuple = ()  # what the judgement is about
-        self._dots: dict[int, str] = {}
+        self._dotted: list[Any] = []  # panels that have a dot of these
         self.truth = MapTruth(self)
         self.chart, self.table = ErrorChart(), ErrorTable()
         self.said = QtWidgets.QLabel(wordWrap=True)
@@ -110,7 +110,6 @@ class MapErrors(QtWidgets.QWidget):
 
     def show_again(self) -> None:
         """The panels have forgotten what was drawn on them."""
-        self._dots = {}
         if self.asked is not None:
             self._put_dots(self._colours())
 
@@ -173,8 +172,10 @@ class MapErrors(QtWidgets.QWidget):
 
     def _over(self, judged: Judgement | None) -> str:
         """Over how many vertices, by which distance."""
-        if judged is None or not judged.curves:
+        if judged is None:
             return "Finding errors …"
+        if not judged.curves:
+            return " ".join(dict.fromkeys(judged.failures.values()))
         known = f"{judged.known:,}" if judged.is_whole else f"{judged.known:,} of {judged.wanted:,}"
         sampled = "" if judged.wanted == judged.vertices else " sampled"
         return f"over {known}{sampled} vertices; {judged.method}"
@@ -212,10 +213,11 @@ class MapErrors(QtWidgets.QWidget):
         return found
 
     def _put_dots(self, colours: dict[int, str]) -> None:
-        before, self._dots = self._dots, colours
-        for panel in self.window_.grid.panels:
-            if panel.id in colours or panel.id in before:
+        panels = list(self.window_.grid.panels)
+        for panel in panels:
+            if panel.id in colours or panel in self._dotted:
                 panel.head.show_dot(colours.get(panel.id, ""))
+        self._dotted = [panel for panel in panels if panel.id in colours]
 
     def named_curves(self) -> dict[str, ErrorCurve]:
         """What the chart shows."""
