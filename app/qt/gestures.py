@@ -164,12 +164,15 @@ class Gestures:
         surface = window.session.surface_in(panel)
         window.docks.pointed(vertex, self._grid.panel(panel).surface)
         window.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], self._letter(panel))
-        is_led = self.is_live and not (self.anchors.are_meant(panel) or self.pairs.are_meant(panel))
+        is_led = self.is_live and not self.anchors.are_meant(panel)
         is_elsewhere = last is None or panel != last_in or self._at(panel, met) != self._at(panel, last)
         if is_led and met is not None and is_elsewhere:
             self.is_dragging = self._has_followed = True
             self.sources.rate.begin()
-            self._move(panel, self.sources.at(panel, met), key="live", live=True)
+            if self.pairs.are_meant(panel):
+                self.pairs.follow(panel, met)
+            else:
+                self._move(panel, self.sources.at(panel, met), key="live", live=True)
             self._rest_soon.start()
 
     def _at(self, panel: int, met: "Met | None") -> Source | None:

@@ -1,5 +1,6 @@
 """What is done to pairs on panels that predict: put, accepted, chosen, dragged, removed.  `window`: the main window."""
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from qtpy import QtWidgets
@@ -62,6 +63,14 @@ class PairGestures:
             return
         self._window.session.show(changed)
         self.choose("")
+
+    def follow(self, panel: int, met: "Met") -> None:
+        """The point that waits is where the pointer is, unless it waits for a partner on this surface."""
+        document, surface = self._document, self._document.panel(panel).surface
+        waiting = waiting_point(document)
+        if (waiting is None or waiting.surface == surface) and self._pair_at(surface, met.vertex) is None:
+            with suppress(ParameterError):  # there are too many, which a click says
+                self._window.session.show(place_point(document, surface, met.vertex), key="live", live=True)
 
     def _pair_at(self, surface: str, vertex: int) -> Pair | None:
         document = self._document

@@ -1,10 +1,21 @@
 """What there is to see of correspondence, for the contact sheet: two poses of one shape, by mouse and keys."""
 
+import numpy as np
+
 from .driver import Driver
 from .instrument_scenes import _at, _close_all, _dock, _on, _to_panels
 
-PAIRED = (30, 900, 1500, 2100, 2800, 3300)
-"""Vertices of both poses that are pairs before any is clicked."""
+PAIRED = 8
+"""Vertices of both poses that are pairs before any is clicked, far apart."""
+
+
+def _far_apart(places: np.ndarray) -> list[int]:
+    """So many of places (n, 3)."""
+    chosen = [0]
+    while len(chosen) < PAIRED:
+        away = np.linalg.norm(places[:, None] - places[chosen], axis=2).min(axis=1)
+        chosen.append(int(away.argmax()))
+    return chosen
 
 
 def correspondence(d: Driver) -> None:
@@ -29,7 +40,7 @@ def correspondence(d: Driver) -> None:
         d.shot(f"a pair at {'AB'[panel]}")
     session.undo()
     session.undo()
-    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in PAIRED]))
+    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in _far_apart(session.surface.vertices)]))
     d.complete()
     _at(d, 0, 0.6, 0.5)
     d.pointer("click", 1)

@@ -205,6 +205,46 @@ def drag(s, view, start, stop):
     complete(s)
 
 
+def test_live_the_point_that_waits_follows_the_pointer_until_its_partner_is_clicked(two):
+    s = two
+    pairs = paired(s)
+    s.window.actions_by_word["live"].trigger()
+    start, stop = s.seen(6, 0)[-2:]
+    solved = []
+    for vertex in (start, stop):
+        hover(s, 0, vertex)
+        s.until(lambda vertex=vertex: places(s)[-1] == (vertex,))
+        complete(s)
+        solved.append([s.session.opened(name).columns_of_pairs.solved for name in "AB"])
+    assert solved[0] == solved[1]  # a point that follows costs nothing
+    assert s.answers[1].field == pytest.approx(misfit(s, BiharmonicDistance, stop), abs=1e-9)
+    there = s.seen(6, 1)[-1]
+    hover(s, 1, there)  # that is where the partner is looked for, and nothing moves
+    assert places(s)[-1] == (stop,)
+    click(s, 1, there)
+    assert places(s)[-1] == (stop, there)
+    # All that was followed is one step, and the partner another.
+    s.window.actions_by_word["live"].trigger()
+    for step in ([*pairs, (stop,)], pairs):
+        s.window.session.undo()
+        complete(s)
+        assert places(s) == step
+
+
+def hover(s, panel, vertex):
+    """The pointer over a vertex, no button down."""
+    none = QtCore.Qt.MouseButton.NoButton
+    event = QtGui.QMouseEvent(
+        QtCore.QEvent.Type.MouseMove,
+        QtCore.QPointF(s.point_of(s.panels[panel], vertex)),
+        none,
+        none,
+        QtCore.Qt.KeyboardModifier.NoModifier,
+    )
+    QtWidgets.QApplication.sendEvent(s.panels[panel].view, event)
+    s.settle(0.05)
+
+
 def test_rows_are_chosen_walked_and_removed_by_bin_and_key(two):
     s = two
     pairs = paired(s, 4)

@@ -147,8 +147,8 @@ class PairsDock(Instrument):
         self._head.setVisible(bool(document.pairs))
         self._waiting.setVisible(half is not None and is_on)
         self.accept.setVisible(found is not None)
-        enter = "Enter, or click another vertex on" if found is not None else "Click its partner on"
-        self.or_click.setText(f"{enter} {other}")
+        enter = "Enter, or click another\u00a0vertex on" if found is not None else "Click its partner on"
+        self.or_click.setText(f"{enter}\u00a0{other}")
         has_maps = shows_maps(document)  # the section of errors leads back to predictions
         self.hint.setVisible(is_alone or (not is_on and not has_maps) or (is_on and half is None))
         self.hint.setText(ALONE if is_alone else NO_PANEL if not is_on else NEXT if document.pairs else HINT)
