@@ -22,12 +22,15 @@ from ..document.changing import changed_mesh
 from ..document.document import Document, MeshFile, Point, starting_points
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
-from .answering import SMALL, Answering, AnswerView, Shown
+from .answering import Answering, AnswerView, Shown
 from .changed import answers_ahead, led
 from .given import Given
 from .opened import Opened, started_alike
 from .questions import asks_of, questions
 from .surfaces import LoadingView, Opening, Surfaces
+
+AHEAD = 60_000
+"""Vertices up to which a changed mesh takes the place of another only once its fields are there: some seconds."""
 
 
 class View(AnswerView, LoadingView, Protocol):
@@ -154,7 +157,7 @@ class Session:
             for question, answer in answers_ahead(document, found, tuple(self._surfaces), progress):
                 self._answering.keep(question, answer)
 
-        is_small = self.surface is not None and len(self.surface.vertices) <= SMALL
+        is_small = self.surface is not None and len(self.surface.vertices) <= AHEAD
         is_next = changed_mesh(self.document) is not None
         self._surfaces.start(Opening(missing, arrive, ahead=ahead if is_small and is_next else None))
 

@@ -119,7 +119,8 @@ class Surfaces:
         report = lane.progress(lambda latest: latest is opening, quiet=0)
         found: list[Opened] = []
         for k, mesh in enumerate(opening.meshes):
-            report(k / len(opening.meshes), f"reading {os.path.basename(mesh.path) or mesh.name}")
+            word = "reading" if mesh.change is None else "changing"
+            report(k / len(opening.meshes), f"{word} {os.path.basename(mesh.path) or mesh.name}")
             making = part(report, k / len(opening.meshes), (k + 0.5) / len(opening.meshes))
             opened = open_mesh(mesh, self._given, there=[*self._opened, *found], progress=making)
             report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")

@@ -12,7 +12,7 @@ from ...document.change_edits import change_as
 SOON_MS = 60
 """Between two changes that are asked for while a slider moves."""
 
-PATIENCE = 1.0
+PATIENCE = 4.0
 """Seconds for which the last change may go on before the next takes its place: so some arrive while a slider moves."""
 
 
