@@ -1,7 +1,11 @@
 """The surfaces that are there: read in the background, and kept for undo when they are no longer shown."""
 
+import ctypes
+import gc
 import os
+import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -16,6 +20,9 @@ from .opened import Opened, is_same, open_mesh
 
 SPARED = 120_000
 """Surfaces no longer shown are kept up to so many vertices in all, for undo; with their factors these take 0.4 GB."""
+
+SPARED_MADE = 2
+"""The same of surfaces made from others: made again they are soon there."""
 
 
 class LoadingView(Protocol):
@@ -100,6 +107,9 @@ class Surfaces:
         latest = {opened.mesh: opened for opened in self._opened}.values()  # of a file that was read again
         shown = [opened for opened in latest if any(is_same(mesh, opened.mesh) for mesh in document.surfaces)]
         others = [opened for opened in latest if opened not in shown]
+        made = [opened for opened in others if opened.origin is not None]
+        # Of those that a slider has passed none is come back to.
+        others = [opened for opened in others if opened not in made[:-SPARED_MADE]]
         while others and sum(len(opened.surface.vertices) for opened in others) > SPARED:
             others.pop(0)
         self._opened = [*others, *shown]
@@ -134,6 +144,8 @@ class Surfaces:
         report(1, "")
         self._post(lambda: self._take(opening, found))
         self._loaded()
+        if any(mesh.change is not None for mesh in opening.meshes):
+            _give_back()  # of one after another, as a slider moves, nobody else would
 
     def _take(self, opening: Opening, found: list[Opened]) -> None:
         if opening is not self.on_their_way:
@@ -162,3 +174,14 @@ class Surfaces:
             self._view.progress_changed()
 
         self._post(note)
+
+
+def _give_back() -> None:
+    """Let the system have memory that is free, of which glibc keeps hundreds of megabytes for later.
+
+    Operators and their components know each other, so that only the collector frees them.
+    """
+    gc.collect()
+    if sys.platform == "linux":
+        with suppress(AttributeError, OSError):  # another C library
+            ctypes.CDLL(None).malloc_trim(0)
