@@ -1,7 +1,6 @@
 """The options for a second mesh in a figure, and for maps to it."""
 
 import argparse
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -35,36 +34,18 @@ def with_maps(document: "Document", options: argparse.Namespace) -> "Document":
     from bihdist_core import ParameterError
     from bihdist_core.formats.vertex_maps import read_pairs
 
+    from ..document import between
     from ..document.beside_edits import open_beside
     from ..document.document import MeshFile
-    from ..document.file import checksum
-    from ..document.map_colours import SAME_IDS, MapFile
-    from ..document.mapping import show_maps
-    from ..document.pairing import drop_half, pair_instead, place_point
-    from ..document.predicting import predict
     from .mesh import check_mesh
 
     if options.beside is not None:
         check_mesh(options.beside)
         document = open_beside(document, MeshFile("", options.beside))
-    has = {"--pairs": options.pairs, "--map": options.map, "--predict": options.predict}
-    named = [name for name, value in has.items() if value is not None]
-    if named and len(document.surfaces) < 2:
-        raise ParameterError(f"{named[0]} goes from one mesh to another; name a second one after the first.")
     if options.pairs is not None:
-        document = pair_instead(document, [(int(i), int(j)) for i, j in read_pairs(options.pairs)])
+        document = between.with_pairs(document, [(int(i), int(j)) for i, j in read_pairs(options.pairs)])
     if options.predict is not None:
         if options.map is not None:
             raise ParameterError("--predict and --map are figures of their own; leave one of them out.")
-        if not document.pairs:
-            raise ParameterError("--predict goes by pairs; name their file with --pairs.")
-        return place_point(drop_half(predict(document)), document.surfaces[0].name, options.predict)
-    if options.map is None:
-        return document
-    if PAIRS in options.map and not document.pairs:
-        raise ParameterError(f"--map {PAIRS} is made by pairs; name their file with --pairs.")
-    files = [path for path in dict.fromkeys(options.map) if path != PAIRS]
-    maps = tuple(MapFile(path, "" if path == SAME_IDS else checksum(path)) for path in files)
-    specs = dict.fromkeys(spec for panel in document.panels for spec in panel.shows.specs)
-    by = [each for path in dict.fromkeys(options.map) for each in (specs if path == PAIRS else [path])]
-    return show_maps(replace(document, maps=maps), by)
+        return between.with_prediction(document, options.predict)
+    return document if options.map is None else between.with_maps(document, options.map)

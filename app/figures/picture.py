@@ -17,6 +17,7 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source, checked_source
 
+from ..document import between
 from ..document.camera import Camera, View
 from ..document.changing import COLUMNS, with_changed
 from ..document.document import Anchor, Document, Point, Zoom, free_names
@@ -29,7 +30,7 @@ from ..document.page import Page, Recipe
 from ..document.profile_words import with_profile
 from ..document.quantities import Quantity
 from ..drawing.colour_file import colours_named
-from ..session.given import Given, Mesh, given_comparison
+from ..session.given import Given, Mesh, given_comparison, with_beside
 from ..version import version
 from .description import Figure
 from .draw import draw_figure
@@ -90,6 +91,10 @@ def figure(
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
     perturb: str = "",
+    beside: Mesh | None = None,
+    pairs: npt.ArrayLike = (),
+    predict: int | None = None,
+    maps: Sequence[str] = (),
     isolines: int | Isolines = 20,
     isoline_spacing: float | None = None,
     isoline_values: Sequence[float] = (),
@@ -139,7 +144,10 @@ def figure(
     `Place`, `BoundaryLoop`, `Curve` or `SourceSet`, or words such as "12+40"; or a list of these for a row of panels
     each.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances` like
     one: "biharmonic - mine".  perturb: what is done to the mesh, such as
-    "noise=0.4,along=normals,seed=1": each distance before and after, and the difference.  views: names or cameras,
+    "noise=0.4,along=normals,seed=1": each distance before and after, and the difference.  beside: a second mesh, with
+    panels of its own; pairs: (k, 2) known vertices of both that correspond.  By each distance from these, instead of
+    the distances themselves, predict: where that vertex of the first is on the second; or maps: where all are, in
+    colours, "pairs" for the maps by pairs, or files of others.  views: names or cameras,
     side by side.  camera: the eleven
     numbers that `--camera` takes, after other views.  up: the axis that points up, "z" or "-z", "auto" for a guess.
     projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
@@ -223,12 +231,36 @@ def figure(
     )
     if perturb:
         document = with_changed(document, change_from_words(perturb))
+    document = _with_second(document, given, beside, pairs, predict, maps)
     document, _ = ranged(document, "shared" if shared_range and range == "own" else range)
     document, surfaces = open_document(Recipe(document, page), given)
     recipe = Recipe(document, page)
     # What cannot be drawn is refused before the long work.
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
     return Picture(recipe, surfaces, given, compute(document, surfaces, progress))
+
+
+def _with_second(
+    document: Document,
+    given: Given,
+    beside: Mesh | None,
+    pairs: npt.ArrayLike,
+    predict: int | None,
+    maps: Sequence[str],
+) -> Document:
+    """With a second mesh, and what is shown of both, if anything is."""
+    if beside is not None:
+        document = with_beside(document, given, beside)
+    if np.size(pairs):
+        places = np.asarray(pairs)
+        if places.ndim != 2 or places.shape[1] != 2 or places.dtype.kind not in "iu":
+            raise ParameterError(f"Pairs are whole numbers of shape (k, 2), not {places.dtype} of {places.shape}.")
+        document = between.with_pairs(document, [(int(i), int(j)) for i, j in places])
+    if predict is not None and len(maps):
+        raise ParameterError("predict= and maps= are figures of their own; leave one of them out.")
+    if predict is not None:
+        return between.with_prediction(document, predict)
+    return between.with_maps(document, maps) if len(maps) else document
 
 
 def figure_again(recipe: str | os.PathLike[str], progress: Progress | None = None) -> Picture:

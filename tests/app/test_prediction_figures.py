@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import app as bihdist
 from app.document.file import read_recipe
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
@@ -53,6 +54,37 @@ def test_another_point_is_predicted_beside_a_recipe(named, tmp_path):
     document = read_recipe(tmp_path / "two.json").document
     assert len(document.pairs) == 5
     assert document.point(document.pairs[-1].first).at == 9
+
+
+def test_python_draws_what_the_command_draws(named, tmp_path):
+    words = ["A", "B", "--pairs", "P", "--predict", "44", "--distance", "biharmonic", "--size", "600x200"]
+    assert drawn(named, words, tmp_path / "one.png") == 0
+    how = {"beside": named["B"], "pairs": PAIRS, "size": "600x200"}
+    picture = bihdist.figure(named["A"], ["biharmonic"], **how, predict=44)
+    picture.save(tmp_path / "two.png")
+    assert (tmp_path / "two.png").read_bytes() == (tmp_path / "one.png").read_bytes()
+    one, two = ((s.vertices, s.faces) for s in (bumpy(200), bumpy(230, seed=1)))
+    arrays = bihdist.figure(one, ["biharmonic"], **{**how, "beside": two}, predict=44)
+    assert arrays.answers[1].field == pytest.approx(picture.answers[1].field, rel=1e-12)
+    maps = bihdist.figure(named["A"], ["biharmonic"], **how, maps=["pairs"])
+    distances = BiharmonicDistance(bumpy(200)), BiharmonicDistance(bumpy(230, seed=1))
+    (found,) = [answer.leads_to for answer in maps.answers if answer.leads_to is not None]
+    assert np.array_equal(found, Correspondence(*distances, PAIRS).map())
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ({"pairs": PAIRS}, "beside= with pairs="),
+        ({"beside": "B", "predict": 4}, "give pairs="),
+        ({"beside": "B", "pairs": PAIRS, "predict": 4, "maps": ["pairs"]}, "leave one of them out"),
+        ({"beside": "B", "pairs": [1, 2], "predict": 4}, r"shape \(k, 2\)"),
+        ({"beside": "B", "pairs": [(1.5, 2.5)], "predict": 4}, "whole numbers"),
+    ],
+)
+def test_what_python_cannot_predict_is_refused(how, said, named):
+    with pytest.raises(ParameterError, match=said):
+        bihdist.figure(named["A"], ["biharmonic"], **{**how, **({"beside": named["B"]} if "beside" in how else {})})
 
 
 @pytest.mark.parametrize(
