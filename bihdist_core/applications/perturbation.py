@@ -48,8 +48,8 @@ def vertex_normals(surface: Surface) -> np.ndarray:
 def with_holes(surface: Surface, count: int, radius: float = 0.05, seed: int = 0) -> Surface:
     """Round holes at random vertices: what is nearer along edges than `radius` roots of the surface's area.
 
-    Vertex ids stay; what falls apart from the largest piece goes as well.  Raises ParameterError for fewer holes than
-    one, a radius that is not a share from 0 to 1, and where nothing of the surface, or all of it, would be left.
+    Vertex ids stay; what falls apart from the largest piece of a component goes as well.  Raises ParameterError for
+    fewer holes than one, a radius that is not a share from 0 to 1, and where nothing or all would be left.
     """
     if count < 1:
         raise ParameterError(f"The number of holes is a whole number from 1, not {count!r}.")
@@ -69,7 +69,7 @@ def with_holes(surface: Surface, count: int, radius: float = 0.05, seed: int = 0
 def punched(surface: Surface, distances: np.ndarray, radius: float) -> Surface:
     """Holes: the faces all of whose corners are nearer than `radius` to a centre are taken out.
 
-    distances: (n, k) from each of k centres.  Vertex ids stay; what falls apart from the largest piece goes as well.
+    distances: (n, k) from each of k centres.  Vertex ids stay; see `without`.
     """
     near = np.nanmin(np.asarray(distances), axis=1, initial=np.inf) < radius
     return without(surface, np.flatnonzero(near))
@@ -78,7 +78,8 @@ def punched(surface: Surface, distances: np.ndarray, radius: float) -> Surface:
 def without(surface: Surface, vertices: npt.ArrayLike) -> Surface:
     """The surface without the faces all of whose corners are among vertices (k,).
 
-    Vertex ids stay; what falls apart from the largest piece goes as well.  Raises ParameterError if nothing is left.
+    Vertex ids stay; what falls apart from the largest piece of a component goes as well.  Raises ParameterError if
+    nothing is left.
     """
     gone = np.zeros(len(surface.vertices), bool)
     gone[np.asarray(vertices, int)] = True
@@ -86,8 +87,11 @@ def without(surface: Surface, vertices: npt.ArrayLike) -> Surface:
     if not len(kept):
         raise ParameterError(f"Nothing of {surface.name} would be left; take out less.")
     rest = Surface(surface.vertices, kept, surface.name)
-    largest = rest.component_of_vertex[rest.faces[:, 0]] == 0
-    return Surface(rest.vertices, rest.faces[largest], surface.name)
+    was, now = (each.component_of_vertex[kept[:, 0]] for each in (surface, rest))
+    # Components are numbered from the largest.
+    largest = np.full(surface.component_count, rest.component_count)
+    np.minimum.at(largest, was, now)
+    return Surface(rest.vertices, kept[now == largest[was]], surface.name)
 
 
 def without_faces(surface: Surface, cut: Runs) -> Surface:
@@ -208,7 +212,7 @@ def perturbed(
         result = without_faces(result, change.cut)
     if change.simplify is not None:
         # Counted are vertices that belong to faces.
-        result, before = _without_loose_vertices(result) if change.cut else (result, ids)
+        result, before = _without_loose_vertices(result)
         result, kept = simplified(result, change.simplify, progress)
         ids = before[kept]
     if change.noise:
