@@ -53,10 +53,12 @@ def with_map(document: Document, map: MapFile) -> Document:
 def without_maps(document: Document) -> Document:
     """Without maps and what they are measured by, as when one of the surfaces becomes another.
 
-    A panel of a map by a distance shows that distance; others of maps go, but for the last panel that there is.
+    A panel of a map by a distance shows that distance; others of maps go, but for the last panel of their surface.
     """
     kept = [panel for panel in document.panels if not isinstance(panel.shows, MapColours) or panel.shows.specs]
-    document = replace(document, panels=tuple(kept or document.panels[:1]))
+    seen = {panel.surface for panel in kept}
+    last = {panel.surface: panel for panel in document.panels if panel.surface not in seen}.values()
+    document = replace(document, panels=tuple(p for p in document.panels if p in kept or p in last))
     for panel in document.panels:
         if isinstance(panel.shows, MapColours):
             spec = panel.shows.spec if panel.shows.specs else Spec.of("biharmonic")

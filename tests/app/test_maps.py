@@ -145,6 +145,7 @@ def test_predictions_follow_on_maps_by_the_same_distances(two):
 def test_with_another_mesh_maps_and_their_truth_are_gone(two, tmp_path):
     write_map(tmp_path / "ours.npy", np.arange(400))
     shown = replace(with_map(two, MapFile(str(tmp_path / "ours.npy"))), truth=Truth("identity"))
+    assert {panel.surface for panel in open_mesh(shown, MeshFile("A", "hand")).panels} == {"A", "B"}
     for after in (close_beside(shown), open_mesh(shown, MeshFile("A", "hand")), without_maps(shown)):
         assert after.maps == ()
         assert after.truth == SAME_FACES

@@ -9,6 +9,9 @@ from qtpy import QtCore, QtWidgets
 
 from ...document.document import Document
 
+NO_FIELD = "The panel shows no field now."
+"""Of one that shows colours, or a surface as it is."""
+
 
 class Instrument(QtWidgets.QWidget):
     """word: one of `DOCKS`; title: for the user; icon: of the tool bar; area: "right" or "below".

@@ -172,8 +172,9 @@ class QualityDock(Instrument):
         self.said.emit("measuring …" if waits else share)
 
     def _failed(self, panel: int) -> bool:
+        """Whether there is no field that could be measured."""
         shown = self.window_.session.shown.get(panel)
-        return shown is not None and bool(shown.answer.failure)
+        return shown is not None and shown.answer.field is None
 
     def text(self) -> str:
         """The table, with tabulators and all digits."""

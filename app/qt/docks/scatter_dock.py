@@ -28,7 +28,7 @@ from .background import Background
 from .chart import Axis
 from .chart_files import save_figure
 from .fact_table import FactTable
-from .instrument import Instrument
+from .instrument import NO_FIELD, Instrument
 from .saving import save, written
 from .scatter_chart import ScatterChart
 from .selection_list import SelectionList
@@ -215,7 +215,7 @@ class ScatterDock(Instrument):
         for answer in answers:
             if answer.field is None:
                 self._background.ask(None)
-                self._refuse(None, answer.failure)
+                self._refuse(None, answer.failure or NO_FIELD)
                 return
         self._request = _Request(session.surface, *answers, document.scatter.shares)
         self._background.ask(self._request)

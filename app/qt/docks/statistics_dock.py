@@ -25,7 +25,7 @@ from .background import Background
 from .chart_files import save_figure
 from .fact_table import FactTable
 from .histogram import Histogram
-from .instrument import Instrument
+from .instrument import NO_FIELD, Instrument
 from .isoline_files import levels_of
 from .level_box import LevelBox
 from .saving import save, written
@@ -162,7 +162,7 @@ class StatisticsDock(Instrument):
             self.statistics = self._correlation = None
             if shown.answer.field is None:
                 self._background.ask(None)
-                self._refuse(None, shown.answer.failure)
+                self._refuse(None, shown.answer.failure or NO_FIELD)
             else:
                 parts = question if isinstance(question, DifferenceQuestion) else None
                 self._request = _Request(opened, shown.answer, parts)
