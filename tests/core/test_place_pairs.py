@@ -7,7 +7,7 @@ from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, P
 from bihdist_core.distances.distance import Distance
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.splitting import split_at
-from tests.core.test_from_sources import BUMPY, SLACK, SMALL, every_distance, every_geodesic, every_quadratic, points
+from tests.core.every_distance import BUMPY, SLACK, SMALL, every_distance, every_geodesic, every_quadratic, points
 from tests.shapes import bumpy, two_pieces
 
 AT = (5, Place.of(17, 0.2, 0.5), Place.of(40, 0.3, 0.3), 77, Place.of(17, 0.3, 0.7), Place.of(90, 0.0, 1.0))
