@@ -320,6 +320,8 @@ class MainWindow(QtWidgets.QMainWindow):
         elif self.session.progress or not self.choices.is_full_screen:
             self.session.cancel()
             self.waits.show()
+            if self.docks is not None:
+                self.docks.show_stopped()
         else:
             self.choices.toggle_full_screen()
 

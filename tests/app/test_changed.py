@@ -24,6 +24,7 @@ from app.document.quantities import ChangeOf, quantity
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.session.given import Given
+from app.session.surfaces import SPARED_MADE
 from bihdist_core import BiharmonicDistance, ParameterError, Place, Surface, VertexError, write_mesh
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.perturbation import image_of, perturbed
@@ -361,6 +362,10 @@ def test_a_session_changes_the_mesh_from_where_it_is_by_then(mesh, desk):
     assert session.document.surfaces[1].change == Perturbation(noise=0.4)
     expected = BiharmonicDistance(session.opened("B").surface).from_source(70)
     assert session.shown[1].answer.field == pytest.approx(expected, rel=1e-9)
+    for step in range(5):
+        session.change_mesh(Perturbation(noise=0.5 + step), "noise")
+        desk.until(lambda: not session.is_opening)
+    assert len(list(session._surfaces)) <= 2 + SPARED_MADE
     session.undo()
     desk.complete()
     assert len(session.document.surfaces) == 1

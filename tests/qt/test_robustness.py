@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import Document
 from app.document.edits import add_panel
 from app.document.file import read_recipe
 from app.document.quantities import ChangeOf, quantity
@@ -374,7 +373,38 @@ def test_a_second_mesh_has_to_go_first(opened, mesh_file):
     s.session.close_beside()
     complete(s)
     assert dock.noise.isEnabled()
-    assert isinstance(s.document, Document)
+    type_in(s, dock.noise.box, "0.3")
+    s.session.open_beside(mesh_file(bumpy(300), "second.off"))
+    s.until(lambda: change_of(s) is None and not s.session.is_opening)
+    complete(s)
+    assert [panel.surface for panel in s.document.panels] == ["A", "A", "B", "B"]
+
+
+def test_what_is_stopped_is_not_set(opened):
+    s, dock = opened, dock_of(opened)
+    dock.noise.chosen.emit(0.7, True)  # the slider is on its way
+    assert dock.settings.noise == 0.7
+    s.window.cancel()
+    s.settle(0.2)
+    complete(s)
+    assert change_of(s) is None
+    assert dock.settings.noise == 0
+    assert dock.noise.box.text() == "0"
+
+
+def test_the_wheel_scrolls_the_dock_and_changes_nothing(opened):
+    s, dock = opened, dock_of(opened)
+    for widget in (dock.noise.slider, dock.seed):
+        widget.clearFocus()
+        middle = widget.rect().center()
+        event = QtGui.QWheelEvent(
+            QtCore.QPointF(middle), QtCore.QPointF(widget.mapToGlobal(middle)), QtCore.QPoint(), QtCore.QPoint(0, 120),
+            QtCore.Qt.MouseButtons(), QtCore.Qt.KeyboardModifier.NoModifier, QtCore.Qt.ScrollPhase.NoScrollPhase, False,
+        )  # fmt: skip
+        QtWidgets.QApplication.sendEvent(widget, event)
+    complete(s)
+    assert (dock.noise.value, dock.seed.value()) == (0, 0)
+    assert change_of(s) is None
 
 
 def test_another_mesh_ends_it(opened, mesh_file):

@@ -99,6 +99,11 @@ class Docks:
         if was_open and word in self._docks:
             self._instrument(word).leave()
 
+    def show_stopped(self) -> None:
+        """The user has stopped what went on."""
+        for instrument in self._open():
+            instrument.show_stopped()
+
     def put_down(self) -> bool:
         """Let the pointer mean what it usually does; whether it has meant something else."""
         if self.picking.is_on:

@@ -57,6 +57,9 @@ class Instrument(QtWidgets.QWidget):
     def show_closed(self) -> None:
         """The dock has been closed: take away what it has put elsewhere."""
 
+    def show_stopped(self) -> None:
+        """The user has stopped what was being computed, or opened."""
+
     def leave(self) -> None:
         """The user has closed the dock: end what makes no sense without it."""
 

@@ -153,6 +153,11 @@ class RobustnessDock(Instrument):
         self.save_button.clicked.connect(self.choose_and_save)
         self.remove_button.clicked.connect(self.remove)
 
+        for kind in (QtWidgets.QSlider, QtWidgets.QSpinBox):
+            for turned in self._controls.findChildren(kind):
+                turned.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
+                turned.installEventFilter(self)
+
     @property
     def _joins(self) -> dict[str, ChosenRow]:
         return {"weld": self.weld, "handle": self.handle}
@@ -199,6 +204,17 @@ class RobustnessDock(Instrument):
 
     def show_again(self) -> None:
         self._show_ends()
+
+    def show_stopped(self) -> None:
+        self.asking.forget()
+        self._show_again()
+
+    def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
+        """The wheel scrolls the dock, and turns only what has been chosen before."""
+        if event.type() == QtCore.QEvent.Type.Wheel and not watched.hasFocus():
+            event.ignore()
+            return True
+        return super().eventFilter(watched, event)
 
     def show_closed(self) -> None:
         self.asking.forget()
