@@ -145,10 +145,10 @@ def figure(
     each.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances` like
     one: "biharmonic - mine".  perturb: what is done to the mesh, such as
     "noise=0.4,along=normals,seed=1", "pose=FILE", "cut=3+10-20": each distance before and after, and the difference.
-    beside: a second mesh, with panels of its own; pairs: (k, 2) known vertices of both that correspond.  By each distance from these, instead of
-    the distances themselves, predict: where that vertex of the first is on the second; or maps: where all are, in
-    colours, "pairs" for the maps by pairs, or files of others.  views: names or cameras,
-    side by side.  camera: the eleven
+    beside: a second mesh, with panels of its own; pairs: (k, 2) known vertices of both that correspond.  By each
+    distance from these, instead of the distances themselves, predict: where that vertex of the first is on the
+    second; or maps: where all are, in colours, "pairs" for the maps by pairs, or files of others.  views: names or
+    cameras, side by side.  camera: the eleven
     numbers that `--camera` takes, after other views.  up: the axis that points up, "z" or "-z", "auto" for a guess.
     projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
     with a factor, or with that and a number of steps.  isolines: a number of steps; isoline_spacing, isoline_values:
