@@ -10,6 +10,7 @@ from app.drawing.drawable import drawable, faces_of, has_backs
 from app.drawing.field_actor import UNDEFINED
 from app.drawing.stand_in import stand_in
 from bihdist_core import Surface
+from bihdist_core.applications.carrying import position_colours
 from tests.app.test_shading import box, turned, without
 from tests.shapes import bumpy, grid, sphere
 
@@ -155,5 +156,41 @@ def test_a_scene_draws_it_only_while_it_is_told_to():
         scene.show_surface(mesh, mesh.GetBounds())
         assert not scene.is_stand_in
         assert not scene.can_stand_in
+    finally:
+        board.close()
+
+
+def test_colours_of_vertices_are_drawn_in_means_too():
+    surface = bumpy(20_000)
+    mesh = drawable(surface, SMOOTH)
+    board = Board()
+    try:
+        scene = board.new_scene()
+        scene.show_surface(mesh, mesh.GetBounds())
+        scene.renderer.ResetCamera(*scene.bounds)
+        scene.take_stand_in(stand_in(mesh, CLUSTERS))
+
+        def picture(colours=None):
+            if colours is not None:
+                scene.show_colours(colours)
+            return board.picture(scene, (300, 300)).astype(int)
+
+        scene.show_bare()
+        bare = picture()
+        colours = position_colours(surface)
+        full = picture(colours)
+        assert np.abs(full - bare).mean() > 6
+        scene.show_stand_in(True)
+        standing = picture()
+        assert scene.is_stand_in
+        assert np.abs(standing - full).mean() < 6
+        scene.show_stand_in(False)
+        assert np.array_equal(picture(), full)
+        # What is mapped nowhere is as bare as the rest was, and a field takes the place of colours.
+        assert np.array_equal(picture(np.full((20_000, 3), np.nan)), bare)
+        red = picture(np.tile([1.0, 0, 0], (20_000, 1)))[150, 150]
+        assert red[0] > 2 * red[1]
+        scene.show_field(surface.vertices[:, 2] + 2)
+        assert np.abs(picture() - full).mean() > 6
     finally:
         board.close()
