@@ -2,7 +2,7 @@
 
 from .driver import Driver
 from .instrument_scenes import _close_all, _dock, _on
-from .pair_scenes import PAIRED
+from .pair_scenes import far_apart
 
 
 def full_maps(d: Driver) -> None:
@@ -18,7 +18,7 @@ def full_maps(d: Driver) -> None:
     d.complete()
     section = dock.errors
     d.shot("errors without pairs")
-    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in PAIRED]))
+    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.surface.vertices)]))
     d.complete()
     d.until(lambda: section.judgement is not None)
     d.shot("errors so far")

@@ -9,7 +9,7 @@ PAIRED = 8
 """Vertices of both poses that are pairs before any is clicked, far apart."""
 
 
-def _far_apart(places: np.ndarray) -> list[int]:
+def far_apart(places: np.ndarray) -> list[int]:
     """So many of places (n, 3)."""
     chosen = [0]
     while len(chosen) < PAIRED:
@@ -40,7 +40,7 @@ def correspondence(d: Driver) -> None:
         d.shot(f"a pair at {'AB'[panel]}")
     session.undo()
     session.undo()
-    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in _far_apart(session.surface.vertices)]))
+    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.surface.vertices)]))
     d.complete()
     _at(d, 0, 0.6, 0.5)
     d.pointer("click", 1)
