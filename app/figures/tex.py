@@ -67,7 +67,9 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
     parts = []
     for shown, answer, top in zip(figure.panels, answers, tops, strict=True):
         if shown.field is None:
-            parts.append(f"{shown.heading or answer.label}: not shown")
+            # What is plain, or has colours of its own, is shown as it is meant.
+            said = "not shown" if shown.failure else shown.hint
+            parts.append(": ".join(words for words in (shown.heading or answer.label, said) if words))
             continue
         low = -top if shown.signed else 0.0
         parts.append(

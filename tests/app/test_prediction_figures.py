@@ -48,6 +48,14 @@ def test_the_best_is_said_and_marked_and_a_recipe_draws_it_again(named, tmp_path
     assert (first.heading, first.hint) == ("a.off", "Point 5, vertex 44, waits for its partner on B")
 
 
+def test_a_caption_says_what_waits(named, tmp_path):
+    words = ["A", "B", "--pairs", "P", "--predict", "44", *SMALL, "--tex"]
+    assert drawn(named, words, tmp_path / "one.pdf") == 0
+    caption = (tmp_path / "one.tex").read_text()
+    assert "A.off: Point 5, vertex 44, waits for its partner on B; prediction by biharmonic" in caption
+    assert "not shown" not in caption
+
+
 def test_another_point_is_predicted_beside_a_recipe(named, tmp_path):
     assert drawn(named, ["A", "B", "--pairs", "P", "--predict", "44", *SMALL], tmp_path / "one.png") == 0
     assert drawn(named, ["--recipe", str(tmp_path / "one.json"), "--predict", "9"], tmp_path / "two.png") == 0

@@ -133,7 +133,7 @@ def test_pins_in_faces_are_listed_and_compared(opened, tmp_path):
     assert "add up to 1" in dock.wrong.text()
     # Files have vertices: how far away they are is said.
     said = []
-    s.window.status.say = said.append
+    s.window.status.say = lambda text, holds=None: said.append(text)
     dock.files.save(str(tmp_path / "pins.csv"))
     assert said[-1].startswith("Saved 3 pins in pins.csv: 2 pins moved to a vertex, the farthest")
     select_row(s, dock, 1)
@@ -233,7 +233,7 @@ def test_pins_come_back_from_each_format_and_moves_to_vertices_are_said(opened, 
     x, y, z = s.session.surface.vertices[5] * 1.01
     (tmp_path / "off.csv").write_text(f"x,y,z,name\n{x},{y},{z},nearby\n")
     said = []
-    s.window.status.say = said.append
+    s.window.status.say = lambda text, holds=None: said.append(text)
     dock.files.read(str(tmp_path / "off.csv"))
     assert ids(s)[-1] == 5
     assert "1 pin moved to a vertex" in said[-1]
