@@ -18,6 +18,9 @@ LINE = 2.0
 STEPS = 500
 """Thresholds at which curves are drawn."""
 
+GAP = 12
+"""Logical pixels between two columns of numbers."""
+
 ACROSS = "geodesic error / √area"
 
 STEP = 0.0025
@@ -127,7 +130,7 @@ class ErrorChart(Chart):
 class ErrorTable(QtWidgets.QWidget):
     """A line for each curve: its dot and name, the mean and the median error, and the area under it."""
 
-    COLUMNS = ("mean", "median", "area under")
+    COLUMNS, NARROW = ("mean", "median", "area under"), ("mean", "median", "area")
     HEAD, ROW, DOT = 24.0, 26.0, 8.0
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
@@ -167,12 +170,18 @@ class ErrorTable(QtWidgets.QWidget):
         painter, theme, scale = QtGui.QPainter(self), LOOK.theme, LOOK.scale
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
         small, usual = LOOK.font(12), LOOK.font(13)
-        rights = [self.width() - (2 - k) * self._column(lines, small, usual) for k in range(3)]
+        left, heads = self.DOT + 8, self.COLUMNS
+        names = max(QtGui.QFontMetricsF(usual).horizontalAdvance(name) for name, _, _ in lines)
+        widths = self._columns(heads, lines, small, usual)
+        if left + names + sum(widths) > self.width():
+            heads = self.NARROW
+            widths = self._columns(heads, lines, small, usual)
+        rights = [self.width() - sum(widths[k + 1 :]) for k in range(3)]
         painter.setFont(small)
         painter.setPen(QtGui.QColor(theme.quiet))
         metrics = QtGui.QFontMetricsF(small)
         baseline = (self.HEAD * scale + metrics.ascent() - metrics.descent()) / 2
-        for words, right in zip(self.COLUMNS, rights, strict=True):
+        for words, right in zip(heads, rights, strict=True):
             painter.drawText(QtCore.QPointF(right - metrics.horizontalAdvance(words), baseline), words)
         painter.setFont(usual)
         metrics = QtGui.QFontMetricsF(usual)
@@ -184,16 +193,17 @@ class ErrorTable(QtWidgets.QWidget):
             painter.drawEllipse(QtCore.QPointF(self.DOT / 2, top + self.ROW * scale / 2), self.DOT / 2, self.DOT / 2)
             painter.setPen(QtGui.QColor(theme.text))
             first = rights[0] - number_width(usual, numbers[0])
-            left = self.DOT + 8
             cut = metrics.elidedText(name, QtCore.Qt.TextElideMode.ElideRight, max(first - left - 8, 0))
             painter.drawText(QtCore.QPointF(left, baseline), cut)
             for text, right in zip(numbers, rights, strict=True):
                 paint_number(painter, right - number_width(usual, text), baseline, text)
 
-    def _column(
-        self, lines: Sequence[tuple[str, str, tuple[str, ...]]], small: QtGui.QFont, usual: QtGui.QFont
-    ) -> float:
-        """The width of one, with the air before it."""
-        heads = QtGui.QFontMetricsF(small)
-        widest = max(number_width(usual, text) for _, _, numbers in lines for text in numbers)
-        return max(widest, *(heads.horizontalAdvance(words) for words in self.COLUMNS)) + 10 * LOOK.scale
+    @staticmethod
+    def _columns(heads: Sequence[str], lines: Sequence[tuple], small: QtGui.QFont, usual: QtGui.QFont) -> list[float]:
+        """The widths of the columns of numbers, with the air before each."""
+        metrics = QtGui.QFontMetricsF(small)
+        return [
+            max(metrics.horizontalAdvance(words), *(number_width(usual, line[2][k]) for line in lines))
+            + GAP * LOOK.scale
+            for k, words in enumerate(heads)
+        ]
