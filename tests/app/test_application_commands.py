@@ -12,6 +12,7 @@ from bihdist_core import (
     Correspondence,
     GeodesicDistance,
     ShepardInterpolant,
+    Surface,
     error_curve,
     field_change,
     map_errors,
@@ -110,10 +111,24 @@ def test_a_sample_is_simplified_and_compared_where_vertices_stay(tmp_path, capsy
     assert len(read_surface(mesh_path("hand")).vertices) > 900
 
 
+def test_perturb_takes_another_pose_and_cuts_faces_out(meshes, tmp_path, capsys):
+    one, out = read_surface(meshes[0]), tmp_path / "posed.obj"
+    pose = Surface(one.vertices * (1, 2, 0.5), one.faces)
+    write_mesh(tmp_path / "pose.off", pose)
+    words = ["--pose", str(tmp_path / "pose.off"), "--cut", "3+10-20"]
+    assert main(["perturb", meshes[0], *words, "-o", str(out)]) == 0
+    two = read_surface(out)
+    assert np.array_equal(two.vertices, pose.vertices)
+    assert np.array_equal(two.faces, np.delete(one.faces, [3, *range(10, 21)], axis=0))
+    assert "pose of pose.off, without 12 faces" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (["perturb", "hand", "-o", "x.off"], "Nothing would change"),
+        (["perturb", "hand", "--pose", "figure", "-o", "x.off"], "another pose has the same"),
+        (["perturb", "hand", "--cut", "9999999", "-o", "x.off"], "none is 9999999"),
         (["perturb", "hand", "--noise", "1", "-o", "x.stl"], ".off, .obj, .ply, .vtp"),
         (["interpolate", "hand", "--anchors", "gone.csv", "-o", "x.npy"], "gone.csv"),
         (["correspond", "hand", "hand", "--pairs", "gone.csv", "-o", "x.npy"], "gone.csv"),
