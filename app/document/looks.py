@@ -111,5 +111,5 @@ def shaded(
     )
 
 
-TWENTY_STEPS, OF_THE_STYLE, AS_IT_IS = Isolines(), Colours(), Shading()
+TWENTY_STEPS, NO_LINES, OF_THE_STYLE, AS_IT_IS = Isolines(), Isolines(count=0), Colours(), Shading()
 """What holds where nothing is said."""

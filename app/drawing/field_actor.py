@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
-from ..document.looks import MOST_ISOLINES, TWENTY_STEPS, Isolines, Shading
+from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
 from .drawable import copies_of, has_backs
 from .face_look import pass_on, put_face_look
 from .levels import BOLD, Levels, levels, too_many
@@ -86,7 +86,7 @@ class FieldActor:
         self._mapper = vtkPolyDataMapper()
         self._isolines, self._through = TWENTY_STEPS, ()
         self._edges = np.empty(0)
-        self._own_maximum = 1.0
+        self._own_maximum, self._has_lines = 1.0, True
         self._own = vtkPolyData()
         self._has_edges, self._followed = False, None
         self._tints: dict[str, np.ndarray] = {}
@@ -189,15 +189,18 @@ class FieldActor:
             self.stand_in.take(other.stand_in.stand_in)
         self.show_stand_in(bool(other.stand_in.actor.GetVisibility()))
         self.actor.SetVisibility(other.actor.GetVisibility())
-        shown = (isolines, other._through, other.maximum, other._own_maximum, other.is_signed)
+        shown = (isolines, other._through, other.maximum, other._own_maximum, other.is_signed, other._has_lines)
         if shown != self._followed:
             self._followed, self.maximum, self._own_maximum = shown, other.maximum, other._own_maximum
+            self._has_lines = other._has_lines
             self.show_isolines(isolines, other._through)
 
-    def show_field(self, field: np.ndarray, maximum: float | None = None, signed: bool = False) -> None:
+    def show_field(
+        self, field: np.ndarray, maximum: float | None = None, signed: bool = False, has_lines: bool = True
+    ) -> None:
         """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey.
 
-        signed: from -maximum to maximum, in the diverging colours, with a bold line at 0.
+        signed: from -maximum to maximum, in the diverging colours, with a bold line at 0.  has_lines: with isolines.
         """
         if "colours" in self._tints:
             self._tint("colours", None)
@@ -208,7 +211,7 @@ class FieldActor:
         self._values[: len(values)] = values
         self._values[len(values) :] = values[self._copies]
         self._array.Modified()
-        self.maximum, self._own_maximum = top, own
+        self.maximum, self._own_maximum, self._has_lines = top, own, has_lines
         self._be_plain(False)
         if signed != self.is_signed:
             self.is_signed = signed
@@ -275,7 +278,8 @@ class FieldActor:
     @property
     def levels(self) -> Levels:
         """The values that have a line."""
-        return levels(self._isolines, self.maximum, self._own_maximum, self.is_signed, self._through)
+        isolines = self._isolines if self._has_lines else NO_LINES
+        return levels(isolines, self.maximum, self._own_maximum, self.is_signed, self._through)
 
     @property
     def too_many(self) -> str:

@@ -99,9 +99,11 @@ class PanelScene:
         """Whether the next picture is of what stands in."""
         return bool(self._field.stand_in.actor.GetVisibility())
 
-    def show_field(self, field: np.ndarray, maximum: float | None = None, signed: bool = False) -> None:
+    def show_field(
+        self, field: np.ndarray, maximum: float | None = None, signed: bool = False, has_lines: bool = True
+    ) -> None:
         """Colour the surface by a field (n,), see `FieldActor.show_field`."""
-        self._field.show_field(field, maximum, signed)
+        self._field.show_field(field, maximum, signed, has_lines)
 
     def show_selected(self, colours: np.ndarray | None) -> None:
         """Vertices that stand out, see `selected_colours`."""

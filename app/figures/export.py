@@ -19,6 +19,7 @@ from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.changing import COLUMNS, changed_mesh
 from ..document.document import Document, Panel, Zoom, starting_points
+from ..document.looks import NO_LINES
 from ..document.measuring import vertices_of
 from ..document.page import Recipe
 from ..document.profile_words import shows_path
@@ -216,7 +217,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         unit=answer.unit,
         failure=answer.failure,
         maximum=panel.maximum,
-        isolines=document.isolines,
+        isolines=NO_LINES if answer.is_rough else document.isolines,
         through=tuple(point.value for point in through),
         views=recipe.page.views or (document.camera_of(panel.surface),),
         marks=(

@@ -21,6 +21,9 @@ from .questions import ChangeQuestion, DistanceQuestion, Question, questions, so
 if TYPE_CHECKING:
     from .opened import Opened
 
+ROUGH = 20
+"""Zeros in more faces than so many times the root of their number are those of noise."""
+
 
 def carried(at: Source, opened: "Opened") -> Source:
     """Where a place of the surface that another is made from is on that: its vertices, or the nearest that are left.
@@ -119,8 +122,17 @@ def change_of(question: ChangeQuestion, opened: "Opened", progress: Progress | N
         field=field,
         certificate=certificate,
         is_signed=True,
+        is_rough=crosses_itself(field, opened.surface.faces),
         remark=remark,
     )
+
+
+def crosses_itself(field: np.ndarray, faces: np.ndarray) -> bool:
+    """Whether the zeros of a field (n,) are no line but everywhere, as in what noise does to a distance."""
+    corners = field[faces]
+    crossed = int(((corners.min(axis=1) < 0) & (corners.max(axis=1) > 0)).sum())
+    # A line once around a shape crosses a few times the root of the number of faces.
+    return crossed > ROUGH * np.sqrt(len(faces))
 
 
 def _sides(question: ChangeQuestion, opened: "Opened", progress: Progress | None) -> tuple[Answer, Answer]:

@@ -31,9 +31,9 @@ class Answer:
 
     label and unit: the distance's; certificate: how accurate the field is, None as long as that is not known.  A field
     that is signed has values on both sides of 0, as differences have; its maximum is that of the absolute values.
-    remark: what else is to be said of it.  colours: (n, 3) red, green and blue from 0 to 1, NaN where there is none, of
-    what is shown in colours instead of a field; leads_to: (n,) the vertices of another surface that they stand for, -1
-    for none.
+    is_rough: whether it is noise, which isolines would only cover.  remark: what else is to be said of it.  colours:
+    (n, 3) red, green and blue from 0 to 1, NaN where there is none, of what is shown in colours instead of a field;
+    leads_to: (n,) the vertices of another surface that they stand for, -1 for none.
     """
 
     label: str
@@ -42,6 +42,7 @@ class Answer:
     failure: str = ""
     certificate: Certificate | None = None
     is_signed: bool = False
+    is_rough: bool = False
     remark: str = ""
     colours: np.ndarray | None = None
     leads_to: np.ndarray | None = None

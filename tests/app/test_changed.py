@@ -101,6 +101,17 @@ def test_both_sides_are_computed_by_one_method(mesh):
     assert np.abs(before.field - heat).max() > 0.01 * heat.max()
 
 
+def test_noise_has_no_isolines(mesh_file):
+    path = mesh_file(bumpy(4000))
+    for noise, is_rough in ((0.01, True), (0.0, False)):
+        change = Perturbation(noise=noise, holes=0 if noise else 2)
+        document = with_changed(comparison(path, (BIHARMONIC,), (5,)), change)
+        document, surfaces, answers = opened(document)
+        figure = figure_of(Recipe(document, Page()), surfaces, answers)
+        assert answers[2].is_rough == is_rough
+        assert [panel.isolines.count for panel in figure.panels] == [20, 20, 0 if is_rough else 20]
+
+
 def test_a_source_that_moves_is_followed(mesh):
     document, surfaces, _ = opened(changed(mesh, Perturbation(simplify=120)))
     first = document.points[0]

@@ -224,7 +224,7 @@ class DistancePanel(QtWidgets.QWidget):
         elif answer.field is None:
             self.view.scene.show_bare(is_plain=not answer.failure)
         else:
-            self.view.scene.show_field(answer.field, maximum, answer.is_signed)
+            self.view.scene.show_field(answer.field, maximum, answer.is_signed, not answer.is_rough)
             self._show_bands()
         self.marks.mark_source()
         self.mark_anchors(self.marks.anchors)
