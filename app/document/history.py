@@ -35,7 +35,7 @@ class History:
     def change(self, document: Document, key: str = "") -> Document:
         """Make this the present: a step, unless only camera, docks or snapping differ.
 
-        Without a key a row of equal ones ends.
+        The present itself without a key ends a row of equal ones; a camera or a dock that moves meanwhile does not.
         """
         if content(document) != content(self.present):
             self._future.clear()
@@ -46,7 +46,7 @@ class History:
                 # Back where the row of changes began: nothing is left of the step.
                 self._past.pop()
                 self._key = ""
-        elif not key:
+        elif not key and document == self.present:
             self._key = ""  # a drag is over: the next is a step of its own
         self.present = document
         return document

@@ -3,7 +3,9 @@
 import time
 from dataclasses import replace
 
-from app.document.document import comparison
+from app.document.document import comparison, content
+from app.document.edits import move_source
+from app.document.history import History
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 
@@ -220,3 +222,18 @@ def test_what_is_chosen_after_the_first_mesh_failed_is_shown_with_the_next(desk,
     d.complete()
     assert d.answers[0].label == "commute-time, exact"
     assert len([words for words in d.view.told if "gone.off" in words]) == 1
+
+
+# ---------------------------------------------------------------------- rows of equal steps
+def test_a_dock_that_moves_during_a_drag_does_not_part_it():
+    first = comparison("mesh.off", sources=(3,))
+    history = History(first)
+    history.change(move_source(first, 0, 4), "drag")
+    history.change(replace(history.present, dock_places="moved"))
+    history.change(move_source(history.present, 0, 5), "drag")
+    assert content(history.undo()) == content(first)
+    history.redo()
+    # The present itself says that the drag is over.
+    history.change(history.present)
+    history.change(move_source(history.present, 0, 6), "drag")
+    assert history.undo().point("source").at == 5

@@ -112,14 +112,16 @@ def in_the_dialog(s, path, do):
     def choose():
         dialog = s.application.activeModalWidget()
         box = None if dialog is None else dialog.findChild(QtWidgets.QLineEdit)
-        if box is None or not box.isVisible():
-            QtCore.QTimer.singleShot(100, choose)  # on a busy machine it takes its time
-            return
-        box.selectAll()
-        QtTest.QTest.keyClicks(box, f"{path}\r")
+        if box is not None and box.isVisible():
+            box.selectAll()
+            QtTest.QTest.keyClicks(box, f"{path}\r")
 
-    QtCore.QTimer.singleShot(200, choose)
+    # On a busy machine the dialog takes its time, and what completes a path may take the key that ends it.
+    timer = QtCore.QTimer(interval=300)
+    timer.timeout.connect(choose)
+    timer.start()
     do()
+    timer.stop()
 
 
 def copied(s, what):
