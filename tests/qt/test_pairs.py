@@ -223,12 +223,15 @@ def test_live_the_point_that_waits_follows_the_pointer_until_its_partner_is_clic
     assert places(s)[-1] == (stop,)
     click(s, 1, there)
     assert places(s)[-1] == (stop, there)
-    # All that was followed is one step, and the partner another.
+    # The partner is a step, and what was followed another, or two where the pointer rested between them.
     s.window.actions_by_word["live"].trigger()
-    for step in ([*pairs, (stop,)], pairs):
+    seen = []
+    while len(seen) < 3 and pairs not in seen:
         s.window.session.undo()
         complete(s)
-        assert places(s) == step
+        seen.append(places(s))
+    assert seen[0] == [*pairs, (stop,)]
+    assert seen[1:] in ([pairs], [[*pairs, (start,)], pairs])
 
 
 def hover(s, panel, vertex):
