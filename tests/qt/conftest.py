@@ -80,6 +80,20 @@ class Screen:
         place = panel.view.place_of(panel.positions[vertex])
         return QPoint(round(place.x() - 0.5), round(place.y() - 0.5))
 
+    def hover(self, at, panel=0):
+        """The pointer at a place (QPoint) of a view, no button down; the screen's own goes out of the way."""
+        from qtpy import QtCore, QtGui
+
+        corner = self.application.primaryScreen().geometry().bottomRight()
+        if QtGui.QCursor.pos() != corner:
+            QtGui.QCursor.setPos(corner)
+            self.settle(0.1)
+        none, view = QtCore.Qt.MouseButton.NoButton, self.panels[panel].view
+        kind, keys = QtCore.QEvent.Type.MouseMove, QtCore.Qt.KeyboardModifier.NoModifier
+        event = QtGui.QMouseEvent(kind, QtCore.QPointF(at), none, none, keys)
+        self.application.sendEvent(view, event)
+        self.application.processEvents()
+
     def seen(self, count, panel=0):
         """Vertices that a panel shows, far apart, none of them under a drop."""
         import numpy as np

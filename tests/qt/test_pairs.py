@@ -236,15 +236,7 @@ def test_live_the_point_that_waits_follows_the_pointer_until_its_partner_is_clic
 
 def hover(s, panel, vertex):
     """The pointer over a vertex, no button down."""
-    none = QtCore.Qt.MouseButton.NoButton
-    event = QtGui.QMouseEvent(
-        QtCore.QEvent.Type.MouseMove,
-        QtCore.QPointF(s.point_of(s.panels[panel], vertex)),
-        none,
-        none,
-        QtCore.Qt.KeyboardModifier.NoModifier,
-    )
-    QtWidgets.QApplication.sendEvent(s.panels[panel].view, event)
+    s.hover(s.point_of(s.panels[panel], vertex), panel)
     s.settle(0.05)
 
 
