@@ -1,4 +1,4 @@
-"""Robustness in the window: the mesh changed by sliders, brush, picks and files, each distance before and after."""
+"""Robustness in the window: the mesh changed by sliders, each distance before and after."""
 
 from dataclasses import replace
 
@@ -7,18 +7,18 @@ import pytest
 
 from app.document.edits import add_panel
 from app.document.file import read_recipe
-from app.document.quantities import ChangeOf, quantity
+from app.document.quantities import quantity
 from app.figures.export import compute, figure_of, open_document
 from app.session.given import Given
 from bihdist_core import BiharmonicDistance, GeodesicDistance, Surface, read_surface
 from bihdist_core.analysis.diagnostics import field_change
-from bihdist_core.applications.changes import Perturbation, count_of
-from bihdist_core.applications.perturbation import perturbed
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.applications.changes import Perturbation
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
+
+from tests.qt.changing import change_of, check, complete, dock_of, open_it, press, seen, type_in
 
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
 KINDS = (BiharmonicDistance, GeodesicDistance)
@@ -26,63 +26,7 @@ KINDS = (BiharmonicDistance, GeodesicDistance)
 
 @pytest.fixture
 def opened(screen, mesh_file):
-    s = screen((Spec.of("biharmonic"), Spec.of("geodesic", method="exact")))
-    s.open(mesh_file(bumpy(400)))
-    s.window.actions_by_word["dock robustness"].trigger()
-    s.settle()
-    return s
-
-
-def dock_of(s):
-    return s.window.docks._instrument("robustness")
-
-
-def complete(s):
-    s.until(lambda: not s.session.is_opening and s.session.is_complete and not s.session.progress)
-    s.settle(0.05)
-
-
-def type_in(s, box, text):
-    box.setFocus()
-    box.selectAll()
-    QtTest.QTest.keyClicks(box, text)
-    QtTest.QTest.keyClick(box, KEYS.Key_Return)
-    s.settle(0.02)
-    complete(s)
-
-
-def press(s, widget):
-    QtTest.QTest.mouseClick(widget, LEFT)
-    s.settle(0.02)
-    complete(s)
-
-
-def change_of(s):
-    return s.document.surfaces[1].change if len(s.document.surfaces) > 1 else None
-
-
-def seen(s, panel=0):
-    """A vertex near the middle of a panel's view, and where."""
-    view = s.panels[panel].view
-    at = QtCore.QPoint(view.width() // 2, view.height() // 2)
-    return view.met_at(at).vertex, at
-
-
-def check(s, expected):
-    """The change is this, and the panels show it."""
-    assert replace(change_of(s), pose_sha256="") == expected
-    before = s.session.surface
-    after, ids = perturbed(before, expected)
-    assert np.array_equal(s.session.opened("B").surface.vertices, after.vertices)
-    assert np.array_equal(s.session.opened("B").surface.faces, after.faces)
-    start, there = s.document.point("source").at, s.document.point("source after").at
-    assert ids[there] >= 0
-    for row, kind in enumerate(KINDS):
-        old, new = kind(before).from_source(start), kind(after).from_source(there)
-        assert s.answers[3 * row].field == pytest.approx(old, rel=1e-9)
-        assert s.answers[3 * row + 1].field == pytest.approx(new, rel=1e-9, nan_ok=True)
-        assert isinstance(s.document.panels[3 * row + 2].shows, ChangeOf)
-    return after, ids
+    return open_it(screen, mesh_file(bumpy(400)))
 
 
 def test_noise_is_typed_and_each_distance_is_shown_before_and_after_with_its_numbers(opened):
@@ -188,99 +132,6 @@ def test_holes_by_chance_are_of_the_seed(opened):
     assert not np.array_equal(first.faces, second.faces)
     type_in(s, dock.holes.box, "1.5")
     assert dock.holes.box.property("wrong")
-
-
-def move(view, place, keys=QtCore.Qt.KeyboardModifier.NoModifier):
-    event = QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), LEFT, LEFT, keys)
-    QtWidgets.QApplication.sendEvent(view, event)
-
-
-def stroke(s, panel, start, stop):
-    view = s.panels[panel].view
-    QtTest.QTest.mousePress(view, LEFT, pos=start)
-    for k in range(1, 6):
-        move(view, start + (stop - start) * k / 5)
-    s.settle(0.1)
-    QtTest.QTest.mouseRelease(view, LEFT, pos=stop)
-    s.settle(0.1)
-    complete(s)
-
-
-def test_faces_are_cut_out_by_brush_and_come_back(opened, monkeypatch):
-    s, dock = opened, dock_of(opened)
-    press(s, dock.cut.button)
-    assert s.window.docks.brushing.cuts
-    s.until(lambda: s.window.docks.brushing._brush is not None)
-    _, middle = seen(s)
-    stroke(s, 0, middle, middle + QtCore.QPoint(40, 0))
-    cut = change_of(s).cut
-    assert count_of(cut) > 2
-    check(s, Perturbation(cut=cut))
-    _, middle = seen(s, 3)
-    stroke(s, 3, middle + QtCore.QPoint(0, 30), middle + QtCore.QPoint(30, 30))
-    more = change_of(s).cut
-    assert count_of(more) > count_of(cut)
-    assert dock.cut.said.text() == f"{count_of(more)} faces"
-    ctrl = QtCore.Qt.KeyboardModifier.ControlModifier
-    monkeypatch.setattr(QtWidgets.QApplication, "keyboardModifiers", staticmethod(lambda: ctrl))
-    stroke(s, 3, middle + QtCore.QPoint(0, 30), middle + QtCore.QPoint(30, 30))
-    assert count_of(change_of(s).cut) < count_of(more)
-    monkeypatch.undo()
-    assert not s.document.selections
-    s.window.actions_by_word["stop"].trigger()  # Esc
-    assert not s.window.docks.brushing.cuts
-    press(s, dock.cut.cross)
-    assert change_of(s) is None
-
-
-def test_two_places_are_picked_for_a_handle_and_a_weld(opened):
-    s, dock = opened, dock_of(opened)
-    view = s.panels[0].view
-    places = [QtCore.QPoint(round(x * view.width()), view.height() // 2) for x in (0.3, 0.7)]
-    vertices = [view.met_at(at).vertex for at in places]
-    source = s.source
-    for word, row in (("handle", dock.handle), ("weld", dock.weld)):
-        press(s, row.button)
-        view = s.panels[0].view
-        places = [
-            QtCore.QPoint(*map(round, (p.x(), p.y())))
-            for p in map(s.panels[0].view.place_of, s.session.surface.vertices[vertices])
-        ]
-        for at in places:
-            assert s.window.docks.picking.is_on
-            QtTest.QTest.mouseClick(view, LEFT, pos=at)
-            s.settle(0.05)
-        complete(s)
-        pair = getattr(change_of(s), word)
-        assert len(set(pair)) == 2
-        assert s.source == source  # a pick moves no source
-        check(s, replace(Perturbation(), **{word: pair}))
-        assert len(s.panels[0].view.over.ends) == 2
-        press(s, row.cross)
-        assert change_of(s) is None
-    press(s, dock.weld.button)
-    s.window.actions_by_word["stop"].trigger()  # Esc
-    assert not s.window.docks.picking.is_on
-    assert not dock.weld.button.isChecked()
-
-
-def test_another_pose_is_read_and_what_is_none_is_refused(opened, mesh_file):
-    s, dock = opened, dock_of(opened)
-    ball = bumpy(400)
-    pose = mesh_file(Surface(ball.vertices * (1, 1.4, 0.7), ball.faces), "pose.off")
-    dock.take_pose(pose)
-    complete(s)
-    check(s, Perturbation(pose=pose))
-    assert change_of(s).pose_sha256
-    assert dock.pose.said.text() == "pose.off"
-    dock.take_pose(mesh_file(bumpy(300), "other.off"))
-    s.until(lambda: s.refusals)
-    assert "300 vertices" in s.refusals[0]
-    complete(s)
-    assert change_of(s).pose == pose
-    assert dock.settings.pose == pose
-    press(s, dock.pose.cross)
-    assert change_of(s) is None
 
 
 def test_the_changed_mesh_is_saved(opened, tmp_path, monkeypatch):
@@ -414,3 +265,12 @@ def test_another_mesh_ends_it(opened, mesh_file):
     complete(s)
     assert len(s.document.surfaces) == 1
     assert dock.settings.changes_nothing
+
+
+def test_a_narrow_head_of_a_change_names_its_distance(opened):
+    s = opened
+    type_in(s, dock_of(s).noise.box, "0.1")
+    head = s.panels[2].head
+    assert head.name.text() == "Change of biharmonic"
+    head.resize(150, head.height())
+    assert head.name.text() == "Δ biharmonic"

@@ -7,7 +7,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.edits import PANEL_EDITS
 from ...document.map_colours import MapColours
-from ...document.quantities import Difference, Interpolant, Prediction, Quantity
+from ...document.quantities import ChangeOf, Difference, Interpolant, Prediction, Quantity
 from ..look.icons import pixmap
 from ..look.look import LOOK
 from .flat_button import ICON_SIDE, FlatButton
@@ -279,6 +279,9 @@ class PanelHead(QtWidgets.QWidget):
         if self._by in controls and self._by not in shown:
             # By which distance it is tells panels apart, and what it is does not.
             self.name.setText(f"{self._by.text()[:1].upper()}{self._by.text()[1:]}")
+            name = self.name.sizeHint().width()
+        elif isinstance(self.shows, ChangeOf) and not self._plain and name + warning > right - left:
+            self.name.setText(f"Δ {kind_name(self.shows.spec.kind).lower()}")
             name = self.name.sizeHint().width()
         if has_info:
             right -= ICON_SIDE

@@ -1,0 +1,78 @@
+"""What tests of robustness share: the dock, typing and pressing there, and whether the panels show a change."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.document.quantities import ChangeOf
+from bihdist_core import BiharmonicDistance, GeodesicDistance
+from bihdist_core.applications.perturbation import perturbed
+from bihdist_core.distances.kinds import Spec
+
+pytest.importorskip("qtpy")
+from qtpy import QtCore, QtTest
+
+LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
+KINDS = (BiharmonicDistance, GeodesicDistance)
+
+
+def open_it(screen, path):
+    """A window with a mesh, two distances and the dock."""
+    s = screen((Spec.of("biharmonic"), Spec.of("geodesic", method="exact")))
+    s.open(path)
+    s.window.actions_by_word["dock robustness"].trigger()
+    s.settle()
+    return s
+
+
+def dock_of(s):
+    return s.window.docks._instrument("robustness")
+
+
+def complete(s):
+    s.until(lambda: not s.session.is_opening and s.session.is_complete and not s.session.progress)
+    s.settle(0.05)
+
+
+def type_in(s, box, text):
+    box.setFocus()
+    box.selectAll()
+    QtTest.QTest.keyClicks(box, text)
+    QtTest.QTest.keyClick(box, KEYS.Key_Return)
+    s.settle(0.02)
+    complete(s)
+
+
+def press(s, widget):
+    QtTest.QTest.mouseClick(widget, LEFT)
+    s.settle(0.02)
+    complete(s)
+
+
+def change_of(s):
+    return s.document.surfaces[1].change if len(s.document.surfaces) > 1 else None
+
+
+def seen(s, panel=0):
+    """A vertex near the middle of a panel's view, and where."""
+    view = s.panels[panel].view
+    at = QtCore.QPoint(view.width() // 2, view.height() // 2)
+    return view.met_at(at).vertex, at
+
+
+def check(s, expected):
+    """The change is this, and the panels show it."""
+    assert replace(change_of(s), pose_sha256="") == expected
+    before = s.session.surface
+    after, ids = perturbed(before, expected)
+    assert np.array_equal(s.session.opened("B").surface.vertices, after.vertices)
+    assert np.array_equal(s.session.opened("B").surface.faces, after.faces)
+    start, there = s.document.point("source").at, s.document.point("source after").at
+    assert ids[there] >= 0
+    for row, kind in enumerate(KINDS):
+        old, new = kind(before).from_source(start), kind(after).from_source(there)
+        assert s.answers[3 * row].field == pytest.approx(old, rel=1e-9)
+        assert s.answers[3 * row + 1].field == pytest.approx(new, rel=1e-9, nan_ok=True)
+        assert isinstance(s.document.panels[3 * row + 2].shows, ChangeOf)
+    return after, ids

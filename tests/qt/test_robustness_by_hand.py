@@ -1,0 +1,115 @@
+"""Robustness in the window: the mesh changed by brush, picks and files."""
+
+from dataclasses import replace
+
+import pytest
+
+from bihdist_core import BiharmonicDistance, GeodesicDistance, Surface
+from bihdist_core.applications.changes import Perturbation, count_of
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+from qtpy import QtCore, QtGui, QtTest, QtWidgets
+
+from tests.qt.changing import change_of, check, complete, dock_of, open_it, press, seen
+
+LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
+KINDS = (BiharmonicDistance, GeodesicDistance)
+
+
+@pytest.fixture
+def opened(screen, mesh_file):
+    return open_it(screen, mesh_file(bumpy(400)))
+
+
+def move(view, place, keys=QtCore.Qt.KeyboardModifier.NoModifier):
+    event = QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), LEFT, LEFT, keys)
+    QtWidgets.QApplication.sendEvent(view, event)
+
+
+def stroke(s, panel, start, stop):
+    view = s.panels[panel].view
+    QtTest.QTest.mousePress(view, LEFT, pos=start)
+    for k in range(1, 6):
+        move(view, start + (stop - start) * k / 5)
+    s.settle(0.1)
+    QtTest.QTest.mouseRelease(view, LEFT, pos=stop)
+    s.settle(0.1)
+    complete(s)
+
+
+def test_faces_are_cut_out_by_brush_and_come_back(opened, monkeypatch):
+    s, dock = opened, dock_of(opened)
+    press(s, dock.cut.button)
+    assert s.window.docks.brushing.cuts
+    s.until(lambda: s.window.docks.brushing._brush is not None)
+    _, middle = seen(s)
+    stroke(s, 0, middle, middle + QtCore.QPoint(40, 0))
+    cut = change_of(s).cut
+    assert count_of(cut) > 2
+    check(s, Perturbation(cut=cut))
+    _, middle = seen(s, 3)
+    stroke(s, 3, middle + QtCore.QPoint(0, 30), middle + QtCore.QPoint(30, 30))
+    more = change_of(s).cut
+    assert count_of(more) > count_of(cut)
+    assert dock.cut.said.text() == f"{count_of(more)} faces"
+    ctrl = QtCore.Qt.KeyboardModifier.ControlModifier
+    monkeypatch.setattr(QtWidgets.QApplication, "keyboardModifiers", staticmethod(lambda: ctrl))
+    stroke(s, 3, middle + QtCore.QPoint(0, 30), middle + QtCore.QPoint(30, 30))
+    assert count_of(change_of(s).cut) < count_of(more)
+    monkeypatch.undo()
+    assert not s.document.selections
+    s.window.actions_by_word["stop"].trigger()  # Esc
+    assert not s.window.docks.brushing.cuts
+    press(s, dock.cut.cross)
+    assert change_of(s) is None
+
+
+def test_two_places_are_picked_for_a_handle_and_a_weld(opened):
+    s, dock = opened, dock_of(opened)
+    view = s.panels[0].view
+    places = [QtCore.QPoint(round(x * view.width()), view.height() // 2) for x in (0.3, 0.7)]
+    vertices = [view.met_at(at).vertex for at in places]
+    source = s.source
+    for word, row in (("handle", dock.handle), ("weld", dock.weld)):
+        press(s, row.button)
+        view = s.panels[0].view
+        places = [
+            QtCore.QPoint(*map(round, (p.x(), p.y())))
+            for p in map(s.panels[0].view.place_of, s.session.surface.vertices[vertices])
+        ]
+        for at in places:
+            assert s.window.docks.picking.is_on
+            QtTest.QTest.mouseClick(view, LEFT, pos=at)
+            s.settle(0.05)
+        complete(s)
+        pair = getattr(change_of(s), word)
+        assert len(set(pair)) == 2
+        assert s.source == source  # a pick moves no source
+        check(s, replace(Perturbation(), **{word: pair}))
+        assert len(s.panels[0].view.over.ends) == 2
+        press(s, row.cross)
+        assert change_of(s) is None
+    press(s, dock.weld.button)
+    s.window.actions_by_word["stop"].trigger()  # Esc
+    assert not s.window.docks.picking.is_on
+    assert not dock.weld.button.isChecked()
+
+
+def test_another_pose_is_read_and_what_is_none_is_refused(opened, mesh_file):
+    s, dock = opened, dock_of(opened)
+    ball = bumpy(400)
+    pose = mesh_file(Surface(ball.vertices * (1, 1.4, 0.7), ball.faces), "pose.off")
+    dock.take_pose(pose)
+    complete(s)
+    check(s, Perturbation(pose=pose))
+    assert change_of(s).pose_sha256
+    assert dock.pose.said.text() == "pose.off"
+    dock.take_pose(mesh_file(bumpy(300), "other.off"))
+    s.until(lambda: s.refusals)
+    assert "300 vertices" in s.refusals[0]
+    complete(s)
+    assert change_of(s).pose == pose
+    assert dock.settings.pose == pose
+    press(s, dock.pose.cross)
+    assert change_of(s) is None
