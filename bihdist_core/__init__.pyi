@@ -60,6 +60,9 @@ from .analysis.isoline_tracing import (
 from .analysis.isoline_tracing import (
     isolines as isolines,
 )
+from .analysis.neighbours import nearest as nearest
+from .analysis.parcels import Parcels as Parcels
+from .analysis.parcels import parcel_means as parcel_means
 from .analysis.persistence import (
     Extrema as Extrema,
 )
@@ -170,6 +173,7 @@ from .distances.commute_time import CommuteTimeDistance as CommuteTimeDistance
 from .distances.difference import difference as difference
 from .distances.diffusion import DiffusionDistance as DiffusionDistance
 from .distances.distance import Distance as Distance
+from .distances.embedding import Embedding as Embedding
 from .distances.geodesic import GeodesicDistance as GeodesicDistance
 from .distances.spectral import (
     PowerDistance as PowerDistance,

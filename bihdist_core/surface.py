@@ -143,9 +143,13 @@ class Surface:
     def nonmanifold_edge_count(self) -> int:
         return int((self.faces_per_edge > 2).sum())
 
-    @cached_property
+    @property
     def nonmanifold_vertex_count(self) -> int:
-        """Vertices whose faces fall apart into several fans."""
+        return len(self.nonmanifold_vertices)
+
+    @cached_property
+    def nonmanifold_vertices(self) -> np.ndarray:
+        """(k,) the vertices whose faces fall apart into several fans."""
         m = len(self.faces)
         # Two corners at one vertex are in one fan if their faces share an edge there.  Side s of a face has the
         # corners s and s + 1; the corners of a face are numbered face + m * corner.
@@ -164,7 +168,7 @@ class Surface:
         fan = connected(joined, 3 * m)
         vertex_of_fan = np.empty(fan.max() + 1, np.int64)
         vertex_of_fan[fan] = corner
-        return int((np.bincount(vertex_of_fan) > 1).sum())
+        return np.flatnonzero(np.bincount(vertex_of_fan) > 1)
 
     @property
     def is_manifold(self) -> bool:

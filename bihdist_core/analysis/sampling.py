@@ -20,14 +20,18 @@ SAMPLE_FORMATS = (".txt", ".npy", *PIN_FORMATS)
 
 
 def farthest_points(
-    distance: Distance, start: npt.ArrayLike = 0, count: int = 10, progress: Progress | None = None
+    distance: Distance,
+    start: npt.ArrayLike = 0,
+    count: int = 10,
+    progress: Progress | None = None,
+    among: np.ndarray | None = None,
 ) -> np.ndarray:
     """(count,) vertex ids: `start`, then each time the vertex farthest from those so far (the smallest id on ties).
 
-    start: a vertex, or (s,) different vertices of one component, which come first.  Costs a field for each point but
-    the last.  Stays on the component of the start.  Raises VertexError for a bad start; ParameterError for starts on
-    different components, the same twice, or more of them than `count`; and if the component has fewer different points
-    than `count`.
+    start: a vertex, or (s,) different vertices of one component, which come first.  among: (n,) which vertices the
+    others are chosen from, all if None.  Costs a field for each point but the last.  Stays on the component of the
+    start.  Raises VertexError for a bad start; ParameterError for starts on different components, the same twice, or
+    more of them than `count`; and if the component has fewer different points than `count`.
     """
     if count < 1:
         raise ParameterError(f"count is {count}; at least one point is needed.")
@@ -42,13 +46,15 @@ def farthest_points(
     nearest = np.full(len(distance.surface.vertices), np.nan)
     for k in range(count):
         if k >= given:
-            farthest = int(np.nanargmax(nearest))
+            farthest = int(np.nanargmax(nearest)) if np.isfinite(nearest).any() else points[0]
             if not nearest[farthest] > 0:
                 raise ParameterError(f"{count} points asked for; the component of vertex {points[0]} has {k}.")
             points.append(farthest)
         if k + 1 < count:
             report(k / count, f"{k + 1} of {count} points")
             nearest = np.fmin(nearest, distance.from_source(points[k], part(progress, k / count, (k + 1) / count)))
+            if among is not None:
+                nearest[~among] = np.nan
     report(1.0, f"{count} points")
     return np.array(points)
 

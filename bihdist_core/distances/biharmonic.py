@@ -8,6 +8,7 @@ from ..solver.tall import point_distances
 from ..surface import FLAT, Surface
 from .accuracy import accuracy_of_pairs
 from .distance import Distance, root
+from .embedding import Embedding, biharmonic_embedding
 
 SMALL_SET = 64
 NEAR, NEAR_BY_HEIGHT, MOST_NEAR = 1e-5, 1e-9, 16
@@ -32,6 +33,12 @@ class BiharmonicDistance(Distance):
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         component.biharmonic_diagonal(progress)
+
+    def embedding(
+        self, k: int | None = None, tolerance: float | None = None, progress: Progress | None = None
+    ) -> Embedding:
+        """Points of a Euclidean space that have these distances within a bound (`biharmonic_embedding`)."""
+        return biharmonic_embedding(self.laplacian, k, tolerance, progress)
 
     def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
         diagonal = component.biharmonic_diagonal()

@@ -1,7 +1,7 @@
 """What every distance has in common: the same four questions, answered per connected component."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -194,9 +194,7 @@ class Distance(ABC):
             return np.stack(fields_of_each, axis=1)
         ids, n = self.surface.check_vertices(np.asarray(sources)), len(self.surface.vertices)
         fields = np.empty((n, 0))
-        for component, mine in self._by_component(ids):
-            self.prepare(component, progress)
-            columns = self._columns(component, component.local(ids[mine]), progress)
+        for component, mine, columns in self.columns_by_component(ids, progress):
             if len(columns) == n:
                 fields = columns
                 break
@@ -205,6 +203,21 @@ class Distance(ABC):
             fields[np.ix_(component.vertices, mine)] = columns
         fields[ids, np.arange(len(ids))] = 0
         return fields
+
+    def columns_by_component(
+        self, sources: npt.ArrayLike, progress: Progress | None = None
+    ) -> Iterator[tuple[Component, np.ndarray, np.ndarray]]:
+        """For each component with some of the source vertices (k,): it, which of them (c,), and their fields (m, c).
+
+        The fields are those of the component's own m vertices: nothing is held for where there is no distance.
+        """
+        ids = self.surface.check_vertices(np.asarray(sources))
+        for component, mine in self._by_component(ids):
+            self.prepare(component, progress)
+            index = component.local(ids[mine])
+            columns = self._columns(component, index, progress)
+            columns[index, np.arange(len(index))] = 0
+            yield component, mine, columns
 
     def between(self, u: Source | str, v: Source | str) -> float:
         """The distance of two vertices, or places in faces; NaN between components.

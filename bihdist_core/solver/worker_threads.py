@@ -6,8 +6,10 @@ computed never depends on which thread does it, nor on how many there are.
 
 import threading
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from typing import TypeVar
 
@@ -21,6 +23,19 @@ Result = TypeVar("Result")
 
 WORKERS = 2
 REPORT_SECONDS = 0.1
+
+
+_alone: ContextVar[bool] = ContextVar("alone", default=False)
+
+
+@contextmanager
+def without_workers() -> Iterator[None]:
+    """Within it everything is done by the thread that asks, for programs that are themselves one of many processes."""
+    before = _alone.set(True)
+    try:
+        yield
+    finally:
+        _alone.reset(before)
 
 
 @cache
@@ -57,7 +72,7 @@ def side_by_side(function: Callable[[Item], Result], items: Sequence[Item]) -> l
             with lock:
                 list(waiting)
 
-    if len(items) < 2:
+    if len(items) < 2 or _alone.get():
         lane()
     else:
         helper = _pool().submit(lane)
@@ -106,8 +121,12 @@ class Job:
     def run(self, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
         """[function(item) for item in items] in the workers; their first error, or the progress', ends all of it."""
         items = list(items)
-        if self._progress is None and len(items) == 1:
-            return [_quietly(function, items[0])]
+        if _alone.get() or (self._progress is None and len(items) == 1):
+            results = []
+            for item in items:
+                results.append(_quietly(function, item))
+                self.report()
+            return results
         futures: list[Future[Result]] = [_pool().submit(_quietly, function, item) for item in items]
         try:
             pending = set(futures)

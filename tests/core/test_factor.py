@@ -12,6 +12,7 @@ from bihdist_core.solver import elimination_tree
 from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.elimination_tree import EliminationTree
 from bihdist_core.solver.factor import Factor
+from bihdist_core.solver.worker_threads import without_workers
 from tests.core.graphs import (
     SHAPES,
     grid,
@@ -235,6 +236,17 @@ def test_progress_ascends_to_one_in_the_calling_thread():
     Factor(tree, matrix, np.ones(len(x)), progress)
     assert told == sorted(told)
     assert told[-1] == 1
+
+
+def test_without_workers_one_thread_makes_the_same_bits(monkeypatch):
+    matrix, x = grid(60, 80)
+    sources = np.arange(0, len(x), 7)
+    b = np.zeros((len(x), len(sources)))
+    b[sources, np.arange(len(sources))] = 1
+    expected = Factor(EliminationTree(matrix, x), matrix, np.ones(len(x))).solve(b)
+    monkeypatch.setattr("bihdist_core.solver.worker_threads._pool", None)  # nobody may ask for it
+    with without_workers():
+        assert np.array_equal(Factor(EliminationTree(matrix, x), matrix, np.ones(len(x))).solve(b), expected)
 
 
 @pytest.mark.parametrize("call", [1, 3])

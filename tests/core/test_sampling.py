@@ -82,3 +82,15 @@ def test_progress_is_reported_and_stops_it():
 
     with pytest.raises(Cancelled):
         farthest_points(distance, count=5, progress=cancel)
+
+
+def test_points_are_chosen_among_some():
+    distance, among = BiharmonicDistance(bumpy(200)), np.arange(200) % 2 == 0
+    points = farthest_points(distance, start=7, count=12, among=among)
+    assert points[0] == 7
+    fields = np.where(among[:, None], distance.from_sources(points), -1)
+    for k in range(1, 12):
+        nearest = fields[:, :k].min(axis=1)
+        assert nearest[points[k]] == nearest.max()
+    with pytest.raises(ParameterError, match="the component of vertex 7 has 1"):
+        farthest_points(distance, start=7, count=2, among=np.zeros(200, bool))

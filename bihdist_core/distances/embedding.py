@@ -1,0 +1,153 @@
+"""Points of a Euclidean space whose distances are the biharmonic ones within a bound, for whatever knows such points.
+
+The distance is |G (e_i - e_j)| in the norm of the areas (paper, Eq. 4), so its components along vectors that are
+orthonormal by area are coordinates: along the first k eigenvectors they are those of Eq. 11.  What is left of vertex i
+has the squared length C_ii - |p_i|^2, and C_ii is known.  So the bound holds whether or not the eigenvectors have
+converged, and no distance of points is larger than the true one.
+"""
+
+from bisect import bisect_left
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import ParameterError
+from ..laplacian import Component, Laplacian, as_laplacian
+from ..progress import Progress, part, silent
+from ..surface import Surface
+from .spectral import checked_count, checked_number
+
+FIRST = 50
+"""Eigenpairs that are tried first for a tolerance, and twice as many then."""
+SOLVED = 32
+"""Eigenvectors at a time, which bounds the memory."""
+
+
+@dataclass(frozen=True, eq=False)
+class Embedding:
+    """points: (n, k), NaN at vertices that belong to no face; tails: (n,) the length of what they leave out of each
+    vertex; both in mesh units.  components: (n,) which component each vertex is of, -1 for none.
+
+    Between vertices i and j of a component, |p_i - p_j| <= d(i, j) <= sqrt(|p_i - p_j|^2 + (tails_i + tails_j)^2), but
+    for rounding.  Points of different components have no distance that means anything: make an index for each.
+    """
+
+    points: np.ndarray
+    tails: np.ndarray
+    components: np.ndarray
+
+    @property
+    def bound(self) -> float:
+        """How far the distance of two points may be below the biharmonic one, at worst; mesh units."""
+        pairs = [np.sort(self.tails[mine])[-2:] for mine in self._each() if len(mine) > 1]
+        return max((float(two.sum()) for two in pairs), default=0.0)
+
+    def between(self, pairs: npt.ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+        """(q,), (q,): what the distances of pairs of vertices (q, 2) are at least and at most; NaN between components.
+
+        ParameterError for another shape, or a vertex that is not there.
+        """
+        table = np.asarray(pairs)
+        if table.ndim != 2 or table.shape[1] != 2 or table.dtype.kind not in "iu":
+            raise ParameterError(f"Pairs of vertices must have shape (q, 2), not {table.shape}.")
+        if table.size and not (table.min() >= 0 and table.max() < len(self.points)):
+            raise ParameterError(f"The vertices are 0 to {len(self.points) - 1}.")
+        i, j = table.T
+        least = np.linalg.norm(self.points[i] - self.points[j], axis=1)
+        most = np.sqrt(least**2 + np.where(i == j, 0, self.tails[i] + self.tails[j]) ** 2)
+        is_apart = (self.components[i] != self.components[j]) | (self.components[i] < 0)
+        least[is_apart] = most[is_apart] = np.nan
+        return least, most
+
+    def _each(self) -> Iterator[np.ndarray]:
+        """The vertices of each component."""
+        for index in np.unique(self.components[self.components >= 0]):
+            yield np.flatnonzero(self.components == index)
+
+
+def biharmonic_embedding(
+    laplacian: Laplacian | Surface,
+    k: int | None = None,
+    tolerance: float | None = None,
+    progress: Progress | None = None,
+) -> Embedding:
+    """Points with k coordinates, or with as many as bring `bound` below a tolerance in mesh units.
+
+    A component with no more than k vertices uses all its eigenpairs.  The bound falls like 1 / sqrt(k): half of it
+    takes four times as many.  Raises ParameterError unless one of the two is given, and for a bad number.
+    """
+    laplacian = as_laplacian(laplacian)
+    if (k is None) == (tolerance is None):
+        raise ParameterError("An embedding has k coordinates, or as many as a tolerance needs; give one of the two.")
+    if tolerance is not None and not 0 < checked_number(tolerance, "tolerance") < np.inf:
+        raise ParameterError(f"tolerance is {tolerance:g}; it must be a length above 0.")
+    count = checked_count(k) if k is not None else FIRST
+    most = max(component.most_eigenpairs for component in laplacian.components)
+    tried = 0
+    while True:
+        begin = 1 - 0.5**tried
+        found = _embedding(laplacian, min(count, most), part(progress, begin, 1 if k else 1 - 0.5 ** (tried + 1)))
+        if tolerance is None or found.bound <= tolerance or count >= most:
+            (progress or silent)(1.0, "coordinates")
+            return found if k is not None or tolerance is None else _fewest(found, tolerance)
+        # The bound falls like the root of the count.
+        count = int(count * np.clip(1.1 * (found.bound / tolerance) ** 2, 1.5, 4))
+        tried += 1
+
+
+def _embedding(laplacian: Laplacian, count: int, progress: Progress | None) -> Embedding:
+    surface = laplacian.surface
+    points = np.full((len(surface.vertices), count), np.nan)
+    tails = np.full(len(surface.vertices), np.nan)
+    total = len(laplacian.components)
+    for number, component in enumerate(laplacian.components):
+        step = part(progress, number / total, (number + 1) / total)
+        mine = _coordinates(component, min(count, component.most_eigenpairs), step)
+        padded = np.zeros((len(mine), count))
+        padded[:, : mine.shape[1]] = mine
+        points[component.vertices], tails[component.vertices] = padded, _tails(component, mine)
+    return Embedding(points, tails, surface.component_of_vertex)
+
+
+def _coordinates(component: Component, count: int, progress: Progress | None) -> np.ndarray:
+    """(m, count) G A phi, centred: phi / lambda, were phi eigenvectors without error."""
+    if count < 1:
+        return np.zeros((len(component.vertices), 0))
+    vectors = component.spectrum(count, part(progress, 0, 0.8)).eigenvectors[:, :count]
+    found = np.empty(vectors.shape)
+    for start in range(0, count, SOLVED):
+        some = slice(start, start + SOLVED)
+        found[:, some] = component.centred(component.solve(component.areas[:, None] * vectors[:, some]))
+        (progress or silent)(0.8 + 0.2 * min(start + SOLVED, count) / count, "coordinates")
+    return found
+
+
+def _tails(component: Component, points: np.ndarray) -> np.ndarray:
+    """(m,) the lengths of what is left."""
+    squares = _diagonal(component) - np.einsum("ij,ij->i", points, points)
+    # What rounding leaves of a difference counts as a tail.
+    return np.sqrt(np.maximum(squares, 0))
+
+
+def _diagonal(component: Component) -> np.ndarray:
+    """(m,) the squared lengths of all coordinates, around the mean of all points.
+
+    The mean of the squared distances from a point is its own squared length plus the mean of those of all.
+    """
+    squares = component.biharmonic_eccentricity**2
+    return squares - float(component.areas @ squares / component.areas.sum()) / 2
+
+
+def _fewest(found: Embedding, tolerance: float) -> Embedding:
+    """With no more coordinates than the tolerance needs."""
+    # What the later coordinates hold goes into the tails.
+    squares = found.tails[:, None] ** 2 + np.cumsum(found.points[:, ::-1] ** 2, axis=1)[:, ::-1]
+
+    def first(count: int) -> Embedding:
+        return replace(found, points=found.points[:, :count], tails=np.sqrt(squares[:, count]))
+
+    counts = range(1, found.points.shape[1])
+    enough = bisect_left(counts, True, key=lambda count: first(count).bound <= tolerance)
+    return first(counts[enough]) if enough < len(counts) else found

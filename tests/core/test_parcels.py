@@ -1,0 +1,76 @@
+"""Mean distances between parcels."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from bihdist_core import BiharmonicDistance, ParameterError
+from bihdist_core.analysis.parcels import labelled, parcel_means, parcel_sums
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.laplacian import Laplacian
+from tests.shapes import bumpy, two_pieces
+
+SURFACE = bumpy(300)
+LABELS = np.random.default_rng(3).integers(-1, 7, len(SURFACE.vertices)) * 10
+
+
+def slow_means(distance, labels):
+    """Pair by pair, in words of the definition."""
+    n = len(distance.surface.vertices)
+    rows = distance.from_sources(np.arange(n))
+    rows = (rows + rows.T) / 2
+    names = sorted(set(labels[labels >= 0].tolist()))
+    return names, [[rows[np.ix_(labels == a, labels == b)].mean() for b in names] for a in names]
+
+
+@pytest.mark.parametrize("word", ["biharmonic", "geodesic(method=dijkstra)", "geodesic(method=heat)"])
+def test_means_are_those_of_the_full_rows(word):
+    distance = Spec.parse(word).build(Laplacian(SURFACE), None)
+    found = parcel_means(distance, LABELS, memory=1e5)
+    names, means = slow_means(distance, LABELS)
+    assert found.labels.tolist() == names
+    assert found.counts.tolist() == [int((name == LABELS).sum()) for name in names]
+    np.testing.assert_allclose(found.means, means, rtol=1e-12)
+
+
+def test_parts_added_up_are_the_whole():
+    distance = BiharmonicDistance(SURFACE)
+    whole = parcel_means(distance, LABELS)
+    cuts = [0, 17, 100, len(labelled(SURFACE, LABELS))]
+    parts = [parcel_sums(distance, LABELS, None, a, b) for a, b in itertools.pairwise(cuts)]
+    np.testing.assert_allclose((parts[2] + parts[0] + parts[1]).parcels.means, whole.means, rtol=1e-13)
+
+
+def test_what_is_masked_does_not_count():
+    distance = BiharmonicDistance(SURFACE)
+    mask = np.arange(len(LABELS)) % 3 > 0
+    found = parcel_means(distance, LABELS, mask)
+    np.testing.assert_allclose(found.means, slow_means(distance, np.where(mask, LABELS, -1))[1], rtol=1e-12)
+
+
+def test_between_components_there_is_no_mean():
+    surface = two_pieces()
+    # One vertex belongs to no face; it has a label all the same, and does not count.
+    labels = np.maximum(surface.component_of_vertex, 0) * 2 + np.arange(len(surface.vertices)) % 2
+    distance = BiharmonicDistance(surface)
+    means = parcel_means(distance, labels).means
+    piece = np.arange(4) // 2
+    assert np.array_equal(np.isnan(means), piece[:, None] != piece)
+    here, there = (np.flatnonzero((labels == k) & (surface.component_of_vertex >= 0)) for k in (0, 1))
+    assert means[0, 1] == pytest.approx(distance.from_sources(here)[there].mean(), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("labels", "mask", "words"),
+    [
+        (LABELS[:-1], None, "one for each"),
+        (LABELS * 1.0, None, "whole numbers"),
+        (np.full(len(LABELS), -1), None, "No vertex"),
+        (LABELS, np.ones(3), "0 or 1 for each"),
+        (LABELS, LABELS, "0 or 1 for each"),
+    ],
+)
+def test_what_cannot_be_is_refused(labels, mask, words):
+    with pytest.raises(ParameterError, match=words):
+        parcel_means(BiharmonicDistance(SURFACE), labels, mask)
