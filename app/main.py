@@ -7,9 +7,10 @@ import argparse
 import os
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from .commands import (
+    batch,
     correspond,
     evaluate,
     field,
@@ -28,6 +29,7 @@ from .commands import (
     view,
 )
 from .commands.mesh import check_mesh
+from .commands.terminal import standard_output
 from .version import version
 
 COMMANDS = {
@@ -45,27 +47,34 @@ COMMANDS = {
         correspond,
         evaluate,
         perturb,
+        batch,
         figure,
         movie,
         info,
         paper,
     )
 }
-"""By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`."""
+"""By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`; TEXT: the format in
+which it writes to standard output, for `-o -`."""
+
+FILES = re.compile(r"FILE|OUT|DIR|FOLDER|MAP|\.json|\.csv")
+"""Options whose values have such words are completed by names of files, as all that has no option."""
 
 NEGATIVE = re.compile(r"-[xyz]|-[\d.][-+.\deE]*,[-+.,\deE]*")
 """The value of an option, though it begins like one: `--up -z`, `--camera -1,0,…`.  argparse knows single numbers."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; returns the exit status: 0, 1 for a figure with a failed panel, 2 for what the user can
-    mend, 130 when interrupted."""
+    """Run the command line; returns the exit status: 0, 1 for a figure with a failed panel or a page
+    with a part that could not be done, 2 for what the user can mend, 130 when interrupted."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     from bihdist_core.errors import BihdistError
 
     try:
         options = _parser().parse_args(_with_values(_with_command(arguments)))
-        status = COMMANDS[options.command].run(options) or 0
+        module = COMMANDS[options.command]
+        with standard_output(options, getattr(module, "TEXT", "")):
+            status = module.run(options) or 0
         sys.stdout.flush()
         return status
     except BihdistError as error:
@@ -112,11 +121,36 @@ def _parser() -> argparse.ArgumentParser:
         epilog="`bihdist MESH` is short for `bihdist view MESH`.",
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
+    shells = ("bash", "zsh", "tcsh")
+    parser.add_argument("--completion", action=_Completion, choices=shells, help="print a shell's completion and exit")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for word, module in COMMANDS.items():
         words = module.WORDS
         module.add_options(commands.add_parser(word, help=words, description=f"{words[0].upper()}{words[1:]}."))
     return parser
+
+
+class _Completion(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, _: object, shell: str, *__: object) -> None:
+        import shtab
+
+        for action in _actions(parser):
+            metavar = action.metavar if isinstance(action.metavar, str) else ""
+            names_file = not action.option_strings or FILES.search(metavar)
+            if names_file and not action.choices:
+                action.complete = shtab.FILE  # type: ignore[attr-defined]
+        print(shtab.complete(parser, shell))
+        parser.exit()
+
+
+def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
+    """Those of all commands."""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for each in action.choices.values():
+                yield from _actions(each)
+        else:
+            yield action
 
 
 class _Version(argparse.Action):

@@ -7,6 +7,7 @@ from .options import add_areas, add_distance, specs
 from .terminal import accuracy, counted, progress_line
 
 WORDS = "from a few pairs of corresponding vertices, a map from one mesh to another"
+TEXT = ".txt"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

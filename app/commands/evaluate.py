@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from bihdist_core.progress import Progress
 
 WORDS = "how far maps from one mesh to another are from the truth: mean, median, the cumulative curve"
+TEXT = ".csv"
 METHODS = ("auto", "exact", "heat", "dijkstra")
 
 

@@ -7,24 +7,35 @@ from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of
 
 from ..document.quantities import Difference
-from .mesh import read_laplacian
+from .mesh import Facts, add_meshes, into_each, read_laplacian
 from .options import SOURCE, add_areas, add_distance, quantities, source
 from .terminal import accuracy, counted, progress_line
 
 WORDS = "distances of all vertices from one or more sources"
+TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    add_meshes(parser)
     parser.add_argument(
         "--source", type=source, metavar="V", nargs="+", required=True, help=f"{SOURCE}; several words, several fields"
     )
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy, .csv, .ply or .vtp file")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        required=True,
+        help="a .npy, .csv, .ply or .vtp file; {name} is that of each mesh",
+    )
     add_distance(parser)
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> int:
+    return into_each(options, _one)
+
+
+def _one(options: argparse.Namespace) -> Facts:
     from bihdist_core.distances.answers import Distances
     from bihdist_core.distances.difference import check_units, difference
     from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
@@ -50,7 +61,7 @@ def run(options: argparse.Namespace) -> None:
     names = [f"{word}_from_{name}" for name in _names(options.source)]
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
     size = f"{columns.shape[0]} vertices, {counted(columns.shape[1], 'source')}"
-    print(f"{options.output}: {label}, {size}{said}")
+    return {"said": [f"{label}, {size}{said}"], "label": label, "shape": list(columns.shape), "fields": names}
 
 
 def _names(sources: list[Source]) -> list[str]:

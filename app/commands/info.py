@@ -1,10 +1,10 @@
 """`bihdist info`: what a mesh file holds."""
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..document.document import AREAS
-from .mesh import found_mesh
+from .mesh import each_mesh, found_mesh
 from .options import add_areas
 from .terminal import accuracy, progress_line
 
@@ -18,37 +18,56 @@ WORDS = "what a mesh file holds and what would be repaired"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    parser.add_argument("meshes", nargs="+", metavar="mesh", help="mesh files, or the names of samples")
     parser.add_argument(
         "--accuracy", action="store_true", help="how accurate its exact distances are; factors the mesh"
     )
+    parser.add_argument("--json", action="store_true", help="as JSON: a list with an object for each mesh")
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> int:
+    return each_mesh(options.meshes, lambda mesh: _facts(mesh, options), options.json, _print)
+
+
+def _facts(mesh: str, options: argparse.Namespace) -> dict[str, Any]:
     from bihdist_core import read_surface
 
-    s = read_surface(found_mesh(options.mesh))
-    genus = s.genus
-    rows = [
-        ("vertices", len(s.vertices)),
-        ("faces", len(s.faces)),
-        ("components", s.component_count),
-        ("boundary loops", _loops(s)),
-        ("genus", "not defined (not manifold or not orientable)" if genus is None else genus),
-        ("non-manifold edges", s.nonmanifold_edge_count),
-        ("non-manifold vertices", s.nonmanifold_vertex_count),
-        ("vertices without a face", s.unreferenced_count),
-        ("flat faces", len(s.flat_faces)),
-        ("mean edge length", f"{s.mean_edge_length:.6g}"),
-        ("area", f"{s.face_areas.sum():.6g}"),
-        ("repairs", "; ".join(s.remarks) or "none"),
-    ]
-    for name, value in rows:
-        print(f"{name:<26}{value}")
+    s = read_surface(found_mesh(mesh))
+    facts: dict[str, Any] = {
+        "mesh": s.name,
+        "vertices": len(s.vertices),
+        "faces": len(s.faces),
+        "components": s.component_count,
+        "boundary loops": s.boundary_loop_count if options.json else _loops(s),
+        "genus": s.genus,
+        "non-manifold edges": s.nonmanifold_edge_count,
+        "non-manifold vertices": s.nonmanifold_vertex_count,
+        "vertices without a face": s.unreferenced_count,
+        "flat faces": len(s.flat_faces),
+        "mean edge length": s.mean_edge_length,
+        "area": float(s.face_areas.sum()),
+        "repairs": list(s.remarks),
+    }
     if options.accuracy:
-        for label, text in _accuracies(s, options.areas or AREAS[0]):
-            print(f"{label:<26}{text}")
+        facts |= dict(_accuracies(s, options.areas or AREAS[0]))
+    return facts
+
+
+def _print(facts: dict[str, Any], several: bool) -> None:
+    shown = {
+        **facts,
+        "genus": "not defined (not manifold or not orientable)" if facts["genus"] is None else facts["genus"],
+        "mean edge length": f"{facts['mean edge length']:.6g}",
+        "area": f"{facts['area']:.6g}",
+        "repairs": "; ".join(facts["repairs"]) or "none",
+    }
+    if not several:
+        del shown["mesh"]
+    for name, value in shown.items():
+        print(f"{name:<26}{value}")
+    if several:
+        print()
 
 
 def _loops(surface: "Surface") -> str:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from bihdist_core.surface import Surface
 
 WORDS = "values at a few vertices, interpolated on the whole mesh by a distance"
+TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

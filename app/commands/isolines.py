@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..document.looks import Isolines
 
 WORDS = "isolines of a distance as coordinates, and the region between two values"
+TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

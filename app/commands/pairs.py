@@ -3,8 +3,9 @@
 import argparse
 from typing import TYPE_CHECKING
 
-from .mesh import read_laplacian
-from .options import add_areas, add_distance, positive, specs, vertices
+from ..version import version
+from .mesh import NAME, Facts, add_meshes, found_mesh, into_each, read_laplacian
+from .options import add_areas, add_distance, count, positive, specs, vertex, vertices
 from .terminal import accuracy, counted, progress_line, tell, tell_moved
 
 if TYPE_CHECKING:
@@ -13,11 +14,12 @@ if TYPE_CHECKING:
     from bihdist_core.formats.pins import Pins
     from bihdist_core.surface import Surface
 
-WORDS = "distances between chosen vertices"
+WORDS = "distances between chosen vertices, or to those that are nearest"
+TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    add_meshes(parser)
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--vertices", type=vertices, metavar="I,J,K", help="all distances among these")
     which.add_argument("--pins", metavar="FILE", help="the same among the pins in a .csv, .json or MeshLab's .pp file")
@@ -28,32 +30,52 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="all pairs of the mesh, to a .npy; goes on where it was interrupted, from a hidden .part file beside it",
     )
+    which.add_argument(
+        "--nearest", type=count, metavar="K", help="to the K nearest vertices of each: `i,j,distance`, nearest first"
+    )
+    parser.add_argument("--source", metavar="V", nargs="+", help="for --nearest: vertices, or all (default: all)")
     parser.add_argument("--fresh", action="store_true", help="for --all: discard what an interrupted run has left")
     parser.add_argument("--dtype", choices=("float32", "float64"), default="float32", help="for --all")
     parser.add_argument("--memory", type=positive, default=500, metavar="MB", help="for --all (default: 500)")
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy or .csv file")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        required=True,
+        help=f"a .npy or .csv file, for --nearest also .npz or .json; {NAME}: each mesh's",
+    )
     add_distance(parser, "a column; repeat for more (default: biharmonic)")
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> int:
+    return into_each(options, _one)
+
+
+def _one(options: argparse.Namespace) -> Facts:
     import numpy as np
 
+    from bihdist_core.analysis.neighbours_output import NEIGHBOUR_FORMATS
     from bihdist_core.distances.answers import Distances
     from bihdist_core.errors import ParameterError
     from bihdist_core.formats.field_output import ARRAY_FORMATS, write_array
     from bihdist_core.formats.vertex_maps import read_pairs
     from bihdist_core.whole_file import check_output
 
-    extension = check_output(options.output, (".npy",) if options.all else ARRAY_FORMATS)
+    formats = (".npy",) if options.all else NEIGHBOUR_FORMATS if options.nearest else ARRAY_FORMATS
+    extension = check_output(options.output, formats)
     chosen = specs(options, list(dict.fromkeys(options.distance or ["biharmonic"])))
-    if options.all and len(chosen) > 1:
-        raise ParameterError("--all writes the pairs of one distance; name one.")
+    if (options.all or options.nearest) and len(chosen) > 1:
+        word = "--all writes the pairs" if options.all else "--nearest writes the neighbours"
+        raise ParameterError(f"{word} of one distance; name one.")
+    if options.source and not options.nearest:
+        raise ParameterError("--source goes with --nearest, whose neighbours are wanted; vertices stand in --vertices.")
     if options.fresh and not options.all:
         raise ParameterError("--fresh goes with --all: nothing else is kept when it is interrupted.")
     if options.all:
-        _write_all(options, chosen[0])
-        return
+        return _write_all(options, chosen[0])
+    if options.nearest:
+        return _write_nearest(options, chosen[0])
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         distances = Distances(laplacian)
@@ -79,11 +101,50 @@ def run(options: argparse.Namespace) -> None:
             columns = [*(pins.ids[k] for k in np.triu_indices(len(pins), 1)), *columns]
             header = ["pin_i", "pin_j", *header]
         write_array(options.output, np.column_stack(columns), header)
-    for text in lines:
-        print(f"{options.output}: {text}")
+    return {"said": lines, "pairs": len(pairs), "distances": [str(each) for each in chosen]}
 
 
-def _write_all(options: argparse.Namespace, spec: "Spec") -> None:
+def _write_nearest(options: argparse.Namespace, spec: "Spec") -> Facts:
+    """The nearest vertices of some, or of all."""
+    import numpy as np
+
+    from bihdist_core import nearest
+    from bihdist_core.analysis.neighbours_output import write_nearest
+    from bihdist_core.distances.answers import Distances
+
+    from ..document.file import checksum
+
+    with progress_line() as progress:
+        laplacian = read_laplacian(options)
+        surface = laplacian.surface
+        asked = _asked(options.source)
+        sources = np.flatnonzero(surface.component_of_vertex >= 0) if asked is None else surface.check_vertices(asked)
+        distance = Distances(laplacian).get(spec, progress)
+        indices, values = nearest(distance, sources, options.nearest, progress=progress)
+        said = accuracy(distance)
+    facts = {
+        "distance": str(spec), "label": distance.label, "unit": distance.unit, "normalisation": "none",
+        "mesh": surface.name, "checksum": checksum(found_mesh(options.mesh)), "version": version(),
+    }  # fmt: skip
+    write_nearest(options.output, sources, indices, values, facts)
+    found = int((indices >= 0).sum())
+    line = f"{distance.label}, {counted(found, 'neighbour')} of {counted(len(sources), 'vertex', 'vertices')}{said}"
+    return {"said": [line], "pairs": found, "distances": [str(spec)]}
+
+
+def _asked(words: list[str] | None) -> list[int] | None:
+    """The vertices whose neighbours are wanted, None for all."""
+    from bihdist_core.errors import ParameterError
+
+    if words is None or words == ["all"]:
+        return None
+    try:
+        return [vertex(word) for word in words]
+    except argparse.ArgumentTypeError as error:
+        raise ParameterError(f"{error}; write --source 12 40, or --source all.") from None
+
+
+def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
     """The pairs of all vertices, and what is said of the part of them that is there already, or is left."""
     from bihdist_core.analysis.all_pairs import begun, left_by_others, write_all_pairs
     from bihdist_core.distances.answers import Distances
@@ -109,7 +170,11 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> None:
             tell(f"What is done is kept: {_described(left)}. The same command goes on from there.")
         raise
     count = len(laplacian.surface.vertices)
-    print(f"{options.output}: {distance.label}, all pairs of {count} vertices{said}")
+    return {
+        "said": [f"{distance.label}, all pairs of {count} vertices{said}"],
+        "pairs": count**2,
+        "distances": [str(spec)],
+    }
 
 
 def _described(known: "Begun") -> str:

@@ -9,6 +9,7 @@ from .pairs import pins_in
 from .terminal import judged, progress_line, tell_repairs
 
 WORDS = "distances along a path through points of a mesh, as numbers and as a chart"
+TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -8,6 +8,7 @@ from .pairs import pins_in
 from .terminal import accuracy, counted, progress_line
 
 WORDS = "the part of a mesh that is nearest to each of some vertices, by a distance"
+TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -8,6 +8,7 @@ from .options import add_areas, add_distance, count, source, specs
 from .terminal import accuracy, counted, progress_line
 
 WORDS = "vertices spread over a mesh, each the farthest from those before it"
+TEXT = ".txt"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

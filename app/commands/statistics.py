@@ -8,6 +8,7 @@ from .options import SOURCE, add_areas, add_distance, source
 from .terminal import progress_line
 
 WORDS = "a distance in numbers, or how two go together, and their charts"
+TEXT = ".csv"
 FIGURES, TABLES = (".pdf", ".png", ".svg", ".eps"), (".csv", ".npy")
 BINS = 40
 

@@ -1,10 +1,12 @@
 """What a command says beside its result: progress, what was repaired, how accurate it is, what failed."""
 
+import argparse
+import io
 import os
 import sys
 import time
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -34,6 +36,34 @@ def progress_line() -> "Iterator[Progress | None]":
         yield report
     finally:
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
+    """Where the output is `-`, the file goes to standard output, and what is said to standard error.
+
+    text: the extension of the format, nothing if the command has none that is text: then OutputError.
+    """
+    if getattr(options, "output", None) != "-":
+        yield
+        return
+    import shutil
+    import tempfile
+
+    from bihdist_core.errors import OutputError
+
+    if not text:
+        raise OutputError(f"`bihdist {options.command}` writes no text; name a file instead of -.")
+    with tempfile.TemporaryDirectory() as folder:
+        path, said = os.path.join(folder, f"output{text}"), io.StringIO()
+        options.output = path
+        try:
+            with redirect_stdout(said):
+                yield
+        finally:
+            sys.stderr.write(said.getvalue().replace(path, "-"))
+        with open(path, encoding="utf-8") as file:
+            shutil.copyfileobj(file, sys.stdout)
 
 
 def tell(text: str) -> None:

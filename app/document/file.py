@@ -114,6 +114,14 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
     return replace(recipe, document=replace(document, surfaces=tuple(meshes)), arrays=arrays)
 
 
+def recipe_from_text(words: str) -> Recipe:
+    """The recipe that `recipe_text` wrote; its meshes are as it names them.  ParameterError for any other text."""
+    try:
+        return _recipe(json.loads(words))
+    except (ValueError, RecursionError):
+        raise ParameterError("This is not a recipe: it is not JSON.") from None
+
+
 def is_recipe(path: str | os.PathLike[str]) -> bool:
     """Whether a file is a recipe, perhaps of another version: whether it may be replaced by one."""
     try:

@@ -1,7 +1,6 @@
 """Files of maps from the vertices of one surface to those of another, and of pairs of vertices."""
 
 import os
-import re
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +10,10 @@ from ..errors import ParameterError
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .field_output import write_array
+from .whole_numbers import NUMBER_FORMATS, WHOLE, read_whole_numbers, text_lines
 
-MAP_FORMATS = (".npy", ".txt")
+MAP_FORMATS = NUMBER_FORMATS
 PAIR_FORMATS = (".csv", ".txt")
-WHOLE = re.compile("-?[0-9]{1,18}")
 IDENTITY = "identity"
 
 
@@ -36,7 +35,7 @@ def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> 
     path = Path(path)
     if path.suffix.lower() not in MAP_FORMATS:
         raise ParameterError(f"{path} is no map; these are {', '.join(MAP_FORMATS)} files, or the word {IDENTITY}.")
-    found = _array_in(path) if path.suffix.lower() == ".npy" else _lines_in(path)
+    found = read_whole_numbers(path, "map")
     if len(found) != n:
         raise ParameterError(f"{path} maps {len(found)} vertices, and {source.name} has {n}.")
     wrong = np.flatnonzero((found < -1) | (found >= most))
@@ -46,32 +45,6 @@ def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> 
             f"{path} maps vertex {wrong[0]} to {found[wrong[0]]}, and {target.name} has vertices 0 to {most - 1}{hint}."
         )
     return found
-
-
-def _array_in(path: Path) -> np.ndarray:
-    try:
-        array = np.load(path, allow_pickle=False)
-    except (OSError, ValueError, EOFError) as error:
-        raise ParameterError(f"The map in {path} cannot be read: {error}.") from None
-    if not isinstance(array, np.ndarray) or array.size != len(array.reshape(-1)) or array.ndim not in (1, 2):
-        raise ParameterError(f"The map in {path} is no array of whole numbers.")
-    if array.ndim == 2 and 1 not in array.shape:
-        raise ParameterError(f"The map in {path} has shape {array.shape}; a map is one whole number for each vertex.")
-    flat = array.reshape(-1)
-    if flat.dtype.kind == "f" and np.isfinite(flat).all() and (flat == np.floor(flat)).all():
-        flat = flat.astype(np.int64)
-    if flat.dtype.kind not in "iu":
-        raise ParameterError(f"The map in {path} holds {flat.dtype}, not whole numbers.")
-    return flat.astype(np.int64)
-
-
-def _lines_in(path: Path) -> np.ndarray:
-    found = []
-    for number, line in _lines(path, "map"):
-        if not WHOLE.fullmatch(line):
-            raise ParameterError(f"{path}, line {number}: {line!r} is not a whole number.")
-        found.append(int(line))
-    return np.array(found, np.int64)
 
 
 def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
@@ -94,7 +67,7 @@ def read_pairs(
     Raises ParameterError, a sentence with the file, the line and the value, for anything else.
     """
     pairs = []
-    for number, line in _lines(Path(path), "pairs"):
+    for number, line in text_lines(Path(path), "pairs"):
         words = [word.strip() for word in line.replace(";", ",").split(",")]
         if number == 1 and not WHOLE.fullmatch(words[0]):
             continue
@@ -116,13 +89,3 @@ def write_pairs(path: str | os.PathLike[str], pairs: npt.ArrayLike) -> None:
     ids = np.asarray(pairs, np.int64).reshape(-1, 2)
     with whole_file(path) as temporary:
         temporary.write_text("".join(f"{i},{j}\n" for i, j in ids.tolist()), encoding="ascii")
-
-
-def _lines(path: Path, what: str) -> list[tuple[int, str]]:
-    """The lines that are not empty, with their numbers."""
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not a text file"
-        raise ParameterError(f"The {what} in {path} cannot be read: {reason}.") from None
-    return [(number, line.strip()) for number, line in enumerate(lines, 1) if line.strip()]

@@ -1,0 +1,74 @@
+"""Files of whole numbers: a .npy array, or a text with some on each line, and remarks after #."""
+
+import os
+import re
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ParameterError
+
+NUMBER_FORMATS = (".npy", ".txt")
+WHOLE = re.compile("-?[0-9]{1,15}")
+
+
+def read_whole_numbers(path: str | os.PathLike[str], what: str) -> np.ndarray:
+    """(n,) the numbers in a file, of which a message speaks as `what`: "map", "mask".
+
+    Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in NUMBER_FORMATS:
+        raise ParameterError(f"{path} is no {what}; these are {' and '.join(NUMBER_FORMATS)} files.")
+    return _array_in(path, what) if path.suffix.lower() == ".npy" else _numbers_in(path, what)
+
+
+def _array_in(path: Path, what: str) -> np.ndarray:
+    try:
+        array = np.load(path, allow_pickle=False)
+    except (OSError, ValueError, EOFError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ParameterError(f"The {what} in {path} cannot be read: {reason}.") from None
+    if not isinstance(array, np.ndarray) or array.size != len(array.reshape(-1)) or array.ndim not in (1, 2):
+        raise ParameterError(f"The {what} in {path} is no array of whole numbers.")
+    if array.ndim == 2 and 1 not in array.shape:
+        raise ParameterError(
+            f"The {what} in {path} has shape {array.shape}; a {what} is one whole number for each vertex."
+        )
+    flat = array.reshape(-1)
+    if flat.dtype.kind == "f" and np.isfinite(flat).all() and (flat == np.floor(flat)).all():
+        flat = flat.astype(np.int64)
+    if flat.dtype.kind not in "biu":
+        raise ParameterError(f"The {what} in {path}: {flat.dtype} values that are not whole numbers.")
+    return flat.astype(np.int64)
+
+
+def _numbers_in(path: Path, what: str) -> np.ndarray:
+    found = []
+    for number, line in text_lines(path, what):
+        for word in line.partition("#")[0].replace(",", " ").split():
+            found.append(_whole(word, f"{path}, line {number}"))
+    return np.array(found, np.int64)
+
+
+def _whole(word: str, where: str) -> int:
+    """A whole number, which may be written as a float is."""
+    if WHOLE.fullmatch(word):
+        return int(word)
+    try:
+        number = float(word)
+    except ValueError:
+        number = float("nan")
+    if not number.is_integer() or abs(number) > 1e15:
+        raise ParameterError(f"{where}: {word!r} is not a whole number.")
+    return int(number)
+
+
+def text_lines(path: Path, what: str) -> list[tuple[int, str]]:
+    """The lines that are not empty, with their numbers; ParameterError if the file cannot be read."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not a text file"
+        raise ParameterError(f"The {what} in {path} cannot be read: {reason}.") from None
+    return [(number, line.strip()) for number, line in enumerate(lines, 1) if line.strip()]
