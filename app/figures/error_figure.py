@@ -6,17 +6,17 @@ import csv
 import io
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bihdist_core.applications.map_errors import LIMIT, ErrorCurve
+from bihdist_core.applications.map_errors import LIMIT, ErrorCurve, MeanCurve
 from bihdist_core.progress import Progress
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..drawing.style import CURVES
-from .chart_page import USUAL_LOOK, ChartLook, dress, save_chart
+from .chart_page import FAINT, USUAL_LOOK, ChartLook, dress, save_chart
 from .draw import FIGURE_FORMATS
 
 if TYPE_CHECKING:
@@ -26,6 +26,8 @@ HIGH = 0.62
 """How high it is, by its width."""
 LINE = 1.4
 """Points that a curve is wide."""
+MOST_NAMED = 5
+"""So many curves have names beside their mean."""
 STEPS = 250
 """From 0 to the limit, in a table."""
 
@@ -34,23 +36,27 @@ ERROR_FORMATS = (".csv", *FIGURE_FORMATS)
 
 @dataclass(frozen=True, eq=False)
 class ErrorFigure:
-    """The curves of several maps, by their names.  colours: as #rrggbb, in turn."""
+    """The curves of several maps, by their names.  colours: as #rrggbb, in turn.
+
+    means: of all of them, by their names, if these matter more: then those of many maps are thin and have no names.
+    """
 
     curves: Mapping[str, ErrorCurve]
     colours: tuple[str, ...] = CURVES
     look: ChartLook = USUAL_LOOK
+    means: Mapping[str, MeanCurve] = field(default_factory=dict)
 
 
 def save_error_figure(figure: ErrorFigure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
     """Draw the curves (see `save_chart`), or write them as a .csv table: a line for each threshold."""
     if check_output(path, ERROR_FORMATS) == ".csv":
         with whole_file(path) as temporary:
-            temporary.write_text(_table(figure.curves), encoding="utf-8")
+            temporary.write_text(_table({**figure.means, **figure.curves}), encoding="utf-8")
     else:
         save_chart(path, figure.look, HIGH * figure.look.inches, lambda page: _draw(page, figure), progress)
 
 
-def _table(curves: Mapping[str, ErrorCurve]) -> str:
+def _table(curves: Mapping[str, ErrorCurve | MeanCurve]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["error", *curves])
@@ -64,7 +70,11 @@ def _table(curves: Mapping[str, ErrorCurve]) -> str:
 def _draw(page: Figure, figure: ErrorFigure) -> None:
     look, axes = figure.look, page.add_subplot()
     dress(axes, look, "geodesic error / √area", "% of the vertices")
-    for number, (name, curve) in enumerate(figure.curves.items()):
+    thresholds = np.linspace(0, LIMIT, STEPS + 1)
+    are_thin = bool(figure.means) and len(figure.curves) > MOST_NAMED
+    for curve in figure.curves.values() if are_thin else ():
+        axes.plot(thresholds, 100 * curve.shares(thresholds), color=look.style.text, alpha=FAINT, linewidth=LINE / 3)
+    for number, (name, curve) in enumerate(() if are_thin else figure.curves.items()):
         ends = np.unique(np.clip(curve.errors, 0, LIMIT))
         places = np.unique(np.concatenate([[0.0], ends, np.linspace(0, LIMIT, STEPS + 1)]))
         axes.plot(
@@ -75,6 +85,15 @@ def _draw(page: Figure, figure: ErrorFigure) -> None:
             linestyle=("-", "--", ":")[number // len(figure.colours) % 3],
             label=f"{name}: {curve.mean:.3g}",
             drawstyle="steps-post" if len(curve.errors) < STEPS else "default",
+        )
+    for number, (name, mean) in enumerate(figure.means.items()):
+        axes.plot(
+            thresholds,
+            100 * mean.shares(thresholds),
+            color=figure.colours[number] if are_thin else look.style.text,
+            linewidth=1.5 * LINE,
+            linestyle=("-", "--", ":")[number % 3],
+            label=f"{name}: {mean.mean:.3g}",
         )
     axes.set_xlim(0, LIMIT)
     axes.set_ylim(0, 101)

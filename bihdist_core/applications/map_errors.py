@@ -135,6 +135,34 @@ class ErrorCurve:
         return np.searchsorted(self.errors, np.asarray(thresholds, np.float64), side="right") / len(self.errors)
 
 
+@dataclass(frozen=True, eq=False)
+class MeanCurve:
+    """The mean of the curves of several maps, at least one: each has the same weight, however many vertices it has."""
+
+    curves: tuple[ErrorCurve, ...]
+
+    @property
+    def mean(self) -> float:
+        return float(np.mean([curve.mean for curve in self.curves]))
+
+    @property
+    def median(self) -> float:
+        """The smallest error that the mean curve has reached its half at; infinite if it does not."""
+        errors = np.concatenate([curve.errors for curve in self.curves])
+        weights = np.concatenate([np.full(len(c.errors), 1 / len(c.errors)) for c in self.curves]) / len(self.curves)
+        order = np.argsort(errors, kind="stable")
+        reached = int(np.searchsorted(np.cumsum(weights[order]), 0.5 - 1e-12))
+        return float(errors[order[min(reached, len(errors) - 1)]])
+
+    @property
+    def area(self) -> float:
+        return float(np.mean([curve.area for curve in self.curves]))
+
+    def shares(self, thresholds: npt.ArrayLike) -> np.ndarray:
+        """(t,) the mean of the maps' shares of errors that are at most each of thresholds (t,)."""
+        return np.mean([curve.shares(thresholds) for curve in self.curves], axis=0)
+
+
 def error_curve(errors: npt.ArrayLike) -> ErrorCurve:
     """Of errors (m,); NaN is left out.  Raises ParameterError if there is none."""
     known = np.sort(np.asarray(errors, np.float64).ravel())

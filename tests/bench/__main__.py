@@ -13,6 +13,7 @@ from datetime import date
 
 from . import (
     anchor_row,
+    batch_rows,
     drag_row,
     exact_rows,
     growth_rows,
@@ -49,6 +50,8 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     18: scatter_row.scatter,
     19: live_row.live,
     20: anchor_row.anchor_moved,
+    21: batch_rows.batch,
+    22: batch_rows.parcels,
 }
 
 

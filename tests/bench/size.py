@@ -10,8 +10,8 @@ from .meshes import bumpy_sphere
 @dataclass(frozen=True)
 class Size:
     """main: vertices of rows 1 to 6, 9 to 11; pairs: of row 4; growth: of row 7, row 8 takes the last; window: of
-    rows 13 and 14; drag: of row 15; moving: of row 16; scatter: of row 18; live: of row 19; file: a mesh that takes the
-    place of the bumpy sphere of `main` vertices."""
+    rows 13 and 14; drag: of row 15; moving: of row 16; scatter: of row 18; live: of row 19; meshes: how many of row 21;
+    cortex and parcels: of row 22; file: a mesh that takes the place of the bumpy sphere of `main` vertices."""
 
     main: int = 112_000
     pairs: int = 16_000
@@ -23,6 +23,9 @@ class Size:
     moving: int = 1_000_000
     scatter: int = 500_000
     live: tuple[int, ...] = (50_000, 200_000)
+    meshes: int = 400
+    cortex: int = 160_000
+    parcels: int = 400
     rounds: int = 3
     repeat: int = 5
     sample: str = "figure"
@@ -52,6 +55,9 @@ QUICK = Size(
     moving=4000,
     scatter=4000,
     live=(4000,),
+    meshes=2,
+    cortex=2000,
+    parcels=20,
     rounds=1,
     repeat=2,
 )

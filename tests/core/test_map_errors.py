@@ -13,6 +13,7 @@ from bihdist_core import (
     read_map,
     write_map,
 )
+from bihdist_core.applications.map_errors import LIMIT, MeanCurve
 from bihdist_core.formats.vertex_maps import read_pairs
 from tests.shapes import bumpy, components_apart, two_pieces
 
@@ -138,3 +139,15 @@ def test_pairs_are_read_with_and_without_a_header(tmp_path):
     path.write_text("1,2\n3\n")
     with pytest.raises(ParameterError, match="line 2: '3' is not a pair"):
         read_pairs(path)
+
+
+def test_maps_of_a_set_have_the_same_weight(surface):
+    few, many = error_curve([0.0, 0.1]), error_curve(np.linspace(0, 0.2, 1001))
+    both = MeanCurve((few, many))
+    assert both.mean == pytest.approx((few.mean + many.mean) / 2)
+    assert both.area == pytest.approx((few.area + many.area) / 2)
+    thresholds = np.linspace(0, LIMIT, 77)
+    np.testing.assert_allclose(both.shares(thresholds), (few.shares(thresholds) + many.shares(thresholds)) / 2)
+    assert both.shares(both.median) >= 0.5 > both.shares(both.median - 1e-9)
+    assert MeanCurve((few,)).median == 0
+    assert MeanCurve((error_curve([0.0, np.inf, np.inf]),)).median == np.inf

@@ -1,0 +1,58 @@
+"""The errors of all maps of a set in one figure: the curve of each, and their mean."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bihdist_core.applications.map_errors import ErrorCurve, MeanCurve, error_curve
+from bihdist_core.errors import ParameterError
+
+from ..figures.error_figure import ErrorFigure, save_error_figure
+from .maps import WITH_PARTNERS
+from .results import read_arrays
+from .storage import Folder
+from .task import Row
+
+ENDINGS = ("pdf", "svg", "png", "csv")
+NAME = "evaluate"
+ALL = "(all maps)"
+"""Where a mesh is named in the summary."""
+
+
+def write_curves(folder: Folder, rows: Sequence[Row]) -> tuple[list[str], list[Row]]:
+    """The curves of all maps that were evaluated, as figures and as a table: the names of the files, and a line on all
+    of the maps for the summary.  Nothing if there is no map, or none with a vertex whose place is known."""
+    curves, with_partners = {}, {}
+    for row in sorted((row for row in rows if row.work == "evaluate"), key=lambda row: row.name):
+        arrays = read_arrays(folder, row.facts["file"])
+        if (curve := _curve(arrays.get("errors", arrays.get("")))) is not None:
+            curves[row.name] = curve
+        if (curve := _curve(arrays.get(WITH_PARTNERS))) is not None:
+            with_partners[row.name] = curve
+    if not curves:
+        return [], []
+    count = f"{len(curves)} map{'s' * (len(curves) > 1)}"
+    means = {f"mean of {count}": MeanCurve(tuple(curves.values()))}
+    if with_partners:
+        means[f"mean of {count}, partners count"] = MeanCurve(tuple(with_partners.values()))
+    files = [f"{NAME}.{ending}" for ending in ENDINGS]
+    for file in files:
+        with folder.writing(file) as path:
+            save_error_figure(ErrorFigure(curves, means=means), path)
+    overall = next(iter(means.values()))
+    facts = {
+        "file": files[0],
+        "shape": [len(curves)],
+        "unit": "no unit",
+        "mean": overall.mean,
+        "median": overall.median,
+        "area_under_curve": overall.area,
+    }
+    return files, [Row(ALL, "evaluate", "", 0.0, False, facts)]
+
+
+def _curve(errors: np.ndarray | None) -> ErrorCurve | None:
+    try:
+        return None if errors is None else error_curve(errors)
+    except ParameterError:
+        return None

@@ -1,0 +1,269 @@
+"""From meshes to tasks, from tasks to results, from results to tables."""
+
+import csv
+import io
+import os
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from bihdist_core.errors import ParameterError
+
+from ..document.file import checksum
+from ..samples import mesh_path
+from .engines import Engine
+from .maps import Map
+from .storage import Folder
+from .task import Failure, Report, Row, Task, done_before
+from .wanted import MAXIMA, OWN, Wanted
+
+MESHES = (".obj", ".off", ".ply", ".stl", ".vtk", ".vtp")
+COLUMNS = (
+    "mesh", "work", "distance", "file", "shape", "dtype", "unit", "accuracy", "vertices", "faces", "components", "area",
+    "repairs", "mean", "median", "area_under_curve", "seconds",
+)  # fmt: skip
+REASONS = ("mesh", "work", "distance", "reason")
+
+Tell = Callable[[Report, int, int], None]
+"""Called after each task: what has become of it, how many are done, and of how many."""
+
+
+def found_meshes(where: str) -> dict[str, str]:
+    """The paths of meshes by name: those in a folder, or in a list, a path or the name of a sample on each line.
+
+    The name is that of the file, with that of its folder before it where several files have the same.
+
+    ParameterError if there is none, a file of a list is missing, or two have the same name.
+    """
+    path = Path(where)
+    if path.is_dir():
+        paths = sorted(each for each in path.iterdir() if each.suffix.lower() in MESHES and each.is_file())
+        if not paths:
+            raise ParameterError(f"There is no mesh in the folder {where}; meshes are {', '.join(MESHES)} files.")
+    else:
+        try:
+            lines = path.read_text(encoding="utf-8-sig").splitlines()
+        except (OSError, UnicodeDecodeError):
+            raise ParameterError(
+                f"{where} is no folder with meshes, and no list of them, a path on each line."
+            ) from None
+        paths = []
+        for number, line in enumerate(lines, 1):
+            words = line.strip()
+            if not words or words.startswith("#"):
+                continue
+            beside = path.parent / words
+            each = beside if beside.exists() else Path(mesh_path(words))
+            if not each.is_file():
+                raise ParameterError(f"{where}, line {number}: there is no file {words}, nor a sample of that name.")
+            paths.append(each)
+        if not paths:
+            raise ParameterError(f"{where} names no mesh; it has a path on each line.")
+    stems = Counter(each.stem for each in paths)
+    found: dict[str, str] = {}
+    for each in map(Path, map(os.path.abspath, paths)):
+        # One folder for each subject, with the same names in all of them.
+        name = each.stem if stems[each.stem] == 1 else f"{each.parent.name}_{each.stem}"
+        if name in found:
+            raise ParameterError(f"{found[name]} and {each} have the same name, {name}; rename one.")
+        found[name] = str(each)
+    return found
+
+
+def tasks_for(meshes: dict[str, str], wanted: Wanted, address: str, version: str) -> tuple[list[Task], list[Failure]]:
+    """A task for each mesh, the largest file first; failures of those whose files cannot be read.
+
+    address: of the folder for results.
+    """
+    tasks, failures = [], []
+    wanted = replace(wanted, works=tuple(work for work in wanted.works if work != "evaluate"))
+    for name, path in meshes.items():
+        own = replace(
+            wanted,
+            sources=replace(wanted.sources, file=wanted.file_for(wanted.sources.file, name)),
+            labels=wanted.file_for(wanted.labels, name),
+            mask=wanted.file_for(wanted.mask, name),
+        )
+        try:
+            read = [checksum(path), *map(_checksum, own.files.values())]
+            tasks.append(Task(path, name, "+".join(read), own, address, version))
+        except ParameterError as error:
+            failures += [Failure(name, *each, str(error)) for each in wanted.results()]
+    return sorted(tasks, key=lambda task: (-os.path.getsize(task.mesh), task.name)), failures
+
+
+def _checksum(path: str) -> str:
+    """Nothing for a file that cannot be read: what needs it will say so, and nothing else will."""
+    try:
+        return checksum(path)
+    except ParameterError:
+        return ""
+
+
+def tasks_for_maps(maps: Sequence[Map], wanted: Wanted, address: str, version: str) -> tuple[list[Task], list[Failure]]:
+    """The same for each map."""
+    tasks, failures = [], []
+    wanted = replace(wanted, works=("evaluate",), layout="")
+    for each in maps:
+        try:
+            sums = "+".join(map(checksum, [each.mesh, *each.files.values()]))
+            tasks.append(Task(each.mesh, each.name, sums, wanted, address, version, map=each))
+        except ParameterError as error:
+            failures.append(Failure(each.name, "evaluate", "", str(error)))
+    return tasks, failures
+
+
+@dataclass
+class Outcome:
+    rows: list[Row] = field(default_factory=list)
+    failures: list[Failure] = field(default_factory=list)
+
+    def add(self, report: Report) -> None:
+        self.rows += report.rows
+        self.failures += report.failures
+
+
+def do_all(
+    meshes: dict[str, str],
+    maps: Sequence[Map],
+    wanted: Wanted,
+    address: str,
+    version: str,
+    engine: Engine,
+    progress: Callable[[int], AbstractContextManager[Tell]],
+    outcome: Outcome,
+) -> None:
+    """Everything that is wanted of meshes and maps, added to the outcome, also of what is interrupted.
+
+    progress(total): for so many tasks, who is told of each.
+    """
+    # Colours that end alike on all meshes: the largest values are found before anything is drawn.
+    is_shared = "figure" in wanted.works and wanted.range != OWN
+    first = replace(wanted, works=(*(w for w in wanted.works if w != "figure"), MAXIMA)) if is_shared else wanted
+    tasks, failures = tasks_for(meshes, first, address, version) if first.works != ("evaluate",) else ([], [])
+    of_maps, unread = tasks_for_maps(maps, wanted, address, version)
+    outcome.failures += [*failures, *unread]
+    try:
+        with progress(len(tasks) + len(of_maps)) as tell:
+            drive([*tasks, *of_maps], engine, tell, outcome)
+    finally:
+        maxima = [row for row in outcome.rows if row.work == MAXIMA]
+        outcome.rows = [row for row in outcome.rows if row.work != MAXIMA]
+    if not is_shared:
+        return
+    from .figures import shared_ends
+
+    missing = {each.name for each in outcome.failures if each.work == MAXIMA}
+    outcome.failures = [replace(e, work="figure") if e.work == MAXIMA else e for e in outcome.failures]
+    rest = {name: path for name, path in meshes.items() if name not in missing}
+    ends = shared_ends([row.facts for row in maxima], wanted.range)
+    tasks, _ = tasks_for(rest, replace(wanted, works=("figure",), maxima=ends, layout=""), address, version)
+    with progress(len(tasks)) as tell:
+        drive(tasks, engine, tell, outcome)
+
+
+def drive(tasks: Sequence[Task], engine: Engine, tell: Tell, outcome: Outcome | None = None) -> Outcome:
+    """Do the tasks, and what they lead to."""
+    outcome, total, done = outcome or Outcome(), len(tasks), 0
+    left: dict[tuple[str, str, str], int] = {}
+    broken: set[tuple[str, str, str]] = set()
+    waiting = []
+    for task in tasks:
+        report = done_before(task)
+        if report is None:
+            waiting.append(task)
+            continue
+        outcome.add(report)
+        done += 1
+        tell(report, done, total)
+    for task in waiting:
+        engine.submit(task)
+    for report in engine.reports():
+        done += 1
+        outcome.add(report)
+        new = list(report.more)
+        for task in new:
+            assert task.part is not None
+            which = (task.name, task.part.work, task.part.distance)
+            left[which] = left.get(which, 0) + 1
+        part = report.task.part
+        if part is not None and not part.is_whole:
+            which = (report.task.name, part.work, part.distance)
+            left[which] -= 1
+            broken |= {which} if report.failures else set()
+            if not left[which] and which not in broken:
+                new.append(replace(report.task, part=replace(part, is_whole=True)))
+        total += len(new)
+        for task in new:
+            engine.submit(task)
+        tell(report, done, total)
+    outcome.failures = _once(outcome.failures)
+    return outcome
+
+
+def _once(failures: Iterable[Failure]) -> list[Failure]:
+    """One for each result: its parts fail for the same reason."""
+    first: dict[tuple[str, str, str], Failure] = {}
+    for each in failures:
+        first.setdefault((each.name, each.work, each.distance), each)
+    return list(first.values())
+
+
+# ---------------------------------------------------------------------- tables
+def write_tables(folder: Folder, outcome: Outcome, meshes: Iterable[str], lines: Sequence[Row] = ()) -> None:
+    """summary.csv, a line for each result and those that are given, and failures.csv, one for each that is missing, if
+    there is any.
+
+    Lines of other work stay, those of earlier commands with other options: results while their files are there,
+    failures of these meshes.
+    """
+    rows = sorted([*outcome.rows, *lines], key=lambda row: (row.name, row.work, row.distance))
+    cells = [(each.name, each.work, each.distance, each.reason) for each in outcome.failures]
+    said = {line[:3] for line in cells} | {(row.name, row.work, row.distance) for row in rows}
+    names = set(meshes)
+    kept = [line for line in _lines(folder, "summary.csv", COLUMNS) if tuple(line[:3]) not in said]
+    table = [tuple(map(str, _cells(row))) for row in rows]
+    table += [(*line[:-1], "") for line in kept if folder.size(line[3]) is not None]
+    folder.write("summary.csv", _table(COLUMNS, sorted(table)))
+    cells += [
+        tuple(line)
+        for line in _lines(folder, "failures.csv", REASONS)
+        if tuple(line[:3]) not in said and line[0] in names
+    ]
+    if cells:
+        folder.write("failures.csv", _table(REASONS, sorted(cells)))
+    else:
+        folder.remove("failures.csv")
+
+
+def _lines(folder: Folder, name: str, header: Sequence[str]) -> list[list[str]]:
+    """Those of a table that is there, nothing if it is of another kind."""
+    try:
+        first, *lines = csv.reader(io.StringIO((folder.read(name) or b"").decode()))
+    except (ValueError, csv.Error):
+        return []
+    return [line for line in lines if len(line) == len(header)] if first == list(header) else []
+
+
+def _cells(row: Row) -> tuple[object, ...]:
+    facts = row.facts
+    shape = " x ".join(map(str, facts.get("shape", [])))
+    of_facts = [facts.get(name, "") for name in COLUMNS[7:12]]
+    repairs = "; ".join(facts.get("repairs", []))
+    own = (row.name, row.work, row.distance, facts["file"], shape, facts.get("dtype", ""), facts.get("unit", ""))
+    of_maps = [_number(facts.get(name)) for name in COLUMNS[13:16]]
+    return (*own, *of_facts, repairs, *of_maps, f"{row.seconds:.3f}" if row.is_new else "")
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:.6g}"
+
+
+def _table(header: Sequence[str], rows: Iterable[Sequence[object]]) -> bytes:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    return text.getvalue().encode()

@@ -1,0 +1,239 @@
+"""Where tasks run: in processes here, or on a Dask cluster.  Both are asked in the same way."""
+
+import concurrent.futures
+import multiprocessing
+import os
+import sys
+import threading
+import time
+from collections import Counter, deque
+from collections.abc import Iterator
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import replace
+from typing import Any, Protocol
+
+from bihdist_core.errors import ParameterError
+
+from ..version import version
+from .memory import available, share
+from .task import Failure, Report, Task, do, refused
+
+SPARE = 0.9
+"""Of the memory that is free at the beginning, what tasks may take."""
+TRIES = 2
+"""How often a task is begun again that may have ended its process, before it is given up."""
+
+
+class Engine(Protocol):
+    def submit(self, task: Task) -> None:
+        """Have a task done, once there is room."""
+
+    def reports(self) -> Iterator[Report]:
+        """The reports of all tasks, as they end; more may be submitted meanwhile."""
+
+    def close(self) -> None:
+        """End what is under way."""
+
+
+def gone(task: Task, reason: str) -> Report:
+    """The report of a task that did not come back."""
+    results = [(task.part.work, task.part.distance)] if task.part else task.wanted.results()
+    return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in results))
+
+
+class Processes:
+    """Processes on this computer, each doing one task at a time.
+
+    A process that ends by itself (killed for its memory, or by a fault in a library) takes all others of its pool
+    along.  What was under way is begun again, task by task, so that it is known which of them it was.
+
+    Each may take its share of the memory.  A task that needs more comes back, and begins when there is room for it.
+    """
+
+    def __init__(self, workers: int, memory: int | None = None) -> None:
+        """memory: bytes for all of them, most of what is free if None."""
+        self._workers = workers
+        self._memory = memory or int(SPARE * available())
+        self._waiting: deque[Task] = deque()
+        self._alone: deque[Task] = deque()
+        self._under_way: dict[concurrent.futures.Future[Report], Task] = {}
+        self._tries: Counter[Task] = Counter()
+        self._pool: concurrent.futures.ProcessPoolExecutor | None = None
+
+    def submit(self, task: Task) -> None:
+        self._waiting.append(task)
+
+    def reports(self) -> Iterator[Report]:
+        while self._waiting or self._alone or self._under_way:
+            self._fill()
+            ended, _ = concurrent.futures.wait(self._under_way, return_when=concurrent.futures.FIRST_COMPLETED)
+            for future in ended:
+                # A broken pool ends several at once, and all of them are dealt with at the first.
+                if future in self._under_way:
+                    yield from self._report(future)
+
+    def _fill(self) -> None:
+        if self._pool is None:
+            self._pool = concurrent.futures.ProcessPoolExecutor(
+                self._workers,
+                multiprocessing.get_context("spawn"),
+                initializer=_begin,
+                initargs=(self._memory // self._workers,),
+            )
+        if self._alone:
+            if not self._under_way:
+                self._start(self._alone.popleft())
+            return
+        while len(self._under_way) < self._workers:
+            room = self._memory - sum(map(self._bytes, self._under_way.values()))
+            # In order, but for what has no room yet; alone anything begins that is not larger than all.
+            fitting = (task for task in self._waiting if self._bytes(task) <= room)
+            task = next(fitting, None)
+            if task is None:
+                break
+            self._waiting.remove(task)
+            self._start(task)
+
+    def _bytes(self, task: Task) -> int:
+        return task.needs or self._memory // self._workers
+
+    def _start(self, task: Task) -> None:
+        assert self._pool is not None
+        self._under_way[self._pool.submit(do, task)] = task
+
+    def _report(self, future: "concurrent.futures.Future[Report]") -> Iterator[Report]:
+        try:
+            report = future.result()
+        except BrokenProcessPool:
+            yield from self._broken()
+            return
+        task = self._under_way.pop(future)
+        if not report.needs:
+            yield report
+        elif report.needs <= self._memory:
+            self._waiting.appendleft(replace(task, needs=report.needs))
+        else:
+            yield refused(report, self._memory)
+
+    def _broken(self) -> Iterator[Report]:
+        suspects, self._under_way = list(self._under_way.values()), {}
+        assert self._pool is not None
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        self._pool = None
+        was_alone = len(suspects) == 1
+        for task in suspects:
+            self._tries[task] += was_alone
+            if self._tries[task] >= TRIES:
+                yield gone(task, "The process that did it ended twice; it may need more memory than there is.")
+            else:
+                self._alone.append(task)
+
+    def close(self) -> None:
+        if self._pool is not None:
+            for process in list((getattr(self._pool, "_processes", None) or {}).values()):
+                process.kill()
+            self._pool.shutdown(wait=False, cancel_futures=True)
+            self._pool = None
+
+
+def _begin(memory: int) -> None:
+    """In a new process: its share of the memory, one thread for BLAS, and an end with the process that has begun it,
+    however that ends."""
+    share(memory)
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ[name] = "1"
+    parent = multiprocessing.parent_process()
+
+    def leave() -> None:
+        if parent is not None:
+            parent.join()
+        os._exit(1)
+
+    threading.Thread(target=leave, daemon=True).start()
+
+
+WAIT = 60.0
+"""Seconds in which a scheduler that has just been started writes its file."""
+
+
+def _wait_for(file: str) -> None:
+    """ParameterError if the file does not appear; Dask would wait for ever."""
+    end = time.monotonic() + WAIT
+    if not os.path.exists(file):
+        print(f"Waiting for the scheduler's file {file}, at most {WAIT:.0f} seconds.", file=sys.stderr)
+    while not os.path.exists(file):
+        if time.monotonic() > end:
+            raise ParameterError(f"No scheduler has written {file}; start it with --scheduler-file {file}.")
+        time.sleep(0.2)
+
+
+class Cluster:
+    """A Dask cluster: whatever `distributed.Client` reaches.  Scheduling, retries and memory are Dask's."""
+
+    def __init__(self, where: str) -> None:
+        """where: an address (tcp://…), or the scheduler's file (….json).
+
+        ParameterError if it cannot be reached, or has not this version, and if Dask is missing.
+        """
+        try:
+            from distributed import Client, as_completed
+        except ImportError:
+            raise ParameterError("--dask needs the packages of Dask: pip install 'bihdist[dask]'.") from None
+        if where.endswith(".json"):
+            _wait_for(where)
+        try:
+            options: dict[str, Any] = {"scheduler_file": where} if where.endswith(".json") else {"address": where}
+            self._client = Client(**options, timeout="20s", set_as_default=False)
+        except (OSError, ValueError, TimeoutError) as error:
+            raise ParameterError(f"There is no Dask scheduler at {where}: {error}") from None
+        try:
+            there = self._client.run_on_scheduler(version)
+        except Exception:  # whatever it cannot unpickle
+            there = ""
+        if there != version():
+            self._client.close()
+            has = f"has version {there}" if there else "cannot import it"
+            raise ParameterError(
+                f"Scheduler and workers need the same version of bihdist as this one, {version()}; the scheduler at "
+                f"{where} {has}."
+            )
+        self._ended = as_completed(loop=self._client.loop)
+        self._under_way: dict[str, Task] = {}
+        self._tries: Counter[Task] = Counter()
+
+    def submit(self, task: Task) -> None:
+        large = [address for address, limit in self._limits().items() if limit >= task.needs] if task.needs else None
+        self._tries[task] += 1
+        key = f"bihdist-{task.words}-{task.digest}-{self._tries[task]}"
+        # Where none of those workers is left, others take it and send it back.
+        future = self._client.submit(
+            do, task, key=key, pure=False, workers=large or None, allow_other_workers=bool(large)
+        )
+        self._under_way[future.key] = task
+        self._ended.add(future)
+
+    def reports(self) -> Iterator[Report]:
+        while self._under_way:
+            future = next(self._ended)
+            task = self._under_way.pop(future.key)
+            error = future.exception()
+            if error is not None:
+                yield gone(task, f"The cluster gave it up: {type(error).__name__}: {' '.join(str(error).split())}")
+                continue
+            report = future.result()
+            if not report.needs:
+                yield report
+                continue
+            most = max(self._limits().values(), default=0)
+            if report.needs <= most:
+                self.submit(replace(task, needs=report.needs))
+            else:
+                yield refused(report, most)
+
+    def _limits(self) -> dict[str, int]:
+        """The memory of each worker; that of one without a limit is what there is, and more than anything needs."""
+        workers = self._client.scheduler_info(n_workers=-1)["workers"]
+        return {address: int(about["memory_limit"] or 1 << 62) for address, about in workers.items()}
+
+    def close(self) -> None:
+        self._client.close()

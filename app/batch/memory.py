@@ -1,0 +1,80 @@
+"""How much memory a task needs, and how much there is."""
+
+import math
+import os
+
+from .wanted import Wanted
+
+BASE = 2.5e8
+PER_VERTEX = 6e3
+"""Bytes for the program, and for each vertex with its share of the factor: measured at 20,000 to 200,000 vertices,
+0.2 to 0.95 GB, with some to spare."""
+PART_BYTES = 2.5e8
+"""A result larger than this is done in parts of no more."""
+FIELDS, PAIRS = 3, 6
+"""Times the bytes of a part that are there at once while it is computed, of fields and of all pairs among sources."""
+
+
+def needed(n: int, wanted: Wanted) -> int:
+    """Bytes for a mesh with n vertices, at most at a time."""
+    sources = n if wanted.sources.rule == "all" else max(wanted.sources.count, len(wanted.sources.words), 1)
+    has_pairs = "pairs" in wanted.works and not wanted.labels
+    fields = min(n * sources * 8.0, PART_BYTES) * (PAIRS if has_pairs else FIELDS)
+    # Formats that are written at once are joined in memory.
+    of_both = max((sources if "pairs" in wanted.works else 0), (n if "fields" in wanted.works else 0))
+    whole = sources * of_both * 8.0 if wanted.layout or wanted.arrays in ("npz", "mat") else 0.0
+    eigen = n * wanted.eigenpairs * 8.0 * 4 if "eigen" in wanted.works else 0.0
+    figure = 3e8 if "figure" in wanted.works else 0.0
+    return int(BASE + n * PER_VERTEX + max(fields, whole, eigen) + figure)
+
+
+_share: int | None = None
+
+
+def share(bytes_of_each: int) -> None:
+    """Let a task of which nothing is known yet take so much in this process."""
+    global _share
+    _share = bytes_of_each
+
+
+def allowed(is_expected: bool = False) -> float:
+    """Bytes that a task may take: the share of a thread of its Dask worker, that of this process, or all.
+
+    is_expected: whether room was found for it; then no more than its worker has is the only bound.
+    """
+    import sys
+
+    if "distributed" in sys.modules:
+        from distributed import get_worker
+
+        try:
+            worker = get_worker()
+        except ValueError:  # no worker runs this
+            worker = None
+        if worker is not None and worker.memory_manager.memory_limit:
+            threads = 1 if is_expected else max(worker.state.nthreads, 1)
+            return float(worker.memory_manager.memory_limit / threads)
+    return math.inf if is_expected else _share or available()
+
+
+def available() -> int:
+    """Bytes of memory that are free here."""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as file:
+            for line in file:
+                if line.startswith("MemAvailable"):
+                    return int(line.split()[1]) * 1024
+    except OSError:
+        pass
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2
+    except (ValueError, OSError, AttributeError):
+        return 4 * 10**9
+
+
+def too_big(needs: int, most: int) -> str:
+    """Why a task cannot be done."""
+    return (
+        f"It needs about {needs / 1e9:.1f} GB of memory, and there are {most / 1e9:.1f} GB; "
+        "run it where there is more, or ask for less of it."
+    )

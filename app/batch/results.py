@@ -1,0 +1,175 @@
+"""Results as files: arrays in the format that was asked for, and beside them a JSON that says what they are.
+
+The JSON is written last: a result is there if its JSON names this very work and the file it names has the size that
+it says.
+"""
+
+import io
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bihdist_core.errors import OutputError, ParameterError
+
+from .storage import Folder
+from .wanted import ARRAYS
+
+CHUNK = 1024
+"""Rows and columns of a chunk of a Zarr array, which is read and written by chunks."""
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """An array that comes in blocks along an axis, each when it is asked for."""
+
+    shape: tuple[int, ...]
+    dtype: np.dtype
+    axis: int
+    each: Callable[[], Iterator[np.ndarray]]
+
+    def into(self, target: Any) -> None:
+        """Fill what takes slices."""
+        begin = 0
+        for block in self.each():
+            end = begin + block.shape[self.axis]
+            target[(slice(None),) * self.axis + (slice(begin, end),)] = block
+            begin = end
+
+    def whole(self) -> np.ndarray:
+        array = np.empty(self.shape, self.dtype)
+        self.into(array)
+        return array
+
+
+Array = np.ndarray | Blocks
+
+
+def facts_of(folder: Folder, name: str, key: str) -> dict[str, Any] | None:
+    """What is said of a result that is there, complete; None if it is not, or is of other work."""
+    text = folder.read(f"{name}.json")
+    if text is None:
+        return None
+    try:
+        facts = json.loads(text)
+        is_there = facts["key"] == key and folder.size(facts["file"]) == facts["bytes"]
+    except (ValueError, TypeError, KeyError):
+        return None
+    return facts if is_there else None
+
+
+def write_result(
+    folder: Folder,
+    name: str,
+    key: str,
+    arrays: Mapping[str, Array],
+    facts: Mapping[str, Any],
+    format: str = "npy",
+    file: str = "",
+) -> dict[str, Any]:
+    """Arrays by name, the first of which is the result, and what is to be said of them; what was written.
+
+    file: where the arrays go, if not beside the JSON.
+
+    Raises OutputError if it cannot be written; then no JSON says that it is there.
+    """
+    format = format if format != "npy" or len(arrays) == 1 else "npz"
+    file = file or f"{name}.{format}"
+    folder.remove(f"{name}.json")
+    if format == "zarr":
+        write_zarr(folder, file, arrays, facts)
+    else:
+        with folder.writing(file) as path:
+            _write(path, format, arrays)
+    first = next(iter(arrays.values()))
+    return write_facts(folder, name, key, file, {"shape": list(first.shape), "dtype": str(first.dtype), **facts})
+
+
+def write_facts(folder: Folder, name: str, key: str, file: str, facts: Mapping[str, Any]) -> dict[str, Any]:
+    """The JSON beside a file that is complete."""
+    said = {"file": file, "bytes": folder.size(file), **facts, "key": key}
+    text = json.dumps(said, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    folder.write(f"{name}.json", text.encode())
+    return said
+
+
+def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
+    if format == "npy":
+        (array,) = arrays.values()
+        if isinstance(array, Blocks):
+            # Larger than memory, it may be.
+            there = np.lib.format.open_memmap(path, "w+", array.dtype, array.shape)
+            array.into(there)
+            there.flush()
+            return
+        with path.open("wb") as file:
+            np.save(file, array)
+    elif format == "npz":
+        with path.open("wb") as file:
+            np.savez(file, **_whole(arrays))  # type: ignore[arg-type]
+    else:
+        from scipy.io import savemat
+
+        # Of a list MATLAB makes a column.
+        savemat(path, _whole(arrays), oned_as="column")
+
+
+def _whole(arrays: Mapping[str, Array]) -> dict[str, np.ndarray]:
+    return {name: array.whole() if isinstance(array, Blocks) else array for name, array in arrays.items()}
+
+
+def read_arrays(folder: Folder, file: str) -> dict[str, np.ndarray]:
+    """The arrays of a file that `write_result` has written, by name; a single one of .npy has none, ""."""
+    if file.endswith(".zarr"):
+        import zarr
+
+        group = zarr.open_group(zarr_store(folder, file), mode="r")
+        return {name: np.asarray(group[name]) for name in group.array_keys()}
+    content = folder.read(file)
+    if content is None:
+        raise OutputError(f"{folder}/{file} is gone.")
+    if file.endswith(".mat"):
+        from scipy.io import loadmat
+
+        found = loadmat(io.BytesIO(content))
+        return {name: np.squeeze(array) for name, array in found.items() if not name.startswith("__")}
+    loaded = np.load(io.BytesIO(content), allow_pickle=False)
+    return {"": loaded} if isinstance(loaded, np.ndarray) else dict(loaded.items())
+
+
+def check_format(format: str) -> None:
+    """ParameterError for a format that is none, or whose package is missing, which is named."""
+    if format not in ARRAYS:
+        raise ParameterError(f"There is no format {format!r}; arrays are written as {', '.join(ARRAYS)}.")
+    if format == "zarr":
+        try:
+            import zarr  # noqa: F401
+        except ImportError:
+            raise ParameterError("Zarr arrays need the package zarr: pip install 'bihdist[zarr]'.") from None
+
+
+def write_zarr(folder: Folder, file: str, arrays: Mapping[str, Array], facts: Mapping[str, Any]) -> None:
+    """A Zarr group of arrays, what is said of them in its attributes."""
+    import zarr
+
+    folder.remove(file)
+    group = zarr.open_group(zarr_store(folder, file), mode="w", attributes=dict(facts))
+    for each, array in arrays.items():
+        chunks = tuple(min(CHUNK, max(length, 1)) for length in array.shape)
+        there = group.create_array(each, shape=array.shape, dtype=array.dtype, chunks=chunks)
+        if isinstance(array, Blocks):
+            array.into(there)
+        else:
+            there[...] = array
+
+
+def zarr_store(folder: Folder, file: str) -> Any:
+    """Where Zarr keeps the arrays of a file."""
+    if folder.local is not None:
+        return str(folder.local / file)
+    from zarr.storage import FsspecStore
+
+    return FsspecStore.from_url(f"{folder.address}/{file}")

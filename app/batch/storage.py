@@ -1,0 +1,129 @@
+"""Folders that results go to: on this computer, or wherever fsspec reaches (`s3://…`, `gs://…`, `memory://…`)."""
+
+import glob
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from bihdist_core.errors import OutputError, ParameterError
+from bihdist_core.whole_file import whole_file
+
+HALF_WRITTEN = re.compile(r"\.(.+)-[0-9a-f]{8}(\.\w+)")
+"""The names that files have while they are written (`whole_file`)."""
+
+
+@dataclass(frozen=True)
+class Folder:
+    """A folder by its path or address; files in it are whole or absent.  Files are named from it, with `/`.
+
+    Only its address travels to other processes.
+    """
+
+    address: str
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"address": self.address}
+
+    @cached_property
+    def local(self) -> Path | None:
+        """Where it is on this computer, None if it is elsewhere."""
+        return None if "://" in self.address else Path(self.address)
+
+    @cached_property
+    def _elsewhere(self) -> tuple[Any, str]:
+        import fsspec
+
+        try:
+            return fsspec.core.url_to_fs(self.address)
+        except (ValueError, ImportError) as error:
+            # fsspec names the package that is missing.
+            raise ParameterError(f"{self.address} cannot be reached: {error}.") from None
+
+    def make(self) -> None:
+        """OutputError if it cannot be made or is no folder."""
+        try:
+            if self.local is not None:
+                self.local.mkdir(parents=True, exist_ok=True)
+            else:
+                system, root = self._elsewhere
+                system.makedirs(root, exist_ok=True)
+        except OSError as error:
+            raise OutputError(f"The folder {self.address} cannot be made: {error.strerror or error}.") from error
+
+    def size(self, name: str) -> int | None:
+        """Bytes of a file, or of all in a folder; None if there is none."""
+        if self.local is not None:
+            path = self.local / name
+            if path.is_dir():
+                return sum(each.stat().st_size for each in path.rglob("*") if each.is_file())
+            return path.stat().st_size if path.exists() else None
+        system, root = self._elsewhere
+        path = f"{root}/{name}"
+        if not system.exists(path):
+            return None
+        return int(system.du(path)) if system.isdir(path) else int(system.size(path))
+
+    def read(self, name: str) -> bytes | None:
+        """A file, None if there is none."""
+        try:
+            if self.local is not None:
+                return (self.local / name).read_bytes()
+            system, root = self._elsewhere
+            return bytes(system.cat_file(f"{root}/{name}"))
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+
+    @contextmanager
+    def writing(self, name: str) -> Iterator[Path]:
+        """A path on this computer that becomes the file when the block ends well.  OutputError if it cannot."""
+        if self.local is not None:
+            (self.local / name).parent.mkdir(parents=True, exist_ok=True)
+            with whole_file(self.local / name) as temporary:
+                yield temporary
+            return
+        system, root = self._elsewhere
+        with tempfile.TemporaryDirectory() as scratch:
+            here = Path(scratch) / Path(name).name
+            yield here
+            try:
+                system.makedirs(os.path.dirname(f"{root}/{name}"), exist_ok=True)
+                # Object stores show a file when all of it is there.
+                system.put_file(str(here), f"{root}/{name}")
+            except OSError as error:
+                raise OutputError(f"{self.address}/{name} could not be written: {error}.") from error
+
+    def sweep(self) -> None:
+        """Remove what killed processes have left half written; to be called when nothing writes here any more."""
+        if self.local is None:
+            return  # elsewhere a file is shown when all of it is there
+        for path in self.local.rglob(".*"):
+            half = HALF_WRITTEN.fullmatch(path.name)
+            if half and path.is_file() and any(path.parent.glob(f"{glob.escape(half[1])}*{half[2]}")):
+                path.unlink(missing_ok=True)
+
+    def write(self, name: str, content: bytes) -> None:
+        with self.writing(name) as path:
+            path.write_bytes(content)
+
+    def remove(self, name: str) -> None:
+        """A file or a folder with all that is in it, if it is there."""
+        if self.local is not None:
+            path = self.local / name
+            if path.is_dir():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)
+            return
+        system, root = self._elsewhere
+        if system.exists(f"{root}/{name}"):
+            system.rm(f"{root}/{name}", recursive=True)
+
+    def __str__(self) -> str:
+        return self.address

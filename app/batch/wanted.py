@@ -1,0 +1,137 @@
+"""What is to be done with each mesh, in plain values: the same text is the same work, in any process."""
+
+import hashlib
+import json
+import re
+from dataclasses import asdict, dataclass
+
+from bihdist_core.errors import ParameterError
+
+WORKS = ("fields", "pairs", "nearest", "eigen", "fps", "figure", "evaluate")
+MAXIMA = "maxima"
+"""A work that is done before figures that share their range: the largest value of each panel."""
+SIZE, SHARED, OWN = RANGES = ("size", "shared", "own")
+"""Where colours of figures end: at one value over the root of each mesh's area, to the power that a distance has; at
+one value in mesh units; at the maximum of each mesh."""
+ARRAYS = ("npy", "npz", "mat", "zarr")
+"""Formats of arrays."""
+LAYOUTS = {"dist": ("dist",), "geodist": ("geodist", "sqrt_area")}
+"""Folders of .mat files as benchmarks of shape matching read them, with the names in the files: `dist` that of
+Self-Supervised-Multimodal-Shape-Matching, `geodist` that of GeomFmaps and DUO-FM."""
+READ = {"fields": {"landmarks", "mask"}, "pairs": {"landmarks", "labels", "mask"}, "nearest": {"landmarks", "mask"},
+        "fps": {"mask"}}  # fmt: skip
+"""What a work reads beside the mesh: a change of it is one of its results."""
+RULES = ("vertices", "farthest", "sample", "landmarks", "all")
+
+
+@dataclass(frozen=True)
+class Sources:
+    """Where distances start: a rule with its words (vertices), count (farthest, sample), seed (sample) or file
+    (landmarks).  Nothing is the highest vertex."""
+
+    rule: str = "vertices"
+    words: tuple[str, ...] = ()
+    count: int = 0
+    seed: int = 0
+    file: str = ""
+
+    @property
+    def several(self) -> bool:
+        """Whether they are more than one, so that there are pairs among them."""
+        return self.rule != "vertices" or len(self.words) > 1
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """works: of WORKS, in their order; distances: specs in words; nearest: as many neighbours; samples: of a map, that
+    many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  layout: of
+    LAYOUTS, for pairs.  recipe: the text of that which figures are drawn from; range: of RANGES; maxima:
+    where those of panels end, if they are not their own."""
+
+    works: tuple[str, ...]
+    distances: tuple[str, ...] = ("biharmonic",)
+    areas: str = "voronoi"
+    sources: Sources = Sources()
+    eigenpairs: int = 100
+    nearest: int = 10
+    dtype: str = "float64"
+    arrays: str = "npy"
+    samples: int = 0
+    labels: str = ""
+    mask: str = ""
+    layout: str = ""
+    recipe: str = ""
+    range: str = OWN
+    maxima: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.works:
+            raise ParameterError(f"Nothing is to be done; name some of {', '.join(WORKS)}.")
+        for work in self.works:
+            if work not in (*WORKS, MAXIMA):
+                raise ParameterError(f"There is no work {work!r}; it is one of {', '.join(WORKS)}.")
+        if "pairs" in self.works and not (self.labels or self.sources.several):
+            raise ParameterError(
+                "Pairs are among several sources: name them, such as --sources farthest:400, --landmarks or --sources "
+                "all; or --labels for the mean distances between parcels."
+            )
+        if self.layout and (self.layout not in LAYOUTS or "pairs" not in self.works or len(self.distances) > 1):
+            raise ParameterError(
+                f"A layout ({', '.join(LAYOUTS)}) is of the pairs of one distance: --do pairs --sources all."
+            )
+        if "fps" in self.works and self.sources.rule != "farthest":
+            raise ParameterError("Farthest points need a number of them: --sources farthest:400.")
+
+    def results(self) -> list[tuple[str, str]]:
+        """Each work with the distance it is done with, "" for none."""
+        found = []
+        for work in (*WORKS, MAXIMA):
+            if work in self.works:
+                with_distance = work in ("fields", "pairs", "nearest", "fps")
+                found += [(work, distance) for distance in (self.distances if with_distance else ("",))]
+        return found
+
+    def key(self, work: str, distance: str, checksums: str, version: str) -> str:
+        """What tells this result from others: of a mesh and other files (by their checksums), options and version."""
+        says = asdict(self)
+        of_work = {
+            "fields": {"areas", "sources", "dtype", "arrays", "mask"},
+            "pairs": {"areas", "sources", "dtype", "arrays", "mask", "labels", "layout"},
+            "nearest": {"areas", "sources", "dtype", "arrays", "mask", "nearest"},
+            "eigen": {"areas", "eigenpairs", "dtype", "arrays"},
+            "fps": {"areas", "sources", "arrays", "mask"},
+            "figure": {"recipe", "range", "maxima"},
+            "evaluate": {"areas", "samples", "arrays"},
+            MAXIMA: {"recipe"},
+        }[work]
+        # What stands in files is in their checksums, wherever they are.
+        says["sources"]["file"], says["mask"], says["labels"] = "", bool(self.mask), bool(self.labels)
+        says = {name: value for name, value in says.items() if name in of_work}
+        text = json.dumps([work, distance, checksums, version, says], sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    @property
+    def files(self) -> dict[str, str]:
+        """What is read beside the mesh, by what it is."""
+        named = {"landmarks": self.sources.file, "labels": self.labels, "mask": self.mask}
+        return {what: path for what, path in named.items() if path}
+
+    def file_for(self, pattern: str, name: str) -> str:
+        """The file that a pattern means for a mesh."""
+        return pattern.replace("{name}", name)
+
+
+def slug(distance: str) -> str:
+    """A spec's words in letters that files may have: diffusion(t=1/4) is diffusion_t_1_4."""
+    return re.sub(r"[^0-9A-Za-z.-]+", "_", distance).strip("_")
+
+
+def thumbnail_name(mesh: str) -> str:
+    """The file with a thumbnail of a mesh's figure."""
+    return f"thumbnails/{mesh}.jpg"
+
+
+def result_name(mesh: str, work: str, distance: str) -> str:
+    """The beginning of the names of a result's files."""
+    name = ".".join(part for part in (mesh, work, slug(distance)) if part)
+    return f".{MAXIMA}/{name}" if work == MAXIMA else name

@@ -1,0 +1,230 @@
+"""What is done with one mesh: a function for each work, from the mesh to arrays and what is to be said of them."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bihdist_core import Laplacian, Surface, read_surface
+from bihdist_core.analysis.neighbours import nearest
+from bihdist_core.analysis.parcels import Parcels, checked_mask, parcel_means
+from bihdist_core.analysis.sampling import farthest_points
+from bihdist_core.analysis.upright import axis_of, guess_up
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.distance import Distance
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
+from bihdist_core.formats.pins import PIN_FORMATS, read_pins
+from bihdist_core.formats.whole_numbers import read_whole_numbers
+from bihdist_core.laplacian import eigenpairs
+from bihdist_core.sources.source import Source
+from bihdist_core.sources.words import short_words_of, source_from_words
+
+from .results import Array
+from .wanted import Wanted
+
+
+@dataclass(frozen=True, eq=False)
+class Made:
+    """arrays: by name, the result first; facts: what is to be said of them, in plain values."""
+
+    arrays: Mapping[str, Array]
+    facts: dict[str, Any]
+
+
+class Mesh:
+    """A mesh with what is computed of it once: the surface, the factor, the distances, the sources."""
+
+    def __init__(self, path: str, name: str, wanted: Wanted) -> None:
+        self.name, self.wanted = name, wanted
+        self.surface: Surface = read_surface(path)
+        self.extension = Path(path).suffix
+        self._sources: dict[str, list[Source]] = {}
+
+    @cached_property
+    def distances(self) -> Distances:
+        return Distances(Laplacian(self.surface, self.wanted.areas))
+
+    def distance(self, words: str) -> Distance:
+        return self.distances.get(Spec.parse(words))
+
+    def sources(self, words: str) -> list[Source]:
+        """Where the fields of a distance start; the farthest points are those by it.
+
+        ParameterError or VertexError for what is not on this mesh.
+        """
+        # A mask that does not fit is refused whatever the rule.
+        asked, surface, counts = self.wanted.sources, self.surface, self.counts
+        if asked.rule == "farthest":
+            if words not in self._sources:
+                found = farthest_points(self.distance(words), self.highest, asked.count, among=counts)
+                self._sources[words] = found.tolist()
+            return self._sources[words]
+        if asked.rule == "landmarks":
+            return _landmarks(self.wanted.file_for(asked.file, self.name), surface)
+        if asked.rule == "vertices":
+            return [source_from_words(words) for words in asked.words] or [self.highest]
+        chosen = np.flatnonzero(counts)
+        if asked.rule == "all":
+            return chosen.tolist()
+        if asked.count > len(chosen):
+            what = "vertices" if self.mask is None else "vertices that are not masked"
+            raise ParameterError(f"{surface.name} has {len(chosen)} {what}, fewer than the sample of {asked.count}.")
+        return np.sort(np.random.default_rng(asked.seed).choice(chosen, asked.count, replace=False)).tolist()
+
+    @cached_property
+    def mask(self) -> np.ndarray | None:
+        """(n,) which vertices count, None for all; ParameterError if none does."""
+        if not self.wanted.mask:
+            return None
+        file = self.wanted.file_for(self.wanted.mask, self.name)
+        found = checked_mask(self.surface, read_whole_numbers(file, "mask"))
+        if not found[self.surface.component_of_vertex >= 0].any():
+            raise ParameterError(f"The mask in {file} leaves no vertex of {self.surface.name}.")
+        return found
+
+    @cached_property
+    def counts(self) -> np.ndarray:
+        """(n,) the vertices of faces that are not masked: those that rules for sources choose from."""
+        used = self.surface.component_of_vertex >= 0
+        return used if self.mask is None else used & self.mask
+
+    @cached_property
+    def highest(self) -> int:
+        """Where distances start where nothing is said: on the largest component that counts."""
+        component = self.surface.component_of_vertex
+        ids = np.flatnonzero(self.counts & (component == component[self.counts].min()))
+        return int(ids[np.argmax(self.surface.vertices[ids] @ axis_of(guess_up(self.surface, self.extension)))])
+
+    @cached_property
+    def labels(self) -> np.ndarray:
+        """(n,) the parcel of each vertex."""
+        return read_whole_numbers(self.wanted.file_for(self.wanted.labels, self.name), "labels")
+
+
+def _landmarks(file: str, surface: Surface) -> list[Source]:
+    if file.lower().endswith(PIN_FORMATS):
+        found = read_pins(file, surface).vertices
+    else:
+        found = surface.check_vertices(read_whole_numbers(file, "list of landmarks"))
+    if not len(found):
+        raise ParameterError(f"There is no landmark in {file}.")
+    return found.tolist()
+
+
+# ---------------------------------------------------------------------- works
+def fields(mesh: Mesh, words: str, begin: int = 0, end: int | None = None) -> Made:
+    """(n, k) the distance of every vertex from each source, of which begin to end are meant."""
+    distance, sources = mesh.distance(words), mesh.sources(words)
+    columns = distance.from_sources(sources[begin:end])
+    if mesh.mask is not None:
+        columns[~mesh.mask] = np.nan
+    return Made(
+        {"fields": _in(columns, mesh.wanted.dtype)}, said_of_fields(distance, sources, mesh.wanted.sources.rule)
+    )
+
+
+def said_of_fields(distance: Distance, sources: list[Source], rule: str = "") -> dict[str, Any]:
+    is_all = rule == "all" and len(sources) == len(distance.surface.vertices)
+    return {**_said(distance), "sources": "all" if is_all else _named(sources)}
+
+
+def pairs(mesh: Mesh, words: str) -> Made:
+    """(k, k) the distances among the sources, or (p, p) their means between parcels."""
+    distance = mesh.distance(words)
+    if mesh.wanted.labels:
+        return parcels_made(distance, parcel_means(distance, mesh.labels, mesh.mask), mesh.wanted.dtype)
+    sources = mesh.sources(words)
+    among = distance.pairwise(sources)
+    return Made(*pairs_made(mesh, distance, sources, _in(among, mesh.wanted.dtype)))
+
+
+def pairs_made(mesh: Mesh, distance: Distance, sources: list[Source], among: Array) -> tuple[dict[str, Array], dict]:
+    """With the root of the area, by which benchmarks divide."""
+    area = float(np.sqrt(mesh.surface.face_areas.sum()))
+    arrays: dict[str, Array] = {"dist": among}
+    if mesh.wanted.arrays in ("npz", "mat"):
+        arrays["sqrt_area"] = np.array(area)
+    return arrays, {**said_of_fields(distance, sources, mesh.wanted.sources.rule), "sqrt_area": area}
+
+
+def neighbours(mesh: Mesh, words: str, begin: int = 0, end: int | None = None) -> Made:
+    """(s, k) the vertices nearest to each source, nearest first, and how far they are."""
+    distance, sources = mesh.distance(words), mesh.sources(words)
+    found = nearest(distance, sources_as_vertices(sources)[begin:end], mesh.wanted.nearest, mesh.mask)
+    return neighbours_made(mesh, distance, sources, *found)
+
+
+def sources_as_vertices(sources: list[Source]) -> list[int]:
+    """ParameterError for a source that is no vertex."""
+    for each in sources:
+        if not isinstance(each, int):
+            raise ParameterError(f"Neighbours are those of vertices, and {short_words_of(each)} is none.")
+    return sources  # type: ignore[return-value]
+
+
+def neighbours_made(
+    mesh: Mesh, distance: Distance, sources: list[Source], indices: np.ndarray, values: np.ndarray
+) -> Made:
+    said = {"indices": "-1 where there is none", "order": "nearest first, equal ones by number"}
+    arrays = {"indices": indices, "distances": _in(values, mesh.wanted.dtype)}
+    return Made(arrays, {**said_of_fields(distance, sources, mesh.wanted.sources.rule), **said})
+
+
+def parcels_made(distance: Distance, found: Parcels, dtype: str) -> Made:
+    said = {**_said(distance), "labels": found.labels.tolist(), "counts": found.counts.tolist()}
+    return Made({"means": _in(found.means, dtype)}, {**said, "means": "of the distances of all pairs of vertices"})
+
+
+def eigen(mesh: Mesh, words: str = "") -> Made:
+    """Eigenvalues (k,), eigenvectors (n, k) orthonormal by area, areas (n,)."""
+    laplacian = mesh.distances.laplacian
+    most = sum(component.most_eigenpairs for component in laplacian.components)
+    found = eigenpairs(laplacian, min(mesh.wanted.eigenpairs, most))
+    vectors = _in(found.eigenvectors, mesh.wanted.dtype)
+    arrays = {"eigenvalues": found.eigenvalues, "eigenvectors": vectors, "areas": laplacian.areas}
+    said: dict[str, Any] = {
+        "parameters": {"eigenpairs": len(found.eigenvalues)},
+        "unit": "eigenvalues: 1 / mesh units^2",
+    }
+    said["normalisation"] = "sum of areas times eigenvector squared is 1"
+    return Made(arrays, said)
+
+
+def fps(mesh: Mesh, words: str) -> Made:
+    """(k,) the vertices, each the farthest from those before it; the first is the highest."""
+    found = np.array(mesh.sources(words))
+    return Made({"vertices": found}, _said(mesh.distance(words)))
+
+
+WORK: dict[str, Callable[..., Made]] = {
+    "fields": fields,
+    "pairs": pairs,
+    "nearest": neighbours,
+    "eigen": eigen,
+    "fps": fps,
+}
+
+
+def _said(distance: Distance) -> dict[str, Any]:
+    certificate = distance.certificate()
+    return {
+        "distance": distance.identity or distance.label,
+        "parameters": dict(Spec.parse(distance.identity).values) if distance.identity else {},
+        "label": distance.label,
+        "unit": distance.unit,
+        "normalisation": "none",
+        "accuracy": certificate.text,
+        "accuracy_share": certificate.share,
+    }
+
+
+def _named(sources: list[Source]) -> list[int | str]:
+    return [each if isinstance(each, int) else short_words_of(each) for each in sources]
+
+
+def _in(array: np.ndarray, dtype: str) -> np.ndarray:
+    return np.ascontiguousarray(array, dtype=dtype)

@@ -1,0 +1,151 @@
+"""What is written, in every format: the numbers, and beside them what they are."""
+
+import hashlib
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.io import loadmat
+
+from app.batch.drive import found_meshes, tasks_for
+from app.batch.task import do
+from app.batch.wanted import ARRAYS, LAYOUTS, Sources, Wanted
+from bihdist_core import BiharmonicDistance, DiffusionDistance, nearest, read_surface, write_mesh
+from tests.shapes import bumpy
+
+FIRST = {"fields": "fields", "pairs": "dist", "nearest": "indices", "eigen": "eigenvalues", "fps": "vertices"}
+WORKS = tuple(FIRST)
+
+
+@pytest.fixture(scope="module")
+def mesh(tmp_path_factory):
+    place = tmp_path_factory.mktemp("meshes")
+    write_mesh(place / "bumpy.off", bumpy(128))
+    np.save(place / "labels.npy", np.arange(128) % 5)
+    return place / "bumpy.off"
+
+
+def made(mesh, out, **options):
+    (task,), failures = tasks_for(found_meshes(str(mesh.parent)), Wanted(**options), str(out), "1.2")
+    report = do(task)
+    assert not failures
+    assert not report.failures
+    return {row.work: row.facts for row in report.rows}
+
+
+def opened(path):
+    """The arrays of a result by name; a single one by none."""
+    if path.suffix == ".zarr":
+        zarr = pytest.importorskip("zarr")
+        group = zarr.open_group(path, mode="r")
+        return {name: group[name][...] for name in group.array_keys()}
+    if path.suffix == ".mat":
+        return {name: np.squeeze(array) for name, array in loadmat(path).items() if not name.startswith("__")}
+    found = np.load(path)
+    return {"": found} if isinstance(found, np.ndarray) else dict(found.items())
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("format", ARRAYS)
+def test_every_result_has_beside_it_what_it_is(mesh, tmp_path, format, dtype):
+    if format == "zarr":
+        pytest.importorskip("zarr")
+    facts = made(
+        mesh, tmp_path, works=WORKS, distances=("diffusion(t=1/4)",), sources=Sources("farthest", count=9),
+        eigenpairs=7, nearest=4, arrays=format, dtype=dtype,
+    )  # fmt: skip
+    assert set(facts) == set(WORKS)
+    expected = expectations(mesh)
+    for work, said in facts.items():
+        beside = json.loads((tmp_path / f"{(tmp_path / said['file']).with_suffix('').name}.json").read_text())
+        assert beside == said
+        assert said["checksum"] == hashlib.sha256(mesh.read_bytes()).hexdigest()
+        assert said["version"] == "1.2"
+        assert said["unit"]
+        assert said["normalisation"]
+        if work == "eigen":
+            assert said["parameters"] == {"eigenpairs": 7}
+        else:
+            assert said["distance"].startswith("diffusion(t=1/4")
+            assert said["parameters"]["t"] == 0.25
+            assert said["unit"] == "1 / mesh units"
+        arrays = opened(tmp_path / said["file"])
+        first = arrays.get("", arrays.get(FIRST[work]))
+        assert list(first.shape) == said["shape"]
+        if work in expected:
+            np.testing.assert_allclose(first, expected[work], rtol=1e-9 if dtype == "float64" else 1e-6)
+        if work in ("fields", "pairs"):
+            assert first.dtype == dtype
+    assert opened(tmp_path / facts["nearest"]["file"])["distances"].dtype == dtype
+
+
+def expectations(mesh):
+    distance = DiffusionDistance(read_surface(mesh), t=1 / 4)
+    ids = made(
+        mesh, mesh.parent / "ids", works=("fps",), distances=("diffusion(t=1/4)",), sources=Sources("farthest", count=9)
+    )
+    (path,) = (mesh.parent / "ids").glob("*.npy")
+    points = np.load(path)
+    assert ids["fps"]["shape"] == [9]
+    return {
+        "fps": points,
+        "fields": distance.from_sources(points),
+        "pairs": distance.pairwise(points),
+        "nearest": nearest(distance, points, 4)[0],
+    }
+
+
+def test_zarr_is_read_lazily_by_dask(mesh, tmp_path, monkeypatch):
+    zarr = pytest.importorskip("zarr")
+    array = pytest.importorskip("dask.array")
+    monkeypatch.setattr("app.batch.results.CHUNK", 50)
+    said = made(mesh, tmp_path, works=("pairs",), sources=Sources("all"), arrays="zarr")["pairs"]
+    lazy = array.from_zarr(str(tmp_path / said["file"]), component="dist")
+    assert lazy.chunks == ((50, 50, 28), (50, 50, 28))
+    # A part of it reads only its own chunk: the others may be gone.
+    kept = tmp_path / said["file"] / "dist" / "c" / "1" / "0"
+    expected = BiharmonicDistance(read_surface(mesh)).pairwise(np.arange(128))
+    np.testing.assert_allclose(lazy.mean(axis=0).compute(), expected.mean(axis=0), rtol=1e-9)
+    for chunk in kept.parent.parent.rglob("*"):
+        if chunk.is_file() and chunk != kept:
+            chunk.unlink()
+    np.testing.assert_allclose(lazy[60:70, 10:20].compute(), expected[60:70, 10:20], rtol=1e-9)
+    attributes = dict(zarr.open_group(tmp_path / said["file"], mode="r").attrs)
+    for name in ("distance", "parameters", "unit", "normalisation", "checksum", "version", "sqrt_area"):
+        assert attributes[name] == said[name]
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_layouts_say_what_they_are_too(mesh, tmp_path, layout):
+    said = made(mesh, tmp_path, works=("pairs",), sources=Sources("all"), layout=layout)["pairs"]
+    assert said["file"] == f"{layout}/bumpy.mat"
+    assert json.loads((tmp_path / "bumpy.pairs.biharmonic.json").read_text()) == said
+    assert (said["distance"], said["unit"], said["normalisation"]) == ("biharmonic", "mesh units", "none")
+    found = opened(tmp_path / said["file"])
+    assert found[layout].shape == (128, 128)
+    if "sqrt_area" in LAYOUTS[layout]:
+        assert float(found["sqrt_area"]) == np.sqrt(read_surface(mesh).face_areas.sum())
+
+
+def test_other_files_have_checksums_of_their_own(mesh, tmp_path):
+    labels = mesh.parent / "labels.npy"
+    said = made(mesh, tmp_path, works=("pairs",), labels=str(labels))["pairs"]
+    assert said["checksum"] == hashlib.sha256(mesh.read_bytes()).hexdigest()
+    assert said["checksums"] == {"labels": hashlib.sha256(labels.read_bytes()).hexdigest()}
+
+
+def test_neighbours_of_a_large_mesh_are_put_together(mesh, tmp_path, monkeypatch):
+    monkeypatch.setattr("app.batch.task.PART_COLUMNS", 50)
+    (task,), _ = tasks_for(
+        found_meshes(str(mesh.parent)), Wanted(("nearest",), sources=Sources("all"), nearest=5), str(tmp_path), "1"
+    )
+    parts = do(task).more
+    assert [(each.part.begin, each.part.end) for each in parts] == [(0, 50), (50, 100), (100, 128)]
+    for part in parts:
+        do(part)
+    (row,) = do(replace(parts[-1], part=replace(parts[-1].part, is_whole=True))).rows
+    found = opened(tmp_path / row.facts["file"])
+    indices, values = nearest(BiharmonicDistance(read_surface(mesh)), k=5)
+    np.testing.assert_array_equal(found["indices"], indices)
+    np.testing.assert_allclose(found["distances"], values, rtol=1e-9)
