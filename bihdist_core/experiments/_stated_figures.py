@@ -1,0 +1,296 @@
+"""The statements of figures 1 to 10, their rules and thresholds.
+
+All of them are fixed by the paper's words and by reasoning, before anything is measured; a change of one is a change of
+this file.
+"""
+
+from .verdicts import Part, Statement, above, at_least, at_most
+
+DEEP = 0.01
+"""An extremum that a reader sees persists over at least this share of the field's range: a fifth of the step between
+two of the twenty isolines of a picture, and five times what refining the meshes changes of the fields (0.2 %)."""
+INSENSITIVE = 0.05
+"""A field is insensitive to a change if it moves, in the mean and divided by its maximum, by at most the step between
+two of the twenty isolines."""
+FALLS = 0.75
+"""The asymptotic circles of biharmonic distance: d^2 = r^2 / (4 pi) (ln 1/r + c), c different in every direction.
+As r falls to a sixteenth of itself, ln 1/r grows by 2.8 and the excess of the isotropy ratio over 1 falls to 0.4 to 0.5
+of itself; that of an ellipse stays.  The limit is halfway between the two."""
+RELATIVE = 0.5
+"""Rounder than diffusion distance: at most half its excess of the isotropy ratio over 1, on the smallest circle."""
+CIRCULAR, ELONGATED, PARALLEL = 1.25, 1.5, 3.0
+"""The isotropy ratio is the ratio of an isoline's axes: nearly a circle to the eye, an ellipse, nearly parallel lines
+(an ellipse three times as long as wide)."""
+TWICE = 2.0
+"""What is "much" or "many" beside another is at least twice it."""
+CLEARLY = 1.5
+"""What is "above all" on one side is there half as much again as on the other."""
+STEP = 1 / 21
+"""The step between two of the twenty isolines as a share of the range: what varies less may have no isoline."""
+
+MINIMA = Part("deepest other minimum, biharmonic, of the range", at_most(DEEP, "%"))
+TREND = Part("excess of isotropy ratio, smallest circle over one 16 times as wide", at_most(FALLS), needed=True)
+ROUNDER = Part("excess of isotropy ratio, biharmonic over diffusion t = 1", at_most(RELATIVE))
+CIRCLE = Part("isotropy ratio on the smallest circle, biharmonic", at_most(CIRCULAR))
+LONG = Part("isotropy ratio on the smallest circle, diffusion t = 1", at_least(ELONGATED))
+
+NO_MINIMA = "Biharmonic distance has no local minima, except at the source point."
+COUNTED = (
+    "A minimum now counts from 1 % of the range (0.1 % before), and the pictured sources are judged before a larger "
+    "number of random ones, where one source in all could decide before."
+)
+CIRCLES = (
+    "Isotropy is asymptotic: it is now judged by its trend on circles down to 0.25 % of the root of the area, on "
+    "meshes refined around the sources, and against diffusion distance, not on one circle of 4 % of the mesh as it is."
+)
+STARTS = "Judged over 25 starts with intervals or as a distribution, where it was the sum or mean of five."
+
+
+def _three_distances(id: str, minimum: str, circles: str) -> tuple[Statement, ...]:
+    """The statements of figures 4 and 5; minimum, circles: verdicts before."""
+    return (
+        Statement(f"{id}-1", NO_MINIMA, "paper", "section 5.1", (MINIMA,), "no", COUNTED),
+        Statement(
+            f"{id}-2",
+            "With the source on the back, a local minimum of diffusion distance (t = 1) appears on the front.",
+            *(("paper", "figure 4") if id == "fig4" else ("ours", "after figure 4, on the shapes of figure 5")),
+            (Part("deepest minimum on the front, diffusion t = 1, of the range", at_least(DEEP, "%")),),
+            minimum,
+            "Only minima on the front count now, from random sources on the back too; before, one anywhere was enough.",
+        ),
+        Statement(
+            f"{id}-3",
+            "Near the source isolines of biharmonic distance are nearly circles, of diffusion distance (t = 1) "
+            "elongated ellipses.",
+            *("paper", "section 5.1"),
+            (TREND, ROUNDER, CIRCLE, LONG),
+            circles,
+            CIRCLES,
+        ),
+        Statement(
+            f"{id}-4",
+            "Geodesic distance is not smooth: cusps and ridges, above all opposite to the source.",
+            *("paper", "section 5.1"),
+            (
+                Part("share of edges in kinks, geodesic over biharmonic", at_least(TWICE), needed=True),
+                Part("density of geodesic's kinks, opposite half over the source's half", at_least(CLEARLY)),
+            ),
+            "yes",
+            "Whether the kinks are opposite to the source was not looked at before.",
+        ),
+    )
+
+
+def _insensitive(id: str, to: str, words: str, before: str, changed: str = "") -> Statement:
+    parts: tuple[Part, ...] = (Part("mean change, biharmonic", at_most(INSENSITIVE, "%")),)
+    if to.startswith("noise"):
+        parts = tuple(
+            Part(f"mean change, biharmonic, {way}", at_most(INSENSITIVE, "%"))
+            for way in ("noise on each coordinate", "noise along the normals")
+        )
+    text = f"Biharmonic distance is insensitive to {to}."
+    return Statement(id, text, "paper" if words else "ours", words or "after figure 6", parts, before, changed)
+
+
+ALONG = (
+    "Noise along the normals is measured beside noise on each coordinate, as the paper names neither, and the pictured "
+    "source comes first."
+)
+FIRST = "The pictured source is judged first, random ones as a distribution."
+
+FIGURES = (
+    Statement("fig1-1", NO_MINIMA, "paper", "section 5.1", (MINIMA,), "no", COUNTED),
+    Statement(
+        "fig1-2",
+        "Near the source biharmonic distance is locally isotropic.",
+        *("paper", "section 1"),
+        (TREND, ROUNDER),
+        "no",
+        CIRCLES,
+    ),
+    Statement(
+        "fig2-1",
+        "Diffusion distance of small time has many local extrema far away.",
+        *("paper", "section 3.1 and figure 2"),
+        (Part("number of extrema, diffusion t = 1/15 over biharmonic", at_least(TWICE)),),
+        "yes",
+        "An extremum counts from 1 % of the range (0.1 % before), from the same source twice as many are needed, and "
+        "before one more from any source was enough.",
+    ),
+    Statement(
+        "fig2-2",
+        "Diffusion distance of large time does not reflect the source locally; biharmonic distance does.",
+        *("paper", "section 3.1 and figure 2"),
+        (TREND, ROUNDER, LONG),
+        "no",
+        CIRCLES,
+    ),
+    Statement(
+        "fig2-3",
+        "Geodesic distance has derivative singularities; biharmonic distance has none.",
+        *("paper", "section 3.1"),
+        (
+            Part("largest jump of the gradient, refined mesh over this one, biharmonic", at_most(FALLS), needed=True),
+            Part("largest jump of the gradient on the refined mesh, geodesic", at_least(0.5)),
+        ),
+        "yes",
+        "Judged from random sources too, and by how the jump falls under refinement.",
+    ),
+    Statement("fig2-4", NO_MINIMA, "paper", "section 5.1", (MINIMA,), "yes", COUNTED),
+    Statement(
+        "fig3-1",
+        "Biharmonic distance is largely insensitive to holes and missing parts: a scan.",
+        *("paper", "section 3.2 and figure 3"),
+        (Part("mean change, biharmonic", at_most(INSENSITIVE, "%")),),
+        "yes",
+        FIRST,
+    ),
+    Statement(
+        "fig3-2",
+        "Biharmonic distance is largely insensitive to holes: punched ones.",
+        *("ours", "after figure 3"),
+        (Part("mean change, biharmonic", at_most(INSENSITIVE, "%")),),
+        "yes",
+        FIRST,
+    ),
+    *_three_distances("fig4", "yes", "no"),
+    *_three_distances("fig5", "yes", "no"),
+    _insensitive("fig6-1", "noise of 10 % of the mean edge", "", "yes", ALONG),
+    _insensitive("fig6-2", "noise of 40 % of the mean edge", "", "no", ALONG),
+    _insensitive("fig6-3", "noise of 100 % of the mean edge", "", "no", ALONG),
+    _insensitive("fig6-4", "noise of 400 % of the mean edge", "section 5.1 and figure 6", "no", ALONG),
+    _insensitive("fig6-5", "simplification from 14,000 to 4,000 vertices", "section 5.1 and figure 6", "yes", FIRST),
+    _insensitive("fig6-6", "nearly isometric deformation", "section 5.1 and figure 6", "yes", FIRST),
+    Statement(
+        "fig7-1",
+        "Diffusion distance with t = 0.125 is almost constant for distant points: few isolines in the palm.",
+        *("paper", "section 5.1 and figure 7"),
+        (Part("range of values in the palm, diffusion t = 0.125 over biharmonic", at_most(1 / TWICE)),),
+        "yes",
+        "The range of values is compared instead of whole isolines, from random sources on the fingers too.",
+    ),
+    Statement(
+        "fig7-2",
+        "With t = 0.25 to 1 it fails near the source: isolines on the finger are nearly parallel.",
+        *("paper", "section 5.1 and figure 7"),
+        (
+            Part("isotropy ratio on the smallest circle, diffusion t = 0.25", at_least(PARALLEL)),
+            Part("isotropy ratio on the smallest circle, diffusion t = 1", at_least(PARALLEL)),
+        ),
+        "yes",
+        CIRCLES,
+    ),
+    Statement(
+        "fig7-3",
+        "Biharmonic distance captures both local and global properties of the shape.",
+        *("paper", "section 5.1 and figure 7"),
+        (
+            TREND,
+            ROUNDER,
+            Part("range of values in the palm, biharmonic over diffusion t = 0.125", at_least(TWICE), needed=True),
+        ),
+        "no",
+        CIRCLES,
+    ),
+    Statement(
+        "fig9-1",
+        "Biharmonic distance provides a well-behaved interpolant both close to the anchors and far away.",
+        *("paper", "section 5.2"),
+        (Part("extrema away from anchors and tips, biharmonic", at_most(0), of="starts"),),
+        "no",
+        "Extrema at the tips of limbs without anchor are inherent in the shape and no longer count; others count from "
+        "1 % of the range. " + STARTS,
+    ),
+    Statement(
+        "fig9-2",
+        "Of the five distances its interpolant has the fewest needless extrema.",
+        *("ours", "after figure 9: “balanced”"),
+        tuple(
+            Part(f"extrema more than biharmonic's, {kind}", above(0), "interval", of="starts")
+            for kind in ("geodesic", "diffusion t = 1/4", "diffusion t = 1", "diffusion t = 4")
+        ),
+        "yes",
+        "Each difference must be outside its interval, where the least sum was enough. " + STARTS,
+    ),
+    Statement(
+        "fig9-3",
+        "Ridges appear when geodesic distance is used.",
+        *("paper", "section 5.2 and figure 9"),
+        (Part("share of edges in kinks, geodesic over biharmonic", at_least(TWICE), of="starts"),),
+        "yes",
+        STARTS,
+    ),
+    Statement(
+        "fig9-4",
+        "With t = 1/4 the interpolant is almost constant in a leg without anchor.",
+        *("paper", "section 5.2 and figure 9"),
+        (
+            Part("range in such a leg, diffusion t = 1/4", at_most(STEP, "%"), needed=True, of="starts"),
+            Part("range in such a leg, diffusion t = 1/4 over biharmonic", at_most(1 / TWICE), of="starts"),
+        ),
+        "no",
+        "That no isoline fits into the leg is judged beside the comparison. " + STARTS,
+    ),
+    Statement(
+        "fig9-5",
+        "With t = 1 the interpolant is insensitive to where the anchor on the head is.",
+        *("paper", "figure 9"),
+        (Part("mean change on the head, diffusion t = 1 over biharmonic", at_most(1 / TWICE), of="starts"),),
+        "no",
+        STARTS,
+    ),
+    Statement(
+        "fig9-6",
+        "With t = 4 the interpolant has unintuitive extrema.",
+        *("paper", "section 5.2 and figure 9"),
+        (
+            Part("extrema away from anchors and tips, diffusion t = 4", at_least(1), of="starts"),
+            Part("extrema more than biharmonic's, diffusion t = 4", above(0), "interval", of="starts"),
+        ),
+        "yes",
+        "Extrema at tips no longer count, and others count from 1 % of the range. " + STARTS,
+    ),
+    *(
+        Statement(
+            f"fig10-{k}",
+            f"Biharmonic distance predicts correspondences better than geodesic and diffusion distance, known points "
+            f"{layout}.",
+            *("ours", "after figure 10"),
+            tuple(
+                Part(f"median error more than biharmonic's, {kind}", above(0, "%"), "interval", of="starts")
+                for kind in ("geodesic", "diffusion t = 1")
+            ),
+            "no",
+            STARTS,
+        )
+        for k, layout in ((1, "spread"), (2, "clustered"))
+    ),
+    Statement(
+        "fig10-3",
+        "Geodesic distance produces bad predictions far from the known correspondences.",
+        *("paper", "section 5.2 and figure 10"),
+        tuple(
+            Part(
+                f"median error far from known points more than biharmonic's, geodesic, known points {layout}",
+                above(0, "%"),
+                "interval",
+                of="starts",
+            )
+            for layout in ("spread", "clustered")
+        ),
+    ),
+    Statement(
+        "fig10-4",
+        "Diffusion distance produces unintuitive results for small areas off the centre, like the head.",
+        *("paper", "figure 10"),
+        tuple(
+            Part(
+                f"median error on the head more than biharmonic's, diffusion t = 1, known points {layout}",
+                above(0, "%"),
+                "interval",
+                of="starts",
+            )
+            for layout in ("spread", "clustered")
+        ),
+    ),
+)
