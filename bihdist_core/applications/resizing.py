@@ -56,23 +56,42 @@ def resized(surface: Surface, count: int, progress: Progress | None = None) -> S
 def simplified(surface: Surface, count: int, progress: Progress | None = None) -> tuple[Surface, np.ndarray]:
     """The surface with `count` of its vertices, and (count,) their ids there, ascending.
 
-    Topology and boundary loops stay; vertices of edges with more than two faces stay.  Raises ParameterError if that
-    leaves more than `count`, or if there are not so many to begin with.
+    Topology, components and boundary loops stay; vertices of edges with more than two faces stay; those of no face are
+    left out.  Raises ParameterError if that leaves more than `count`, or if there are not so many to begin with.
     """
-    n = len(surface.vertices)
-    if not 4 <= count <= n:
-        raise ParameterError(f"{surface.name} has {n} vertices and cannot be simplified to {count}.")
+    small, ids = _collapsed(surface, count, progress)
+    if len(ids) > count:
+        raise ParameterError(f"{surface.name} cannot be simplified below {len(ids)} vertices without damage.")
+    return small, ids
+
+
+def at_most(surface: Surface, count: int, progress: Progress | None = None) -> Surface:
+    """The surface if it has no more vertices than `count`, or simplified to so many, or as far as goes."""
+    used = len(surface.vertices) - surface.unreferenced_count
+    if len(surface.vertices) <= count:
+        return surface
+    return _collapsed(surface, min(count, used), progress)[0]
+
+
+def _collapsed(surface: Surface, count: int, progress: Progress | None) -> tuple[Surface, np.ndarray]:
+    """As `simplified`, with more vertices where it goes no further."""
+    n, used = len(surface.vertices), surface.component_of_vertex >= 0
+    left, idle, relaxed = int(used.sum()), 0, False
+    if not 4 <= count <= left:
+        raise ParameterError(f"{surface.name} has {left} vertices and cannot be simplified to {count}.")
     x, faces = surface.vertices, surface.faces
     quadrics = _quadrics(surface)
-    alive = np.ones(n, bool)
+    alive = used.copy()
     rng = np.random.default_rng(0)
-    left, idle = n, 0
-    report = progress or silent
+    report, start = progress or silent, left
     while left > count:
-        gone, onto = _round(x, faces, quadrics, left - count, rng, 1.0 if idle else CHEAPEST)
+        gone, onto = _round(x, faces, quadrics, left - count, rng, 1.0 if idle else CHEAPEST, relaxed)
         idle = 0 if len(gone) else idle + 1
+        if idle > 10 and relaxed:
+            break
         if idle > 10:
-            raise ParameterError(f"{surface.name} cannot be simplified below {left} vertices without damage.")
+            # What is in the way are slivers, which are no reason to keep a vertex.
+            relaxed, idle = True, 0
         follow = np.arange(n)
         follow[gone] = onto
         np.add.at(quadrics, onto, quadrics[gone])
@@ -80,13 +99,19 @@ def simplified(surface: Surface, count: int, progress: Progress | None = None) -
         faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
         alive[gone] = False
         left -= len(gone)
-        report((n - left) / (n - count), "simplifying")
+        report((start - left) / (start - count), "simplifying")
     ids = np.flatnonzero(alive)
     return Surface(x[ids], np.searchsorted(ids, faces), surface.name), ids
 
 
 def _round(
-    x: np.ndarray, faces: np.ndarray, quadrics: np.ndarray, most: int, rng: np.random.Generator, share: float
+    x: np.ndarray,
+    faces: np.ndarray,
+    quadrics: np.ndarray,
+    most: int,
+    rng: np.random.Generator,
+    share: float,
+    relaxed: bool,
 ) -> tuple[np.ndarray, np.ndarray]:
     """At most `most` vertices to remove, no two with a common neighbour, and the neighbour each is drawn onto."""
     n = len(x)
@@ -99,7 +124,12 @@ def _round(
     both = np.concatenate([edges, edges[:, ::-1]])
     on_rim = np.tile(count == 1, 2)
     u, v = both.T
-    allowed = ~fixed[u] & (~rim[u] | on_rim) & (valence[u] + valence[v] - 4 <= MOST_NEIGHBOURS)
+    allowed = (
+        ~fixed[u]
+        & ~np.tile(_needed(faces, edges, count, n), 2)
+        & (~rim[u] | on_rim)
+        & (valence[u] + valence[v] - 4 <= MOST_NEIGHBOURS)
+    )
     u, v, on_rim = u[allowed], v[allowed], on_rim[allowed]
     length = np.linalg.norm(x[u] - x[v], axis=1)
     at = np.concatenate([x[v], np.ones((len(v), 1))], axis=1)
@@ -115,7 +145,7 @@ def _round(
     neighbours = sp.csr_array((np.ones(len(both), np.int8), both.T), shape=(n, n))
     common = np.asarray(neighbours[u].multiply(neighbours[v]).sum(axis=1)).ravel()
     good = common == np.where(on_rim, 1, 2)
-    good[good] = _harmless(x, faces, u[good], v[good])
+    good[good] = _harmless(x, faces, u[good], v[good], relaxed)
     u, v, cost = u[good], v[good], cost[good]
 
     rank = np.full(n, n)
@@ -129,8 +159,21 @@ def _round(
     return u[chosen], v[chosen]
 
 
-def _harmless(x: np.ndarray, faces: np.ndarray, u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """(k,) whether drawing u onto v turns no face over and makes none too thin."""
+def _needed(faces: np.ndarray, edges: np.ndarray, count: np.ndarray, n: int) -> np.ndarray:
+    """(e,) whether drawing edges (e, 2), of so many faces each, to a point would leave a vertex without a face."""
+    size = np.bincount(faces.ravel(), minlength=n)
+    # The corner opposite to the edge may have that face alone, or both of its ends no other.
+    face, corner = np.nonzero(size[faces] == 1)
+    a, b = faces[face, (corner + 1) % 3], faces[face, (corner + 2) % 3]
+    opposite = np.isin(edges[:, 0] * n + edges[:, 1], np.minimum(a, b) * n + np.maximum(a, b))
+    return opposite | (size[edges].sum(axis=1) <= 2 * count)
+
+
+def _harmless(x: np.ndarray, faces: np.ndarray, u: np.ndarray, v: np.ndarray, relaxed: bool = False) -> np.ndarray:
+    """(k,) whether drawing u onto v turns no face over and makes none too thin.
+
+    relaxed: thin ones may be, where those at u are thinner already.
+    """
     corner = faces.T.ravel()
     order = np.argsort(corner, kind="stable")
     start = np.searchsorted(corner[order], np.arange(len(x) + 1))
@@ -141,15 +184,23 @@ def _harmless(x: np.ndarray, faces: np.ndarray, u: np.ndarray, v: np.ndarray) ->
     m = len(faces)
     face, k = side % m, side // m
     a, b = faces[face, (k + 1) % 3], faces[face, (k + 2) % 3]
+    least = np.full(len(u), KEEP_SHAPE)
+    if relaxed:
+        np.minimum.at(least, which, _shapes(x[u[which]], x[a], x[b]))
     stays = (a != v[which]) & (b != v[which])
     which, a, b = which[stays], a[stays], b[stays]
     old = np.cross(x[a] - x[u[which]], x[b] - x[u[which]])
     new = np.cross(x[a] - x[v[which]], x[b] - x[v[which]])
-    area = np.linalg.norm(new, axis=1)
-    sides = sum(((p - q) ** 2).sum(axis=1) for p, q in ((x[a], x[b]), (x[b], x[v[which]]), (x[v[which]], x[a])))
-    bad = np.einsum("ij,ij->i", old, new) <= KEEP_NORMAL * np.linalg.norm(old, axis=1) * area
-    bad |= 2 * np.sqrt(3) * area <= KEEP_SHAPE * sides
+    bad = np.einsum("ij,ij->i", old, new) <= KEEP_NORMAL * np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
+    bad |= _shapes(x[v[which]], x[a], x[b]) <= least[which]
     return np.bincount(which[bad], minlength=len(u)) == 0
+
+
+def _shapes(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """(k,) the quality of triangles with corners (k, 3)."""
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    sides = sum(((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a)))
+    return 2 * np.sqrt(3) * area / np.maximum(sides, 1e-300)
 
 
 def _quadrics(surface: Surface) -> np.ndarray:

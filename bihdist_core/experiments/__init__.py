@@ -11,6 +11,7 @@ from importlib import import_module
 from time import perf_counter
 
 from ..progress import Progress, silent
+from .parts import NotDone, Parts
 from .result import Chart, Claim, Mark, Panel, Result, Series, Table
 from .shapes import NAMES, SEEDS, Shapes
 
@@ -22,7 +23,9 @@ __all__ = [
     "Claim",
     "Experiment",
     "Mark",
+    "NotDone",
     "Panel",
+    "Parts",
     "Result",
     "Series",
     "Shapes",

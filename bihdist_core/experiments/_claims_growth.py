@@ -1,76 +1,121 @@
 """Claims of sections 2 and 4 about growth: cost with N, eigenvalues with k, commute-time distance under refinement."""
 
-from collections.abc import Sequence
-from time import perf_counter
+from functools import partial
 
 import numpy as np
 
 from ..distances.biharmonic import BiharmonicDistance
 from ..laplacian import Laplacian
 from ..progress import Progress
+from ..solver.elimination_tree import EliminationTree
+from ..surface import Surface
 from .measures import percent
-from .result import Chart, Claim, Series, Table
+from .parts import Parts
+from .result import Cell, Chart, Claim, Series, Table
 from .shapes import Shapes, distance
 from .spheres import icosphere, moebius
+from .timing import Time, busy, timed
+from .verdicts import Estimate, exponent_estimate
 
-SIZES = (5_000, 10_000, 20_000, 40_000, 80_000)
-QUICK_SIZES = (2_000, 4_000, 8_000)
+SIZES = (4_000, 8_000, 16_000, 28_000, 56_000, 111_000)
+QUICK_SIZES = (1_000, 2_000, 4_000, 8_000, 16_000)
 STRETCH = 2.0
 """The factor of the Moebius transformation in the plane."""
-COLUMNS = 5
+REPEATS, COLUMNS = 2, 10
+"""How often the set-up is timed, and how many columns after each."""
+CONFORMAL = ("commute-time", "biharmonic")
+EIGENVALUES, QUICK_EIGENVALUES = 400, 200
+DECADE = 10
+"""The law is one of large k: the last decade of the eigenvalues is fitted, at numbers spaced evenly in their logarithm,
+as neighbours tell the same."""
 
 
-def cost(shapes: Shapes, name: str, quick: bool, progress: Progress) -> tuple[list[Table], list[Chart], list[Claim]]:
-    """Seconds for the set-up and for one column, N doubling."""
-    sizes = QUICK_SIZES if quick else SIZES
-    rows = []
-    BiharmonicDistance(Laplacian(shapes.sized(name, 500))).from_source(0)
+def cost(
+    shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress
+) -> tuple[list[Table], list[Chart], list[Claim]]:
+    """Operations and seconds for the set-up and for one column, N growing."""
+    sizes = shapes.sizes(name, QUICK_SIZES if quick else SIZES, parts)
+    rows: list[tuple[Cell, ...]] = []
+    every: list[Time] = []
+    BiharmonicDistance(Laplacian(shapes.at_most(name, 500))).from_source(0)
     for k, n in enumerate(sizes):
         surface = shapes.sized(name, n)
-        start = perf_counter()
-        biharmonic = BiharmonicDistance(Laplacian(surface))
-        set_up = perf_counter() - start
-        columns = []
-        for vertex in range(COLUMNS):
-            start = perf_counter()
-            biharmonic.from_source(vertex)
-            columns.append(perf_counter() - start)
-        rows.append((n, set_up, float(np.median(columns))))
-        progress((k + 1) / len(sizes), f"cost at {n:,} vertices")
-    one, many = (_exponent(sizes, [row[q] for row in rows]) for q in (1, 2))
-    series = tuple(
-        Series(label, np.array(sizes), np.array([row[q] for row in rows]))
-        for q, label in ((1, "set-up"), (2, "column"))
+        set_ups, columns = [], []
+        for repeat in range(REPEATS):
+            progress((k + repeat / REPEATS) / len(sizes), f"cost at {n:,} vertices")
+            biharmonic, set_up = timed(partial(_set_up, surface))
+            biharmonic.from_source(0)
+            vertices = np.random.default_rng(repeat).integers(n, size=COLUMNS).tolist()
+            columns += [timed(partial(biharmonic.from_source, vertex))[1] for vertex in vertices]
+            set_ups.append(set_up)
+        seconds = (min(t.processor for t in times) for times in (set_ups, columns))
+        rows.append((n, *operations(biharmonic.laplacian.components[0].tree()), *seconds))
+        every += columns
+    columns_of = {"factorization": 1, "one column": 2, "set-up": 3, "one column, time": 4}
+    found = {name: np.array([row[k] for row in rows], float) for name, k in columns_of.items()}
+    x = np.array(sizes)
+    counted = tuple(Series(label, x, found[label]) for label in ("factorization", "one column"))
+    seconds_of = (Series("set-up", x, found["set-up"]), Series("one column", x, found["one column, time"]))
+    times = " and ".join(
+        f"{one.name} {e.value:.2f} ({e.low:.2f} to {e.high:.2f})"
+        for one, e in ((one, exponent_estimate(sizes, one.y)) for one in seconds_of)
     )
+    heads = ("vertices", "operations, factorization", "operations, one column")
     return (
-        [Table("cost", ("vertices", "set-up, seconds", "one column, seconds"), tuple(rows))],
-        [Chart("cost", "vertices", "seconds", series, log_x=True, log_y=True)],
+        [Table("cost", (*heads, "set-up, processor seconds", "one column, processor seconds"), tuple(rows))],
+        [
+            Chart("operations", "vertices", "operations", counted, log_x=True, log_y=True),
+            Chart("cost", "vertices", "processor seconds", seconds_of, log_x=True, log_y=True),
+        ],
         [
             Claim(
-                "Factorization and each column cost O(N).",
-                f"Fitted exponents: set-up {one:.2f}, one column {many:.2f} (nested dissection makes them N^1.5 and "
-                "N log N).",
-                max(one, many) <= 1.25,
+                "claims-cost",
+                {
+                    f"exponent of N, operations of {label}": exponent_estimate(sizes, one.y)
+                    for label, one in zip(("the factorization", "one column"), counted, strict=True)
+                },
+                f"In theory nested dissection makes them N^1.5 and N log N. The exponents of the least processor times "
+                f"are {times}: the set-up has the factorization and the diagonal.",
+                busy(every),
             )
         ],
     )
 
 
+def operations(tree: EliminationTree) -> tuple[float, float]:
+    """How many multiplications and additions a factorization takes, and how many a column.
+
+    A front with c pivots and m boundary vertices: its pivots' block is inverted (2 c^3), multiplied into its side
+    (2 c^2 m), and their product taken from the rest (2 c m^2).  A solve multiplies with the block and, down and up,
+    with the side; a column has two solves.
+    """
+    shapes = [np.array(stack.shape, float) for stack in tree.stacks]
+    factorization = sum(2 * b * (c**3 + c**2 * m + c * m**2) for b, c, m in shapes)
+    column = sum(2 * 2 * b * (c**2 + 2 * c * m) for b, c, m in shapes)
+    return float(factorization), float(column)
+
+
+def _set_up(surface: Surface) -> BiharmonicDistance:
+    return BiharmonicDistance(Laplacian(surface))
+
+
 def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> tuple[list[Chart], list[Claim]]:
     """Eigenvalues of a surface grow like k (Weyl): lambda_k ~ 4 pi k / area."""
-    count = 100 if quick else 200
+    count = min(QUICK_EIGENVALUES if quick else EIGENVALUES, shapes.laplacian(name).components[0].most_eigenpairs)
     spectrum = shapes.laplacian(name).components[0].spectrum(count, progress)
     k = np.arange(1, count + 1)
     values = spectrum.eigenvalues[:count]
     area = float(shapes.laplacian(name).components[0].areas.sum())
-    slope = _exponent(k[9:], values[9:])
+    fitted = np.unique(np.geomspace(max(1, count // DECADE), count, 13).round().astype(int))
+    slope = exponent_estimate(fitted, values[fitted - 1])
     ratio = values[-1] * area / (4 * np.pi * count)
     series = (Series("eigenvalues", k, values), Series("4πk / area", k, 4 * np.pi * k / area))
     return [Chart("eigenvalues", "k", "eigenvalue", series, log_x=True, log_y=True)], [
         Claim(
-            "Eigenvalues grow like k.",
-            f"Fitted exponent over k = 10 to {count}: {slope:.2f}; the last over 4πk / area: {ratio:.2f}.",
-            0.8 <= slope <= 1.25,
+            "claims-weyl",
+            {"exponent of k": slope},
+            f"Fitted over {len(fitted)} numbers k from {fitted[0]} to {count}, evenly in log k; the last eigenvalue "
+            f"over 4πk / area: {ratio:.2f}.",
         )
     ]
 
@@ -88,7 +133,10 @@ def refinement(quick: bool, progress: Progress) -> tuple[list[Table], list[Chart
         rows.append((len(laplacian.surface.vertices), commute, commute**2, biharmonic))
         progress((times - 1) / len(levels), "finer spheres")
     n = np.array([row[0] for row in rows])
-    slope = float(np.polyfit(np.log(n), [row[2] for row in rows], 1)[0])
+    # d^2 ~ p ln n is e^(d^2) ~ n^p.
+    slope = exponent_estimate(n, np.exp([row[2] for row in rows]))
+    turn = 2 * np.pi
+    growth = Estimate(turn * slope.value, turn * slope.low, turn * slope.high, slope.count)
     moved = abs(rows[-1][3] - rows[-2][3]) / rows[-1][3]
     chart = Chart(
         "commute-time under refinement",
@@ -106,16 +154,17 @@ def refinement(quick: bool, progress: Progress) -> tuple[list[Table], list[Chart
         [chart],
         [
             Claim(
-                "Commute-time distance cannot be defined on surfaces: it diverges.",
-                f"Its square between antipodes of a sphere grows by {slope:.4f} per e-fold of N; the logarithmic "
-                f"singularity of the Green's function gives 1/(2π) = {1 / (2 * np.pi):.4f}.",
-                abs(slope * 2 * np.pi - 1) < 0.1,
+                "claims-commute",
+                {"growth of its square per e-fold of N, times 2π": growth},
+                "Measured between antipodes of a sphere; the logarithmic singularity of the Green's function gives 1.",
             ),
             Claim(
-                "Biharmonic distance is defined on surfaces: it converges.",
-                f"It changes by {percent(moved)} at the last refinement; at {rows[-1][0]:,} vertices it is "
-                f"{rows[-1][3]:.5f}, on the unit sphere {_antipodes():.5f}.",
-                moved < 0.01,
+                "claims-converges",
+                {
+                    "change at the last refinement": Estimate(moved),
+                    "difference from the exact value on the sphere": Estimate(abs(rows[-1][3] / _antipodes() - 1)),
+                },
+                f"At {rows[-1][0]:,} vertices it is {rows[-1][3]:.5f}, on the unit sphere {_antipodes():.5f}.",
             ),
         ],
     )
@@ -123,22 +172,33 @@ def refinement(quick: bool, progress: Progress) -> tuple[list[Table], list[Chart
 
 def conformal(quick: bool, progress: Progress) -> tuple[list[Table], list[Claim]]:
     """Two conformally equivalent spheres: commute-time distance is the same on both, biharmonic is not."""
-    sphere = icosphere(4 if quick else 5)
-    pair = [Laplacian(s) for s in (sphere, moebius(sphere, STRETCH))]
-    points = np.random.default_rng(0).choice(len(sphere.vertices), 200, replace=False)
-    rows = []
-    for label in ("commute-time", "biharmonic"):
-        one, two = (distance(laplacian, label).pairwise(points) for laplacian in pair)
-        apart = one > 0
-        change = np.abs(two[apart] / one[apart] - 1)
-        rows.append((label, float(change.mean()), float(change.max())))
-        progress(len(rows) / 2, "conformally equivalent spheres")
-    return [Table("conformal", ("distance", "mean relative change", "largest relative change"), tuple(rows))], [
+    levels = (3, 4) if quick else (4, 5)
+    rows: list[tuple[Cell, ...]] = []
+    for k, times in enumerate(levels):
+        sphere = icosphere(times)
+        pair = [Laplacian(s) for s in (sphere, moebius(sphere, STRETCH))]
+        points = np.random.default_rng(0).choice(len(sphere.vertices), 200, replace=False)
+        for label in CONFORMAL:
+            one, two = (distance(laplacian, label).pairwise(points) for laplacian in pair)
+            apart = one > 0
+            change = np.abs(two[apart] / one[apart] - 1)
+            spread = change.mean(), *np.quantile(change, [0.05, 0.95]), change.max()
+            rows.append((len(sphere.vertices), label, *(float(x) for x in spread)))
+        progress((k + 1) / len(levels), "conformally equivalent spheres")
+    columns = ("vertices", "distance", "mean relative change", "5 %", "95 %", "largest")
+    table = Table("conformal", columns, tuple(rows))
+    coarse, fine = (
+        [table.value("mean relative change", vertices=rows[at][0], distance=label) for label in CONFORMAL]
+        for at in (0, -1)
+    )
+    return [table], [
         Claim(
-            "Commute-time distance is the same on every two conformally equivalent surfaces; biharmonic is not.",
-            f"A sphere and its image under a Moebius transformation (stretch {STRETCH:g}), mean change over all pairs "
-            f"of 200 points: commute-time {percent(rows[0][1])}, biharmonic {percent(rows[1][1])}.",
-            rows[0][1] < 0.02 < rows[1][1],
+            "claims-conformal",
+            {f"mean change, {label}": Estimate(mean) for label, mean in zip(CONFORMAL, fine, strict=True)},
+            f"A sphere and its image under a Moebius transformation (stretch {STRETCH:g}), all pairs of 200 points. "
+            "With a quarter of the vertices: "
+            + ", ".join(f"{label} {percent(mean)}" for label, mean in zip(CONFORMAL, coarse, strict=True))
+            + ".",
         )
     ]
 
@@ -150,7 +210,3 @@ def _antipodes() -> float:
     """
     degree = np.arange(1, 200_001, 2, dtype=float)
     return float(np.sqrt((4 * (2 * degree + 1) / (4 * np.pi) / (degree * (degree + 1)) ** 2).sum()))
-
-
-def _exponent(x: Sequence[float] | np.ndarray, y: Sequence[float] | np.ndarray) -> float:
-    return float(np.polyfit(np.log(x), np.log(y), 1)[0])

@@ -2,106 +2,140 @@
 
 import numpy as np
 
+from ..applications.perturbation import vertex_normals
 from ..distances.distance import Distance
 from ..errors import SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
-from .measures import ELONGATED, FIELD_COLUMNS, ISOTROPIC, field_row, isotropy_chart, marks, shrinking, span
-from .result import Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, SEEDS, Shapes, distance, start_vertex, vertex_at
+from ._stated_figures import MINIMA
+from .circles import BACK, PROTOCOL, RANDOM_FROM, gather_circles, shared_circles
+from .gathered import Gathered
+from .measures import FIELD_COLUMNS, deepest_minimum, field_row, kinked_edges, marks, over
+from .parts import Parts
+from .result import Chart, Claim, Mark, Panel, Result, Table
+from .shapes import DISTANCES, Shapes, distance, pictured_source, random_sources
+from .statements import STATEMENTS
 
-BACK = {"figure": (0.5, 0.72), "figure_pose2": (0.5, 0.72), "animal": (0.5, 0.62), "hand": (0.5, 0.45)}
-"""Where the pictured source is: shares of width and height; in the middle for other shapes."""
+ON_THE_BACK = -0.5
+"""The cosine of normals with the direction of the view from the front, of points that are on the back."""
+FIELDS, FIELDS_EACH, QUICK_FIELDS = 24, 8, 4
+"""Random sources on a shape, on each of several, and of the quick version."""
+SOURCE_COLUMNS = (
+    *("shape", "source", "vertex", "deepest other minimum, biharmonic, %", "kinks, geodesic over biharmonic"),
+    "kinks of geodesic, opposite over own half",
+)
 
 
 def compared(
     id: str, title: str, names: tuple[str, ...], shapes: Shapes, quick: bool, progress: Progress | None
 ) -> Result:
-    """Three fields on each shape from a source on its back; numbers from it and five more sources (quick: one)."""
-    rows, panels, charts = [], [], []
+    """Three fields on each shape from a source on its back, and numbers from it and random sources."""
+    count = QUICK_FIELDS if quick else (FIELDS if len(names) == 1 else FIELDS_EACH)
+    found, parts = Gathered(), Parts()
+    rows, sources, panels, charts = [], [], [], []
     failures: dict[str, str] = {}
     for q, name in enumerate(names):
+        step = part(progress, q / len(names), (q + 1) / len(names))
         surface, laplacian = shapes[name], shapes.laplacian(name)
-        pictured = vertex_at(surface, *BACK.get(name, (0.5, 0.5)), "back")
-        sources = {"on the back": pictured}
-        sources |= {seed: start_vertex(surface, seed) for seed in SEEDS[: 1 if quick else 5]}
+        pictured = pictured_source(surface, name, "back")
         distances, missing = _distances(laplacian)
         failures |= missing
+        for kind, reason in missing.items():
+            parts.note(f"{kind} on {name}", reason)
         if missing:
             shown = {kind: d.from_source(pictured) for kind, d in distances.items()}
             panels += [
                 _panel(surface, name, kind, pictured, shown.get(kind), missing.get(kind, "")) for kind in DISTANCES
             ]
             continue
-        for k, (label, source) in enumerate(sources.items()):
-            part(progress, q / len(names), (q + 1) / len(names))(k / len(sources), f"{name}, {label}")
-            geodesic = distances["geodesic"].from_source(source)
-            fields = {k: geodesic if k == "geodesic" else d.from_source(source) for k, d in distances.items()}
-            if label == "on the back":
-                charts.append(isotropy_chart(surface, source, DISTANCES, f"isotropy on {name}", quick))
-            for kind, field in fields.items():
-                rows.append(field_row(surface, name, label, source, kind, field, geodesic))
-                if label == "on the back":
-                    panels.append(_panel(surface, name, distances[kind].label, source, field))
-    table = Table("fields", FIELD_COLUMNS, tuple(rows))
+        fields = {kind: d.from_source(pictured) for kind, d in distances.items()}
+        for kind, values in fields.items():
+            rows.append(field_row(surface, name, "on the back", pictured, kind, values, fields["geodesic"]))
+            panels.append(_panel(surface, name, distances[kind].label, pictured, values))
+        for k, source in enumerate([pictured, *random_sources(surface, count)]):
+            part(step, 0, 0.6)(k / count, f"{name}, vertex {source}")
+            numbers = _of_source(surface, source, distances, found, id, not k)
+            sources.append((name, f"random {k}" if k else "on the back", source, *numbers))
+        _minima_on_the_front(surface, pictured, count, distances["diffusion t = 1"], found, id)
+        part(step, 0.7, 1)(0.0, f"{name}, circles")
+        circled = parts.do(f"circles on {name}", shared_circles, shapes, name, count, part(step, 0.7, 1))
+        if circled is None:
+            continue
+        gather_circles(found, circled, BACK, RANDOM_FROM)
+        if circled.failure:
+            parts.note(f"circles on {name}", circled.failure)
+        if np.isfinite(circled.ratios["biharmonic"][BACK]).all():
+            charts.append(circled.chart(f"isotropy on {name}", BACK))
     if not rows:
         # No shape has all three distances: the pictures are what there is.
         if not any(panel.field is not None for panel in panels):
             raise SolverError(" ".join(dict.fromkeys(failures.values())))
         said = "Nothing was measured: " + " ".join(dict.fromkeys(failures.values()))
-        return Result(id, title, said, {name: shapes[name] for name in names}, tuple(panels))
-
-    def numbers(column: str, kind: str) -> list[float]:
-        return [float(v or 0) for v in table.values(column, distance=kind)]
-
-    minima = {kind: numbers("minima besides the source", kind) for kind in DISTANCES}
-    ratios = {kind: numbers("isotropy ratio", kind) for kind in DISTANCES}
-    kinks = {kind: numbers("edges in kinks, %", kind) for kind in DISTANCES}
-    depths = [float(v) for v in table.values("deepest of them, % of range", distance="biharmonic") if v is not None]
-    on_back = table.values("minima besides the source", distance="diffusion t = 1", source="on the back")
+        unmeasured = tuple(Claim(f"{id}-{k}", failure=said) for k in range(1, 5))
+        surfaces = {name: shapes[name] for name in names}
+        return Result(id, title, said, surfaces, tuple(panels), claims=unmeasured, not_done=tuple(parts.not_done))
     return Result(
         id,
         title,
-        "Pictured source: on the back, at a fixed share of width and height. The numbers are also taken from vertex 0 "
-        "and four random vertices. Minima and maxima persist over at least 0.1 % of the field's range; the raw counts "
-        "are of vertices lower or higher than all their neighbours. The isotropy ratio is taken on the geodesic circle "
-        f"of 4 % of the root of the area, at least four edges: isotropic up to {ISOTROPIC:g}, elongated from "
-        f"{ELONGATED:g} on.",
+        f"Pictured source: on the back, at a fixed share of width and height. The numbers are also taken from {count} "
+        "random vertices of each shape; of minima on the front, from as many on the back. The front, and the half "
+        "opposite to a source, is where normals point against the source's. Minima and maxima in the table persist "
+        "over at least 0.1 % of the field's range; the raw counts are of vertices lower or higher than all their "
+        "neighbours; those marked persist over 1 %. " + PROTOCOL,
         {name: shapes[name] for name in names},
         tuple(panels),
         tuple(charts),
-        tables=(table,),
-        claims=(
-            Claim(
-                "Biharmonic distance has no local minima, except at the source point.",
-                f"Minima besides the source, in {len(rows) // 3} fields: {sum(minima['biharmonic']):g} in all"
-                + (f"; the deepest by {max(depths):.3g} % of the range." if depths else "."),
-                max(minima["biharmonic"]) == 0,
-            ),
-            Claim(
-                "With the source on the back, a local minimum of diffusion distance (t = 1) appears on the front.",
-                f"Minima besides the source: {', '.join(f'{n} {c}' for n, c in zip(names, on_back, strict=True))}; "
-                f"over all sources {span(minima['diffusion t = 1'])}.",
-                any(bool(c) for c in on_back),
-            ),
-            Claim(
-                "Near the source isolines of biharmonic and geodesic distance are circles, of diffusion elongated.",
-                "Isotropy ratio: "
-                + ", ".join(f"{kind} {span(v)}" for kind, v in ratios.items())
-                + "".join(f"; {chart.heading} {shrinking(chart)}" for chart in charts)
-                + ".",
-                max(*ratios["biharmonic"], *ratios["geodesic"]) <= ISOTROPIC
-                and max(ratios["diffusion t = 1"]) >= ELONGATED,
-            ),
-            Claim(
-                "Geodesic distance is not smooth: cusps and ridges, above all opposite to the source.",
-                "Edges in kinks: "
-                + ", ".join(f"{kind} {span(v)} %" for kind, v in kinks.items())
-                + " (holds if geodesic has over twice biharmonic's share from every source).",
-                all(g > 2 * b for g, b in zip(kinks["geodesic"], kinks["biharmonic"], strict=True)),
-            ),
-        ),
+        tables=(Table("fields", FIELD_COLUMNS, tuple(rows)), Table("sources", SOURCE_COLUMNS, tuple(sources))),
+        claims=tuple(found.claim(f"{id}-{k}", _note(k, charts)) for k in range(1, 5)),
+        not_done=tuple(parts.not_done),
+    )
+
+
+def _of_source(
+    surface: Surface, source: int, distances: dict[str, Distance], found: Gathered, id: str, is_pictured: bool
+) -> tuple[float, float, float]:
+    """Depth of minima and shares of kinks from one source."""
+    geodesic, biharmonic = (distances[kind].from_source(source) for kind in ("geodesic", "biharmonic"))
+    depth = deepest_minimum(surface, biharmonic, source)
+    share, kinked = kinked_edges(surface, geodesic, geodesic)
+    more = over(share, kinked_edges(surface, biharmonic, geodesic)[0])
+    opposite = _opposite(surface, source)
+    x = surface.vertices[kinked]
+    lengths = np.linalg.norm(x[:, 0] - x[:, 1], axis=1)
+    there = opposite[kinked].all(axis=1)
+    areas = surface.face_areas
+    far = float(areas[opposite[surface.faces].all(axis=1)].sum() / areas.sum())
+    # Lengths of kinks per area, in each of the two parts.
+    denser = over(float(lengths[there].sum()) * (1 - far), float(lengths[~there].sum()) * far)
+    names = STATEMENTS[f"{id}-4"].names
+    for name, number in ((MINIMA.name, depth), (names[0], more), (names[1], denser)):
+        found.add(name, number, is_pictured)
+    return 100 * depth, more, denser
+
+
+def _minima_on_the_front(
+    surface: Surface, pictured: int, count: int, diffusion: Distance, found: Gathered, id: str
+) -> None:
+    on_the_back = vertex_normals(surface)[:, 2] <= ON_THE_BACK
+    for k, source in enumerate([pictured, *random_sources(surface, count, on_the_back)]):
+        depth = deepest_minimum(surface, diffusion.from_source(source), source, _opposite(surface, source))
+        found.add(STATEMENTS[f"{id}-2"].names[0], depth, not k)
+
+
+def _opposite(surface: Surface, source: int) -> np.ndarray:
+    """(n,) bool: where normals point against the source's."""
+    normals = vertex_normals(surface)
+    against: np.ndarray = normals @ normals[source] < 0
+    return against
+
+
+def _note(k: int, charts: list[Chart]) -> str:
+    if k != 3:
+        return ""
+    said = ("; ".join(f"{s.name} {s.y[0]:.3g} to {s.y[-1]:.3g}" for s in chart.series) for chart in charts)
+    return "".join(
+        f"From the largest to the smallest circle, {c.heading}: {t}. " for c, t in zip(charts, said, strict=True)
     )
 
 

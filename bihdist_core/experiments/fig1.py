@@ -4,50 +4,63 @@ The paper shows the picture and lists, in section 1, what it stands for: gradual
 the shape away from it.
 """
 
-from ..analysis.persistence import extrema
+import numpy as np
+
 from ..progress import Progress, part
-from .measures import FIELD_COLUMNS, ISOTROPIC, field_row, other_minima, span
-from .result import Claim, Mark, Panel, Result, Table
-from .shapes import Shapes, distance, vertex_at
+from ._stated_figures import MINIMA
+from .circles import FRONT, PROTOCOL, RANDOM_FROM, gather_circles, shared_circles
+from .gathered import Gathered
+from .measures import FIELD_COLUMNS, deepest_minimum, field_row, marks
+from .parts import Parts
+from .result import Cell, Panel, Result, Table
+from .shapes import Shapes, distance, pictured_source, random_sources
 
 TITLE = "Biharmonic distance from a source"
-PLACE = {"figure": (0.5, 0.75), "animal": (0.5, 0.62), "hand": (0.5, 0.4), "genus3": (0.5, 0.4)}
-"""Where the source is: shares of width and height."""
+RANDOM = {"figure": 24}
+"""Random sources on each shape: as many as figures 4 and 5 have; on others `FEW`."""
+FEW, QUICK = 8, 4
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """The field on each shape, from a source on its front; quick: two shapes."""
+    """The field on each shape, from a source on its front, and numbers from random ones; quick: two shapes."""
     names = shapes.names(*("figure", "animal", "hand", "genus3")[: 2 if quick else 4])
     panels, rows = [], []
-    others = 0
+    found, parts = Gathered(), Parts()
     for k, name in enumerate(names):
         surface = shapes[name]
-        part(progress, k / len(names), 1)(0.0, name)
-        laplacian = shapes.laplacian(name)
-        source = vertex_at(surface, *PLACE.get(name, (0.5, 0.5)))
-        field = distance(laplacian, "biharmonic").from_source(source)
-        geodesic = distance(laplacian, "geodesic").from_source(source)
-        others += len(other_minima(extrema(surface, field), source))
-        rows.append(field_row(surface, name, "front", source, "biharmonic", field, geodesic))
-        panels.append(Panel(name, name, field, "biharmonic", (Mark(source, "source"),), ("front", "back")))
-    ratios = [float(row[FIELD_COLUMNS.index("isotropy ratio")] or 0) for row in rows]
+        step = part(progress, k / len(names), (k + 1) / len(names))
+        step(0.0, name)
+        biharmonic = distance(shapes.laplacian(name), "biharmonic")
+        source = pictured_source(surface, name, "front")
+        field = biharmonic.from_source(source)
+        row = parts.do(f"numbers of the field on {name}", _row, shapes, name, source, field)
+        rows += [row] if row is not None else []
+        # The picture has marks where the statement fails, and nowhere else.
+        shown = tuple(mark for mark in marks(surface, field, source) if mark.kind != "maximum")
+        panels.append(Panel(name, name, field, "biharmonic", shown, ("front", "back")))
+        count = QUICK if quick else RANDOM.get(name, 24 if shapes.own is not None else FEW)
+        found.add(MINIMA.name, deepest_minimum(surface, field, source), is_pictured=True)
+        for vertex in random_sources(surface, count):
+            depth = deepest_minimum(surface, biharmonic.from_source(vertex), vertex)
+            found.add(MINIMA.name, depth, is_pictured=False)
+        circled = parts.do(f"circles on {name}", shared_circles, shapes, name, count, part(step, 0.3, 1))
+        if circled is not None:
+            gather_circles(found, circled, FRONT, RANDOM_FROM)
+            if circled.failure:
+                parts.note(f"circles on {name}", circled.failure)
     return Result(
         "fig1",
         TITLE,
-        "Source: on the front, at a fixed share of width and height. Twenty isolines at equal steps of the distance.",
+        "Source: on the front, at a fixed share of width and height; the numbers are also taken from random vertices "
+        "of each shape. Twenty isolines at equal steps of the distance. " + PROTOCOL,
         {name: shapes[name] for name in names},
         tuple(panels),
-        tables=(Table("fields", FIELD_COLUMNS, tuple(rows)),),
-        claims=(
-            Claim(
-                "Biharmonic distance has no local minima, except at the source point.",
-                f"Local minima besides the source: {others} on {len(names)} surfaces.",
-                others == 0,
-            ),
-            Claim(
-                "Near the source the distance is locally isotropic.",
-                f"Farthest over nearest direction on a small geodesic circle: {span(ratios)}.",
-                max(ratios) <= ISOTROPIC,
-            ),
-        ),
+        tables=(Table("fields", FIELD_COLUMNS, tuple(rows)),) if rows else (),
+        claims=(found.claim("fig1-1"), found.claim("fig1-2")),
+        not_done=tuple(parts.not_done),
     )
+
+
+def _row(shapes: Shapes, name: str, source: int, field: np.ndarray) -> tuple[Cell, ...]:
+    geodesic = distance(shapes.laplacian(name), "geodesic").from_source(source)
+    return field_row(shapes[name], name, "front", source, "biharmonic", field, geodesic)

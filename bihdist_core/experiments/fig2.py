@@ -6,60 +6,67 @@ geodesic field has a kink and isolines that are not aware of the shape far away;
 
 import numpy as np
 
-from ..analysis.quality import small_radius
+from ..analysis.persistence import extrema
+from ..analysis.quality import inner_jumps, small_radius
 from ..applications.resizing import refined
+from ..distances.distance import Distance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
-from .measures import ELONGATED, FIELD_COLUMNS, ISOTROPIC, KINK, field_row, inner_jumps, isotropy_chart, marks, span
-from .result import Claim, Mark, Panel, Result, Table
-from .shapes import SEEDS, Shapes, distance, start_vertex, vertex_at
+from ._stated_figures import DEEP, MINIMA
+from .circles import PROTOCOL, circles, gather_circles
+from .gathered import Gathered
+from .measures import FIELD_COLUMNS, deepest_minimum, field_row, marks
+from .result import Cell, Mark, Panel, Result, Table
+from .shapes import Shapes, distance, random_sources, vertex_at
+from .statements import STATEMENTS
 
 TITLE = "Distances over a flat domain"
-KINDS = ("diffusion t = 1", "diffusion t = 1/5", "diffusion t = 1/15", "geodesic", "biharmonic")
+SHORT, LONG = "diffusion t = 1/15", "diffusion t = 1"
+KINDS = (LONG, "diffusion t = 1/5", SHORT, "geodesic", "biharmonic")
+RANDOM, QUICK = 24, 4
+"""Random sources."""
+REFINED, QUICK_REFINED = 4, 1
+"""Those of them for which geodesic distance is computed on the refined mesh too, which takes seconds each."""
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Five fields from one source in the first corridor, and their numbers from it and five more (quick: one more)."""
+    """Five fields from one source in the first corridor, and numbers from it and 24 random ones (quick: four)."""
     (name,) = shapes.names("domain")
     surface, laplacian = shapes[name], shapes.laplacian(name)
     flat = float(surface.vertices[:, 2].max() - surface.vertices[:, 2].min()) == 0
     source = vertex_at(surface, 0.12, 0.8)
-    sources = {"pictured": source} | {seed: start_vertex(surface, seed) for seed in SEEDS[: 1 if quick else 5]}
-    rows, fields = [], {}
+    sources = [source, *random_sources(surface, QUICK if quick else RANDOM)]
     distances = {
-        kind: distance(laplacian, kind, part(progress, 0.1 * k, 0.1 * k + 0.1)) for k, kind in enumerate(KINDS)
+        kind: distance(laplacian, kind, part(progress, 0.04 * k, 0.04 * k + 0.04)) for k, kind in enumerate(KINDS)
     }
-    for k, (label, vertex) in enumerate(sources.items()):
-        part(progress, 0.5, 1)(k / len(sources), label)
-        geodesic = distances["geodesic"].from_source(vertex)
-        for kind in KINDS:
-            field = geodesic if kind == "geodesic" else distances[kind].from_source(vertex)
-            rows.append(field_row(surface, name, label, vertex, kind, field, geodesic))
-            if vertex == source:
-                fields[kind] = field
-    table = Table("fields", FIELD_COLUMNS, tuple(rows))
-
-    part(progress, 0.95, 1)(0.0, "refined")
-    kinks = _under_refinement(surface, source, {kind: fields[kind] for kind in ("geodesic", "biharmonic")})
-
-    def numbers(column: str, kind: str) -> list[float]:
-        return [float(v or 0) for v in table.values(column, distance=kind)]
-
-    def count(kind: str) -> list[float]:
-        pairs = zip(numbers("minima besides the source", kind), numbers("maxima", kind), strict=True)
-        return [a + b for a, b in pairs]
-
+    fields = {kind: distances[kind].from_source(source) for kind in KINDS}
+    rows = [field_row(surface, name, "pictured", source, kind, fields[kind], fields["geodesic"]) for kind in KINDS]
+    found = Gathered()
+    counts: list[tuple[Cell, ...]] = []
+    for k, vertex in enumerate(sources):
+        part(progress, 0.2, 0.4)(k / len(sources), f"extrema, vertex {vertex}")
+        own, short = (distances[kind].from_source(vertex) for kind in ("biharmonic", SHORT))
+        many, few = _extrema(surface, short, vertex), _extrema(surface, own, vertex)
+        depth = deepest_minimum(surface, own, vertex)
+        counts.append((f"random {k}" if k else "pictured", vertex, many, few, 100 * depth))
+        found.add(STATEMENTS["fig2-1"].names[0], many / max(few, 1), not k)
+        found.add(MINIMA.name, depth, not k)
+    circled = circles(surface, sources, ("biharmonic", LONG), part(progress, 0.4, 0.6))
+    gather_circles(found, circled, 0, 1)
+    some = sources[: 1 + (QUICK_REFINED if quick else REFINED)]
+    kinks = _under_refinement(surface, some, distances, found, part(progress, 0.6, 1))
+    columns = ("source", "vertex", f"extrema, {SHORT}", "extrema, biharmonic", "deepest other minimum, biharmonic, %")
     style = "height" if flat else "surface"
-    short, long = "diffusion t = 1/15", "diffusion t = 1"
     return Result(
         "fig2",
         TITLE,
-        "The pictured source is at 12 % of the width and 80 % of the height; the numbers are also taken from vertex 0 "
-        "and four random vertices. Extrema persist over at least 0.1 % of the field's range; the source is not "
-        "counted. A kink is an edge across which the gradient jumps by half its length, away from the source and the "
-        f"boundary. The isotropy ratio is taken on a small geodesic circle: isotropic up to {ISOTROPIC:g}, elongated "
-        f"from {ELONGATED:g} on.",
+        "The pictured source is at 12 % of the width and 80 % of the height; the numbers are also taken from "
+        f"{len(sources) - 1} random vertices. Extrema in the tables of fields persist over at least 0.1 % of the "
+        "field's range, those counted and marked over 1 %; the source is not counted. The jump of the gradient across "
+        "an edge is taken over the gradient's length there, or its median if that is more, away from the source and "
+        "the boundary; of a kink it stays as the mesh is refined to four times as many faces, of a smooth field it "
+        "halves. " + PROTOCOL,
         {name: surface},
         (
             Panel("the domain", name, None, "fields", (Mark(source, "source"),)),
@@ -68,51 +75,48 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
                 for kind in KINDS
             ),
         ),
-        charts=(isotropy_chart(surface, source, KINDS, "isotropy", quick),),
-        tables=(table, kinks),
-        claims=(
-            Claim(
-                "Diffusion distance of small time has many local extrema far away.",
-                f"Extrema besides the source, t = 1/15: {span(count(short))}; biharmonic: {span(count('biharmonic'))}.",
-                max(count(short)) > max(count("biharmonic")),
-            ),
-            Claim(
-                "Diffusion distance of large time does not reflect the source locally; biharmonic distance does.",
-                f"Isotropy ratio, t = 1: {span(numbers('isotropy ratio', long))}; "
-                f"biharmonic: {span(numbers('isotropy ratio', 'biharmonic'))}.",
-                max(numbers("isotropy ratio", long)) >= ELONGATED
-                and max(numbers("isotropy ratio", "biharmonic")) <= ISOTROPIC,
-            ),
-            Claim(
-                "Geodesic distance has derivative singularities; biharmonic distance has none.",
-                "Largest jump of the gradient over its length, away from source and boundary, on the mesh and on its "
-                "refinement to four times as many faces (a kink's jump stays, a smooth field's halves): "
-                + ", ".join(f"{kind} {a:.2f} and {b:.2f}" for kind, a, b in kinks.rows)
-                + ".",
-                kinks.value("refined", distance="geodesic") >= KINK > kinks.value("refined", distance="biharmonic"),
-            ),
-            Claim(
-                "Biharmonic distance has no local minimum but the source.",
-                f"Minima besides the source: {span(numbers('minima besides the source', 'biharmonic'))}.",
-                max(numbers("minima besides the source", "biharmonic")) == 0,
-            ),
-        ),
+        charts=(circled.chart("isotropy"),) if np.isfinite(circled.ratios[LONG][0]).all() else (),
+        tables=(Table("fields", FIELD_COLUMNS, tuple(rows)), Table("sources", columns, tuple(counts)), kinks),
+        claims=tuple(found.claim(f"fig2-{k}") for k in range(1, 5)),
     )
 
 
-def _under_refinement(surface: Surface, source: int, fields: dict[str, np.ndarray]) -> Table:
-    """The largest relative jump of the gradient of each field (n,), on this mesh and on a finer one."""
+def _extrema(surface: Surface, field: np.ndarray, source: int) -> int:
+    """How many extrema a field has beside its source."""
+    seen = extrema(surface, field, DEEP)
+    return int((np.concatenate([seen.minima, seen.maxima]) != source).sum())
+
+
+def _under_refinement(
+    surface: Surface, sources: list[int], distances: dict[str, Distance], found: Gathered, progress: Progress
+) -> Table:
+    """The largest jump of the gradient from each of the sources, on this mesh and on a finer one."""
     radius = small_radius(surface)
     finer = refined(surface)
     laplacian = Laplacian(finer)
     method = "exact" if finer.is_manifold else "heat"
-    finer_fields = {
-        "geodesic": distance(laplacian, f"geodesic method = {method}").from_source(source),
-        "biharmonic": distance(laplacian, "biharmonic").from_source(source),
+    there = {
+        "geodesic": distance(laplacian, f"geodesic method = {method}"),
+        "biharmonic": distance(laplacian, "biharmonic"),
     }
-    rows = []
-    for kind, field in fields.items():
-        here = inner_jumps(surface, field, fields["geodesic"], radius).max(initial=0)
-        there = inner_jumps(finer, finer_fields[kind], finer_fields["geodesic"], radius).max(initial=0)
-        rows.append((kind, float(here), float(there)))
-    return Table("kinks under refinement", ("distance", "this mesh", "refined"), tuple(rows))
+    smooth, kinked = STATEMENTS["fig2-3"].names
+    rows: list[tuple[Cell, ...]] = []
+    for k, source in enumerate(sources):
+        progress(k / len(sources), f"refined, vertex {source}")
+        before = {kind: distances[kind].from_source(source) for kind in there}
+        after = {kind: made.from_source(source) for kind, made in there.items()}
+        jumps = {}
+        for kind in there:
+            here = _largest_jump(surface, before[kind], before["geodesic"], radius)
+            jumps[kind] = here, _largest_jump(finer, after[kind], after["geodesic"], radius)
+            rows.append((f"random {k}" if k else "pictured", kind, *jumps[kind]))
+        found.add(smooth, jumps["biharmonic"][1] / max(jumps["biharmonic"][0], 1e-12), not k)
+        found.add(kinked, jumps["geodesic"][1], not k)
+    return Table("kinks under refinement", ("source", "distance", "this mesh", "refined"), tuple(rows))
+
+
+def _largest_jump(surface: Surface, field: np.ndarray, near: np.ndarray, radius: float) -> float:
+    jumps = inner_jumps(surface, field, near, radius)
+    # Around smooth extrema the gradient is short, and any jump long beside it.
+    relative = jumps.jumps / np.maximum(jumps.lengths, jumps.slope)
+    return float(relative.max(initial=0))

@@ -1,4 +1,4 @@
-"""Measurements that several experiments share, with the thresholds that words like "insensitive" stand for."""
+"""Measurements that several experiments share."""
 
 from collections.abc import Mapping, Sequence
 
@@ -8,25 +8,13 @@ from ..analysis import quality
 from ..analysis.diagnostics import FieldChange, field_change, isotropy_ratio
 from ..analysis.persistence import Extrema, extrema
 from ..analysis.quality import small_radius
-from ..applications.resizing import refined
-from ..laplacian import Laplacian
 from ..surface import Surface
-from .result import Cell, Chart, Mark, Series
-from .shapes import distance
+from ._stated_figures import DEEP
+from .result import Cell, Mark
+from .verdicts import BySource
 
-INSENSITIVE = 0.05
-"""A field is insensitive to a change if, divided by its maximum, it moves by at most this much in the mean."""
-ISOTROPIC = 1.25
-"""A field is isotropic near its source if the ratio of farthest to nearest direction is at most this."""
-ELONGATED = 1.5
-"""Its isolines are ellipses, not circles, from this ratio on."""
 KINK = 0.5
 """An edge across which the gradient jumps by this share of its length is part of a kink."""
-REFINED_UP_TO = 15_000
-"""Vertices up to which isotropy is also measured on the refined mesh: exact geodesic distance there takes seconds."""
-CIRCLES = np.arange(3, 13)
-"""Radii of geodesic circles, in mean edge lengths, for the chart of isotropy."""
-
 FIELD_COLUMNS = (
     "shape",
     "source",
@@ -75,36 +63,33 @@ def inner_jumps(surface: Surface, field: np.ndarray, near: np.ndarray, radius: f
     return quality.inner_jumps(surface, field, near, radius).relative
 
 
-def isotropy_chart(surface: Surface, source: int, kinds: Sequence[str], heading: str, quick: bool) -> Chart:
-    """Isotropy ratio of distances on geodesic circles of growing radius around a source, on the refined mesh.
+def deepest_minimum(surface: Surface, field: np.ndarray, source: int, among: np.ndarray | None = None) -> float:
+    """How deep the deepest minimum of a field (n,) but the source is, as a share of the range; 0 if there is none.
 
-    Radii in roots of the area, from three edges of the mesh; quick, and on large meshes: of the mesh as it is.
+    among: (n,) bool, where the others are looked for.
     """
-    fine = surface if quick or len(surface.vertices) > REFINED_UP_TO else refined(surface)
-    laplacian = Laplacian(fine)
-    exact = fine.is_manifold and len(fine.vertices) <= 4 * REFINED_UP_TO
-    method = "exact" if exact else "heat"
-    geodesic = distance(laplacian, f"geodesic method = {method}").from_source(source)
-    unit = float(np.sqrt(surface.face_areas.sum()))
-    radii = CIRCLES * fine.mean_edge_length
-    series = []
-    for kind in kinds:
-        field = geodesic if kind == "geodesic" else distance(laplacian, kind).from_source(source)
-        ratios = np.array([isotropy_ratio(fine, field, geodesic, float(r)) for r in radii])
-        series.append(Series(kind, radii / unit, ratios))
-    return Chart(heading, "radius of the circle over root of area", "isotropy ratio", tuple(series), log_y=True)
+    found = extrema(surface, field)
+    counted = found.minima != source
+    if among is not None:
+        counted &= among[found.minima]
+    return float(found.minima_persistence[counted].max(initial=0) / np.nanmax(field))
 
 
-def shrinking(chart: Chart) -> str:
-    """What becomes of the isotropy ratios from the largest to the smallest circle, in words."""
-    x = chart.series[0].x
-    said = ", ".join(f"{s.name} {s.y[-1]:.3g} to {s.y[0]:.3g}" for s in chart.series)
-    return f"as the circle shrinks from {percent(x[-1])} to {percent(x[0])} of the root of the area: {said}"
+def kinked_edges(surface: Surface, field: np.ndarray, geodesic: np.ndarray) -> tuple[float, np.ndarray]:
+    """The share of edges in kinks away from the source, and (k, 2) these edges."""
+    jumps = quality.inner_jumps(surface, field, geodesic)
+    kinked = jumps.relative >= KINK
+    return float(kinked.mean()) if len(kinked) else 0.0, jumps.edges[kinked]
+
+
+def over(one: float, other: float) -> float:
+    """How many times another number one is; 0 where both vanish, as nothing is not more than nothing."""
+    return one / other if other > 0 else (np.inf if one > 0 else 0.0)
 
 
 def marks(surface: Surface, field: np.ndarray, source: int) -> tuple[Mark, ...]:
     """The source, and the extrema that a figure points at with arrows."""
-    found = extrema(surface, field)
+    found = extrema(surface, field, DEEP)
     return (
         Mark(int(source), "source"),
         *(Mark(int(v), "minimum") for v in other_minima(found, source)),
@@ -122,12 +107,11 @@ def changes(before: Mapping[str, np.ndarray], after: Mapping[str, np.ndarray]) -
     return {name: field_change(before[name], after[name]) for name in before}
 
 
+def by_source(numbers: Sequence[float], pictured: int = 1) -> BySource:
+    """Numbers of which the first belong to the pictured sources."""
+    return BySource(tuple(numbers[:pictured]), tuple(numbers[pictured:]))
+
+
 def percent(value: float) -> str:
     """A share in words: three digits, in percent."""
     return f"{100 * value:.3g} %"
-
-
-def span(values: list[float]) -> str:
-    """The least and the greatest of several numbers, in words."""
-    low, high = min(values), max(values)
-    return f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"

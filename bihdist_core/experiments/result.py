@@ -14,25 +14,87 @@ import numpy as np
 from ..errors import OutputError, ParameterError
 from ..surface import Surface
 from ..whole_file import whole_file
+from .parts import NotDone
+from .statements import STATEMENTS
+from .verdicts import Numbers, Part, Statement, Verdict, ends_of, number_of
 
 Cell = str | int | float | None
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, what was measured, and whether it holds; None where no number can say so."""
+    """What was measured of a statement, by its id: numbers by the names of its parts, and what there is to add.
 
-    text: str
-    measured: str
-    holds: bool | None
+    note: further numbers, in a sentence.  warning: why the numbers may be off, such as a loaded computer.  failure: why
+    there are none.  ParameterError for an unknown id or part.
+    """
+
+    id: str
+    numbers: Mapping[str, Numbers] = field(default_factory=dict)
+    note: str = ""
+    warning: str = ""
+    failure: str = ""
+
+    def __post_init__(self) -> None:
+        if self.id not in STATEMENTS:
+            raise ParameterError(f"There is no statement {self.id!r}.")
+        for name in self.numbers:
+            self.statement.part(name)
+
+    @property
+    def statement(self) -> Statement:
+        """The statement with its rule."""
+        return STATEMENTS[self.id]
+
+    @property
+    def text(self) -> str:
+        """The statement in words."""
+        return self.statement.text
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """Whether it holds, by the rule; None where there are no numbers to say so."""
+        return self.statement.judge(self.numbers)
+
+    @property
+    def measured(self) -> str:
+        """Its numbers in a line; why there are none, if so."""
+        said = [f"{part.name}: {part.said(self.numbers[part.name])}" for part in self._measured()]
+        return "; ".join(said) or self.failure or "not measured"
+
+    def _measured(self) -> list[Part]:
+        return [part for part in self.statement.parts if part.name in self.numbers]
+
+    def rows(self) -> list[tuple[Cell, ...]]:
+        """A row under `CLAIM_COLUMNS` for each part."""
+        rows: list[tuple[Cell, ...]] = []
+        for part in self.statement.parts:
+            numbers = self.numbers.get(part.name)
+            about = (self.id, self.text, self.statement.words, self.verdict or "", part.name)
+            figures: tuple[Cell, ...] = (None, None, None, None, None)
+            if numbers is not None:
+                figures = (number_of(numbers), *ends_of(numbers), *part.counts(numbers))
+            rows.append((*about, part.judge(numbers) or "", *figures, part.rule, self.note, self.warning, self.failure))
+        return rows
+
+
+CLAIM_COLUMNS = (
+    *("id", "statement", "words", "verdict", "part", "verdict of the part", "number", "low", "high"),
+    *("random or repeated", "of these meet the limit", "rule", "note", "warning", "failure"),
+)
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A vertex to be marked; kind: "source", "anchor", "target", "minimum" or "maximum"."""
+    """A vertex to be marked, and what there is to say of it besides its kind, one of `MARKS`."""
 
     vertex: int
     kind: str
+    words: str = ""
+
+
+MARKS = ("source", "anchor", "target", "candidate", "place", "minimum", "maximum")
+"""Kinds of marks; a target is looked for on another surface, where a candidate is found, and where its place is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +102,10 @@ class Panel:
     """One picture: a field (n,) on the surface of that name in `Result.surfaces`, or the bare surface without field.
 
     row: panels of one row belong side by side.  style: "surface", or "height" for a flat domain whose field is drawn
-    as a height.  views: names of directions, "front" (seen from +z), "back", or "zoom" (around `zoom_vertex`, showing
-    `zoom_radius`, in the surface's unit).  Isolines: `isoline_count` equally spaced ones.  exaggerate: colours show
-    the field to this power; below 1 small values are spread out.  failure: why a field is missing.
+    as a height.  views: names of directions, "front" (seen from +z), "back", "source" (the side that sees the row's
+    first mark best), or "zoom" (around `zoom_vertex`, showing `zoom_radius`, in the surface's unit).  Isolines:
+    `isoline_count` equally spaced ones.  exaggerate: colours show the field to this power; below 1 small values are
+    spread out.  failure: why a field is missing.
     """
 
     heading: str
@@ -108,7 +171,7 @@ class Result:
     """The outcome of one experiment.
 
     protocol: how it was done, in sentences: sources, sizes, thresholds, all fixed before looking.  seconds: how long it
-    took.
+    took.  not_done: its parts that could not be done.
     """
 
     id: str
@@ -120,6 +183,7 @@ class Result:
     tables: tuple[Table, ...] = ()
     claims: tuple[Claim, ...] = ()
     seconds: float = 0.0
+    not_done: tuple[NotDone, ...] = ()
 
     def table(self, heading: str) -> Table:
         """The table of that heading; ParameterError if there is none."""
@@ -146,8 +210,8 @@ class Result:
         for k, chart in enumerate(self.charts, 1):
             rows = [(s.name, float(x), float(y)) for s in chart.series for x, y in zip(s.x, s.y, strict=True)]
             paths.append(_write_csv(folder / f"{self.id}_chart{k}.csv", ("curve", chart.x_label, chart.y_label), rows))
-        claims = [(c.text, c.measured, "" if c.holds is None else int(c.holds)) for c in self.claims]
-        paths.append(_write_csv(folder / f"{self.id}_claims.csv", ("claim", "measured", "holds"), claims))
+        claims = [row for claim in self.claims for row in claim.rows()]
+        paths.append(_write_csv(folder / f"{self.id}_claims.csv", CLAIM_COLUMNS, claims))
         return paths
 
     def _arrays(self) -> dict[str, np.ndarray]:

@@ -1,12 +1,12 @@
 """The surfaces of the experiments, by name, with what is expensive to compute about them."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from ..applications.resizing import resized
+from ..applications.resizing import at_most, resized
 from ..distances.answers import Distances
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
@@ -14,14 +14,26 @@ from ..distances.kinds import Spec
 from ..errors import ParameterError
 from ..formats.mesh_io import read_surface
 from ..laplacian import Laplacian
-from ..progress import Progress
+from ..progress import Progress, part
 from ..surface import Surface
+from .parts import Parts
 
 NAMES = ("figure", "figure_pose2", "animal", "hand", "genus3", "domain", "scan")
 """The surfaces that the experiments know: y is up, and the front looks to +z (the animal's head is at +x)."""
 
 SEEDS = ("vertex 0", "seed 1", "seed 2", "seed 3", "seed 4")
-"""The starts of every protocol: the first vertex, and four drawn at random once and for all."""
+"""The first starts of every protocol: the first vertex, and some drawn at random once and for all."""
+
+STARTS = 25
+"""What depends on a start is taken from so many."""
+
+LARGE = 20_000
+"""Vertices from which on a mesh of the reader's is simplified once, before smaller ones are made from it."""
+
+
+def starts(count: int = STARTS) -> tuple[str, ...]:
+    """The first starts of every protocol, as many as one likes; beyond the first they are random."""
+    return ("vertex 0", *(f"seed {number}" for number in range(1, count)))
 
 
 class Shapes:
@@ -37,6 +49,8 @@ class Shapes:
         self.own = own
         self._surfaces: dict[str, Surface] = {}
         self._laplacians: dict[str, Laplacian] = {}
+        self.kept: dict[object, object] = {}
+        """What one experiment computed and another needs too."""
 
     @classmethod
     def from_folder(cls, folder: str | os.PathLike[str]) -> "Shapes":
@@ -69,11 +83,41 @@ class Shapes:
         """The surface with `count` vertices, kept for the next experiment."""
         key = f"{name} with {count} vertices"
         if key not in self._surfaces:
-            surface = self[name]
-            if surface.component_count > 1 or surface.unreferenced_count:
-                surface = surface.component(0)[0]
-            self._surfaces[key] = resized(surface, count, progress)
+            self._surfaces[key] = resized(self._near(name, count), count, progress)
         return self._surfaces[key]
+
+    def at_most(self, name: str, count: int, progress: Progress | None = None) -> Surface:
+        """The surface with at most `count` vertices if it goes: as it is, or simplified as far as it can be."""
+        key = f"{name} with at most {count} vertices"
+        if key not in self._surfaces:
+            self._surfaces[key] = at_most(self._near(name, count), count, progress)
+        return self._surfaces[key]
+
+    def sizes(self, name: str, counts: Sequence[int], parts: Parts, progress: Progress | None = None) -> list[int]:
+        """Those of some sizes that the surface can have; the others are noted as not done.
+
+        Raises ParameterError where there are none.
+        """
+        there = []
+        for k, count in enumerate(counts):
+            step = part(progress, k / len(counts), (k + 1) / len(counts))
+            if parts.do(f"{count:,} vertices", self.sized, name, count, step) is not None:
+                there.append(count)
+        if not there:
+            raise ParameterError(" ".join(dict.fromkeys(each.reason for each in parts.not_done)))
+        return there
+
+    def _near(self, name: str, count: int) -> Surface:
+        """The surface itself, or of a large one that which is `LARGE`: many sizes are then made in little time."""
+        surface = self.connected(name)
+        return self.at_most(name, LARGE) if count < LARGE < len(surface.vertices) else surface
+
+    def connected(self, name: str) -> Surface:
+        """The largest component of the surface, without vertices of no face."""
+        surface = self[name]
+        if surface.component_count > 1 or surface.unreferenced_count:
+            return surface.component(0)[0]
+        return surface
 
 
 DISTANCES = ("biharmonic", "geodesic", "diffusion t = 1")
@@ -94,15 +138,37 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
 def start_vertex(surface: Surface, seed: str = "vertex 0") -> int:
     """The vertex that a protocol starts from, on the largest component."""
     vertices = np.flatnonzero(surface.component_of_vertex == 0)
-    number = SEEDS.index(seed)
+    number = 0 if seed == "vertex 0" else int(seed.removeprefix("seed "))
     return int(vertices[0] if number == 0 else np.random.default_rng(number).choice(vertices))
 
 
-def spread_points(surface: Surface, count: int, seed: str = "vertex 0") -> np.ndarray:
-    """(count,) vertices by farthest-point sampling along edges from the start of a protocol."""
+PLACES: dict[str, dict[str, tuple[float, float]]] = {
+    "front": {"figure": (0.5, 0.75), "animal": (0.5, 0.62), "hand": (0.5, 0.4), "genus3": (0.5, 0.4)},
+    "back": {"figure": (0.5, 0.72), "figure_pose2": (0.5, 0.72), "animal": (0.5, 0.62), "hand": (0.5, 0.45)},
+}
+"""Where the pictured sources are: shares of width and height; in the middle for other shapes."""
+
+
+def pictured_source(surface: Surface, name: str, side: str) -> int:
+    """The vertex that figures 1, 4 and 5 start from, on the "front" or the "back"."""
+    return vertex_at(surface, *PLACES[side].get(name, (0.5, 0.5)), side)
+
+
+def random_sources(surface: Surface, count: int, among: np.ndarray | None = None) -> list[int]:
+    """The same vertices (count,) every time: on the largest component, or `among` (n,) bool those of it; some may be
+    equal where there are few."""
+    if among is None:
+        return [start_vertex(surface, start) for start in starts(count + 1)[1:]]
+    ids = np.flatnonzero(among & (surface.component_of_vertex == 0))
+    return [int(np.random.default_rng(number).choice(ids)) for number in range(1, count + 1)] if len(ids) else []
+
+
+def spread_points(surface: Surface, count: int, start: str | int = "vertex 0") -> np.ndarray:
+    """(count,) vertices by farthest-point sampling along edges, from the start of a protocol or from a vertex."""
     component, ids = surface.component(0)
     lengths = EdgeGeodesic(component)
-    points = [int(np.searchsorted(ids, start_vertex(surface, seed)))]
+    first = start_vertex(surface, start) if isinstance(start, str) else start
+    points = [int(np.searchsorted(ids, first))]
     nearest = lengths.distances(points[0])
     while len(points) < count:
         points.append(int(np.argmax(nearest)))

@@ -1,13 +1,18 @@
 """The protocols of the experiments: what they start from, their tables, and the printed times."""
 
+import itertools
+
 import numpy as np
 import pytest
 
-from bihdist_core import ParameterError
-from bihdist_core.experiments import EXPERIMENTS, SEEDS, Shapes, table1, table2
+from bihdist_core import ParameterError, Surface
+from bihdist_core.distances.edge_geodesic import EdgeGeodesic
+from bihdist_core.experiments import EXPERIMENTS, SEEDS, Shapes, fig10, table1, table2
+from bihdist_core.experiments._claims_topology import APART, FAR_ROUND, far_pairs, nearly_touching
 from bihdist_core.experiments.result import Table
-from bihdist_core.experiments.shapes import spread_points, start_vertex, vertex_at
-from tests.shapes import bumpy, grid, two_pieces
+from bihdist_core.experiments.shapes import spread_points, start_vertex, starts, vertex_at
+from bihdist_core.experiments.spheres import icosphere
+from tests.shapes import bumpy, grid, torus, two_pieces
 
 
 def test_a_missing_surface_is_named():
@@ -25,6 +30,40 @@ def test_starts_and_sources_are_the_same_every_time():
     points = spread_points(grid(10, 10), 4)
     assert points.tolist() == [0, 120, 10, 110]
     assert spread_points(s, 5).tolist() == spread_points(s, 8).tolist()[:5]
+
+
+def test_there_are_as_many_starts_as_one_likes():
+    s = bumpy(900)
+    assert starts(5) == SEEDS
+    assert len(starts()) == 25
+    vertices = [start_vertex(s, start) for start in starts()]
+    # Some two of 25 random vertices of 900 may be the same.
+    assert len(set(vertices)) >= 23
+    for start, vertex in zip(starts(3), vertices, strict=False):
+        assert spread_points(s, 3, start).tolist() == spread_points(s, 3, vertex).tolist()
+        assert fig10._clustered(s, start)[0] == vertex
+
+
+def test_joins_are_apart_and_at_different_places():
+    # A flattened ring: its inner sides face each other across the hole.
+    ring = torus(40, 12)
+    ring = Surface(ring.vertices * [1, 0.35, 1], ring.faces)
+    unit = np.sqrt(ring.face_areas.sum())
+    along = EdgeGeodesic(ring).distances(np.arange(len(ring.vertices)))
+    pairs = far_pairs(ring, 12)
+    assert len(set(pairs)) == 12
+    assert all(along[i, j] > APART * unit for i, j in pairs)
+    touching = nearly_touching(ring, 3)
+    assert touching
+    assert nearly_touching(ring) == touching[:1]
+    ratios = [along[i, j] / np.linalg.norm(ring.vertices[i] - ring.vertices[j]) for i, j in touching]
+    assert ratios == sorted(ratios, reverse=True)
+    assert min(ratios) > FAR_ROUND
+    for (a, b), (c, d) in itertools.combinations(touching, 2):
+        for x, y in ((c, d), (d, c)):
+            assert max(along[a, x], along[b, y]) >= APART * unit
+    # On a convex surface no two points face each other.
+    assert nearly_touching(icosphere(2), 3) == []
 
 
 def test_vertices_are_found_by_their_place():

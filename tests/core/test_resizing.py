@@ -5,7 +5,7 @@ import pytest
 
 from bihdist_core import BiharmonicDistance, Cancelled, GeodesicDistance, ParameterError, Surface
 from bihdist_core.applications.perturbation import noisy, punched, welded, with_handle
-from bihdist_core.applications.resizing import KEEP_SHAPE, _harmless, refined, resized, simplified
+from bihdist_core.applications.resizing import KEEP_SHAPE, _harmless, at_most, refined, resized, simplified
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.experiments.spheres import icosphere, moebius
 from tests.shapes import bumpy, fin, grid, sphere, torus
@@ -83,6 +83,39 @@ def test_simplified_refuses_what_it_cannot_do():
     # No torus has fewer than seven vertices.
     with pytest.raises(ParameterError, match=r"torus cannot be simplified below \d+ vertices without damage"):
         simplified(torus(12, 8), 6)
+
+
+def test_thin_triangles_do_not_stop_simplification_and_get_no_thinner():
+    ball = bumpy(800)
+    thin = Surface(ball.vertices * [12, 1, 1], ball.faces)
+    small, _ = simplified(thin, 200)
+    assert quality(thin).min() < 0.2 * KEEP_SHAPE
+    assert quality(small).min() >= quality(thin).min()
+    assert small.is_manifold
+    assert small.genus == 0
+    assert small.face_areas.sum() == pytest.approx(thin.face_areas.sum(), rel=0.1)
+
+
+def test_simplified_leaves_no_vertex_without_a_face():
+    # A fan of single triangles that meet in one vertex, another triangle apart from it, and a vertex of no face.
+    turn = 2 * np.pi * np.arange(8) / 8
+    fan = grid(12, 12)
+    x = np.concatenate([fan.vertices, np.stack([20 + np.cos(turn), np.sin(turn), 0 * turn], 1), [[20, 0, 0]]])
+    n = len(fan.vertices)
+    single = [[n + 2 * k, n + 2 * k + 1, n + 8] for k in range(4)]
+    x = np.concatenate([x, [[40, 0, 0], [41, 0, 0], [40, 1, 0], [60, 0, 0]]])
+    surface = Surface(x, np.concatenate([fan.faces, single, [[n + 9, n + 10, n + 11]]]))
+    small, ids = simplified(surface, 60)
+    assert len(ids) == 60
+    assert small.unreferenced_count == 0
+    assert small.component_count == surface.component_count == 3
+    assert surface.unreferenced_count == 1
+    with pytest.raises(ParameterError, match="has 181 vertices and cannot be simplified to 182"):
+        simplified(surface, 182)
+    least = at_most(surface, 4)
+    assert 12 < len(least.vertices) < 60
+    assert least.unreferenced_count == 0
+    assert at_most(surface, 182) is surface
 
 
 def test_refined_halves_the_edges_and_keeps_the_surface():

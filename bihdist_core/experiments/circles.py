@@ -1,0 +1,181 @@
+"""Isotropy near sources, as what it is: a limit.  Geodesic circles that shrink, on a mesh that is fine enough for them.
+
+Of biharmonic distance d^2 = r^2 / (4 pi) (ln 1/r + c), where c differs from direction to direction: the ratio of
+farthest to nearest falls towards 1 as the circle shrinks, but only like 1 / ln(1/r).  Of diffusion distance it stays.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..analysis.diagnostics import isotropy_ratio
+from ..analysis.isoline_tracing import isolines
+from ..applications.local_refinement import refined_around
+from ..distances.edge_geodesic import EdgeGeodesic
+from ..distances.exact_geodesic import ExactGeodesic
+from ..errors import ParameterError
+from ..laplacian import Laplacian
+from ..progress import Progress, part
+from ..surface import Surface
+from ._stated_figures import CIRCLE, LONG, ROUNDER, TREND
+from .gathered import Gathered
+from .result import Chart, Series
+from .shapes import Shapes, distance, pictured_source, random_sources
+
+RADII = 0.04 / 2.0 ** np.arange(5)
+"""Of the circles, largest first, as shares of the root of the area; the last is a sixteenth of the first."""
+EDGES = 5
+"""A circle is at least this many edges wide."""
+BEYOND = 1.25
+"""The mesh is fine up to this many times the largest radius."""
+
+
+PROTOCOL = (
+    "The isotropy ratio is the greatest over the least distance along a geodesic circle around the source, and its "
+    f"excess what it is more than 1. Circles shrink from {100 * RADII[0]:g} % to {100 * RADII[-1]:g} % of the root of "
+    f"the area, on a mesh refined around the sources, so that each is at least {EDGES} edges wide; geodesic distance "
+    "there is exact. The trend leaves out random sources around which the largest is not local: no single closed curve."
+)
+"""How isotropy is measured, in words."""
+
+FRONT, BACK, RANDOM_FROM = 0, 1, 2
+"""Where in circles that experiments share the pictured sources are, and where random ones begin."""
+
+
+@dataclass(frozen=True, eq=False)
+class Circles:
+    """Isotropy ratios on the circles of `RADII` around sources (s,).
+
+    ratios: by kind of distance, (s, 5), largest circle first; NaN around a source where geodesic circles cannot be had,
+    for the reason in `failure`.  are_local: (s,) whether the largest circle is one closed curve: where it is not, as on
+    a limb that is thinner, or at a boundary, it says nothing of the limit.
+    """
+
+    sources: np.ndarray
+    ratios: Mapping[str, np.ndarray]
+    are_local: np.ndarray
+    failure: str = ""
+
+    def trend(self, kind: str = "biharmonic") -> list[float]:
+        """(s,) the ratio's excess over 1 on the smallest circle, over that on the largest."""
+        ratios = self.ratios[kind]
+        return _over(ratios[:, -1] - 1, ratios[:, 0] - 1)
+
+    def smallest(self, kind: str) -> list[float]:
+        """(s,) the ratio on the smallest circle."""
+        return [float(x) for x in self.ratios[kind][:, -1]]
+
+    def relative(self, other: str) -> list[float]:
+        """(s,) biharmonic distance's excess over 1 on the smallest circle, over that of another kind."""
+        return _over(self.ratios["biharmonic"][:, -1] - 1, self.ratios[other][:, -1] - 1)
+
+    def chart(self, heading: str, source: int = 0) -> Chart:
+        """The ratios around one of the sources."""
+        series = (Series(kind, RADII, values[source]) for kind, values in self.ratios.items())
+        x, y = "radius of the circle over root of area", "isotropy ratio"
+        return Chart(heading, x, y, tuple(series), log_x=True, log_y=True)
+
+
+def circles(
+    surface: Surface, sources: Sequence[int], kinds: Sequence[str], progress: Progress | None = None
+) -> Circles:
+    """The isotropy ratios of several kinds of distance on circles around each of the sources (s,).
+
+    The mesh is refined around the sources, and geodesic distance is exact, on the part around each.
+    """
+    ids = np.asarray(sources, int)
+    unit = float(np.sqrt(surface.face_areas[surface.component_of_vertex[surface.faces[:, 0]] == 0].sum()))
+    part(progress, 0, 1)(0.0, "refining around the sources")
+    fine = refined_around(surface, ids, RADII[-1] * unit, BEYOND * RADII[0] * unit, EDGES)
+    laplacian = Laplacian(fine)
+    fields = {}
+    for k, kind in enumerate(kinds):
+        made = distance(laplacian, kind, part(progress, 0.1 + 0.4 * k / len(kinds), 0.1 + 0.4 * (k + 1) / len(kinds)))
+        fields[kind] = made.from_sources(ids)
+    ratios = {kind: np.full((len(ids), len(RADII)), np.nan) for kind in kinds}
+    are_local = np.zeros(len(ids), bool)
+    failure = ""
+    for q, source in enumerate(ids.tolist()):
+        part(progress, 0.5, 1)(q / len(ids), f"circles around vertex {source}")
+        try:
+            around, of_patch, geodesic = _patch(fine, source, BEYOND * RADII[0] * unit)
+            widest = isolines(around, geodesic, [RADII[0] * unit])
+            are_local[q] = len(widest) == 1 and widest[0].closed
+            for kind in kinds:
+                field = fields[kind][of_patch, q]
+                ratios[kind][q] = [isotropy_ratio(around, field, geodesic, float(r)) for r in RADII * unit]
+        except ParameterError as error:
+            failure = str(error)
+    return Circles(ids, ratios, are_local, failure)
+
+
+def shared_circles(shapes: Shapes, name: str, random: int, progress: Progress | None = None) -> Circles:
+    """Circles around the pictured sources on the front and on the back (`FRONT`, `BACK`), and then (`RANDOM_FROM`)
+    around random ones, of biharmonic distance and of diffusion distance with t = 1.
+
+    Kept for the next experiment that asks.
+    """
+    key = ("circles", name, random)
+    if key not in shapes.kept:
+        surface = shapes[name]
+        sides = [pictured_source(surface, name, side) for side in ("front", "back")]
+        sources = [*sides, *random_sources(surface, random)]
+        shapes.kept[key] = circles(surface, sources, ("biharmonic", "diffusion t = 1"), progress)
+    found = shapes.kept[key]
+    assert isinstance(found, Circles)
+    return found
+
+
+def gather_circles(found: Gathered, circled: Circles, pictured: int, first_random: int) -> None:
+    """Add the numbers of the parts that statements on isotropy share, around a pictured source and random ones.
+
+    The trend is taken of those random ones around which the largest circle is local.
+    """
+    trend, relative = circled.trend(), circled.relative("diffusion t = 1")
+    own, long = circled.smallest("biharmonic"), circled.smallest("diffusion t = 1")
+    for k in (pictured, *range(first_random, len(circled.sources))):
+        if np.isfinite(own[k]):
+            if circled.are_local[k] or k == pictured:
+                found.add(TREND.name, trend[k], k == pictured)
+            for part_of, values in ((ROUNDER, relative), (CIRCLE, own), (LONG, long)):
+                found.add(part_of.name, values[k], k == pictured)
+
+
+def _patch(surface: Surface, source: int, radius: float) -> tuple[Surface, np.ndarray, np.ndarray]:
+    """The part of a surface around a source, the ids (k,) of its vertices, and exact geodesic distances (k,) on it.
+
+    Lengths along edges are longer than geodesics, by up to about a sixth: the part is a good deal larger.
+    """
+    component, ids = surface.component(int(surface.component_of_vertex[source]))
+    start = int(np.searchsorted(ids, source))
+    near = np.linalg.norm(component.vertices - component.vertices[start], axis=1) <= 1.2 * radius
+    patch, of_component = _around(component, start, near[component.faces].all(axis=1))
+    away = np.linalg.norm(patch.vertices - component.vertices[start], axis=1)
+    while len(loose := patch.nonmanifold_vertices[away[patch.nonmanifold_vertices] > radius]):
+        # At the rim faces may hang together by a vertex alone.
+        near[of_component[loose]] = False
+        patch, of_component = _around(component, start, near[component.faces].all(axis=1))
+        away = np.linalg.norm(patch.vertices - component.vertices[start], axis=1)
+    here = int(np.searchsorted(of_component, start))
+    if not np.isfinite(EdgeGeodesic(patch).distances(here)).all():
+        raise ParameterError(f"{surface.name} is not connected around vertex {source}.")
+    exact = ExactGeodesic(patch)
+    try:
+        return patch, ids[of_component], exact.distances(here)
+    finally:
+        exact.close()
+
+
+def _around(surface: Surface, vertex: int, chosen: np.ndarray) -> tuple[Surface, np.ndarray]:
+    """Of the faces that are chosen (m,) bool those that hang together with a vertex, and (k,) its vertices' ids."""
+    used, compact = np.unique(surface.faces[chosen], return_inverse=True)
+    piece = Surface(surface.vertices[used], compact.reshape(-1, 3), surface.name)
+    part_of_it, kept = piece.component(int(piece.component_of_vertex[np.searchsorted(used, vertex)]))
+    return part_of_it, used[kept]
+
+
+def _over(numerator: np.ndarray, denominator: np.ndarray) -> list[float]:
+    """Ratios of excesses; a vanishing one over a vanishing one is 1, no trend."""
+    tiny = np.abs(denominator) < 1e-9
+    return [float(x) for x in np.where(tiny, 1.0, numerator / np.where(tiny, 1.0, denominator))]

@@ -1,0 +1,87 @@
+"""Isotropy on geodesic circles that shrink around a source."""
+
+import numpy as np
+import pytest
+
+from bihdist_core import Surface
+from bihdist_core.experiments.circles import RADII, _patch, circles
+from bihdist_core.experiments.gathered import Gathered
+from bihdist_core.experiments.verdicts import BySource
+from tests.shapes import bumpy, grid
+
+KINDS = ("biharmonic", "diffusion t = 1")
+
+
+@pytest.fixture(scope="module")
+def strip():
+    """A flat rectangle four times as long as wide."""
+    flat = grid(40, 10)
+    width, height = np.ptp(flat.vertices[:, 0]), np.ptp(flat.vertices[:, 1])
+    return Surface(flat.vertices * [4 / width, 1 / height, 1], flat.faces, "strip")
+
+
+def test_biharmonic_circles_become_round_like_one_over_a_logarithm_and_diffusions_stay(strip):
+    x = strip.vertices
+    middle = int(np.linalg.norm(x - [1.3, 0.5, 0], axis=1).argmin())
+    found = circles(strip, [middle], KINDS)
+    biharmonic, diffusion = (found.ratios[kind][0] for kind in KINDS)
+    assert (np.diff(biharmonic) < 0).all()
+    # d^2 = r^2 / (4 pi) (ln 1/r + c): the square of the ratio is (ln 1/r + a) / (ln 1/r + b), so that the inverse of
+    # its excess over 1 is linear in ln 1/r.
+    inverse = 1 / (biharmonic**2 - 1)
+    slopes = np.diff(inverse) / np.log(2)
+    assert slopes == pytest.approx(slopes.mean(), rel=0.1)
+    assert (slopes > 0).all()
+    assert diffusion[1:] == pytest.approx(diffusion[-1], rel=0.1)
+    assert diffusion[-1] > 2
+    assert found.trend()[0] < 0.75
+    assert found.trend("diffusion t = 1")[0] == pytest.approx(1, abs=0.2)
+    assert found.are_local[0]
+
+
+def test_circles_that_a_boundary_cuts_say_nothing_of_the_trend(strip):
+    edge = int(np.linalg.norm(strip.vertices - [2, 0, 0], axis=1).argmin())
+    middle = int(np.linalg.norm(strip.vertices - [2, 0.5, 0], axis=1).argmin())
+    found = circles(strip, [middle, edge], KINDS)
+    assert found.are_local.tolist() == [True, False]
+    assert np.isfinite(found.ratios["biharmonic"]).all()
+
+
+def test_faces_that_hang_by_a_vertex_at_the_rim_are_left_out():
+    """Two triangles that meet the disc in a corner each, just within the reach of the part that is cut out."""
+    flat = grid(30, 30)
+    x = flat.vertices - flat.vertices.mean(axis=0)
+    middle = int(np.linalg.norm(x, axis=1).argmin())
+    whole = np.linalg.norm(x, axis=1) <= 5
+    faces = flat.faces[whole[flat.faces].all(axis=1)]
+    corner = int(faces[np.linalg.norm(x[faces].mean(axis=1), axis=1).argmax()][0])
+    out = x[corner] / np.linalg.norm(x[corner])
+    beside = [len(x), len(x) + 1]
+    points = np.concatenate([x, x[corner] + 0.3 * out + 0.1 * np.array([[-out[1], out[0], 0], [out[1], -out[0], 0]])])
+    surface = Surface(points, np.concatenate([faces, [[corner, *beside]]]), "disc")
+    assert not surface.is_manifold
+    patch, ids, lengths = _patch(surface, middle, 4.5)
+    assert patch.is_manifold
+    assert not np.isin(beside, ids).any()
+    assert np.isfinite(lengths).all()
+    within = np.linalg.norm(points[ids], axis=1) < 4
+    np.testing.assert_allclose(lengths[within], np.linalg.norm(points[ids[within]] - points[middle], axis=1), atol=1e-9)
+
+
+def test_charts_have_a_curve_for_each_distance():
+    found = circles(bumpy(500), [3, 4], KINDS)
+    chart = found.chart("isotropy", 1)
+    assert [s.name for s in chart.series] == list(KINDS)
+    np.testing.assert_array_equal(chart.series[0].x, RADII)
+    np.testing.assert_array_equal(chart.series[0].y, found.ratios["biharmonic"][1])
+
+
+def test_numbers_are_gathered_by_the_names_of_parts():
+    found = Gathered()
+    for k, depth in enumerate((0.0, 0.02, 0.03)):
+        found.add("deepest other minimum, biharmonic, of the range", depth, not k)
+    claim = found.claim("fig1-1", "a note")
+    assert list(claim.numbers.values()) == [BySource((0.0,), (0.02, 0.03))]
+    assert claim.verdict == "partly"
+    assert found.claim("fig6-5").numbers == {}
+    assert found.claim("fig6-5").verdict is None

@@ -1,0 +1,62 @@
+"""Experiments on meshes of a reader."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bihdist_core import Surface
+from bihdist_core.analysis.quality import small_radius
+from bihdist_core.experiments import EXPERIMENTS, NAMES, Shapes, _claims_growth
+from tests.shapes import bumpy, spike, two_pieces
+
+ASSETS = Path(__file__).resolve().parents[2] / "assets"
+
+ANY_MESH = [id for id, experiment in EXPERIMENTS.items() if experiment.any_mesh]
+
+
+@pytest.mark.parametrize("id", [id for id in ANY_MESH if id not in ("table1", "table2", "claims", "fig6")])
+def test_on_the_own_mesh_of_a_reader(id):
+    # Pieces, an unreferenced vertex, and a surface that is no person.
+    s = two_pieces()
+    b = bumpy(500)
+    own = Surface(
+        np.concatenate([s.vertices + 10, b.vertices]),
+        np.concatenate([s.faces, b.faces + len(s.vertices)]),
+        "my mesh.obj",
+    )
+    r = EXPERIMENTS[id].compute(Shapes(own=own), quick=True)
+    assert "my mesh.obj" in r.surfaces
+    assert r.claims
+
+
+@pytest.mark.parametrize("id", ["claims", "fig6"])
+def test_on_a_closed_mesh_of_a_reader(id, monkeypatch):
+    monkeypatch.setattr(_claims_growth, "QUICK_SIZES", (300, 600))
+    r = EXPERIMENTS[id].compute(Shapes(own=bumpy(500)), quick=True)
+    assert "bumpy" in r.surfaces or id == "fig6"
+
+
+def test_shapes_come_from_a_folder_or_are_given():
+    shapes = Shapes.from_folder(ASSETS)
+    assert all(shapes[name].name == name for name in NAMES)
+    assert shapes.names("figure", "hand") == ("figure", "hand")
+    own = Shapes(own=bumpy(100))
+    assert own.names("figure", "hand") == ("bumpy",)
+    assert own["bumpy"] is own.own
+    assert len(own.sized("bumpy", 250).vertices) == 250
+    assert own.sized("bumpy", 250) is own.sized("bumpy", 250)
+    assert small_radius(bumpy(100)) == pytest.approx(4 * bumpy(100).mean_edge_length)
+
+
+def test_a_distance_that_cannot_be_had_leaves_the_others_their_pictures():
+    result = EXPERIMENTS["fig4"].compute(Shapes(own=spike(60, 1e13)), quick=True)
+    panels = {panel.heading.split(",")[0]: panel for panel in result.panels}
+    assert panels["geodesic"].field is not None
+    for kind in ("biharmonic", "diffusion t = 1"):
+        assert panels[kind].field is None
+        assert "emeshing would help" in panels[kind].failure
+    assert {each.part for each in result.not_done} == {"biharmonic on spike", "diffusion t = 1 on spike"}
+    assert [claim.verdict for claim in result.claims] == [None] * 4
+    assert all("emeshing would help" in claim.failure for claim in result.claims)
+    assert result.protocol.startswith("Nothing was measured")
