@@ -1,6 +1,7 @@
 """`bihdist paper`: the paper's figures, tables and claims, computed anew."""
 
 import argparse
+import sys
 
 from .mesh import found_mesh
 from .options import add_up
@@ -19,13 +20,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help="smaller meshes and fewer samples, for a first look")
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> int:
+    """The exit status is 1 where a part could not be done; the page is written all the same."""
     from ..paper.reproduce import reproduce
 
     only = [word for word in options.only.split(",") if word]
     mesh = found_mesh(options.mesh) if options.mesh else None
     with progress_line() as progress:
-        page = reproduce(
+        made = reproduce(
             options.out, only, mesh, options.quick, progress, lambda line: print(line, flush=True), options.up or "auto"
         )
-    print(f"{page}: open it in a browser")
+    print(f"{made.page}: open it in a browser")
+    if made.not_done:
+        parts = "One part" if made.not_done == 1 else f"{made.not_done} parts"
+        print(f"bihdist: {parts} could not be done; the reasons are on the page.", file=sys.stderr)
+    return int(made.not_done > 0)

@@ -73,7 +73,8 @@ def end_words(figure: Figure, panel: int) -> str:
         end = f"largest{BOUND}{_signed(each.field[vertex])} at{BOUND}vertex{BOUND}{vertex}"
     else:
         top = figure.tops()[panel]
-        end = f"max{BOUND}{each.own_top if any(goes_beyond(figure, panel)) else top:.4g}"
+        is_own = figure.is_of_set or any(goes_beyond(figure, panel))
+        end = f"max{BOUND}{each.own_top if is_own else top:.4g}"
     if figure.range == "shares" and not figure.has_one_bar:
         return f"% of the {end}{with_unit(each.unit)}"
     return f"{each.unit}, {end}" if each.unit else end

@@ -21,6 +21,7 @@ from .description import Figure
 from .fonts import families, has_cff_outlines
 from .isoline_labels import draw_labels
 from .layout import Layout
+from .legend import draw_legend
 from .marks import POINT, draw_frames, draw_marks
 from .shots import Line, Shot
 from .simplified import simplified
@@ -103,6 +104,7 @@ def drawn(page: Composition, vector: bool, shots: bool = True, words: bool = Tru
         draw_axes(axes, page, 10 * len(page.shots))
     if words:
         draw_words(axes, page)
+        draw_legend(axes, page, 10 * len(page.shots) + 5)
     return canvas
 
 

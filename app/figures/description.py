@@ -25,7 +25,8 @@ class Mark:
     has a dot there.  corners, weights: a place in a face, of which the vertex is a corner.  name: in sentences,
     its vertex if empty.  number, colour: of a pin, which is a drop with that number in a colour such as "#1F7A3D".
     is_candidate: it is where a pin would be, and dashed.  is_truth: where such a point belongs, which is a cross.
-    extremum: "maximum" or "minimum", which is a triangle; "" for what is none.
+    extremum: "maximum" or "minimum", which is a triangle; "" for what is none.  ball: the colour of a filled disc, as
+    of a point that is sought; diamond: the colour of a diamond, as of what was found for it.
     """
 
     vertex: int
@@ -41,6 +42,8 @@ class Mark:
     extremum: str = ""
     is_candidate: bool = False
     is_truth: bool = False
+    ball: str = ""
+    diamond: str = ""
 
     def on(self, vertices: np.ndarray) -> np.ndarray:
         """(3,) where it is on a surface with these vertices (n, 3)."""
@@ -122,6 +125,9 @@ class FigurePanel:
         return float(np.nanmax(np.abs(self.field) if self.signed else self.field, initial=0.0))
 
 
+Entry = tuple[Mark, str]
+"""Of a legend: a mark, whose vertex does not matter, and what such marks stand for."""
+
 USUAL = Size()
 """As the panels want it."""
 
@@ -134,7 +140,10 @@ class Figure:
     and with "shares" each is drawn in shares of its own.  crop: without empty space around shapes and at the edges.
     title: where panels have their names, one of TITLES; font: a family, "" for the usual one; text: the size of labels
     in points, all other words in proportion, the usual one if None; is_moving: one of the pictures of a movie, in all
-    of which insets stand in the same places; remarks: sentences on what could not be shown.
+    of which insets stand in the same places; is_of_set: one of several figures whose colours end alike, so that its own
+    maximum is said; remarks: sentences on what could not be shown.
+    legend: under all panels, on a page whose height follows from them; dashes_all: marks that the shape hides are
+    dashed even where another view of their panel shows them.
     """
 
     panels: tuple[FigurePanel, ...]
@@ -148,13 +157,18 @@ class Figure:
     font: str = ""
     text: float | None = None
     is_moving: bool = False
+    is_of_set: bool = False
     remarks: tuple[str, ...] = ()
+    legend: tuple[Entry, ...] = ()
+    dashes_all: bool = True
 
     def __post_init__(self) -> None:
         if not self.panels:
             raise ParameterError("A figure needs at least one panel.")
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
+        if self.legend and self.size.height is not None:
+            raise ParameterError("A page with a legend is as high as it needs to be: its size has no height.")
         one_of(self.range, RANGES, "range")
         one_of(self.title, TITLES, "title")
         check_font(self.font)

@@ -9,7 +9,7 @@ from ..drawing.style import PAPER
 from . import bars
 from .bars import Bar
 from .boxes import Box, Words
-from .description import Figure
+from .description import Figure, Mark
 from .drops import overhang
 from .framing import Seen, height_for, seen, shown_surface
 from .grid import VIEW_HEIGHT, Grid, grid_of, most_views, view_width
@@ -44,6 +44,9 @@ MARGIN = 4.0
 TALLEST = 1.4
 """Widths of a page that a cropped one is high at most."""
 
+BETWEEN_VIEWS = 0.06
+"""Heights of a view that are left between the cropped views of a panel."""
+
 WIDEST = 1.6
 """Heights of a view that a cropped one is wide at most; flatter shapes have lower ones."""
 
@@ -69,6 +72,7 @@ class Layout:
 
     scale: pixels per unit; page: the size the page has in pixels at that scale; stroke: by how much lines are thinner
     than the style says; mark: how far marks are across; label: the size of labels; shared_bar: that of all panels.
+    legend: of each entry the mark, where (x, y) it is, and its words.
     """
 
     width: float
@@ -81,6 +85,7 @@ class Layout:
     shared_bar: Bar | None
     stroke: float
     mark: float
+    legend: tuple[tuple[Mark, float, float, Words], ...] = ()
 
     @property
     def smallest(self) -> float:
@@ -97,6 +102,10 @@ def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> Lay
     if above or (beside > MARGIN and figure.crop):
         # Drops of pins have room at the edges, too.
         layout = _laid_out(figure, least_scale, share, above, beside)
+    if figure.legend:
+        from .legend import with_legend  # which draws, with what needs a layout
+
+        layout = with_legend(figure, layout)
     return layout
 
 
@@ -138,7 +147,9 @@ def _shapes(figure: Figure, panel: int) -> list[tuple[float, float, Seen | None]
         return [(view_width(figure) / VIEW_HEIGHT, 1.0, None)] * len(each.views)
     surface = shown_surface(each, figure.tops()[panel])
     parts = [seen(view, each, surface) for view in each.views]
-    found = [(min(p.aspect, WIDEST), min(WIDEST / p.aspect, 1.0), p) for p in parts]
+    # Marks at the edges of two views meet between them; pages without a legend stay as they were.
+    more = BETWEEN_VIEWS if figure.legend and len(parts) > 1 else 0.0
+    found = [(min(p.aspect, WIDEST) + more, min(WIDEST / p.aspect, 1.0), p) for p in parts]
     if any(zoom.corner == "auto" for zoom in each.zooms):
         wide, high, part = found[0]
         found[0] = (wide + SIDE * min(wide, high), high, part)  # an inset may need room beside the shape
@@ -269,7 +280,9 @@ class _Sizes:
             wide[column] = max(wide[column], sum(w for w, _, _ in shapes))
             tall[row] = max(tall[row], *(h for _, h, _ in shapes))
             views[column] = max(views[column], len(shapes))
-        gap, least = max(8 * texts.factor, 2 * (self.pad - MARGIN)), 90.0 * min(texts.factor, 1.0)
+        # Drops of two panels meet between them; pages without a legend stay as they were.
+        beside = self.pad if figure.legend else self.pad - MARGIN
+        gap, least = max(8 * texts.factor, 2 * beside), 90.0 * min(texts.factor, 1.0)
         bound = grid.width - strip.width - 2 * self.pad - gap * (grid.columns - 1)
         is_free = figure.size.width is None and figure.size.height is None
         most = grid.height if grid.height is not None else TALLEST * grid.width

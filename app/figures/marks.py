@@ -12,7 +12,8 @@ from ..drawing.marks import DOT
 from .boxes import Box, Words
 from .crosses import cross_of
 from .description import Mark
-from .drops import drop_of
+from .diamonds import solid_of
+from .drops import RISE, drop_of, head_radius
 from .shots import Shot
 from .triangles import triangle_of
 
@@ -65,6 +66,10 @@ def draw_marks(
         if panel.marks[k].is_truth:
             cross_of(axes, page, x, y, True, order)
             continue
+        if panel.marks[k].ball or panel.marks[k].diamond:
+            for patch in solid_of(page, panel.marks[k], x, y, True, order):
+                axes.add_artist(patch)
+            continue
         _draw_ghost(axes, x, y, across, style, order)
     for k, x, y in shot.marks:
         if any(box.holds(x, y, across / 2) for box in insets):
@@ -79,8 +84,8 @@ def draw_marks(
         if mark.number is not None:
             _write_beside(axes, page, shot, mark, (x, y), insets, written, order + 2, write)
             continue
-        if mark.extremum:
-            for patch in triangle_of(page, mark, x, y, False, order):
+        if mark.extremum or mark.ball or mark.diamond:
+            for patch in (triangle_of if mark.extremum else solid_of)(page, mark, x, y, False, order):
                 axes.add_artist(patch)
                 if shot.source is not None:
                     patch.set_clip_path(frame)
@@ -100,6 +105,24 @@ def draw_marks(
                 patch.set_clip_path(frame)
         _write_beside(axes, page, shot, mark, (x, y), insets, written, order + 1, write)
     _draw_pins(axes, page, shot, order + 1, frame, insets)
+
+
+def draw_sample(axes: Axes, page: Composition, mark: Mark, x: float, y: float, order: int) -> None:
+    """A mark as in a legend: in the middle of its place, with no picture around it."""
+    style, across = page.figure.style, page.layout.mark
+    if mark.number is not None:
+        drop_of(axes, page, mark, x, y + RISE * head_radius(page.layout) / 2, False, order)
+    elif mark.is_truth:
+        cross_of(axes, page, x, y, False, order)
+    else:
+        if mark.extremum:
+            patches = triangle_of(page, mark, x, y, False, order)
+        elif mark.ball or mark.diamond:
+            patches = solid_of(page, mark, x, y, False, order)
+        else:
+            patches = _ring(x, y, across, style.source, style.mark_edge, True, order)
+        for patch in patches:
+            axes.add_artist(patch)
 
 
 def _write_beside(

@@ -142,7 +142,13 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                     source = source_of(framed, surface, zoom.vertex, inset.width, zoom.factor, box)
                     shots.append(taker.take(inset, isolines_in(zoom, panel.isolines), step, source))
-    return shots
+    return shots if figure.dashes_all else [_without_seen(shot, shots) for shot in shots]
+
+
+def _without_seen(shot: Shot, shots: Sequence[Shot]) -> Shot:
+    """Without those dashed marks that another picture of the panel shows."""
+    seen = {mark[0] for other in shots if other.panel == shot.panel for mark in other.marks}
+    return replace(shot, ghosts=[ghost for ghost in shot.ghosts if ghost[0] not in seen])
 
 
 class _Taker:

@@ -1,12 +1,15 @@
-"""One HTML page that opens without a network: each picture with what the paper claims, what was measured, and whether
-it holds."""
+"""One HTML page that opens without a network: each picture with what the paper says, what was measured, and whether it
+holds."""
 
 import base64
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
-from bihdist_core.experiments import Claim, Experiment, Result, Table
+from bihdist_core.experiments import Experiment, NotDone, Result, Table
+
+from . import verdicts
+from .pictures import FINER
 
 LONGEST_TABLE = 24
 """Rows of a table that are shown; all are in its .csv file."""
@@ -31,20 +34,44 @@ class Section:
     charts: tuple[str, ...] = ()
     failure: str = ""
 
+    @property
+    def not_done(self) -> tuple[NotDone, ...]:
+        """What of it could not be done."""
+        if self.failure:
+            return (NotDone(self.experiment.title, self.failure),)
+        return self.result.not_done if self.result else ()
 
-def page(title: str, introduction: str, sections: Sequence[Section]) -> str:
-    """The whole page."""
-    claims = [claim for section in sections if section.result for claim in section.result.claims]
-    held = sum(claim.holds is True for claim in claims)
-    judged = sum(claim.holds is not None for claim in claims)
+
+def page(title: str, introduction: str, sections: Sequence[Section], quick: bool = False, before: bool = False) -> str:
+    """The whole page.
+
+    quick: it says that its verdicts are.  before: with what changed from the verdicts of the version before, which had
+    whole pages of the bundled meshes.
+    """
+    claims = [(section.experiment.id, section.result.claims if section.result else ()) for section in sections]
+    every = [claim for _, those in claims for claim in those]
+    missing = [section for section in sections if section.not_done]
+    there = " ".join(f'<a href="#{s.experiment.id}">{s.experiment.id}</a>' for s in missing)
+    missing_words = f'<p class="no">Some parts could not be done; the reasons are in {there}.</p>' if missing else ""
     links = " · ".join(f'<a href="#{s.experiment.id}">{s.experiment.id}</a>' for s in sections)
+    changed = verdicts.changes(claims) if before else ""
+    if changed:
+        links += ' · <a href="#changes">what changed</a>'
     body = "\n".join(_section(section) for section in sections)
+    said = ""
+    if every:
+        how = f"<p>{escape(verdicts.HOW)}</p>" + (f"<p class=warning>⚠ {escape(verdicts.QUICK)}</p>" if quick else "")
+        said = f"<h2>Verdicts</h2>{verdicts.counts(every)}{verdicts.overview(claims)}{how}"
     return f"""<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title><style>{STYLE}</style></head><body>
+<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>
+<style>{STYLE}{verdicts.STYLE}</style></head><body>
 <h1>{escape(title)}</h1>
 <p>{escape(introduction)}</p>
-<p>Of {judged} statements that a number can judge, {held} hold here. <nav>{links}</nav></p>
+{said}
+<nav>{links}</nav>
+{missing_words}
 {body}
+{changed}
 </body></html>
 """
 
@@ -55,26 +82,29 @@ def _section(section: Section) -> str:
     parts += [f"<p>{escape(text)}</p>" for text in experiment.shows.split("\n\n")]
     if section.failure:
         return "\n".join([*parts, f'<p class="no">Not done: {escape(section.failure)}</p></section>'])
+    if section.not_done:
+        said = "".join(f"<li>{escape(str(each))}</li>" for each in section.not_done)
+        parts.append(f'<p class="no">Not done:</p><ul class="no">{said}</ul>')
     for caption, picture in section.pictures:
         code = base64.b64encode(picture).decode()
         said = f"<figcaption>{escape(caption)}</figcaption>" if len(section.pictures) > 1 else ""
-        parts.append(f'<figure>{said}<img alt="{escape(caption)}" src="data:image/png;base64,{code}"></figure>')
+        # Drawn with more pixels than the page has: shown as wide as it is meant to be.
+        wide = f'alt="{escape(caption)}" width="{_width(picture) // FINER}"'
+        parts.append(f'<figure>{said}<img {wide} src="data:image/png;base64,{code}"></figure>')
     if section.charts:
-        parts.append('<div class="charts">' + "".join(section.charts) + "</div>")
+        kind = "charts several" if len(section.charts) > 1 else "charts"
+        parts.append(f'<div class="{kind}">' + "".join(section.charts) + "</div>")
     if result is None:
         return "\n".join([*parts, "</section>"])
-    if result.claims:
-        parts.append("<table class=claims><tr><th>the paper</th><th>measured here</th><th>holds</th></tr>")
-        parts += [_claim(claim) for claim in result.claims]
-        parts.append("</table>")
+    parts.append(verdicts.statements(experiment.id, result.claims))
     parts += [_table(table) for table in result.tables]
     parts.append(f"<p class=quiet>{escape(result.protocol)} {result.seconds:.1f} seconds.</p></section>")
     return "\n".join(parts)
 
 
-def _claim(claim: Claim) -> str:
-    kind, word = {True: ("yes", "yes"), False: ("no", "no"), None: ("", "–")}[claim.holds]
-    return f"<tr><td>{escape(claim.text)}</td><td>{escape(claim.measured)}</td><td class='{kind}'>{word}</td></tr>"
+def _width(picture: bytes) -> int:
+    """Pixels that a PNG is wide."""
+    return int.from_bytes(picture[16:20], "big")
 
 
 def _table(table: Table) -> str:
@@ -98,14 +128,17 @@ STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #21242a; max-width: 1180px; margin: 2em auto; padding: 0 1.5em; }
 h1 { font-size: 1.9em; } h2 { margin-top: 2.4em; border-top: 1px solid #dcdfe3; padding-top: 1em; }
 h2 span { color: #8a919b; font-weight: normal; margin-right: .4em; }
-figure { margin: 1em 0; } img { max-width: 100%; display: block; margin: 0 auto; }
+figure { margin: 1em 0; } img { max-width: 100%; height: auto; display: block; margin: 0 auto; }
 figcaption { text-align: center; color: #55606e; }
 .charts { display: flex; flex-wrap: wrap; gap: 1em; justify-content: center; } .charts svg { max-width: 100%; }
+.several svg { width: 48%; height: auto; }
 table { border-collapse: collapse; margin: .8em 0; } th { text-align: left; font-weight: 600; }
 td, th { padding: .25em .7em; border-bottom: 1px solid #e8eaed; vertical-align: top; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
-.yes { color: #1d7a3c; font-weight: 600; } .no { color: #b3261e; font-weight: 600; }
+p.no { color: #b3261e; font-weight: 600; }
 .quiet { color: #737880; font-size: .9em; } details { margin: .4em 0; } summary { cursor: pointer; color: #55606e; }
 nav { margin-top: .3em; } nav a { color: #1f4fbf; text-decoration: none; }
-@media print { details { display: none; } section { break-inside: avoid; } }
+@media print { body { max-width: none; font-size: 11px; } details, nav { display: none; } h2 { break-after: avoid; }
+  .charts { display: block; text-align: center; } .charts svg { width: 48%; height: auto; }
+  figure, .charts svg { break-inside: avoid; } .chip, .allowed { print-color-adjust: exact; } }
 """

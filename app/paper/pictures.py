@@ -1,76 +1,218 @@
 """The panels of an experiment as figures, drawn by the same code as everybody's figures."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from bihdist_core import Surface
 from bihdist_core.experiments import Mark as ExperimentMark
 from bihdist_core.experiments import Panel, Result
+from bihdist_core.experiments.result import MARKS
 
-from ..figures.draw import Figure, FigurePanel, Mark, Zoom
+from ..document.camera import Camera, View
+from ..drawing.camera import directions, outwards_at
+from ..drawing.style import PAPER
+from ..figures.description import Entry
+from ..figures.draw import Figure, FigurePanel, Mark
+from ..figures.framing import seen
 from ..figures.size import Size
 
-ACROSS = {1: 5, 2: 3}
-"""Panels side by side at most, by how many views they have."""
+ACROSS, ACROSS_NARROW = {1: 4, 2: 3}, {1: 6, 2: 3}
+"""Panels side by side at most, by how many views they have; of shapes higher than wide there may be more."""
 
 RELIEF = 0.45
 """Height of a height field, as a share of the domain's extent."""
 
-WIDTH = 460
-"""Pixels of a panel with one view."""
+WIDTH, FINER = 1160, 2
+"""Pixels of the page that a picture takes, and how many of its own it has for each."""
 
-WORDS = {"minimum": "min", "maximum": "max", "target": "target"}
+ALONE, TEXT = 280, 8.0
+"""Pixels of the page that one view takes at most, and the size of labels in points."""
+
+STYLE = replace(PAPER, marker_size=1.5 * PAPER.marker_size)
+"""Views are small, and their marks are to be found."""
+
+SIDES = ("front", "back", "left", "right", "top", "bottom")
+
+BROAD = 0.7
+"""A view is broad if the shape takes at least this share of what it takes in the broadest."""
+
+NEAR = 5.0
+"""How far away the camera of an enlarged place stands, in radii of what it shows."""
+
+ANCHOR, TARGET, CANDIDATE = "#262B33", "#E0162B", "#FFC400"
+"""Colours of marks that are told apart by their shapes as well."""
+
+WORDS = {
+    "source": "source",
+    "anchor": "known points",
+    "target": "the target",
+    "candidate": "the candidate",
+    "place": "where it belongs",
+    "minimum": "local minimum",
+    "maximum": "local maximum",
+}
 
 
 def figures(result: Result, up: str = "y") -> Iterator[tuple[str, str, Figure]]:
-    """(file name without extension, caption, figure) for each row of panels, in order of their first panels.
+    """(file name without extension, caption, figure) for each row of panels, see `figure_of`."""
+    for row, panels in rows_of(result).items():
+        yield name_of(result, row), row, figure_of(result, panels, up)
 
-    up: the axis that is up in all of them.
-    """
+
+def rows_of(result: Result) -> dict[str, list[Panel]]:
+    """The panels of each row, by its name, in order of their first ones."""
     rows: dict[str, list[Panel]] = {}
     for panel in result.panels:
         rows.setdefault(panel.row, []).append(panel)
-    for row, panels in rows.items():
-        shown = [_panel(result, panel, up) for panel in panels]
-        views = max(len(panel.views) for panel in shown)
-        lines = -(-len(shown) // ACROSS.get(views, 2))
-        columns = -(-len(shown) // lines)
-        width = columns * (WIDTH if views == 1 else 250 * views)
-        name = "-".join(word for word in (result.id, _plain(row)) if word)
-        yield name, row, Figure(tuple(shown), columns=columns, size=Size(width=width))
+    return rows
 
 
-def _panel(result: Result, panel: Panel, up: str) -> FigurePanel:
+def name_of(result: Result, row: str) -> str:
+    """The name of the file of a row's picture, without extension."""
+    return "-".join(word for word in (result.id, _plain(row)) if word)
+
+
+def figure_of(result: Result, panels: Sequence[Panel], up: str = "y") -> Figure:
+    """A row of panels; up: the axis that is up in all of them."""
+    side = _side(result, panels, up)
+    shown = [_panel(result, panel, up, side) for panel in panels]
+    views = max(len(panel.views) for panel in shown)
+    columns = _columns(shown, views, any("source" in panel.views for panel in panels))
+    size = Size(FINER * min(WIDTH, columns * views * ALONE), dpi=FINER * 96)
+    looks = {"style": STYLE, "crop": True, "text": TEXT, "dashes_all": False}
+    return Figure(tuple(shown), columns, size, legend=_legend(panels), **looks)
+
+
+def _columns(panels: Sequence[FigurePanel], views: int, are_pairs: bool) -> int:
+    """In rows as even as they can be: four panels of two views are two by two; pairs stay together."""
+    parts = [seen(view, panel, panel.surface) for panel in panels for view in panel.views]
+    is_narrow = all(part.aspect < 1 for part in parts)
+    most = (ACROSS_NARROW if is_narrow else ACROSS).get(views, 2)
+    if are_pairs:
+        return next((n for n in range(most, 1, -1) if n % 2 == len(panels) % n == 0), 2)
+    lines = -(-len(panels) // most)
+    return -(-len(panels) // lines)
+
+
+def _panel(result: Result, panel: Panel, up: str, side: str) -> FigurePanel:
     surface = result.surfaces[panel.surface]
-    relief = panel.style == "height"
-    views = tuple(view for view in panel.views if view != "zoom") or ("front",)
-    zooms = ()
-    if "zoom" in panel.views and panel.zoom_vertex is not None and panel.zoom_radius:
-        extent = float(np.ptp(surface.vertices, axis=0).max())
-        zooms = (Zoom(panel.zoom_vertex, float(np.clip(extent / (5 * panel.zoom_radius), 1.5, 20))),)
+    is_relief = panel.style == "height" and panel.field is not None
     field, label = panel.field, ""
     if field is not None and panel.exaggerate != 1:
         # Small values are spread out by the colours, so the bar's numbers are those of the power.
         field, label = np.asarray(field) ** panel.exaggerate, f"value to the power {panel.exaggerate:g}"
+    views: list[View] = []
+    for view in panel.views:
+        if view != "zoom":
+            views.append(side if view == "source" else view)
+        elif panel.zoom_vertex is not None and panel.zoom_radius:
+            views.append(_close_up(surface, panel.zoom_vertex, panel.zoom_radius, up))
     return FigurePanel(
         surface,
         field,
         panel.heading,
         label=label,
         isolines=panel.isoline_count,
-        views=("relief",) if relief and field is not None else views,
-        marks=tuple(_mark(mark, field) for mark in panel.marks),
-        zooms=zooms,
-        height=RELIEF if relief and field is not None else 0.0,
+        views=("relief",) if is_relief else tuple(views) or ("front",),
+        marks=_marks(panel.marks),
+        height=RELIEF if is_relief else 0.0,
         failure=panel.failure,
         up=up,
     )
 
 
-def _mark(mark: ExperimentMark, field: np.ndarray | None) -> Mark:
-    """Extrema in the colour of their value, so that they are not taken for sources."""
-    coloured = field is not None and mark.kind in ("minimum", "maximum")
-    return Mark(mark.vertex, float(field[mark.vertex]) if coloured else None, WORDS.get(mark.kind, ""))
+def _side(result: Result, panels: Sequence[Panel], up: str) -> str:
+    """The standard view in which most panels of a row show their first marks, a broad one if may be.
+
+    Of several the one that looks at the first panel's most frontally.
+    """
+    marked = [(result.surfaces[panel.surface], panel.marks[0].vertex) for panel in panels if panel.marks]
+    outwards = outwards_at(*marked[0]) if marked else None
+    if outwards is None:
+        return "front"
+    different = dict.fromkeys((id(surface), vertex) for surface, vertex in marked)
+    places = [next(each for each in marked if (id(each[0]), each[1]) == key) for key in different]
+
+    used = marked[0][0].vertices
+    across = {view: _across(used, *directions(view, up)) for view in SIDES}
+
+    def score(view: str) -> tuple[int, bool, float]:
+        towards = directions(view, up)[0]
+        seen_in = sum(_is_seen(*place, towards) for place in places)
+        return seen_in, across[view] >= BROAD * max(across.values()), float(outwards @ towards)
+
+    return max(SIDES, key=score)
+
+
+def _across(vertices: np.ndarray, towards: np.ndarray, upright: np.ndarray) -> float:
+    """The area of the rectangle that a shape takes in a view."""
+    return float(np.ptp(vertices @ np.cross(upright, towards)) * np.ptp(vertices @ upright))
+
+
+def _is_seen(surface: Surface, vertex: int, towards: np.ndarray) -> bool:
+    """Whether nothing but the faces at a vertex is in the way from it in a direction (3,)."""
+    faces = surface.faces[(surface.faces != vertex).all(axis=1)]
+    a, b, c = (surface.vertices[faces[:, k]] - surface.vertices[vertex] for k in range(3))
+    # The ray meets a triangle where its volumes with the three sides have one sign.
+    volumes = np.stack([np.cross(p, q) @ towards for p, q in ((a, b), (b, c), (c, a))])
+    meets = (volumes >= 0).all(axis=0) | (volumes <= 0).all(axis=0)
+    meets &= np.abs(volumes).sum(axis=0) > 0
+    normals = np.cross(b[meets] - a[meets], c[meets] - a[meets])
+    far = np.einsum("ij,ij->i", normals, a[meets]) / (normals @ towards)
+    return not bool((far > 0).any())
+
+
+def _close_up(surface: Surface, vertex: int, radius: float, up: str) -> View:
+    """The camera that sees a place from outside and so far around it."""
+    outwards = outwards_at(surface, vertex)
+    if outwards is None:
+        return "front"
+    back, upright = directions("source", up, outwards)
+    at = surface.vertices[vertex]
+    position = at + NEAR * radius * back
+    return Camera(tuple(position.tolist()), tuple(at.tolist()), tuple(upright.tolist()), (1 / NEAR, 1 / NEAR))
+
+
+# ---------------------------------------------------------------------- marks
+def _marks(marks: Sequence[ExperimentMark]) -> tuple[Mark, ...]:
+    """Each kind in a shape and colour of its own; anchors are numbered in their order."""
+    anchors = [mark.vertex for mark in marks if mark.kind == "anchor"]
+    return tuple(
+        _mark(mark.kind, mark.vertex, anchors.index(mark.vertex) + 1 if mark.kind == "anchor" else None)
+        for mark in sorted(marks, key=lambda mark: MARKS.index(mark.kind), reverse=True)
+    )
+
+
+def _mark(kind: str, vertex: int, number: int | None = None) -> Mark:
+    if kind == "anchor":
+        return Mark(vertex, number=number, colour=ANCHOR)
+    if kind in ("minimum", "maximum"):
+        return Mark(vertex, extremum=kind)
+    if kind == "target":
+        return Mark(vertex, ball=TARGET)
+    if kind == "candidate":
+        return Mark(vertex, diamond=CANDIDATE)
+    return Mark(vertex, is_truth=kind == "place")
+
+
+def _legend(panels: Sequence[Panel]) -> tuple[Entry, ...]:
+    """What the marks of some panels stand for; those with words of their own one by one."""
+    found: dict[tuple[str, int | None], str] = {}
+    for panel in panels:
+        anchors = [mark for mark in panel.marks if mark.kind == "anchor"]
+        for mark in panel.marks:
+            number = anchors.index(mark) + 1 if mark.kind == "anchor" and mark.words else None
+            found.setdefault((mark.kind, number), mark.words or WORDS[mark.kind])
+    known = sum(mark.kind == "anchor" for mark in panels[0].marks)
+    entries = []
+    for kind, number in sorted(found, key=lambda key: (MARKS.index(key[0]), key[1] or 0)):
+        words = found[kind, number]
+        if kind == "anchor" and number is None and known > 1:
+            words = f"1 to {known}: {words}"
+        entries.append((_mark(kind, 0, (number or 1) if kind == "anchor" else None), words))
+    return tuple(entries)
 
 
 def _plain(text: str) -> str:

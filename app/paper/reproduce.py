@@ -3,11 +3,10 @@
 import io
 import textwrap
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from bihdist_core import (
-    BihdistError,
-    Cancelled,
     Laplacian,
     OutputError,
     ParameterError,
@@ -17,7 +16,8 @@ from bihdist_core import (
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
-from bihdist_core.experiments import EXPERIMENTS, Experiment, Result, Shapes
+from bihdist_core.experiments import EXPERIMENTS, Experiment, Parts, Result, Shapes
+from bihdist_core.experiments.verdicts import FAILS, HOLDS, VERDICTS
 from bihdist_core.formats.mesh_io import MESH_FORMATS
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import whole_file
@@ -28,7 +28,7 @@ from ..samples import SAMPLES
 from ..session.questions import first_source
 from .charts import chart_svg
 from .page import Named, Section, page
-from .pictures import figures
+from .pictures import FINER, figure_of, name_of, rows_of
 
 FOLDER_EXPERIMENTS = ("fig1", "claims")
 """What is done for each mesh of a folder: a picture and the numbers."""
@@ -42,6 +42,14 @@ SHEET, SHEET_COLUMNS = 40, 5
 """Meshes on a contact sheet, and side by side on it."""
 
 
+@dataclass(frozen=True)
+class Reproduction:
+    """page: the path of index.html; not_done: how many parts, or whole experiments and meshes, could not be done."""
+
+    page: Path
+    not_done: int
+
+
 def reproduce(
     out: str,
     only: Sequence[str] = (),
@@ -50,12 +58,12 @@ def reproduce(
     progress: Progress | None = None,
     say: Callable[[str], None] = print,
     up: str = "auto",
-) -> Path:
-    """Write results, pictures and index.html into the folder `out`; returns the page's path.
+) -> Reproduction:
+    """Write results, pictures and index.html into the folder `out`.
 
     only: ids of experiments, all if empty.  mesh: the reader's own mesh, or a folder of meshes, instead of the
     bundled ones.  up: the axis that is up; left alone it is y for the bundled meshes, and guessed for those of the
-    reader's own.  An experiment that cannot be done is on the page with the reason.  `say` gets a line for each.
+    reader's own.  A part that cannot be done is on the page with the reason.  `say` gets a line for each.
     Raises ParameterError for an unknown id, OutputError if something cannot be written.
     """
     check_offscreen()
@@ -68,7 +76,7 @@ def reproduce(
     up = "y" if mesh is None and up == "auto" else _up(up, shapes.own, mesh or "")
     sections = _sections(folder, chosen, shapes, quick, progress, say, lambda id: f"{folder / PAGE}#{id}", up)
     about = "the bundled meshes" if mesh is None else Path(mesh).name
-    return _write_page(folder, sections, about, quick)
+    return _written(folder, sections, about, quick, before=mesh is None and not quick)
 
 
 def _up(up: str, surface: Surface | None, path: str | Path) -> str:
@@ -108,42 +116,55 @@ def _sections(
             say(f"{experiment.id}: not done: {section.failure}")
         else:
             say(f"{experiment.id}: {_judged(section.result)}, {section.result.seconds:.1f} s")
+            for warning in dict.fromkeys(claim.warning for claim in section.result.claims if claim.warning):
+                say(f"  warning: {warning}")
+            for missing in section.not_done:
+                say(f"  not done: {missing}")
             for line in _not_held(section.result, read_more(experiment.id)):
                 say(line)
     return sections
 
 
 def _judged(result: Result) -> str:
-    """How many of the statements hold, of those that a number can judge."""
-    judged = [claim for claim in result.claims if claim.holds is not None]
-    if not judged:
-        return "no statements that a number can judge"
-    return f"{sum(claim.holds is True for claim in judged)} of {len(judged)} statements hold"
+    """How many of the statements have each verdict."""
+    said = [(verdict, sum(claim.verdict == verdict for claim in result.claims)) for verdict in (*VERDICTS, None)]
+    return ", ".join(f"{count} {_many(verdict, count)}" for verdict, count in said if count) or "no statements"
+
+
+def _many(verdict: str | None, count: int) -> str:
+    several = {HOLDS: "hold", FAILS: "do not hold"}
+    return "not judged" if verdict is None else several.get(verdict, verdict) if count > 1 else verdict
 
 
 def _not_held(result: Result, where: str) -> list[str]:
-    """A line for each statement that does not hold, and where to read more."""
+    """A line for each statement that does not hold, or only partly, and where to read more."""
     lines = []
     for claim in result.claims:
-        if claim.holds is False:
+        if claim.verdict != HOLDS:
             text, measured = (
                 textwrap.shorten(words, SHORT, placeholder=" …") for words in (claim.text, claim.measured)
             )
-            lines.append(f"  does not hold: {text.rstrip('.')} (measured: {measured.rstrip('.')})")
+            lines.append(f"  {claim.verdict or 'not judged'}: {text.rstrip('.')} ({measured.rstrip('.')})")
     return [*lines, f"  more in {where}"] if lines else []
 
 
 def _section(folder: Path, experiment: Experiment, shapes: Shapes, quick: bool, progress: Progress, up: str) -> Section:
-    try:
-        result = experiment.compute(shapes, quick, part(progress, 0, 0.9))
-        result.save(folder)
-        pictures = tuple((caption, _picture(folder, name, figure)) for name, caption, figure in figures(result, up))
-        charts = tuple(chart_svg(chart) for chart in result.charts)
-        return Section(experiment, result, pictures, charts)
-    except (Cancelled, OutputError):
-        raise
-    except (BihdistError, MemoryError) as error:
-        return Section(experiment, None, failure=str(error) or "there was not enough memory")
+    parts = Parts()
+    result = parts.do(experiment.title, experiment.compute, shapes, quick, part(progress, 0, 0.9))
+    if result is None:
+        return Section(experiment, None, failure=parts.not_done[0].reason)
+    result.save(folder)
+    pictures, charts = [], []
+    for row, panels in rows_of(result).items():
+        name = name_of(result, row)
+        figure = parts.do(f"the picture {row or name}", figure_of, result, panels, up)
+        picture = figure and parts.do(f"the picture {row or name}", _picture, folder, name, figure)
+        pictures += [(row, picture)] if picture else []
+    for chart in result.charts:
+        svg = parts.do(f"the chart {chart.heading}", chart_svg, chart)
+        charts += [] if svg is None else [svg]
+    result = replace(result, not_done=(*result.not_done, *parts.not_done))
+    return Section(experiment, result, tuple(pictures), tuple(charts))
 
 
 def _picture(folder: Path, name: str, figure) -> bytes:
@@ -165,7 +186,7 @@ def _each_mesh(
     progress: Progress | None,
     say: Callable[[str], None],
     up: str,
-) -> Path:
+) -> Reproduction:
     """The claims and a picture of each mesh of a folder; one that fails is named and the others go on."""
     paths = sorted(path for path in meshes.iterdir() if path.suffix.lower() in MESH_FORMATS)
     if not paths:
@@ -176,26 +197,28 @@ def _each_mesh(
     for k, path in enumerate(paths):
         say(path.name)
         mine = part(progress, k / len(paths), (k + 1) / len(paths))
-        try:
-            shapes = Shapes(own=read_surface(path))
-        except BihdistError as error:
-            say(f"not done: {error}")
-            sections.append(Section(_named(chosen[0], path), None, failure=str(error)))
+        parts = Parts()
+        surface = parts.do(path.name, read_surface, path)
+        if surface is None:
+            reason = parts.not_done[0].reason
+            say(f"not done: {reason}")
+            sections.append(Section(_named(chosen[0], path), None, failure=reason))
             continue
+        shapes = Shapes(own=surface)
         place = folder / path.stem
         _make(place)
 
         def read_more(id: str, stem: str = path.stem) -> str:
             return f"{folder / PAGE}#{stem}-{id}"
 
-        its_up = _up(up, shapes.own, path)
+        its_up = _up(up, surface, path)
         for section in _sections(place, chosen, shapes, quick, mine, say, read_more, its_up):
             named = _named(section.experiment, path)
             sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
-        surfaces.append((shapes.own, its_up))
+        surfaces.append((surface, its_up))
     if surfaces:
         sections.insert(0, _contact_sheets(folder, surfaces))
-    return _write_page(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
+    return _written(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
 
 
 def _named(experiment: Experiment, path: Path) -> Named:
@@ -206,23 +229,25 @@ def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]]) -> Se
     """Biharmonic distance on every mesh, which has its axis up, from its highest vertex, many to a picture."""
     pictures = []
     for start in range(0, len(surfaces), SHEET):
-        panels = []
-        for surface, up in surfaces[start : start + SHEET]:
-            source = first_source(surface, up)
-            answer = Distances(Laplacian(surface)).answer(Spec.of("biharmonic"), source)
-            mark = Mark(source)
-            panels.append(
-                FigurePanel(surface, answer.field, surface.name, marks=(mark,), failure=answer.failure, up=up)
-            )
+        panels = [_on_sheet(surface, up) for surface, up in surfaces[start : start + SHEET]]
         columns = min(SHEET_COLUMNS, len(panels))
-        sheet = Figure(tuple(panels), columns=columns, size=Size(width=260 * columns))
+        sheet = Figure(tuple(panels), columns=columns, size=Size(FINER * 230 * columns, dpi=FINER * 96))
         pictures.append(("", _picture(folder, f"contact-sheet-{start // SHEET + 1}", sheet)))
     return Section(
         Named("all", "All meshes", "Biharmonic distance from each mesh's highest vertex."), None, tuple(pictures)
     )
 
 
-def _write_page(folder: Path, sections: Sequence[Section], about: str, quick: bool) -> Path:
+def _on_sheet(surface: Surface, up: str) -> FigurePanel:
+    source = first_source(surface, up)
+    parts = Parts()
+    answer = parts.do("the field", lambda: Distances(Laplacian(surface)).answer(Spec.of("biharmonic"), source))
+    if answer is None:
+        return FigurePanel(surface, None, surface.name, failure=parts.not_done[0].reason, up=up)
+    return FigurePanel(surface, answer.field, surface.name, marks=(Mark(source),), failure=answer.failure, up=up)
+
+
+def _written(folder: Path, sections: Sequence[Section], about: str, quick: bool, before: bool = False) -> Reproduction:
     introduction = (
         "The figures and tables of Lipman, Rustamov and Funkhouser, Biharmonic Distance (ACM Transactions on Graphics "
         f"29(3), 2010), computed anew on {about}. Numbers stand as measured, also where a statement does not hold. "
@@ -232,8 +257,9 @@ def _write_page(folder: Path, sections: Sequence[Section], about: str, quick: bo
         introduction += " This is the quick version, with smaller meshes and fewer samples."
     path = folder / PAGE
     with whole_file(path) as temporary:
-        temporary.write_text(page("Biharmonic Distance, reproduced", introduction, sections), encoding="utf-8")
-    return path
+        text = page("Biharmonic Distance, reproduced", introduction, sections, quick, before)
+        temporary.write_text(text, encoding="utf-8")
+    return Reproduction(path, sum(len(section.not_done) for section in sections))
 
 
 def _make(folder: Path) -> None:

@@ -7,13 +7,18 @@ import numpy as np
 import pytest
 
 from app.paper import reproduce as reproducing
+from app.paper import verdicts
 from app.paper.charts import chart_svg
 from app.paper.page import Section, page
 from app.paper.pictures import figures
 from app.paper.reproduce import reproduce
 from bihdist_core import OutputError, ParameterError
 from bihdist_core.experiments import EXPERIMENTS, Chart, Claim, Mark, Panel, Result, Series, Table
+from bihdist_core.experiments.statements import STATEMENTS
+from bihdist_core.experiments.verdicts import BySource, Estimate, above, at_least, at_most
 from tests.shapes import bumpy, grid
+
+MINIMA, CHANGE = (STATEMENTS[id].names[0] for id in ("fig1-1", "fig3-2"))
 
 
 def result(**changes):
@@ -29,7 +34,10 @@ def result(**changes):
         ),
         "charts": (Chart("a chart", "x", "y", (Series("s", np.array([1.0, 2]), np.array([1.0, 4])),), log_y=True),),
         "tables": (Table("numbers", ("what", "value"), (("a < b", 1.5), ("n", 1000), ("none", None))),),
-        "claims": (Claim("It holds.", "measured <1>", True), Claim("It does not.", "5 %", False)),
+        "claims": (
+            Claim("fig1-1", {MINIMA: BySource((0.0,), (0.0, 0.002))}, note="a note <1>"),
+            Claim("fig3-2", {CHANGE: BySource((0.08,), (0.09,))}, warning="It was late."),
+        ),
     }
     return Result("fig1", "A title", "The protocol.", **(made | changes))
 
@@ -39,7 +47,8 @@ def test_each_row_of_panels_is_a_figure():
     assert list(drawn) == ["fig1-first", "fig1-second-row"]
     first, second = drawn["fig1-first"].panels, drawn["fig1-second-row"].panels
     assert first[0].views == ("front", "back")
-    assert first[1].zooms[0].vertex == 4
+    assert first[1].views[0] == "front"
+    assert first[1].views[1].focal_point == pytest.approx(bumpy(150).vertices[4])
     assert second[0].height > 0
     assert second[1].field is None
 
@@ -54,9 +63,19 @@ def test_the_page_says_what_holds_and_needs_nothing_else():
     section = Section(EXPERIMENTS["fig1"], result(), (("row", b"png"),), ("<svg></svg>",))
     failed = Section(EXPERIMENTS["fig2"], None, failure="no domain <here>")
     text = page("Title & more", "Introduction.", [section, failed])
-    assert "Of 2 statements that a number can judge, 1 hold here." in text
-    assert "measured &lt;1&gt;" in text
-    assert "<td class='no'>no</td>" in text
+    assert "of 2 statements" in text
+    assert "a note &lt;1&gt;" in text
+    assert text.count("● holds") == 2  # its own chip, and the one of the count
+    assert text.count("○ does not hold") == 2
+    assert "8&nbsp;% pictured; 9&nbsp;% from 1 random source (0 within)" in text
+    assert "at most 5&nbsp;%, pictured sources and 90&nbsp;% of random ones" in text
+    assert "the paper's words, section 5.1" in text
+    assert "our words, after figure 3" in text
+    assert "⚠ It was late." in text
+    # The overview leads to each statement.
+    for id in ("fig1-1", "fig3-2"):
+        assert f'href="#fig1--{id}"' in text
+        assert f'id="fig1--{id}"' in text
     assert "a &lt; b" in text
     assert "1,000" in text
     assert "Not done: no domain &lt;here&gt;" in text
@@ -65,7 +84,7 @@ def test_the_page_says_what_holds_and_needs_nothing_else():
 
 def test_an_experiment_on_the_readers_mesh(mesh_file, tmp_path):
     said = []
-    path = reproduce(str(tmp_path / "out"), ["fig1"], mesh_file(bumpy(400)), quick=True, say=said.append)
+    path = reproduce(str(tmp_path / "out"), ["fig1"], mesh_file(bumpy(400)), quick=True, say=said.append).page
     assert path.read_text(encoding="utf-8").count("data:image/png;base64") >= 1
     names = {p.name for p in path.parent.iterdir()}
     assert {"index.html", "fig1.npz"} <= names
@@ -73,21 +92,59 @@ def test_an_experiment_on_the_readers_mesh(mesh_file, tmp_path):
     assert said[0].startswith("fig1: ")
 
 
+def test_what_changed_from_the_version_before_is_told_with_its_reason():
+    section = Section(EXPERIMENTS["fig1"], result())
+    text = page("Title", "Introduction.", [section], before=True)
+    changed = text[text.index('id="changes"') :]
+    assert "0 of 2 verdicts are the same as before" in changed
+    assert '<td>no</td><td><b class="chip yes">● holds</b></td>' in changed
+    assert "A minimum now counts from 1 % of the range" in changed
+    assert '<a href="#changes">' in text
+    assert 'id="changes"' not in page("Title", "Introduction.", [section])
+
+
+def test_a_quick_page_says_that_its_verdicts_are():
+    section = Section(EXPERIMENTS["fig1"], result())
+    assert "These verdicts are the quick ones" in page("Title", "Introduction.", [section], quick=True)
+    assert "These verdicts are the quick ones" not in page("Title", "Introduction.", [section])
+
+
+@pytest.mark.parametrize(
+    ("limit", "numbers", "dots"),
+    [
+        (at_most(1), BySource((0.5,), (0.2, 3.0)), 2),
+        (at_least(1), BySource((np.inf,), (2.0,)), 1),
+        (above(0), Estimate(1.0, -0.5, 2.5, 25), 0),
+        (above(0), Estimate(1.0, -np.inf, np.inf, 2), 0),
+        (at_most(0), BySource((0.0,), (0.0, 0.0)), 2),
+    ],
+)
+def test_a_spread_is_drawn_with_what_the_rule_allows(limit, numbers, dots):
+    svg = verdicts._strip(limit, numbers)
+    assert svg.count("class=random") == dots
+    assert "class=allowed" in svg
+    assert "nan" not in svg
+    assert "inf" not in svg
+
+
 def test_statements_that_do_not_hold_are_told_in_their_words(tmp_path, monkeypatch):
-    undecided = Claim("It looks well.", "by eye", None)
-    long = Claim(f"It is {60 * 'very '}long.", "no", False)
-    claims = (*result().claims, undecided, long)
-    made = {"fig1": result(panels=(), claims=claims), "fig3": result(panels=(), claims=(undecided,))}
+    unmeasured = Claim("fig9-2", failure="There was no animal.")
+    long = Claim("fig4-3", {STATEMENTS["fig4-3"].names[0]: BySource((1.0,))})
+    claims = (*result().claims, unmeasured, long)
+    made = {"fig1": result(panels=(), claims=claims), "fig3": result(panels=(), claims=())}
     monkeypatch.setattr(reproducing.Experiment, "compute", lambda self, *_: made[self.id])
     said = []
-    page = reproduce(str(tmp_path), ["fig1", "fig3"], say=said.append)
-    assert said[0].startswith("fig1: 1 of 3 statements hold, ")
-    assert said[1] == "  does not hold: It does not (measured: 5 %)"
-    assert said[2].startswith("  does not hold: It is very very")
-    assert len(said[2]) < 150
-    assert said[3] == f"  more in {page}#fig1"
-    assert said[4].startswith("fig3: no statements that a number can judge, ")
-    assert len(said) == 5
+    page = reproduce(str(tmp_path), ["fig1", "fig3"], say=said.append).page
+    assert said[0].startswith("fig1: 1 holds, 2 do not hold, 1 not judged, ")
+    assert said[1] == "  warning: It was late."
+    assert said[2].startswith("  does not hold: Biharmonic distance is largely insensitive to holes: punched ones (")
+    assert said[2].endswith("8 % pictured; 9 % from 1 random source)")
+    assert said[3].startswith("  not judged: Of the five distances")
+    assert said[3].endswith("(There was no animal)")
+    assert len(said[4]) < 250
+    assert said[5] == f"  more in {page}#fig1"
+    assert said[6].startswith("fig3: no statements, ")
+    assert len(said) == 7
     assert '<section id="fig1">' in page.read_text(encoding="utf-8")
 
 
@@ -98,7 +155,7 @@ def test_one_bad_mesh_of_a_folder_does_not_stop_the_others(mesh_file, tmp_path):
         shutil.copy(mesh_file(bumpy(400)), folder / name)
     (folder / "b.off").write_text("OFF\n1 1 0\n")
     said = []
-    path = reproduce(str(tmp_path / "out"), ["fig1"], str(folder), quick=True, say=said.append)
+    path = reproduce(str(tmp_path / "out"), ["fig1"], str(folder), quick=True, say=said.append).page
     text = path.read_text(encoding="utf-8")
     assert text.count("Not done") == 1
     assert "b.off" in text
@@ -114,7 +171,7 @@ def test_where_more_is_to_be_read_has_its_place_on_the_page_of_a_folder(mesh_fil
     for name in ("a.off", "c.off"):
         shutil.copy(mesh_file(bumpy(100)), folder / name)
     said = []
-    path = reproduce(str(tmp_path / "out"), ["fig1"], str(folder), say=said.append)
+    path = reproduce(str(tmp_path / "out"), ["fig1"], str(folder), say=said.append).page
     places = [line.partition("#")[2] for line in said if line.startswith(f"  more in {path}#")]
     assert places == ["a-fig1", "c-fig1"]
     assert all(f'<section id="{place}">' in path.read_text(encoding="utf-8") for place in places)

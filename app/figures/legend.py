@@ -1,0 +1,61 @@
+"""The legend of a figure: its sorts of marks in lines under all panels, each with what it stands for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from .boxes import Words
+from .drops import head_radius
+from .marks import draw_sample
+from .words_and_bars import write
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .canvas import Composition
+    from .description import Figure
+    from .layout import Layout
+
+GAP, BETWEEN, HIGH = 0.5, 2.0, 1.7
+"""Of the size of labels: from a mark to its words, from one entry to the next, and how high a line is."""
+
+
+def with_legend(figure: Figure, layout: Layout) -> Layout:
+    """The layout with room for the figure's legend under it, in as many lines as it takes."""
+    size = layout.label
+    reach = _reach(figure, layout)
+    wide = [2 * reach + GAP * size + layout.lettering.width(words, size) for _, words in figure.legend]
+    lines: list[list[int]] = [[]]
+    for k, width in enumerate(wide):
+        so_far = sum(wide[q] + BETWEEN * size for q in lines[-1])
+        if lines[-1] and so_far + width > layout.width - 2 * size:
+            lines.append([])
+        lines[-1].append(k)
+    high = max(HIGH * size, 2.4 * reach)
+    places = []
+    y = layout.height + high / 2
+    for line in lines:
+        x = (layout.width - sum(wide[k] for k in line) - BETWEEN * size * (len(line) - 1)) / 2
+        for k in line:
+            mark, words = figure.legend[k]
+            middle = x + 2 * reach + GAP * size + (wide[k] - 2 * reach - GAP * size) / 2
+            places.append((mark, x + reach, y, Words((words,), middle, y + 0.36 * size, size)))
+            x += wide[k] + BETWEEN * size
+        y += high
+    more = len(lines) * high + 0.4 * size
+    page = (layout.page[0], layout.page[1] + round(more * layout.scale))
+    return replace(layout, height=layout.height + more, page=page, legend=tuple(places))
+
+
+def _reach(figure: Figure, layout: Layout) -> float:
+    """Half of what the largest mark of the legend is across."""
+    has_drops = any(mark.number is not None for mark, _ in figure.legend)
+    return max(0.72 * layout.mark, 3.5, 1.6 * head_radius(layout) if has_drops else 0.0)
+
+
+def draw_legend(axes: Axes, page: Composition, order: int) -> None:
+    """The legend of a page, if it has one."""
+    for mark, x, y, words in page.layout.legend:
+        draw_sample(axes, page, mark, x, y, order)
+        write(axes, page, words, order + 2)
