@@ -49,7 +49,7 @@ class Screen:
     def answers(self):
         return [self.session.shown[panel.id].answer for panel in self.document.panels]
 
-    def until(self, condition, seconds=60):
+    def until(self, condition, seconds=180):
         end = time.monotonic() + seconds
         while not condition():
             assert time.monotonic() < end, f"waited in vain; refused: {self.refusals}"

@@ -40,7 +40,7 @@ def small(application, mesh_file):
             self.chip = ExportChip(self.exports)
             self.statusBar().addPermanentWidget(self.chip)
 
-        def until(self, condition, seconds=60):
+        def until(self, condition, seconds=180):
             end = time.monotonic() + seconds
             while not condition():
                 assert time.monotonic() < end, f"waited in vain; refused: {self.refusals}"
