@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 
 import pytest
 
@@ -26,6 +27,11 @@ def pytest_configure(config):
     """
     if "PYTEST_XDIST_WORKER" not in os.environ:
         return
+    if "numpy" in sys.modules:
+        # It would not listen any more, and everything would take three times as long.
+        raise pytest.UsageError(
+            "NumPy is loaded before its threads are limited, by a plugin; leave that out (-p no:NAME)."
+        )
     for name in THREADS:
         os.environ.setdefault(name, "1")
     if os.environ.get("DISPLAY") and shutil.which("Xvfb"):
