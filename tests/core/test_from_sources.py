@@ -70,7 +70,8 @@ def test_a_set_reaches_the_components_of_its_members(make):
 # ---------------------------------------------------------------------- lines
 @every_quadratic
 def test_a_line_is_the_nearest_of_all_its_points(make):
-    for s, source in [(BUMPY, CURVE), (grid(8, 6), BoundaryLoop(0))]:
+    # Of a grid whose eigenvalues are all different about the 30th: of equal ones some would be cut off.
+    for s, source in [(BUMPY, CURVE), (grid(9, 6), BoundaryLoop(0))]:
         of_vertices, pieces = points(make, s), pieces_of(source, s)
         t = np.linspace(0, 1, 50)[:, None]
         samples = np.concatenate(

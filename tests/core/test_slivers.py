@@ -165,6 +165,8 @@ def test_a_certificate_knows_what_it_does_not_know(monkeypatch):
         monkeypatch.setattr(f"bihdist_core.{module}.FLAT", 1e-14)
     monkeypatch.setattr("bihdist_core.solver.elimination.STIFF", 0.0)
     distance = BiharmonicDistance(Surface(surface.vertices, surface.faces))
+    # As digits are lost some squares are below zero, which processors do not have in common.
+    monkeypatch.setattr("bihdist_core.distances.distance.ROUNDING", 1.0)
     error = max(abs(distance.from_source(i)[j] - exact) for i, j, exact, _ in pairs) / distance.from_source(3).max()
     assert error > RIGHT
     assert distance.accuracy > error

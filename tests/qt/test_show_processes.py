@@ -58,9 +58,14 @@ def test_a_script_waits_until_the_window_is_closed(application, tmp_path):
         """
         import os, sys
         from qtpy import QtCore, QtWidgets
-        QtCore.QTimer.singleShot(3000, lambda: [w.close() for w in QtWidgets.QApplication.topLevelWidgets()])
         application = QtWidgets.QApplication([])
-        QtCore.QTimer.singleShot(3000, lambda: [w.close() for w in QtWidgets.QApplication.topLevelWidgets()])
+        def look():
+            for window in QtWidgets.QApplication.topLevelWidgets():
+                if getattr(window, "session", None) is not None and window.session.is_complete:
+                    QtCore.QTimer.singleShot(500, window.close)
+        timer = QtCore.QTimer(interval=200)
+        timer.timeout.connect(look)
+        timer.start()
         viewer = bihdist.show("hand", ["biharmonic"])
         print(viewer, "QT_QPA_PLATFORM" in os.environ, sys.excepthook is sys.__excepthook__)
         """,
