@@ -2,6 +2,7 @@
 
 import io
 import textwrap
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -192,28 +193,30 @@ def _each_mesh(
     if not paths:
         raise ParameterError(f"{meshes} holds no meshes ({', '.join(MESH_FORMATS)}).")
     chosen = [EXPERIMENTS[name] for name in only or FOLDER_EXPERIMENTS]
+    stems = Counter(path.stem for path in paths)
     sections: list[Section] = []
     surfaces: list[tuple[Surface, str]] = []
     for k, path in enumerate(paths):
         say(path.name)
         mine = part(progress, k / len(paths), (k + 1) / len(paths))
+        name = path.stem if stems[path.stem] == 1 else path.name.replace(".", "-")
         parts = Parts()
         surface = parts.do(path.name, read_surface, path)
         if surface is None:
             reason = parts.not_done[0].reason
             say(f"not done: {reason}")
-            sections.append(Section(_named(chosen[0], path), None, failure=reason))
+            sections.append(Section(_named(chosen[0], name, path), None, failure=reason))
             continue
         shapes = Shapes(own=surface)
-        place = folder / path.stem
+        place = folder / name
         _make(place)
 
-        def read_more(id: str, stem: str = path.stem) -> str:
-            return f"{folder / PAGE}#{stem}-{id}"
+        def read_more(id: str, name: str = name) -> str:
+            return f"{folder / PAGE}#{name}-{id}"
 
         its_up = _up(up, surface, path)
         for section in _sections(place, chosen, shapes, quick, mine, say, read_more, its_up):
-            named = _named(section.experiment, path)
+            named = _named(section.experiment, name, path)
             sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
         surfaces.append((surface, its_up))
     if surfaces:
@@ -221,8 +224,8 @@ def _each_mesh(
     return _written(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
 
 
-def _named(experiment: Experiment, path: Path) -> Named:
-    return Named(f"{path.stem}-{experiment.id}", f"{path.name}: {experiment.title}")
+def _named(experiment: Experiment, name: str, path: Path) -> Named:
+    return Named(f"{name}-{experiment.id}", f"{path.name}: {experiment.title}")
 
 
 def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]]) -> Section:
@@ -251,7 +254,8 @@ def _written(folder: Path, sections: Sequence[Section], about: str, quick: bool,
     introduction = (
         "The figures and tables of Lipman, Rustamov and Funkhouser, Biharmonic Distance (ACM Transactions on Graphics "
         f"29(3), 2010), computed anew on {about}. Numbers stand as measured, also where a statement does not hold. "
-        "The data of every picture is beside this page, as .npz and .csv files."
+        "The data of every picture is beside this page, as .npz and .csv files. A mark with a dashed outline is on the "
+        "far side of the shape."
     )
     if quick:
         introduction += " This is the quick version, with smaller meshes and fewer samples."

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.main import main
-from bihdist_core import Cancelled, OutputError, SolverError, Surface
+from bihdist_core import Cancelled, OutputError, SolverError, Surface, write_mesh
 from bihdist_core.experiments import Parts, _claims_growth, claims
 from tests.shapes import bumpy
 
@@ -95,14 +95,18 @@ def test_parts_note_what_fails_once_and_go_on():
             parts.do("it all", stop, error)
 
 
-def test_a_folder_with_a_mesh_that_cannot_be_read_has_its_page_and_exit_status_1(mesh_file, tmp_path, capsys):
+def test_a_folder_has_its_page_with_each_mesh_and_what_cannot_be_read(mesh_file, tmp_path, capsys):
     folder = tmp_path / "meshes"
     folder.mkdir()
     Path(mesh_file(bumpy(200))).rename(folder / "a.off")
+    Path(mesh_file(bumpy(150))).rename(folder / "c.off")
+    write_mesh(folder / "c.ply", bumpy(120))
     (folder / "b.off").write_text("OFF\n1 1 0\n")
     out = tmp_path / "out"
     assert main(["paper", "--mesh", str(folder), "--quick", "--only", "fig3", "--out", str(out)]) == 1
     assert "not done" in capsys.readouterr().out
     page = (out / "index.html").read_text(encoding="utf-8")
     assert page.count("Not done") == 1
-    assert '<section id="a-fig3">' in page
+    for name in ("a", "c-off", "c-ply"):
+        assert f'<section id="{name}-fig3">' in page
+        assert list((out / name).glob("fig3*.png"))
