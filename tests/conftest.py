@@ -20,20 +20,21 @@ THREADS = ("LP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")
 """Of drawing without a graphics card, and of linear algebra."""
 
 
-def pytest_configure(config):
-    """Each of several processes gets a screen of its own, and draws and multiplies with one thread.
-
-    On a common screen they would take the pointer from another; with threads for all cores each, they would wait.
-    """
-    if "PYTEST_XDIST_WORKER" not in os.environ:
-        return
+if "PYTEST_XDIST_WORKER" in os.environ:
+    # One of several processes: with threads for all cores each, they would wait for each other.
     if "numpy" in sys.modules:
         # It would not listen any more, and everything would take three times as long.
         raise pytest.UsageError(
             "NumPy is loaded before its threads are limited, by a plugin; leave that out (-p no:NAME)."
         )
-    for name in THREADS:
-        os.environ.setdefault(name, "1")
+    for _name in THREADS:
+        os.environ.setdefault(_name, "1")
+
+
+def pytest_configure(config):
+    """Each of several processes gets a screen of its own: on a common one they would take the pointer from another."""
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        return
     if os.environ.get("DISPLAY") and shutil.which("Xvfb"):
         read, write = os.pipe()
         command = ["sh", "-c", SERVE, "screen", str(os.getpid()), str(write), SCREEN]

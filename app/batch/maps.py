@@ -1,5 +1,6 @@
 """Maps between the meshes of a set, and how far they are from the truth."""
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -63,7 +64,12 @@ def found_maps(
     if not files:
         raise ParameterError(f"There is no map in {folder}; maps are {' and '.join(MAP_FORMATS)} files in a folder.")
     found, reasons = [], {}
+    endings = Counter(file.stem for file in files)
     for file in files:
+        if endings[file.stem] > 1:
+            same = " and ".join(str(each) for each in files if each.stem == file.stem)
+            reasons[file.stem] = f"{same} have the same name; rename one."
+            continue
         try:
             one, other = _named(file, meshes)
         except ParameterError as error:

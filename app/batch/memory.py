@@ -15,9 +15,10 @@ FIELDS, PAIRS = 3, 6
 """Times the bytes of a part that are there at once while it is computed, of fields and of all pairs among sources."""
 
 
-def needed(n: int, wanted: Wanted) -> int:
-    """Bytes for a mesh with n vertices, at most at a time."""
-    sources = n if wanted.sources.rule == "all" else max(wanted.sources.count, len(wanted.sources.words), 1)
+def needed(n: int, wanted: Wanted, landmarks: int = 0) -> int:
+    """Bytes for a mesh with n vertices and so many landmarks, at most at a time."""
+    counts = (wanted.sources.count, len(wanted.sources.words), landmarks, 1)
+    sources = n if wanted.sources.rule == "all" else max(counts)
     has_pairs = "pairs" in wanted.works and not wanted.labels
     fields = min(n * sources * 8.0, PART_BYTES) * (PAIRS if has_pairs else FIELDS)
     # Formats that are written at once are joined in memory.

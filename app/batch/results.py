@@ -6,6 +6,7 @@ it says.
 
 import io
 import json
+import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -78,7 +79,7 @@ def write_result(
     """
     format = format if format != "npy" or len(arrays) == 1 else "npz"
     file = file or f"{name}.{format}"
-    folder.remove(f"{name}.json")
+    _forget(folder, name, file)
     if format == "zarr":
         write_zarr(folder, file, arrays, facts)
     else:
@@ -86,6 +87,17 @@ def write_result(
             _write(path, format, arrays)
     first = next(iter(arrays.values()))
     return write_facts(folder, name, key, file, {"shape": list(first.shape), "dtype": str(first.dtype), **facts})
+
+
+def _forget(folder: Folder, name: str, file: str) -> None:
+    """What was there of other work: its JSON, and its file if that has another name."""
+    try:
+        before = json.loads(folder.read(f"{name}.json") or b"{}").get("file")
+    except (ValueError, AttributeError):
+        before = None
+    folder.remove(f"{name}.json")
+    if before != file and isinstance(before, str) and before.startswith(f"{name}."):
+        folder.remove(before)
 
 
 def write_facts(folder: Folder, name: str, key: str, file: str, facts: Mapping[str, Any]) -> dict[str, Any]:
@@ -102,6 +114,10 @@ def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
         if isinstance(array, Blocks):
             # Larger than memory, it may be.
             there = np.lib.format.open_memmap(path, "w+", array.dtype, array.shape)
+            if hasattr(os, "posix_fallocate"):
+                # On a full disk, an error now rather than the end of the process later.
+                with path.open("r+b") as file:
+                    os.posix_fallocate(file.fileno(), 0, path.stat().st_size)
             array.into(there)
             there.flush()
             return
@@ -155,15 +171,15 @@ def write_zarr(folder: Folder, file: str, arrays: Mapping[str, Array], facts: Ma
     """A Zarr group of arrays, what is said of them in its attributes."""
     import zarr
 
-    folder.remove(file)
-    group = zarr.open_group(zarr_store(folder, file), mode="w", attributes=dict(facts))
-    for each, array in arrays.items():
-        chunks = tuple(min(CHUNK, max(length, 1)) for length in array.shape)
-        there = group.create_array(each, shape=array.shape, dtype=array.dtype, chunks=chunks)
-        if isinstance(array, Blocks):
-            array.into(there)
-        else:
-            there[...] = array
+    with folder.writing_folder(file) as begun:
+        group = zarr.open_group(zarr_store(folder, begun), mode="w", attributes=dict(facts))
+        for each, array in arrays.items():
+            chunks = tuple(min(CHUNK, max(length, 1)) for length in array.shape)
+            there = group.create_array(each, shape=array.shape, dtype=array.dtype, chunks=chunks)
+            if isinstance(array, Blocks):
+                array.into(there)
+            else:
+                there[...] = array
 
 
 def zarr_store(folder: Folder, file: str) -> Any:

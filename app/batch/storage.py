@@ -3,6 +3,7 @@
 import glob
 import os
 import re
+import secrets
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -99,14 +100,32 @@ class Folder:
             except OSError as error:
                 raise OutputError(f"{self.address}/{name} could not be written: {error}.") from error
 
+    @contextmanager
+    def writing_folder(self, name: str) -> Iterator[str]:
+        """The name of a folder that becomes this one when the block ends well; elsewhere, it is this one all along."""
+        if self.local is None:
+            self.remove(name)
+            yield name
+            return
+        stem, ending = os.path.splitext(name)
+        begun = f"{os.path.dirname(stem)}/.{os.path.basename(stem)}-{secrets.token_hex(4)}{ending}".lstrip("/")
+        try:
+            yield begun
+            self.remove(name)
+            os.replace(self.local / begun, self.local / name)
+        except OSError as error:
+            raise OutputError(f"{self.address}/{name} could not be written: {error.strerror or error}.") from error
+        finally:
+            self.remove(begun)
+
     def sweep(self) -> None:
         """Remove what killed processes have left half written; to be called when nothing writes here any more."""
         if self.local is None:
             return  # elsewhere a file is shown when all of it is there
         for path in self.local.rglob(".*"):
             half = HALF_WRITTEN.fullmatch(path.name)
-            if half and path.is_file() and any(path.parent.glob(f"{glob.escape(half[1])}*{half[2]}")):
-                path.unlink(missing_ok=True)
+            if half and any(path.parent.glob(f"{glob.escape(half[1])}*{half[2]}")):
+                self.remove(str(path.relative_to(self.local)))
 
     def write(self, name: str, content: bytes) -> None:
         with self.writing(name) as path:

@@ -8,8 +8,9 @@ processes may do; when all are there, the last task puts them together.
 
 import hashlib
 import io
+import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -17,6 +18,7 @@ import numpy as np
 
 from bihdist_core.analysis.parcels import ParcelSums, labelled, parcel_sums
 from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.errors import BihdistError
 from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.worker_threads import without_workers
 
@@ -37,6 +39,8 @@ from .works import (
     said_of_fields,
 )
 
+PARTS = ".parts"
+"""The folder of parts, until they are put together."""
 PART_COLUMNS = 8192
 """Columns of a part of the means between parcels, or of neighbours, which keep little of them."""
 
@@ -84,7 +88,12 @@ class Task:
 
     def key(self, work: str, distance: str) -> str:
         own, others = self.read(work)
-        return self.wanted.key(work, distance, "+".join([own, *others.values()]), self.version)
+        read = "+".join([own, *(f"{what}={sum}" for what, sum in others.items())])
+        return self.wanted.key(work, distance, read, self.version)
+
+    def result_name(self, work: str, distance: str) -> str:
+        """The beginning of the names of a result's files."""
+        return result_name(self.name, work, distance, self.wanted.layout)
 
     def read(self, work: str) -> tuple[str, dict[str, str]]:
         """The checksum of the mesh, and those of what else a work reads, by what it is."""
@@ -131,7 +140,7 @@ def done_before(task: Task) -> Report | None:
     """The report of a task all of whose results are there; None if any is missing."""
     folder, rows = Folder(task.out), []
     for work, distance in task.wanted.results():
-        facts = facts_of(folder, result_name(task.name, work, distance), task.key(work, distance))
+        facts = facts_of(folder, task.result_name(work, distance), task.key(work, distance))
         if facts is None:
             return None
         rows.append(Row(task.name, work, distance, 0.0, False, facts))
@@ -147,6 +156,12 @@ def do(task: Task) -> Report:
         if task.needs > allowed(is_expected=True):
             return Report(task, needs=task.needs)
         try:
+            # Asked again of what has been put together, as clusters do that have lost a worker, its parts are gone.
+            name = task.result_name(part.work, part.distance)
+            facts = facts_of(Folder(task.out), name, task.key(part.work, part.distance))
+            if facts is not None:
+                row = Row(task.name, part.work, part.distance, 0.0, True, facts)
+                return Report(task, (row,) if part.is_whole else ())
             return (_join if part.is_whole else _do_part)(task, part)
         except Exception as error:
             return Report(task, failures=(Failure(task.name, part.work, part.distance, failure_in_words(error)),))
@@ -162,12 +177,12 @@ def _do_mesh(task: Task) -> Report:
     except Exception as error:
         reason = failure_in_words(error)
         return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in wanted.results()))
-    needs = needed(len(mesh.surface.vertices), wanted)
+    needs = needed(_vertices(task, mesh), wanted, _landmarks(mesh))
     if needs > allowed(is_expected=bool(task.needs)):
         return Report(task, needs=needs)
     rows, failures, more = [], [], []
     for work, distance in wanted.results():
-        name, key = result_name(task.name, work, distance), task.key(work, distance)
+        name, key = task.result_name(work, distance), task.key(work, distance)
         facts, begin = facts_of(folder, name, key), time.monotonic()
         if facts is not None:
             rows.append(Row(task.name, work, distance, 0.0, False, facts))
@@ -181,6 +196,22 @@ def _do_mesh(task: Task) -> Report:
         except Exception as error:
             failures.append(Failure(task.name, work, distance, failure_in_words(error)))
     return Report(task, tuple(rows), tuple(failures), tuple(more))
+
+
+def _vertices(task: Task, mesh: Mesh) -> int:
+    """Of the mesh, or of the one that a map leads to if that is larger, by the sizes of their files."""
+    more = 1.0 if task.map is None else os.path.getsize(task.map.other) / max(1, os.path.getsize(task.mesh))
+    return int(len(mesh.surface.vertices) * max(1.0, more))
+
+
+def _landmarks(mesh: Mesh) -> int:
+    """How many there are; 0 if the sources are others, or a file of them is none, which is said where they are read."""
+    if mesh.wanted.sources.rule != "landmarks":
+        return 0
+    try:
+        return len(mesh.sources(mesh.wanted.distances[0]))
+    except BihdistError:
+        return 0
 
 
 def _made(task: Task, mesh: Mesh, work: str, distance: str, folder: Folder, name: str, key: str) -> dict[str, Any]:
@@ -202,7 +233,7 @@ def _made(task: Task, mesh: Mesh, work: str, distance: str, folder: Folder, name
 
 def _written(task: Task, mesh: Mesh, work: str, folder: Folder, name: str, key: str, made: Made) -> dict[str, Any]:
     facts = {**made.facts, **_said_of(task, mesh, work)}
-    if facts.get("accuracy") and task.wanted.dtype == "float32":
+    if facts.get("accuracy") and work != "fps" and task.wanted.dtype == "float32":
         facts["accuracy"] += ", written in single precision: within 6e-8 of each value"
     layout = task.wanted.layout if work == "pairs" else ""
     if not layout:
@@ -261,7 +292,13 @@ def _parts(task: Task, mesh: Mesh, work: str, distance: str) -> list[Part]:
 
 
 def _part_name(task: Task, part: Part) -> str:
-    return f".parts/{task.key(part.work, part.distance)[:32]}/{part.begin}-{part.end}.npy"
+    return f"{_parts_folder(task, part)}/{part.begin}-{part.end}.npy"
+
+
+def _parts_folder(task: Task, part: Part) -> str:
+    """Of this mesh alone: others may have the same content, and are done at the same time."""
+    which = f"{task.name} {task.key(part.work, part.distance)}"
+    return f"{PARTS}/{hashlib.sha256(which.encode()).hexdigest()[:32]}"
 
 
 def _do_part(task: Task, part: Part) -> Report:
@@ -288,7 +325,7 @@ def _join(task: Task, part: Part) -> Report:
     """The result of which all parts are there."""
     begin, folder, mesh = time.monotonic(), Folder(task.out), opened(task)
     parts = _parts(task, mesh, part.work, part.distance)
-    name, key = result_name(task.name, part.work, part.distance), task.key(part.work, part.distance)
+    name, key = task.result_name(part.work, part.distance), task.key(part.work, part.distance)
     if part.work == "pairs" and task.wanted.labels:
         names, of_each = np.unique(mesh.labels[labelled(mesh.surface, mesh.labels, mesh.mask)], return_counts=True)
         sums = sum(_read_part(folder, task, each) for each in parts)
@@ -302,26 +339,41 @@ def _join(task: Task, part: Part) -> Report:
         distance, sources = mesh.distance(part.distance), mesh.sources(part.distance)
         rows = len(mesh.surface.vertices) if part.work == "fields" else part.total
         axis = 1 if part.work == "fields" else 0
+        is_both = part.work == "pairs" and not distance.is_symmetric
         blocks = Blocks(
             (rows, part.total),
             np.dtype(task.wanted.dtype),
             axis,
-            lambda: (_read_part(folder, task, each) for each in parts),
+            lambda: _both_ways(folder, task, parts) if is_both else (_read_part(folder, task, p) for p in parts),
         )
         if part.work == "fields":
             made = Made({"fields": blocks}, said_of_fields(distance, sources, task.wanted.sources.rule))
         else:
             made = Made(*pairs_made(mesh, distance, sources, blocks))
     facts = _written(task, mesh, part.work, folder, name, key, made)
-    folder.remove(f".parts/{key[:32]}")
+    folder.remove(_parts_folder(task, part))
     return Report(task, (Row(task.name, part.work, part.distance, time.monotonic() - begin, True, facts),))
 
 
 def _read_part(folder: Folder, task: Task, part: Part) -> np.ndarray:
-    content = folder.read(_part_name(task, part))
+    name = _part_name(task, part)
+    if folder.local is not None and (folder.local / name).exists():
+        # As much of it as is looked at.
+        return np.load(folder.local / name, mmap_mode="r", allow_pickle=False)
+    content = folder.read(name)
     if content is None:
-        raise OSError(f"a part of the result is gone: {_part_name(task, part)}")
+        raise OSError(f"a part of the result is gone: {name}")
     return np.load(io.BytesIO(content), allow_pickle=False)
+
+
+def _both_ways(folder: Folder, task: Task, parts: list[Part]) -> Iterator[np.ndarray]:
+    """Rows of a matrix of pairs of which each part has those from its sources: the means of both ways, and 0."""
+    for part in parts:
+        rows = np.array(_read_part(folder, task, part))
+        back = [np.array(_read_part(folder, task, each)[:, part.begin : part.end]) for each in parts]
+        rows = (rows + np.concatenate(back).T) / 2
+        rows[np.arange(len(rows)), np.arange(part.begin, part.end)] = 0
+        yield rows
 
 
 _last: tuple[tuple[Any, ...], Mesh] | None = None
@@ -330,11 +382,11 @@ _last: tuple[tuple[Any, ...], Mesh] | None = None
 def opened(task: Task) -> Mesh:
     """The mesh of a task; parts of one mesh that the same process does share it, with its factor."""
     global _last
-    which = (task.mesh, task.checksums, task.wanted)
-    if _last is None or _last[0] != which:
-        _last = None
-        _last = (which, Mesh(task.mesh, task.name, task.wanted))
-    return _last[1]
+    which, last = (task.mesh, task.checksums, task.wanted), _last  # which other threads may replace
+    if last is None or last[0] != which:
+        last = _last = None  # its memory is needed
+        last = _last = (which, Mesh(task.mesh, task.name, task.wanted))
+    return last[1]
 
 
 def refused(report: Report, most: int) -> Report:

@@ -131,7 +131,8 @@ def thumbnail_name(mesh: str) -> str:
     return f"thumbnails/{mesh}.jpg"
 
 
-def result_name(mesh: str, work: str, distance: str) -> str:
-    """The beginning of the names of a result's files."""
-    name = ".".join(part for part in (mesh, work, slug(distance)) if part)
+def result_name(mesh: str, work: str, distance: str, layout: str = "") -> str:
+    """The beginning of the names of a result's files; of its JSON alone where the pairs have a layout, whose files
+    have the same name for all distances."""
+    name = ".".join(part for part in (mesh, work, layout if work == "pairs" and layout else slug(distance)) if part)
     return f".{MAXIMA}/{name}" if work == MAXIMA else name

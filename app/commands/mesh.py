@@ -82,9 +82,17 @@ def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Fa
             f"Several meshes have an output each; write -o {NAME}{os.path.splitext(options.output)[1]}."
         )
 
+    def output(mesh: str) -> str:
+        return options.output.replace(NAME, os.path.splitext(os.path.basename(mesh))[0])
+
+    taken: dict[str, str] = {}
+    for mesh in options.meshes:
+        first = taken.setdefault(output(mesh), mesh)
+        if first != mesh:
+            raise ParameterError(f"{first} and {mesh} would both be written to {output(mesh)}; rename one.")
+
     def one(mesh: str) -> Facts:
-        stem = os.path.splitext(os.path.basename(mesh))[0]
-        own = {**vars(options), "mesh": mesh, "output": options.output.replace(NAME, stem)}
+        own = {**vars(options), "mesh": mesh, "output": output(mesh)}
         return {"mesh": mesh, "output": own["output"], **do(argparse.Namespace(**own))}
 
     def say(facts: Facts, several: bool) -> None:

@@ -38,6 +38,14 @@ def test_several_meshes_with_one_output_are_refused(meshes, tmp_path, capsys):
     assert main(["field", *meshes, "--source", "3", "-o", str(tmp_path / "out.npy")]) == 2
     assert "write -o {name}.npy" in capsys.readouterr().err
     assert not (tmp_path / "out.npy").exists()
+    # So are two of one name, which `{name}` does not tell apart.
+    other = tmp_path / "other"
+    other.mkdir()
+    shutil.copy(meshes[0], other)
+    named = [meshes[0], str(other / "one.off")]
+    assert main(["field", *named, "--source", "3", "-o", str(tmp_path / "{name}.npy")]) == 2
+    assert "would both be written to" in capsys.readouterr().err
+    assert not (tmp_path / "one.npy").exists()
 
 
 def test_a_mesh_that_is_missing_costs_no_other(meshes, tmp_path, capsys):

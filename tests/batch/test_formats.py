@@ -120,7 +120,7 @@ def test_zarr_is_read_lazily_by_dask(mesh, tmp_path, monkeypatch):
 def test_layouts_say_what_they_are_too(mesh, tmp_path, layout):
     said = made(mesh, tmp_path, works=("pairs",), sources=Sources("all"), layout=layout)["pairs"]
     assert said["file"] == f"{layout}/bumpy.mat"
-    assert json.loads((tmp_path / "bumpy.pairs.biharmonic.json").read_text()) == said
+    assert json.loads((tmp_path / f"bumpy.pairs.{layout}.json").read_text()) == said
     assert (said["distance"], said["unit"], said["normalisation"]) == ("biharmonic", "mesh units", "none")
     found = opened(tmp_path / said["file"])
     assert found[layout].shape == (128, 128)

@@ -1,0 +1,178 @@
+"""Large meshes in parts, tasks that are done again, and results that share a name: nothing is lost or mistaken."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from app.batch import task as tasks
+from app.batch.drive import found_meshes, tasks_for
+from app.batch.maps import found_maps
+from app.batch.memory import needed
+from app.batch.storage import Folder
+from app.batch.task import do, done_before, opened
+from app.batch.wanted import Sources, Wanted
+from bihdist_core import GeodesicDistance, read_surface, write_mesh
+from tests.shapes import bumpy, torus
+
+HEAT = "geodesic(method=heat)"
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    write_mesh(tmp_path / "ring.off", torus(16, 8))
+    return tmp_path / "ring.off"
+
+
+def task_for(mesh, out, *works, **options):
+    listed = mesh.parent / "list.txt"
+    listed.write_text(f"{mesh}\n")
+    (task,), failures = tasks_for(found_meshes(str(listed)), Wanted(works, **options), str(out), "1")
+    assert not failures
+    return task
+
+
+def in_parts(monkeypatch):
+    monkeypatch.setattr(tasks, "PART_BYTES", 8 * 128 * 30)
+
+
+def finish(report):
+    """Do the parts that a report leads to; the task that puts them together."""
+    parts = [task for task in report.more if task.part]
+    for part in parts:
+        assert not do(part).failures
+    return tasks.replace(parts[0], part=tasks.replace(parts[0].part, is_whole=True))
+
+
+# ---------------------------------------------------------------------- parts
+@pytest.mark.parametrize("words", ["biharmonic", HEAT])
+def test_pairs_in_parts_are_those_at_once(mesh, tmp_path, monkeypatch, words):
+    options = {"sources": Sources("all"), "distances": (words,)}
+    (row,) = do(task_for(mesh, tmp_path / "whole", "pairs", **options)).rows
+    whole = np.load(tmp_path / "whole" / row.facts["file"])
+    in_parts(monkeypatch)
+    join = finish(do(task_for(mesh, tmp_path / "out", "pairs", **options)))
+    (row,) = do(join).rows
+    found = np.load(tmp_path / "out" / row.facts["file"])
+    assert np.abs(found - whole).max() <= 1e-12 * whole.max()
+    assert (np.diag(found) == 0).all()
+    if words == HEAT:
+        assert (found == found.T).all(), "the heat method is not the same both ways"
+        assert not GeodesicDistance(read_surface(mesh), "heat").is_symmetric
+
+
+def test_what_has_been_put_together_is_not_lost_when_it_is_asked_for_again(mesh, tmp_path, monkeypatch):
+    in_parts(monkeypatch)
+    task = task_for(mesh, tmp_path / "out", "fields", sources=Sources("all"))
+    first = do(task)
+    join = finish(first)
+    (row,) = do(join).rows
+    before = (tmp_path / "out" / row.facts["file"]).read_bytes()
+    for again in (join, first.more[0], join):
+        report = do(again)
+        assert not report.failures
+    assert report.rows[0].facts == row.facts
+    assert (tmp_path / "out" / row.facts["file"]).read_bytes() == before
+    assert done_before(task) is not None
+    assert not list((tmp_path / "out").glob(".parts/*"))
+
+
+def test_meshes_of_one_content_have_parts_of_their_own(mesh, tmp_path, monkeypatch):
+    in_parts(monkeypatch)
+    (tmp_path / "twin.off").write_bytes(mesh.read_bytes())
+    joins = [
+        finish(do(task_for(path, tmp_path / "out", "fields", sources=Sources("all"))))
+        for path in (mesh, tmp_path / "twin.off")
+    ]
+    assert [len(do(join).failures) for join in joins] == [0, 0]
+
+
+def test_threads_of_a_worker_have_each_their_own_mesh(tmp_path):
+    for k in range(4):
+        write_mesh(tmp_path / f"m{k}.off", bumpy(40 + k))
+    asked = [task_for(tmp_path / f"m{k}.off", tmp_path / "out", "fields") for k in range(4)]
+    with ThreadPoolExecutor(4) as pool:
+        names = list(pool.map(lambda k: opened(asked[k % 4]).name, range(200)))
+    assert names == [f"m{k % 4}" for k in range(200)]
+
+
+# ---------------------------------------------------------------------- keys and names
+def test_a_layout_has_the_distance_that_was_asked_for_last(mesh, tmp_path):
+    out, options = tmp_path / "out", {"sources": Sources("all"), "layout": "dist"}
+    ways = [task_for(mesh, out, "pairs", distances=(word,), **options) for word in ("geodesic", "biharmonic")]
+    do(ways[0])
+    do(ways[1])
+    assert done_before(ways[0]) is None, "its file holds the other"
+    (row,) = do(ways[0]).rows
+    assert (row.is_new, row.facts["distance"]) == (True, "geodesic(method=auto)")
+    from scipy.io import loadmat
+
+    expected = GeodesicDistance(read_surface(mesh)).pairwise(np.arange(128))
+    np.testing.assert_allclose(loadmat(out / "dist/ring.mat")["dist"], expected, atol=1e-9)
+
+
+def test_a_file_counts_for_what_it_is(mesh, tmp_path):
+    task = task_for(mesh, tmp_path / "out", "pairs", labels=str(mesh), mask="")
+    other = task_for(mesh, tmp_path / "out", "pairs", mask=str(mesh), sources=Sources("all"))
+    assert task.checksums == other.checksums
+    assert task.read("pairs")[1].keys() == {"labels"}
+    assert task.key("pairs", "biharmonic") != other.key("pairs", "biharmonic")
+
+
+def test_maps_of_one_name_are_refused(mesh, tmp_path):
+    maps = tmp_path / "maps"
+    maps.mkdir()
+    np.save(maps / "ring-twin.npy", np.arange(128))
+    (maps / "ring-twin.txt").write_text("0\n")
+    found, reasons = found_maps(str(maps), {"ring": str(mesh), "twin": str(mesh)}, "identity", "", 0)
+    assert not found
+    assert "ring-twin.npy and" in reasons["ring-twin"]
+    assert "have the same name" in reasons["ring-twin"]
+
+
+@pytest.mark.parametrize("formats", [("npy", "npz"), ("npz", "zarr"), ("zarr", "mat")])
+def test_another_format_takes_the_place_of_the_one_before(mesh, tmp_path, formats):
+    if "zarr" in formats:
+        pytest.importorskip("zarr")
+    out = tmp_path / "out"
+    for format in formats:
+        (row,) = do(task_for(mesh, out, "fields", arrays=format)).rows
+    (json_file,) = out.glob("*.json")
+    assert json.loads(json_file.read_text()) == row.facts
+    assert {path.name for path in out.iterdir()} == {json_file.name, row.facts["file"]}
+
+
+def test_zarr_is_whole_or_absent(tmp_path):
+    folder = Folder(str(tmp_path))
+
+    def fail():
+        with folder.writing_folder("a.zarr") as begun:
+            (tmp_path / begun).mkdir()
+            raise ValueError("stopped")
+
+    with pytest.raises(ValueError, match="stopped"):
+        fail()
+    assert not list(tmp_path.iterdir())
+    # What a process has left that was killed.
+    with folder.writing_folder("a.zarr") as begun:
+        (tmp_path / begun).mkdir()
+    (tmp_path / ".a-0123abcd.zarr").mkdir()
+    folder.sweep()
+    assert [path.name for path in tmp_path.iterdir()] == ["a.zarr"]
+
+
+# ---------------------------------------------------------------------- memory
+def test_landmarks_count_as_sources():
+    wanted = Wanted(("fields",), sources=Sources("landmarks", file="x"), arrays="npz")
+    farthest = Wanted(("fields",), sources=Sources("farthest", count=5000), arrays="npz")
+    assert needed(20_000, wanted, 5000) == needed(20_000, farthest) > needed(20_000, wanted)
+
+
+def test_a_task_with_many_landmarks_asks_for_their_memory(mesh, tmp_path, monkeypatch):
+    marks = tmp_path / "marks.txt"
+    marks.write_text("".join(f"{k}\n" for k in range(100)))
+    asked = []
+    monkeypatch.setattr(tasks, "needed", lambda n, wanted, landmarks: asked.append((n, landmarks)) or 0)
+    do(task_for(mesh, tmp_path / "out", "fields", sources=Sources("landmarks", file=str(marks))))
+    assert asked == [(128, 100)]
