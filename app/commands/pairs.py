@@ -35,8 +35,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--source", metavar="V", nargs="+", help="for --nearest: vertices, or all (default: all)")
     parser.add_argument("--fresh", action="store_true", help="for --all: discard what an interrupted run has left")
-    parser.add_argument("--dtype", choices=("float32", "float64"), default="float32", help="for --all")
-    parser.add_argument("--memory", type=positive, default=500, metavar="MB", help="for --all (default: 500)")
+    parser.add_argument("--dtype", choices=("float32", "float64"), help="for --all (default: float32)")
+    parser.add_argument("--memory", type=positive, metavar="MB", help="for --all (default: 500)")
     parser.add_argument(
         "-o",
         "--output",
@@ -70,8 +70,9 @@ def _one(options: argparse.Namespace) -> Facts:
         raise ParameterError(f"{word} of one distance; name one.")
     if options.source and not options.nearest:
         raise ParameterError("--source goes with --nearest, whose neighbours are wanted; vertices stand in --vertices.")
-    if options.fresh and not options.all:
-        raise ParameterError("--fresh goes with --all: nothing else is kept when it is interrupted.")
+    for option in ("fresh", "dtype", "memory"):
+        if getattr(options, option) and not options.all:
+            raise ParameterError(f"--{option} goes with --all.")
     if options.all:
         return _write_all(options, chosen[0])
     if options.nearest:
@@ -154,19 +155,20 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
         laplacian = read_laplacian(options)
         distance = Distances(laplacian).get(spec, progress)
         said = accuracy(distance, everywhere=True)
-    known = begun(distance, options.output, options.dtype)
+    dtype = options.dtype or "float32"
+    known = begun(distance, options.output, dtype)
     if known and options.fresh:
         tell(f"Discarding {_described(known)}.")
     elif known:
         tell(f"Going on from {_described(known)}; --fresh begins anew.")
-    for path in left_by_others(distance, options.output, options.dtype):
+    for path in left_by_others(distance, options.output, dtype):
         tell(f"{path} ({_size(path.stat().st_size)}) is left of a run with another mesh or other options; it may go.")
     try:
         with progress_line() as progress:
-            memory = 1e6 * options.memory
-            write_all_pairs(distance, options.output, options.dtype, memory, progress, options.fresh)
+            memory = 1e6 * (options.memory or 500)
+            write_all_pairs(distance, options.output, dtype, memory, progress, options.fresh)
     except (KeyboardInterrupt, OutputError, MemoryError):
-        if left := begun(distance, options.output, options.dtype):
+        if left := begun(distance, options.output, dtype):
             tell(f"What is done is kept: {_described(left)}. The same command goes on from there.")
         raise
     count = len(laplacian.surface.vertices)

@@ -50,7 +50,7 @@ def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
     import shutil
     import tempfile
 
-    from bihdist_core.errors import OutputError
+    from bihdist_core.errors import BihdistError, OutputError
 
     if not text:
         raise OutputError(f"`bihdist {options.command}` writes no text; name a file instead of -.")
@@ -60,6 +60,8 @@ def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
         try:
             with redirect_stdout(said):
                 yield
+        except BihdistError as error:
+            raise type(error)(str(error).replace(path, "-")) from error
         finally:
             sys.stderr.write(said.getvalue().replace(path, "-"))
         with open(path, encoding="utf-8") as file:

@@ -295,6 +295,7 @@ def test_bad_input_gets_a_sentence_and_leaves_no_file(mesh, mesh_file, tmp_path,
         (["info", "view.off"], "There is no file view.off. The samples are"),
         (["info", 500 * "m"], f"There is no file {200 * 'm'}.... The samples"),
         (["pairs", mesh, "--pairs", "1,2", "--fresh", "-o", out], "--fresh goes with --all"),
+        (["pairs", mesh, "--nearest", "2", "--memory", "10", "-o", out], "--memory goes with --all"),
     ]:
         assert words in refused(capsys, *arguments)
         assert not out.exists()

@@ -76,6 +76,8 @@ def test_text_goes_to_standard_output_and_words_beside_it(meshes, capsys):
     assert said.err.startswith("-: biharmonic, exact, 80 vertices")
     assert main(["samples", meshes[0], "--count", "4", "-o", "-"]) == 0
     assert len(capsys.readouterr().out.split()) == 4
+    assert main(["pairs", meshes[0], "--all", "-o", "-"]) == 2
+    assert capsys.readouterr().err.startswith("bihdist: - has the extension '.csv'")
 
 
 def test_pictures_do_not_go_to_standard_output(meshes, capsys):
