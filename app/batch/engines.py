@@ -65,7 +65,12 @@ class Processes:
 
     def reports(self) -> Iterator[Report]:
         while self._waiting or self._alone or self._under_way:
-            self._fill()
+            try:
+                self._fill()
+            except BrokenProcessPool:
+                # A process that had nothing to do has ended; a new pool takes the first task in any case.
+                yield from self._broken()
+                continue
             ended, _ = concurrent.futures.wait(self._under_way, return_when=concurrent.futures.FIRST_COMPLETED)
             for future in ended:
                 # A broken pool ends several at once, and all of them are dealt with at the first.
@@ -82,7 +87,8 @@ class Processes:
             )
         if self._alone:
             if not self._under_way:
-                self._start(self._alone.popleft())
+                self._start(self._alone[0])
+                self._alone.popleft()
             return
         while len(self._under_way) < self._workers:
             room = self._memory - sum(map(self._bytes, self._under_way.values()))
@@ -91,13 +97,14 @@ class Processes:
             task = next(fitting, None)
             if task is None:
                 break
-            self._waiting.remove(task)
             self._start(task)
+            self._waiting.remove(task)
 
     def _bytes(self, task: Task) -> int:
         return task.needs or self._memory // self._workers
 
     def _start(self, task: Task) -> None:
+        """BrokenProcessPool if a process has ended since the last report."""
         assert self._pool is not None
         self._under_way[self._pool.submit(do, task)] = task
 

@@ -190,6 +190,26 @@ def test_a_process_that_is_killed_costs_nothing(folder, done, tmp_path):
     assert len(outcome.rows) == 14
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_process_that_ends_between_two_tasks_costs_nothing(folder, tmp_path, workers):
+    engine = Processes(workers)
+    tasks = tasks_of(folder, tmp_path, Wanted(("fields",)))
+
+    def kill(report, done, of) -> None:
+        if done == 1:
+            pool = engine._pool
+            os.kill(next(iter(pool._processes)), signal.SIGKILL)
+            while not pool._broken:
+                time.sleep(0.005)
+
+    try:
+        outcome = drive(tasks, engine, kill)
+    finally:
+        engine.close()
+    assert not outcome.failures
+    assert len(outcome.rows) == 7
+
+
 def test_what_ends_its_process_again_and_again_is_named(folder, tmp_path, monkeypatch):
     monkeypatch.setattr(engines, "do", _do_or_die)
     outcome = driven(tasks_of(folder, tmp_path, Wanted(("fields",))), Processes(2))
