@@ -1,8 +1,10 @@
 """Where tasks run: in processes here, or on a Dask cluster.  Both are asked in the same way."""
 
 import concurrent.futures
+import logging
 import multiprocessing
 import os
+import signal
 import sys
 import threading
 import time
@@ -146,6 +148,8 @@ class Processes:
 def _begin(memory: int) -> None:
     """In a new process: its share of the memory, one thread for BLAS, and an end with the process that has begun it,
     however that ends."""
+    # A terminal's Ctrl-C reaches all processes; the one that has begun this one ends it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     share(memory)
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = "1"
@@ -207,35 +211,73 @@ class Cluster:
         self._ended = as_completed(loop=self._client.loop)
         self._under_way: dict[str, Task] = {}
         self._tries: Counter[Task] = Counter()
+        self._lost = ""
 
     def submit(self, task: Task) -> None:
-        large = [address for address, limit in self._limits().items() if limit >= task.needs] if task.needs else None
         self._tries[task] += 1
         key = f"bihdist-{task.words}-{task.digest}-{self._tries[task]}"
+        # Also what is never begun has a report: that the cluster was lost.
+        self._under_way[key] = task
+        if not self._lost:
+            try:
+                self._begin(task, key)
+            except Exception as error:
+                self._lose(error)
+
+    def _begin(self, task: Task, key: str) -> None:
+        # While it seeks a scheduler that is gone, the client takes tasks and says nothing more of them.
+        if self._client.status != "running":
+            raise ConnectionError("the scheduler is gone")
+        large = [address for address, limit in self._limits().items() if limit >= task.needs] if task.needs else None
         # Where none of those workers is left, others take it and send it back.
         future = self._client.submit(
             do, task, key=key, pure=False, workers=large or None, allow_other_workers=bool(large)
         )
-        self._under_way[future.key] = task
         self._ended.add(future)
 
     def reports(self) -> Iterator[Report]:
         while self._under_way:
-            future = next(self._ended)
-            task = self._under_way.pop(future.key)
-            error = future.exception()
-            if error is not None:
-                yield gone(task, f"The cluster gave it up: {type(error).__name__}: {' '.join(str(error).split())}")
-                continue
-            report = future.result()
-            if not report.needs:
+            report = None
+            if not self._lost:
+                # Without its scheduler Dask has many errors, at any of its calls.
+                try:
+                    report = self._ended_next()
+                except Exception as error:
+                    self._lose(error)
+            if self._lost:
+                _, task = self._under_way.popitem()
+                report = gone(task, self._lost)
+            if report is not None:
                 yield report
-                continue
-            most = max(self._limits().values(), default=0)
-            if report.needs <= most:
-                self.submit(replace(task, needs=report.needs))
-            else:
-                yield refused(report, most)
+
+    def _ended_next(self) -> Report | None:
+        """The report of the next task that ends, None if it begins again where there is more memory.
+
+        Raises what Dask does if the cluster is lost; then the task is still under way.
+        """
+        future = next(self._ended)
+        task = self._under_way[future.key]
+        # None for a task that was cancelled, whose result raises that.
+        error = future.exception()
+        if error is not None:
+            report = gone(task, f"The cluster gave it up: {_in_words(error)}")
+        else:
+            report = future.result()
+            most = max(self._limits().values(), default=0) if report.needs else 0
+            if report.needs > most:
+                report = refused(report, most)
+        del self._under_way[future.key]
+        if report.needs:
+            self.submit(replace(task, needs=report.needs))
+            return None
+        return report
+
+    def _lose(self, error: Exception) -> None:
+        # Of a task that is cancelled only the reason, which all of them have.
+        reason = getattr(error, "reason", "") or _in_words(error)
+        self._lost = f"The cluster was lost: {reason}. The same command goes on from there."
+        # It would print where it was when it is closed while it seeks its scheduler.
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
 
     def _limits(self) -> dict[str, int]:
         """The memory of each worker; that of one without a limit is what there is, and more than anything needs."""
@@ -244,3 +286,8 @@ class Cluster:
 
     def close(self) -> None:
         self._client.close()
+
+
+def _in_words(error: BaseException) -> str:
+    """In one line."""
+    return f"{type(error).__name__}: {' '.join(str(error).split())}"

@@ -98,15 +98,19 @@ def run(options: argparse.Namespace) -> int:
     try:
         do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)
     except KeyboardInterrupt:
-        write_tables(folder, outcome, meshes, [])
         done = counted(len(outcome.rows), "result")
         tell(f"interrupted; {done} in {folder}. The same command goes on from there.")
         return INTERRUPTED
     finally:
-        engine.close()
+        # Whatever happened, and before the pages, which may fail: the tables say what is there.
+        try:
+            engine.close()
+        finally:
+            write_tables(folder, outcome, meshes)
     folder.sweep()
     pages, lines = _pages(folder, outcome)
-    write_tables(folder, outcome, meshes, lines)
+    if lines:
+        write_tables(folder, outcome, meshes, lines)
     new = sum(row.is_new for row in outcome.rows)
     kept = len(outcome.rows) - new
     there = f", {kept} of them there before" if kept else ""

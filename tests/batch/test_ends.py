@@ -1,0 +1,144 @@
+"""What ends a command, its processes or its cluster: the tables say what is there and what is not."""
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from app.batch.drive import drive, found_meshes, tasks_for
+from app.batch.engines import Processes
+from app.batch.wanted import Wanted
+from app.commands import batch as command
+from app.main import main
+from bihdist_core import write_mesh
+from tests.shapes import bumpy
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Three meshes; nobody writes here."""
+    place = tmp_path_factory.mktemp("meshes")
+    for k in range(3):
+        write_mesh(place / f"bumpy{k}.off", bumpy(150, k))
+    return place
+
+
+def batch(meshes, out, *options):
+    return main(["batch", str(meshes), "--out", str(out), "--workers", "2", *map(str, options)])
+
+
+def lines(out, table="summary"):
+    """Of a table: mesh, work and what else is asked for."""
+    with (Path(out) / f"{table}.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_cluster_without_its_scheduler_is_a_failure_of_what_is_left(folder, tmp_path):
+    pytest.importorskip("distributed")
+    script = tmp_path / "cluster.py"
+    script.write_text(WITHOUT_SCHEDULER)
+    words = [sys.executable, str(script), str(folder), str(tmp_path / "out"), str(tmp_path / "scheduler.json")]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    run = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=120)
+    assert run.returncode == 1, run.stderr
+    assert "Traceback" not in run.stderr
+    failures = lines(tmp_path / "out", "failures")
+    assert [row["mesh"] for row in failures] == ["bumpy0", "bumpy1", "bumpy2"]
+    assert {row["reason"].partition(":")[0] for row in failures} == {"The cluster was lost"}
+    assert lines(tmp_path / "out") == []
+
+
+WITHOUT_SCHEDULER = """
+import subprocess, sys
+from app.batch.engines import Cluster
+from app.main import main
+
+if __name__ == "__main__":
+    folder, out, file = sys.argv[1:]
+    words = ["--scheduler-file", file, "--no-dashboard", "--host", "127.0.0.1", "--port", "0"]
+    scheduler = subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_scheduler", *words], stderr=-3)
+    reports = Cluster.reports
+
+    def without_scheduler(self):
+        scheduler.kill()
+        scheduler.wait()
+        yield from reports(self)
+
+    Cluster.reports = without_scheduler
+    try:
+        sys.exit(main(["batch", folder, "--out", out, "--do", "fields", "--dask", file]))
+    finally:
+        scheduler.kill()
+"""
+
+
+def test_an_interruption_from_the_terminal_ends_all_processes_in_silence(tmp_path):
+    meshes, out = tmp_path / "meshes", tmp_path / "out"
+    meshes.mkdir()
+    write_mesh(meshes / "large.off", bumpy(20_000))
+    write_mesh(meshes / "small.off", bumpy(150))
+    words = [sys.executable, "-m", "app", "batch", str(meshes), "--out", str(out), "--workers", "2"]
+    words += ["--do", "eigen", "--eigenpairs", "1000"]
+    run = subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    begin = time.monotonic()
+    # One process has nothing to do then, the other has much.
+    while not (out / "small.eigen.json").exists() and time.monotonic() - begin < 60:
+        time.sleep(0.02)
+    time.sleep(0.3)
+    os.killpg(run.pid, signal.SIGINT)
+    interrupted = time.monotonic()
+    _, said = run.communicate(timeout=60)
+    assert time.monotonic() - interrupted < 5
+    assert run.returncode == 130
+    assert "interrupted; 1 result in" in said
+    assert "Traceback" not in said
+    assert [row["mesh"] for row in lines(out)] == ["small"]
+    left = subprocess.run(["pgrep", "-f", str(out)], capture_output=True, text=True).stdout.split()
+    assert left == []
+
+
+def test_processes_leave_an_interruption_to_the_one_that_began_them(folder, tmp_path, capfd):
+    engine, pools = Processes(1), []
+
+    def interrupt(report, done, of):
+        pools.append(engine._pool)
+        for process in engine._pool._processes:
+            os.kill(process, signal.SIGINT)
+        time.sleep(0.1)
+
+    tasks, _ = tasks_for(found_meshes(str(folder)), Wanted(("fields",)), str(tmp_path), "1")
+    try:
+        outcome = drive(tasks, engine, interrupt)
+    finally:
+        engine.close()
+    assert len(outcome.rows) == 3
+    assert len(set(map(id, pools))) == 1
+    assert "Traceback" not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("where", ["reports", "pages"])
+def test_tables_are_written_whatever_fails(folder, tmp_path, monkeypatch, where):
+    def reports_and_fails(self):
+        for k, report in enumerate(reports(self)):
+            yield report
+            if k == 1:
+                raise OSError("no space left")
+
+    def fails(*_):
+        raise OSError("no space left")
+
+    reports = Processes.reports
+    if where == "reports":
+        monkeypatch.setattr(Processes, "reports", reports_and_fails)
+    else:
+        monkeypatch.setattr(command, "_pages", fails)
+    with pytest.raises(OSError, match="no space"):
+        batch(folder, tmp_path, "--do", "fields")
+    assert len(lines(tmp_path)) == {"reports": 2, "pages": 3}[where]
