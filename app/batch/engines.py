@@ -18,7 +18,7 @@ from bihdist_core.errors import ParameterError
 
 from ..version import version
 from .memory import available, share
-from .task import Failure, Report, Task, do, refused
+from .task import Report, Task, do, gone, refused
 
 SPARE = 0.9
 """Of the memory that is free at the beginning, what tasks may take."""
@@ -35,12 +35,6 @@ class Engine(Protocol):
 
     def close(self) -> None:
         """End what is under way."""
-
-
-def gone(task: Task, reason: str) -> Report:
-    """The report of a task that did not come back."""
-    results = [(task.part.work, task.part.distance)] if task.part else task.wanted.results()
-    return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in results))
 
 
 class Processes:

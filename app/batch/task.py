@@ -389,11 +389,15 @@ def opened(task: Task) -> Mesh:
     return last[1]
 
 
+def gone(task: Task, reason: str) -> Report:
+    """The report of a task that did not come back."""
+    results = [(task.part.work, task.part.distance)] if task.part else task.wanted.results()
+    return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in results))
+
+
 def refused(report: Report, most: int) -> Report:
     """The report of a task that fits nowhere."""
-    task = report.task
-    reason = too_big(report.needs, most)
-    return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in task.wanted.results()))
+    return gone(report.task, too_big(report.needs, most))
 
 
 Doing = Callable[[Task], Report]

@@ -2,16 +2,19 @@
 
 import csv
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from app.batch.drive import drive, found_meshes, tasks_for
 from app.batch.engines import Processes
+from app.batch.task import Part, Report, refused
 from app.batch.wanted import Wanted
 from app.commands import batch as command
 from app.main import main
@@ -94,14 +97,13 @@ def test_an_interruption_from_the_terminal_ends_all_processes_in_silence(tmp_pat
     time.sleep(0.3)
     os.killpg(run.pid, signal.SIGINT)
     interrupted = time.monotonic()
+    # Until all that hold the other end of the pipe have ended.
     _, said = run.communicate(timeout=60)
     assert time.monotonic() - interrupted < 5
     assert run.returncode == 130
     assert "interrupted; 1 result in" in said
     assert "Traceback" not in said
     assert [row["mesh"] for row in lines(out)] == ["small"]
-    left = subprocess.run(["pgrep", "-f", str(out)], capture_output=True, text=True).stdout.split()
-    assert left == []
 
 
 def test_processes_leave_an_interruption_to_the_one_that_began_them(folder, tmp_path, capfd):
@@ -142,3 +144,35 @@ def test_tables_are_written_whatever_fails(folder, tmp_path, monkeypatch, where)
     with pytest.raises(OSError, match="no space"):
         batch(folder, tmp_path, "--do", "fields")
     assert len(lines(tmp_path)) == {"reports": 2, "pages": 3}[where]
+
+
+def test_an_interrupted_set_of_figures_says_which_are_missing(folder, tmp_path, monkeypatch):
+    """Their maxima come first, and are no work that anybody has asked for."""
+
+    def interrupted(self):
+        yield from reports(self)
+        raise KeyboardInterrupt
+
+    meshes, out, reports = tmp_path / "meshes", tmp_path / "out", Processes.reports
+    shutil.copytree(folder, meshes)
+    (meshes / "torn.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
+    with monkeypatch.context() as patch:
+        patch.setattr(Processes, "reports", interrupted)
+        assert batch(meshes, out, "--do", "figure") == 130
+    assert [(row["mesh"], row["work"]) for row in lines(out, "failures")] == [("torn", "figure")]
+    assert lines(out) == []
+    # As earlier versions have left it.
+    table = out / "failures.csv"
+    table.write_text(table.read_text().replace("figure", "maxima"))
+    assert batch(meshes, out, "--do", "fields") == 1
+    assert [(row["mesh"], row["work"]) for row in lines(out, "failures")] == [("torn", "fields")]
+
+
+def test_what_has_no_room_is_said_of_its_part_alone(folder, tmp_path):
+    (task, *_), _ = tasks_for(found_meshes(str(folder)), Wanted(("fields", "eigen")), str(tmp_path), "1")
+    part = replace(task, part=Part("fields", "biharmonic", 0, 10, 150))
+    found = {each: refused(Report(each, needs=3 * 10**9), 10**9).failures for each in (task, part)}
+    assert [(each.work, each.distance) for each in found[task]] == [("fields", "biharmonic"), ("eigen", "")]
+    (failure,) = found[part]
+    assert (failure.name, failure.work, failure.distance) == (task.name, "fields", "biharmonic")
+    assert "It needs about 3.0 GB of memory" in failure.reason
