@@ -149,14 +149,15 @@ def do_all(
         with progress(len(tasks) + len(of_maps)) as tell:
             drive([*tasks, *of_maps], engine, tell, outcome)
     finally:
+        # Nobody has asked for them: without its maxima a mesh has no figure.
         maxima = [row for row in outcome.rows if row.work == MAXIMA]
         outcome.rows = [row for row in outcome.rows if row.work != MAXIMA]
+        missing = {each.name for each in outcome.failures if each.work == MAXIMA}
+        outcome.failures = [replace(e, work="figure") if e.work == MAXIMA else e for e in outcome.failures]
     if not is_shared:
         return
     from .figures import shared_ends
 
-    missing = {each.name for each in outcome.failures if each.work == MAXIMA}
-    outcome.failures = [replace(e, work="figure") if e.work == MAXIMA else e for e in outcome.failures]
     rest = {name: path for name, path in meshes.items() if name not in missing}
     ends = shared_ends([row.facts for row in maxima], wanted.range)
     tasks, _ = tasks_for(rest, replace(wanted, works=("figure",), maxima=ends, layout=""), address, version)
@@ -166,7 +167,16 @@ def do_all(
 
 def drive(tasks: Sequence[Task], engine: Engine, tell: Tell, outcome: Outcome | None = None) -> Outcome:
     """Do the tasks, and what they lead to."""
-    outcome, total, done = outcome or Outcome(), len(tasks), 0
+    outcome = outcome or Outcome()
+    try:
+        _drive(tasks, engine, tell, outcome)
+    finally:
+        outcome.failures = _once(outcome.failures)
+    return outcome
+
+
+def _drive(tasks: Sequence[Task], engine: Engine, tell: Tell, outcome: Outcome) -> None:
+    total, done = len(tasks), 0
     left: dict[tuple[str, str, str], int] = {}
     broken: set[tuple[str, str, str]] = set()
     waiting = []
@@ -199,8 +209,6 @@ def drive(tasks: Sequence[Task], engine: Engine, tell: Tell, outcome: Outcome | 
         for task in new:
             engine.submit(task)
         tell(report, done, total)
-    outcome.failures = _once(outcome.failures)
-    return outcome
 
 
 def _once(failures: Iterable[Failure]) -> list[Failure]:
@@ -212,17 +220,30 @@ def _once(failures: Iterable[Failure]) -> list[Failure]:
 
 
 # ---------------------------------------------------------------------- tables
-def write_tables(folder: Folder, outcome: Outcome, meshes: Iterable[str], lines: Sequence[Row] = ()) -> None:
+def write_tables(
+    folder: Folder,
+    outcome: Outcome,
+    meshes: Iterable[str],
+    maps: Iterable[str] | None = None,
+    lines: Sequence[Row] = (),
+) -> None:
     """summary.csv, a line for each result and those that are given, and failures.csv, one for each that is missing, if
     there is any.
 
     Lines of other work stay, those of earlier commands with other options: results while their files are there,
-    failures of these meshes.
+    failures of these meshes, and of these maps or of all if None are evaluated.
     """
     rows = sorted([*outcome.rows, *lines], key=lambda row: (row.name, row.work, row.distance))
     cells = [(each.name, each.work, each.distance, each.reason) for each in outcome.failures]
     said = {line[:3] for line in cells} | {(row.name, row.work, row.distance) for row in rows}
-    names = set(meshes)
+    names, of_maps = set(meshes), None if maps is None else set(maps)
+
+    def may_stay(name: str, work: str) -> bool:
+        if work == "evaluate":
+            return of_maps is None or name in of_maps
+        # Versions before this one left maxima there.
+        return name in names and work != MAXIMA
+
     kept = [line for line in _lines(folder, "summary.csv", COLUMNS) if tuple(line[:3]) not in said]
     table = [tuple(map(str, _cells(row))) for row in rows]
     table += [(*line[:-1], "") for line in kept if folder.size(line[3]) is not None]
@@ -230,7 +251,7 @@ def write_tables(folder: Folder, outcome: Outcome, meshes: Iterable[str], lines:
     cells += [
         tuple(line)
         for line in _lines(folder, "failures.csv", REASONS)
-        if tuple(line[:3]) not in said and line[0] in names
+        if tuple(line[:3]) not in said and may_stay(line[0], line[1])
     ]
     if cells:
         folder.write("failures.csv", _table(REASONS, sorted(cells)))

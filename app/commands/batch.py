@@ -94,6 +94,7 @@ def run(options: argparse.Namespace) -> int:
     folder = Folder(address)
     folder.make()
     maps, unnamed = _maps(options, meshes)
+    evaluated = [each.name for each in (*maps, *unnamed)] if "evaluate" in wanted.works else None
     engine, outcome = _engine(options), Outcome(failures=unnamed)
     try:
         do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)
@@ -106,11 +107,11 @@ def run(options: argparse.Namespace) -> int:
         try:
             engine.close()
         finally:
-            write_tables(folder, outcome, meshes)
+            write_tables(folder, outcome, meshes, evaluated)
     folder.sweep()
     pages, lines = _pages(folder, outcome)
     if lines:
-        write_tables(folder, outcome, meshes, lines)
+        write_tables(folder, outcome, meshes, evaluated, lines)
     new = sum(row.is_new for row in outcome.rows)
     kept = len(outcome.rows) - new
     there = f", {kept} of them there before" if kept else ""

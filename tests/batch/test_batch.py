@@ -196,6 +196,22 @@ def test_tables_keep_what_other_commands_have_left(folder, tmp_path):
     assert not (out / "failures.csv").exists()
 
 
+def test_tables_keep_failures_of_maps_until_maps_are_evaluated_again(folder, tmp_path):
+    maps, out = tmp_path / "maps", tmp_path / "out"
+    maps.mkdir()
+    np.save(maps / "bumpy-ring.npy", np.full(200, 500))
+    np.save(maps / "ring-bumpy.npy", np.zeros(5, int))
+    evaluate = ("--do", "evaluate", "--maps", maps, "--truth", "identity")
+    assert batch(folder, out, *evaluate) == 1
+    both = [("bumpy-ring", "evaluate"), ("ring-bumpy", "evaluate")]
+    assert [(row["mesh"], row["work"]) for row in rows(out, "failures")] == both
+    assert batch(folder, out, "--do", "eigen", "--eigenpairs", "3") == 0
+    assert [(row["mesh"], row["work"]) for row in rows(out, "failures")] == both
+    (maps / "ring-bumpy.npy").unlink()
+    assert batch(folder, out, *evaluate) == 1
+    assert [(row["mesh"], row["work"]) for row in rows(out, "failures")] == both[:1]
+
+
 # ---------------------------------------------------------------------- again
 def test_what_is_there_is_not_done_again(folder, done, capsys):
     before = {path: path.stat().st_mtime_ns for path in done.glob("*.npy")}
