@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from ..version import version
-from .options import add_areas, add_distance, count, source, specs
+from .options import PARAMETERS, add_areas, add_distance, count, source, specs
 from .terminal import counted, tell
 
 if TYPE_CHECKING:
@@ -21,6 +21,22 @@ if TYPE_CHECKING:
 
 INTERRUPTED = 130
 """The exit status, as everywhere."""
+
+FROM_SOURCES = ("fields", "pairs", "nearest", "fps")
+RULES = ("source", "sources", "landmarks", "sample")
+OF_RECIPE = ("distance", "areas", *PARAMETERS)
+"""Options that a recipe says itself."""
+COUNTS_FOR = {
+    **dict.fromkeys(("maps", "truth", "symmetry", "samples"), ("evaluate",)),
+    **dict.fromkeys(("recipe", "range"), ("figure",)),
+    "nearest": ("nearest",),
+    "eigenpairs": ("eigen",),
+    **dict.fromkeys(("labels", "layout"), ("pairs",)),
+    **dict.fromkeys(("mask", "sources", "landmarks", "sample"), FROM_SOURCES),
+    **dict.fromkeys(("source", "distance", *PARAMETERS), (*FROM_SOURCES, "figure")),
+    "areas": (*FROM_SOURCES, "eigen", "figure", "evaluate"),
+}
+"""The works that an option has an effect on.  Those that are not given are None."""
 
 WORDS = "the same work on many meshes: fields, pairs, neighbours, eigenpairs, farthest points, figures, into a folder"
 
@@ -46,9 +62,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--landmarks", metavar="FILE", help="vertices from a .npy, .txt or file of pins; {name} is the mesh's name"
     )
     which.add_argument("--sample", type=count, metavar="K", help="K vertices by chance, the same each time")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of --sample (default: 0)")
-    parser.add_argument("--nearest", type=count, default=10, metavar="K", help="for nearest (default: 10)")
-    parser.add_argument("--eigenpairs", type=count, default=100, metavar="K", help="for eigen (default: 100)")
+    parser.add_argument("--seed", type=int, metavar="N", help="of --sample (default: 0)")
+    parser.add_argument("--nearest", type=count, metavar="K", help="for nearest (default: 10)")
+    parser.add_argument("--eigenpairs", type=count, metavar="K", help="for eigen (default: 100)")
     parser.add_argument(
         "--labels",
         metavar="FILE",
@@ -59,7 +75,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--range",
         choices=("size", "shared", "own"),
-        default="size",
         help="for figure: colours end at one value by the size of each mesh, the root of its area (default); at one "
         "value in mesh units; at each mesh's own maximum",
     )
@@ -73,7 +88,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--symmetry", metavar="FILE", help="for evaluate: partners of vertices that count as right, too"
     )
-    parser.add_argument("--samples", type=count, default=0, metavar="K", help="for evaluate: of so many vertices")
+    parser.add_argument("--samples", type=count, metavar="K", help="for evaluate: of so many vertices")
     parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), default="npy", help="of arrays")
     parser.add_argument("--dtype", choices=("float32", "float64"), default="float64", help="of arrays")
     parser.add_argument("--workers", type=count, metavar="K", help="processes here (default: as many as cores)")
@@ -155,43 +170,35 @@ def _maps(options: argparse.Namespace, meshes: "dict[str, str]") -> "tuple[list[
     from ..batch.task import Failure
 
     if "evaluate" not in options.do:
-        if options.maps:
-            raise ParameterError("--maps goes with --do evaluate.")
         return [], []
     if not options.maps or not options.truth:
         raise ParameterError("Maps are evaluated with --maps FOLDER and --truth identity, or a folder of maps.")
     symmetry = os.path.abspath(options.symmetry) if options.symmetry else ""
-    maps, reasons = found_maps(options.maps, meshes, options.truth, symmetry, options.samples)
+    maps, reasons = found_maps(options.maps, meshes, options.truth, symmetry, options.samples or 0)
     return maps, [Failure(name, "evaluate", "", reason) for name, reason in reasons.items()]
 
 
 def _wanted(options: argparse.Namespace) -> "Wanted":
-    from bihdist_core.errors import ParameterError
-
     from ..batch.wanted import Wanted
 
     _check_together(options)
     chosen = tuple(str(each) for each in specs(options, list(dict.fromkeys(options.distance or ["biharmonic"]))))
-    recipe = ""
-    if "figure" in options.do:
-        recipe = _recipe(options, chosen)
-    elif options.recipe:
-        raise ParameterError("--recipe goes with --do figure.")
+    recipe = _recipe(options, chosen) if "figure" in options.do else ""
     return Wanted(
         works=options.do,
         distances=chosen,
         areas=options.areas or "voronoi",
         sources=_sources(options),
-        eigenpairs=options.eigenpairs,
-        nearest=options.nearest,
+        eigenpairs=options.eigenpairs or 100,
+        nearest=options.nearest or 10,
         dtype=options.dtype,
         arrays=options.format,
-        samples=options.samples,
+        samples=options.samples or 0,
         layout=options.layout or "",
         labels=os.path.abspath(options.labels) if options.labels else "",
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,
-        range=options.range,
+        range=options.range or "size",
     )
 
 
@@ -199,22 +206,32 @@ def _check_together(options: argparse.Namespace) -> None:
     """ParameterError for options that would be left without effect."""
     from bihdist_core.errors import ParameterError
 
-    names_sources = [
-        option
-        for option, given in (
-            ("--source", options.source),
-            ("--sources", options.sources),
-            ("--landmarks", options.landmarks),
-            ("--sample", options.sample),
-        )
-        if given
-    ]
-    if options.labels and "pairs" not in options.do:
-        raise ParameterError("--labels goes with --do pairs: the means of the distances between parcels.")
-    if options.labels and names_sources and not {"fields", "nearest", "fps"} & {*options.do}:
-        raise ParameterError(f"{names_sources[0]} has no effect on the means between parcels; leave it out.")
+    from ..batch.wanted import WORKS
+
+    asked = {*options.do}
+    if not asked or not asked <= {*WORKS}:
+        return  # a work that there is not is refused before its options
+    for name, works in COUNTS_FOR.items():
+        if getattr(options, name) is None:
+            continue
+        counts = asked.intersection(works)
+        if not counts:
+            raise ParameterError(f"--{name} goes with --do {_either(works)}.")
+        if options.recipe and name in OF_RECIPE and counts == {"figure"}:
+            raise ParameterError(f"--{name} has no effect on figures of a recipe, which says it; leave it out.")
+        if options.labels and name in RULES and counts == {"pairs"}:
+            raise ParameterError(f"--{name} has no effect on the means between parcels; leave it out.")
+    if options.seed is not None and options.sample is None:
+        raise ParameterError("--seed goes with --sample.")
+    takes_several = asked.intersection(FROM_SOURCES) - ({"pairs"} if options.labels else set())
+    if len(options.source or ()) > 1 and not takes_several:
+        raise ParameterError("Figures have one source; name one vertex after --source.")
     if options.layout and options.format != "npy":
         raise ParameterError(f"--layout {options.layout} writes .mat files; leave out --format {options.format}.")
+
+
+def _either(words: tuple[str, ...]) -> str:
+    return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
 def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
@@ -251,7 +268,7 @@ def _sources(options: argparse.Namespace) -> "Sources":
     if options.landmarks:
         return Sources("landmarks", file=os.path.abspath(options.landmarks))
     if options.sample:
-        return Sources("sample", count=options.sample, seed=options.seed)
+        return Sources("sample", count=options.sample, seed=options.seed or 0)
     if options.sources:
         rule, _, number = options.sources.partition(":")
         if rule == "all" and not number:

@@ -328,19 +328,19 @@ def test_a_list_that_is_wrong_is_refused(tmp_path, text, words):
         found_meshes(str(path))
 
 
+BOTH = ("--distance", "biharmonic", "--distance", "geodesic")
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--do", "dance"), "no work 'dance'"),
+        (("--do", "dance", "--seed", "3"), "no work 'dance'"),
         (("--do", "pairs"), "Pairs are among several sources"),
         (("--do", "fps"), "Farthest points need a number"),
         (("--do", "fields", "--sources", "some"), "no rule for sources"),
-        (("--do", "fields", "--recipe", "x.json"), "--recipe goes with"),
         (("--do", "evaluate"), "evaluated with --maps"),
-        (("--do", "fields", "--layout", "dist"), "A layout"),
+        (("--do", "pairs", "--sources", "all", *BOTH, "--layout", "dist"), "A layout"),
         (("--do", "pairs", "--sources", "all", "--layout", "dist", "--format", "npz"), "leave out --format npz"),
-        (("--do", "fields", "--labels", "x.npy"), "--labels goes with"),
-        (("--do", "pairs", "--labels", "x.npy", "--sources", "all"), "--sources has no effect"),
         (("--do", "fields", "--dask", "tcp://127.0.0.1:9"), "Dask"),
     ],
 )

@@ -1,0 +1,92 @@
+"""Options of `bihdist batch` that would have no effect are refused; those that have one are not."""
+
+import argparse
+
+import pytest
+
+from app.commands import batch
+from app.main import main
+from bihdist_core import write_mesh
+from tests.shapes import torus
+
+EVALUATE = "--do evaluate --maps maps --truth identity"
+FROM_SOURCES = "goes with --do fields, pairs, nearest or fps."
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("meshes")
+    write_mesh(place / "ring.off", torus(8, 6))
+    return place
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("--do fields --maps maps", "--maps goes with --do evaluate."),
+        ("--do fields --truth identity", "--truth goes with --do evaluate."),
+        ("--do fields --symmetry x.npy", "--symmetry goes with --do evaluate."),
+        ("--do fields --samples 5", "--samples goes with --do evaluate."),
+        ("--do fields --recipe x.json", "--recipe goes with --do figure."),
+        ("--do fields --range own", "--range goes with --do figure."),
+        ("--do fields --range size", "--range goes with --do figure."),
+        ("--do fields --nearest 10", "--nearest goes with --do nearest."),
+        ("--do fields --eigenpairs 100", "--eigenpairs goes with --do eigen."),
+        ("--do fields --layout dist", "--layout goes with --do pairs."),
+        ("--do fields --labels x.npy", "--labels goes with --do pairs."),
+        ("--do eigen,figure --mask x.npy", f"--mask {FROM_SOURCES}"),
+        ("--do eigen --sources all", f"--sources {FROM_SOURCES}"),
+        ("--do figure --sources all", f"--sources {FROM_SOURCES}"),
+        ("--do figure --landmarks x.txt", f"--landmarks {FROM_SOURCES}"),
+        ("--do figure --sample 3", f"--sample {FROM_SOURCES}"),
+        ("--do eigen --source 3", "--source goes with --do fields, pairs, nearest, fps or figure."),
+        ("--do figure --source 3 5", "Figures have one source"),
+        ("--do pairs,figure --labels x.npy --source 3 5", "Figures have one source"),
+        ("--do pairs --labels x.npy --sources all", "--sources has no effect on the means"),
+        ("--do pairs --labels x.npy --source 3", "--source has no effect on the means"),
+        ("--do fields --seed 0", "--seed goes with --sample."),
+        ("--do eigen --distance diffusion", "--distance goes with"),
+        ("--do eigen --method exact", "--method goes with"),
+        (f"{EVALUATE} --distance geodesic", "--distance goes with"),
+        ("--do figure --recipe x.json --distance geodesic", "--distance has no effect on figures of a recipe"),
+        ("--do figure --recipe x.json --areas barycentric", "--areas has no effect on figures of a recipe"),
+        ("--do eigen,figure --recipe x.json --distance geodesic", "--distance has no effect on figures of a recipe"),
+    ],
+)
+def test_what_would_have_no_effect_is_refused(folder, tmp_path, capsys, words, said):
+    assert main(["batch", str(folder), "--out", str(tmp_path / "out"), *words.split()]) == 2
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "--do fields,pairs,eigen --sources farthest:400",
+        "--do fields --landmarks {name}.txt --mask {name}.npy",
+        "--do nearest --sources all --nearest 10 --distance diffusion(t=1/4)",
+        "--do pairs --labels {name}.npy --mask {name}.npy",
+        "--do pairs --sources all --distance geodesic --layout dist",
+        "--do fields,pairs --labels {name}.npy --source 3 5",
+        "--do pairs,figure --labels {name}.npy --source 3",
+        "--do figure --range shared --source 3 --distance diffusion --t 1/4 --areas barycentric",
+        "--do figure --recipe x.json --range own --source 3",
+        "--do fields,figure --recipe x.json --source 3 5 --distance geodesic",
+        "--do eigen,figure --recipe x.json --areas barycentric --eigenpairs 3",
+        "--do fields --sample 5 --seed 0",
+        f"{EVALUATE} --symmetry x.npy --samples 10 --areas barycentric",
+        f"{EVALUATE} --areas barycentric",
+    ],
+)
+def test_what_has_an_effect_is_not(words):
+    parser = argparse.ArgumentParser()
+    batch.add_options(parser)
+    batch._check_together(parser.parse_args(["meshes", "--out", "out", *words.split()]))
+
+
+def test_what_is_not_given_is_what_the_help_says():
+    parser = argparse.ArgumentParser()
+    batch.add_options(parser)
+    words = ["meshes", "--out", "out", "--do", "fields,nearest,eigen,figure", "--sample", "5"]
+    wanted = batch._wanted(parser.parse_args(words))
+    assert (wanted.nearest, wanted.eigenpairs, wanted.range, wanted.sources.seed) == (10, 100, "size", 0)
