@@ -12,11 +12,10 @@ from .maps import WITH_PARTNERS
 from .results import read_arrays
 from .storage import Folder
 from .task import Row
+from .wanted import ALL
 
 ENDINGS = ("pdf", "svg", "png", "csv")
 NAME = "evaluate"
-ALL = "(all maps)"
-"""Where a mesh is named in the summary."""
 
 
 def write_curves(folder: Folder, rows: Sequence[Row]) -> tuple[list[str], list[Row]]:

@@ -15,9 +15,10 @@ from ..document.file import checksum
 from ..samples import mesh_path
 from .engines import Engine
 from .maps import Map
+from .results import is_complete, said_of
 from .storage import Folder
 from .task import Failure, Report, Row, Task, done_before
-from .wanted import MAXIMA, OWN, Wanted
+from .wanted import ALL, LAYOUTS, MAXIMA, OWN, Wanted, result_name
 
 MESHES = (".obj", ".off", ".ply", ".stl", ".vtk", ".vtp")
 COLUMNS = (
@@ -230,8 +231,8 @@ def write_tables(
     """summary.csv, a line for each result and those that are given, and failures.csv, one for each that is missing, if
     there is any.
 
-    Lines of other work stay, those of earlier commands with other options: results while their files are there,
-    failures of these meshes, and of these maps or of all if None are evaluated.
+    Lines of other work stay, those of earlier commands with other options: results while they are there, failures of
+    these meshes, and of these maps or of all if None are evaluated.
     """
     rows = sorted([*outcome.rows, *lines], key=lambda row: (row.name, row.work, row.distance))
     cells = [(each.name, each.work, each.distance, each.reason) for each in outcome.failures]
@@ -241,12 +242,12 @@ def write_tables(
     def may_stay(name: str, work: str) -> bool:
         if work == "evaluate":
             return of_maps is None or name in of_maps
-        # Versions before this one left maxima there.
-        return name in names and work != MAXIMA
+        return name in names
 
     kept = [line for line in _lines(folder, "summary.csv", COLUMNS) if tuple(line[:3]) not in said]
     table = [tuple(map(str, _cells(row))) for row in rows]
-    table += [(*line[:-1], "") for line in kept if folder.size(line[3]) is not None]
+    taken = {row[3] for row in table}  # the file of a layout is that of the last distance
+    table += [(*line[:-1], "") for line in kept if line[3] not in taken and _is_there(folder, line)]
     folder.write("summary.csv", _table(COLUMNS, sorted(table)))
     cells += [
         tuple(line)
@@ -257,6 +258,16 @@ def write_tables(
         folder.write("failures.csv", _table(REASONS, sorted(cells)))
     else:
         folder.remove("failures.csv")
+
+
+def _is_there(folder: Folder, line: Sequence[str]) -> bool:
+    """Whether a line of the summary is of a result that is complete."""
+    name, work, distance, file = line[:4]
+    layout = next((each for each in LAYOUTS if file.startswith(f"{each}/")), "")
+    if name == ALL:
+        return folder.size(file) is not None
+    facts = said_of(folder, result_name(name, work, distance, layout))
+    return facts is not None and facts.get("file") == file and is_complete(folder, facts)
 
 
 def _lines(folder: Folder, name: str, header: Sequence[str]) -> list[list[str]]:

@@ -51,15 +51,23 @@ Array = np.ndarray | Blocks
 
 def facts_of(folder: Folder, name: str, key: str) -> dict[str, Any] | None:
     """What is said of a result that is there, complete; None if it is not, or is of other work."""
-    text = folder.read(f"{name}.json")
-    if text is None:
-        return None
+    facts = said_of(folder, name)
+    return facts if facts is not None and facts.get("key") == key and is_complete(folder, facts) else None
+
+
+def said_of(folder: Folder, name: str) -> dict[str, Any] | None:
+    """What a JSON says, be its file complete or not; None if there is none, or no JSON of ours."""
     try:
-        facts = json.loads(text)
-        is_there = facts["key"] == key and folder.size(facts["file"]) == facts["bytes"]
-    except (ValueError, TypeError, KeyError):
+        facts = json.loads(folder.read(f"{name}.json") or b"null")
+    except ValueError:
         return None
-    return facts if is_there else None
+    return facts if isinstance(facts, dict) else None
+
+
+def is_complete(folder: Folder, facts: Mapping[str, Any]) -> bool:
+    """Whether the file of a result is there with all its bytes."""
+    file = facts.get("file")
+    return isinstance(file, str) and folder.size(file) == facts.get("bytes", -1)
 
 
 def write_result(
@@ -91,10 +99,7 @@ def write_result(
 
 def _forget(folder: Folder, name: str, file: str) -> None:
     """What was there of other work: its JSON, and its file if that has another name."""
-    try:
-        before = json.loads(folder.read(f"{name}.json") or b"{}").get("file")
-    except (ValueError, AttributeError):
-        before = None
+    before = (said_of(folder, name) or {}).get("file")
     folder.remove(f"{name}.json")
     if before != file and isinstance(before, str) and before.startswith(f"{name}."):
         folder.remove(before)

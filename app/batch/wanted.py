@@ -21,6 +21,8 @@ Self-Supervised-Multimodal-Shape-Matching, `geodist` that of GeomFmaps and DUO-F
 READ = {"fields": {"landmarks", "mask"}, "pairs": {"landmarks", "labels", "mask"}, "nearest": {"landmarks", "mask"},
         "fps": {"mask"}}  # fmt: skip
 """What a work reads beside the mesh: a change of it is one of its results."""
+ALL = "(all maps)"
+"""The name in the tables of what is of all maps together."""
 RULES = ("vertices", "farthest", "sample", "landmarks", "all")
 
 

@@ -101,6 +101,7 @@ def run(options: argparse.Namespace) -> int:
     from ..batch.drive import Outcome, do_all, found_meshes, write_tables
     from ..batch.results import check_format
     from ..batch.storage import Folder
+    from ..batch.task import PARTS
 
     wanted = _wanted(options)
     check_format(wanted.arrays)
@@ -124,6 +125,8 @@ def run(options: argparse.Namespace) -> int:
         finally:
             write_tables(folder, outcome, meshes, evaluated)
     folder.sweep()
+    if not outcome.failures:
+        folder.remove(PARTS)  # what is left there is of other options
     pages, lines = _pages(folder, outcome)
     if lines:
         write_tables(folder, outcome, meshes, evaluated, lines)

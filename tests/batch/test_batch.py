@@ -194,6 +194,15 @@ def test_tables_keep_what_other_commands_have_left(folder, tmp_path):
         ("bumpy", "fields"), ("pieces", "eigen"), ("pieces", "fields"), ("ring", "eigen")
     ]  # fmt: skip
     assert not (out / "failures.csv").exists()
+    # A line without its JSON is of a result that was being written when its process was killed.
+    (out / "pieces.eigen.json").unlink()
+    layout = ("--do", "pairs", "--sources", "all", "--layout", "dist", "--distance")
+    for word in ("geodesic", "biharmonic"):
+        assert batch(meshes, out, *layout, word) == 0
+    assert [(row["mesh"], row["work"], row["distance"]) for row in rows(out)] == [
+        ("bumpy", "fields", "biharmonic"), ("bumpy", "pairs", "biharmonic"), ("pieces", "fields", "biharmonic"),
+        ("pieces", "pairs", "biharmonic"), ("ring", "eigen", ""),
+    ]  # fmt: skip
 
 
 def test_tables_keep_failures_of_maps_until_maps_are_evaluated_again(folder, tmp_path):
