@@ -184,6 +184,8 @@ class Cluster:
             from distributed import Client, as_completed
         except ImportError:
             raise ParameterError("--dask needs the packages of Dask: pip install 'bihdist[dask]'.") from None
+        # It would print where it was for each connection that is closed.
+        logging.getLogger("distributed.batched").setLevel(logging.WARNING)
         if where.endswith(".json"):
             _wait_for(where)
         try:
