@@ -29,6 +29,8 @@ LEG = 0.35
 """A leg is what lies below this share of the height, in its quarter of the ground plan."""
 QUICK = 5
 """Starts of the quick version."""
+TRIED = 20
+"""Starts that are tried, at most, for each that is wanted: on a coarse mesh there may not be so many different ones."""
 COLUMNS = (
     *("start", "distance", "extrema without anchor", "of these at tips", "raw extrema", "leg spread, %"),
     *("shift on the head, %", "edges in kinks, %"),
@@ -45,8 +47,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     head = lengths.min(axis=1) <= lengths[poll, 0]
     legs = _legs(surface)
     ends = tips(laplacian)
-    seeds = starts(QUICK if quick else STARTS)
-    anchors_from = {seed: _anchors(surface, seed, head, nose) for seed in seeds}
+    anchors_from = different_anchors(surface, QUICK if quick else STARTS, head, nose)
     every = np.unique(np.concatenate([*anchors_from.values(), [poll]]))
     interpolants, labels = {}, {}
     for k, kind in enumerate(KINDS):
@@ -63,7 +64,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     needless: dict[str, list[int]] = {kind: [] for kind in KINDS}
     edge_lengths = EdgeGeodesic(surface)
     for q, (seed, anchors) in enumerate(anchors_from.items()):
-        part(progress, 0.5, 1)(q / len(seeds), seed)
+        part(progress, 0.5, 1)(q / len(anchors_from), seed)
         values = np.linspace(0, 1, len(anchors))
         near = edge_lengths.distances(anchors).min(axis=1)
         empty = [leg for leg in legs if not np.isin(anchors, np.flatnonzero(leg)).any()]
@@ -109,8 +110,9 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "fig9",
         TITLE,
-        f"Anchors: {SPREAD} by farthest-point sampling from vertex 0 (and {len(seeds) - 1} random vertices), points "
-        "on the head left out, and the nose; values evenly from 0 to 1 in that order. Extrema persist over at least "
+        f"Anchors: {SPREAD} by farthest-point sampling from vertex 0 (and {len(anchors_from) - 1} random vertices), "
+        "points on the head left out, and the nose; values evenly from 0 to 1 in that order. Starts that lead to the "
+        "same anchors count once. Extrema persist over at least "
         "1 % of the range; along a limb without anchor the interpolant must rise or fall to the tip, so those at tips "
         "(within a tenth of the root of the area) are inherent in the shape. A leg is what lies below 35 % of the "
         "height; the least range of values on a leg without anchor is taken, and starts that leave no such leg are "
@@ -120,7 +122,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         tuple(panels),
         tables=(table,),
         claims=(
-            found.claim("fig9-1", f"Needless extrema, sum over {len(seeds)} starts: {counts}."),
+            found.claim("fig9-1", f"Needless extrema, sum over {len(anchors_from)} starts: {counts}."),
             Claim("fig9-2", more),
             found.claim("fig9-3"),
             found.claim("fig9-4"),
@@ -128,6 +130,20 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
             found.claim("fig9-6", more={large: more[large]}),
         ),
     )
+
+
+def different_anchors(surface: Surface, count: int, head: np.ndarray, nose: int) -> dict[str, np.ndarray]:
+    """(k,) anchors from each of the first `count` starts, by their names, that lead to different ones.
+
+    head: (n,) bool, where there are no anchors but the nose.  A start on the head is no anchor itself, so that several
+    of them may lead to the same tips.  There are fewer than `count` where that many are not found.
+    """
+    found: dict[tuple[int, ...], str] = {}
+    for seed in starts(TRIED * count):
+        found.setdefault(tuple(_anchors(surface, seed, head, nose).tolist()), seed)
+        if len(found) == count:
+            break
+    return {seed: np.array(anchors) for anchors, seed in found.items()}
 
 
 def _anchors(surface: Surface, seed: str, head: np.ndarray, nose: int) -> np.ndarray:

@@ -7,7 +7,7 @@ import pytest
 
 from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
-from bihdist_core.experiments import EXPERIMENTS, SEEDS, Shapes, fig10, table1, table2
+from bihdist_core.experiments import EXPERIMENTS, SEEDS, Shapes, fig9, fig10, table1, table2
 from bihdist_core.experiments._claims_topology import APART, FAR_ROUND, far_pairs, nearly_touching
 from bihdist_core.experiments.result import Table
 from bihdist_core.experiments.shapes import spread_points, start_vertex, starts, vertex_at
@@ -42,6 +42,22 @@ def test_there_are_as_many_starts_as_one_likes():
     for start, vertex in zip(starts(3), vertices, strict=False):
         assert spread_points(s, 3, start).tolist() == spread_points(s, 3, vertex).tolist()
         assert fig10._clustered(s, start)[0] == vertex
+
+
+def test_starts_that_lead_to_the_same_anchors_count_once():
+    # Half of the surface is the head: the starts there are left out, and the same points remain.
+    s = bumpy(400)
+    head, nose = s.vertices[:, 0] > 0, int(s.vertices[:, 0].argmax())
+    first = [tuple(fig9._anchors(s, seed, head, nose)) for seed in starts(25)]
+    assert len(set(first)) < 25
+    found = fig9.different_anchors(s, 25, head, nose)
+    assert len(found) == len({tuple(anchors) for anchors in found.values()}) == 25
+    assert [tuple(anchors) for anchors in found.values()][: len(set(first))] == list(dict.fromkeys(first))
+    # With a head that is all but two vertices there are no more than so many.
+    head = np.ones(len(s.vertices), bool)
+    head[:2] = False
+    few = fig9.different_anchors(s, 5, head, nose)
+    assert len(few) == len({tuple(anchors) for anchors in few.values()}) < 5
 
 
 def test_joins_are_apart_and_at_different_places():
