@@ -12,13 +12,14 @@ from ..analysis.diagnostics import FieldChange
 from ..applications.perturbation import noisy
 from ..applications.resizing import simplified
 from ..distances.distance import Distance
+from ..errors import SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
 from .parts import Parts
 from .result import Cell, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, Shapes, distance, start_vertex, starts, vertex_at
+from .shapes import DISTANCES, Shapes, distances_there, start_vertex, starts, vertex_at
 from .statements import STATEMENTS
 
 TITLE = "Noise, tessellation, deformation"
@@ -48,6 +49,11 @@ class Change:
     images: np.ndarray
     drawn: bool = True
 
+    @property
+    def where(self) -> str:
+        """What the surface before is called."""
+        return f"{len(self.before.vertices):,} vertices"
+
 
 @dataclass
 class Found:
@@ -57,13 +63,23 @@ class Found:
     panels: list[Panel] = field(default_factory=list)
     every: dict[str, list[FieldChange]] = field(default_factory=lambda: {kind: [] for kind in DISTANCES})
 
+    @property
+    def kinds(self) -> list[str]:
+        """The distances that were measured."""
+        return [kind for kind, changes in self.every.items() if changes]
+
 
 class Before:
-    """The distances on a surface that is to change, each field of which serves all its changes."""
+    """The distances, by their kinds, on a surface that is to change; each field serves all its changes."""
 
-    def __init__(self, laplacian: Laplacian) -> None:
-        self._distances = _distances(laplacian)
+    def __init__(self, distances: dict[str, Distance]) -> None:
+        self._distances = distances
         self._fields: dict[tuple[str, int], np.ndarray] = {}
+
+    @property
+    def kinds(self) -> list[str]:
+        """Those that can be had."""
+        return list(self._distances)
 
     def field(self, kind: str, source: int) -> np.ndarray:
         """(n,) the distances from a vertex."""
@@ -78,18 +94,21 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     part(progress, 0, 0.2)(0.0, "simplifying")
     parts = Parts()
     cases = _cases(shapes, name, quick, parts, part(progress, 0, 0.2))
-    known: dict[int, Before] = {}
+    known: dict[int, Before | None] = {}
     found: dict[str, Found] = {}
     for q, case in enumerate(cases):
         step = part(progress, 0.2 + 0.8 * q / len(cases), 0.2 + 0.8 * (q + 1) / len(cases))
         if id(case.before) not in known:
-            laplacian = shapes.laplacian(name) if case.before is shapes[name] else Laplacian(case.before)
-            known[id(case.before)] = Before(laplacian)
+            known[id(case.before)] = parts.do(case.where, _before, shapes, name, case, parts)
+        before = known[id(case.before)]
+        if before is None:
+            parts.note(case.name, parts.why(case.where))
+            continue
         draws = QUICK_DRAWS if quick else DRAWS
-        measured = parts.do(case.name, _measured, case, known[id(case.before)], draws, step)
+        measured = parts.do(case.name, _measured, case, before, draws, parts, step)
         if measured is not None:
             found[case.name] = measured
-    surfaces = {f"{len(case.before.vertices):,} vertices": case.before for case in cases}
+    surfaces = {case.where: case.before for case in cases}
     return Result(
         "fig6",
         TITLE,
@@ -102,14 +121,15 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         surfaces | {case.name: case.after[0] for case in cases},
         tuple(panel for each in found.values() for panel in each.panels),
         tables=_tables(found),
-        claims=tuple(_claims(found)),
+        claims=tuple(_claims(found, parts, [*_noises(), [_simplification(quick)], ["another pose"]])),
         not_done=tuple(parts.not_done),
     )
 
 
 def _cases(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress) -> list[Change]:
-    fine_count, coarse_count = (4_000, 1_150) if quick else (FINE, COARSE)
-    fine = parts.do("simplification", shapes.sized, name, fine_count, part(progress, 0, 0.5))
+    fine_count, coarse_count = _counts(quick)
+    title = _simplification(quick)
+    fine = parts.do(title, shapes.sized, name, fine_count, part(progress, 0, 0.5))
     whole = fine if quick and fine is not None else shapes[name]
     same, draws = np.arange(len(whole.vertices)), QUICK_DRAWS if quick else DRAWS
     cases = [
@@ -123,31 +143,66 @@ def _cases(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progr
         for share in NOISE
         for along, words in WAYS.items()
     ]
-    made = fine and parts.do("simplification", simplified, fine, coarse_count, part(progress, 0.5, 1))
+    made = fine and parts.do(title, simplified, fine, coarse_count, part(progress, 0.5, 1))
     if fine is not None and made:
         coarse, kept = made
-        title = f"{fine_count:,} to {coarse_count:,} vertices"
         cases.append(Change(title, fine, (coarse,), kept, np.arange(coarse_count)))
     if shapes.own is None:
         same = np.arange(len(shapes[name].vertices))
-        cases.append(Change("another pose", shapes[name], (shapes["figure_pose2"],), same, same))
+        posed = parts.do("another pose", shapes.__getitem__, "figure_pose2")
+        if posed is not None:
+            cases.append(Change("another pose", shapes[name], (posed,), same, same))
     return cases
 
 
-def _measured(case: Change, before: Before, draws: int, step: Progress) -> Found:
+def _counts(quick: bool) -> tuple[int, int]:
+    return (4_000, 1_150) if quick else (FINE, COARSE)
+
+
+def _simplification(quick: bool) -> str:
+    """What that change is called."""
+    fine, coarse = _counts(quick)
+    return f"{fine:,} to {coarse:,} vertices"
+
+
+def _noises() -> list[list[str]]:
+    """What noise of each size is called, both ways."""
+    return [[f"noise of {percent(share)}{words}" for words in WAYS.values()] for share in NOISE]
+
+
+def _before(shapes: Shapes, name: str, case: Change, parts: Parts) -> Before:
+    laplacian = shapes.laplacian(name) if case.before is shapes[name] else Laplacian(case.before)
+    return Before(distances_there(laplacian, parts, case.where))
+
+
+def _measured(case: Change, before: Before, draws: int, parts: Parts, step: Progress) -> Found:
+    """The changes of biharmonic distance, and of the others that can be had before and after every draw.
+
+    Raises SolverError if biharmonic distance is not among them.
+    """
     surface, ids, found = case.before, case.ids, Found()
     image = dict(zip(ids.tolist(), case.images.tolist(), strict=True))
     # The sources of the case are points that both surfaces have.
     random = [(s, _shared(surface, ids, start_vertex(surface, s))) for s in starts(draws * EACH + 1)[1:]]
     share = len(random) // len(case.after)
+    lost: set[str] = set()
     for q, after in enumerate(case.after):
-        distances = _distances(Laplacian(after))
+        distances = distances_there(Laplacian(after), parts, case.name)
+        both = [kind for kind in before.kinds if kind in distances]
+        if "biharmonic" not in both:
+            raise SolverError(parts.why(*(f"biharmonic on {where}" for where in (case.where, case.name))))
+        for kind in set(DISTANCES) - set(both):
+            found.every[kind].clear()
+            found.rows = [row for row in found.rows if row[2] != kind]
+            lost.add(kind)
         sources = random[q * share : (q + 1) * share]
         if not q:
             sources = [("pictured", _shared(surface, ids, vertex_at(surface, 0.5, 0.72, "back"))), *sources]
         for k, (label, source) in enumerate(sources):
             step((q + k / len(sources)) / len(case.after), f"{case.name}, {label}")
-            kinds = DISTANCES[:1] if label != "pictured" and k == len(sources) - 1 else DISTANCES
+            kinds = [kind for kind in both if kind not in lost]
+            if label != "pictured" and k == len(sources) - 1:
+                kinds = ["biharmonic"]
             one = {kind: before.field(kind, source) for kind in kinds}
             two = {kind: distances[kind].from_source(image[source]) for kind in kinds}
             change = changes({k: f[ids] for k, f in one.items()}, {k: f[case.images] for k, f in two.items()})
@@ -162,17 +217,13 @@ def _measured(case: Change, before: Before, draws: int, step: Progress) -> Found
 def _panels(
     case: Change, source: int, image: int, one: dict[str, np.ndarray], two: dict[str, np.ndarray]
 ) -> list[Panel]:
-    panels, heading = [], f"{len(case.before.vertices):,} vertices"
+    panels, heading = [], case.where
     for kind in one:
         mark = (Mark(source, "source"),)
         panels.append(Panel(f"{kind}, before", heading, one[kind], case.name, mark, ("source",)))
         mark = (Mark(image, "source"),)
         panels.append(Panel(f"{kind}, after", case.name, two[kind], case.name, mark, ("source",)))
     return panels
-
-
-def _distances(laplacian: Laplacian) -> dict[str, Distance]:
-    return {kind: distance(laplacian, kind) for kind in DISTANCES}
 
 
 def _shared(surface: Surface, ids: np.ndarray, vertex: int) -> int:
@@ -186,7 +237,7 @@ def _tables(found: dict[str, Found]) -> tuple[Table, ...]:
         return ()
     summary: list[tuple[Cell, ...]] = []
     for case, each in found.items():
-        for kind in DISTANCES:
+        for kind in each.kinds:
             means = [change.normalised_mean for change in each.every[kind]]
             raw = float(np.median([change.mean for change in each.every[kind]]))
             summary.append((case, kind, means[0], float(np.median(means)), min(means), max(means), len(means), raw))
@@ -197,9 +248,8 @@ def _tables(found: dict[str, Found]) -> tuple[Table, ...]:
     )
 
 
-def _claims(found: dict[str, Found]) -> list[Claim]:
-    titles = [[f"noise of {percent(share)}{words}" for words in WAYS.values()] for share in NOISE]
-    titles += [[next((title for title in found if title.endswith(" vertices")), "")], ["another pose"]]
+def _claims(found: dict[str, Found], parts: Parts, titles: list[list[str]]) -> list[Claim]:
+    """titles: the changes of each statement."""
     claims = []
     for k, cases in enumerate(titles, 1):
         id = f"fig6-{k}"
@@ -209,13 +259,12 @@ def _claims(found: dict[str, Found]) -> list[Claim]:
         }
         said = "; ".join(f"{case}: {_said(found[case])}" for case in cases if case in found)
         note = f"Mean change from the pictured source, after division by the maximum (raw in parentheses), {said}."
-        if numbers:
-            claims.append(Claim(id, numbers, note))
-        else:
-            claims.append(Claim(id, failure="This change cannot be made here."))
+        # What is neither done nor noted as failed is the pose, of a mesh of a reader.
+        failure = parts.why(*cases) or ("" if numbers else "There is no other pose of this mesh to compare it with.")
+        claims.append(Claim(id, numbers, note if numbers else "", failure=failure))
     return claims
 
 
 def _said(found: Found) -> str:
-    pictured = {kind: found.every[kind][0] for kind in DISTANCES}
+    pictured = {kind: found.every[kind][0] for kind in found.kinds}
     return ", ".join(f"{kind} {percent(c.normalised_mean)} ({percent(c.mean)})" for kind, c in pictured.items())

@@ -46,6 +46,10 @@ class Parts:
         if missing not in self.not_done:
             self.not_done.append(missing)
 
+    def why(self, *names: str) -> str:
+        """The reasons why parts of these names are not done, each once; "" if none of them failed."""
+        return " ".join(dict.fromkeys(each.reason for each in self.not_done if each.part in names))
+
 
 def reason_of(error: Exception) -> str:
     """Why something failed, in a sentence."""

@@ -26,7 +26,7 @@ class Claim:
     """What was measured of a statement, by its id: numbers by the names of its parts, and what there is to add.
 
     note: further numbers, in a sentence.  warning: why the numbers may be off, such as a loaded computer.  failure: why
-    there are none.  ParameterError for an unknown id or part.
+    there are none, or not all.  ParameterError for an unknown id or part.
     """
 
     id: str

@@ -135,6 +135,12 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
     return made
 
 
+def distances_there(laplacian: Laplacian, parts: Parts, where: str) -> dict[str, Distance]:
+    """Those of `DISTANCES` that can be had on a surface; of the others it is noted why not, as "KIND on WHERE"."""
+    made = {kind: parts.do(f"{kind} on {where}", distance, laplacian, kind) for kind in DISTANCES}
+    return {kind: each for kind, each in made.items() if each is not None}
+
+
 def start_vertex(surface: Surface, seed: str = "vertex 0") -> int:
     """The vertex that a protocol starts from, on the largest component."""
     vertices = np.flatnonzero(surface.component_of_vertex == 0)

@@ -5,9 +5,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bihdist_core import Surface
+from bihdist_core import SolverError, Surface
 from bihdist_core.analysis.quality import small_radius
-from bihdist_core.experiments import EXPERIMENTS, NAMES, Shapes, _claims_growth
+from bihdist_core.experiments import (
+    EXPERIMENTS,
+    NAMES,
+    Shapes,
+    _claims_growth,
+    _claims_metric,
+    _claims_sampling,
+    _claims_topology,
+    fig6,
+    shapes,
+)
 from tests.shapes import bumpy, spike, two_pieces
 
 ASSETS = Path(__file__).resolve().parents[2] / "assets"
@@ -38,9 +48,9 @@ def test_on_a_closed_mesh_of_a_reader(id, monkeypatch):
 
 
 def test_shapes_come_from_a_folder_or_are_given():
-    shapes = Shapes.from_folder(ASSETS)
-    assert all(shapes[name].name == name for name in NAMES)
-    assert shapes.names("figure", "hand") == ("figure", "hand")
+    bundled = Shapes.from_folder(ASSETS)
+    assert all(bundled[name].name == name for name in NAMES)
+    assert bundled.names("figure", "hand") == ("figure", "hand")
     own = Shapes(own=bumpy(100))
     assert own.names("figure", "hand") == ("bumpy",)
     assert own["bumpy"] is own.own
@@ -60,3 +70,52 @@ def test_a_distance_that_cannot_be_had_leaves_the_others_their_pictures():
     assert [claim.verdict for claim in result.claims] == [None] * 4
     assert all("emeshing would help" in claim.failure for claim in result.claims)
     assert result.protocol.startswith("Nothing was measured")
+
+
+REFUSED = "It cannot be had here."
+
+
+@pytest.fixture
+def refuse(monkeypatch):
+    """A function that makes a distance of a kind fail on surfaces of a number of vertices, or on all."""
+
+    def refused(kind, vertices=None):
+        had = shapes.distance
+
+        def distance(laplacian, wanted, progress=None):
+            if wanted == kind and vertices in (None, len(laplacian.surface.vertices)):
+                raise SolverError(REFUSED)
+            return had(laplacian, wanted, progress)
+
+        for module in (shapes, _claims_metric, _claims_sampling, _claims_topology):
+            monkeypatch.setattr(module, "distance", distance, raising=False)
+
+    return refused
+
+
+def test_fig6_judges_what_needs_no_diffusion_distance_without_it(refuse, monkeypatch):
+    monkeypatch.setattr(fig6, "_counts", lambda quick: (400, 150))
+    refuse("diffusion t = 1")
+    result = EXPERIMENTS["fig6"].compute(Shapes(own=bumpy(400)), quick=True)
+    assert "diffusion t = 1 on 400 vertices" in {each.part for each in result.not_done}
+    claims = {claim.id: claim for claim in result.claims}
+    assert list(claims) == [f"fig6-{k}" for k in range(1, 7)]
+    for k in range(1, 6):
+        claim = claims[f"fig6-{k}"]
+        assert set(claim.numbers) == set(claim.statement.names)
+        assert claim.verdict
+        assert "geodesic" in claim.note
+    # A mesh has one pose: that is no failure.
+    assert claims["fig6-6"].failure == "There is no other pose of this mesh to compare it with."
+    assert not any("pose" in each.part for each in result.not_done)
+    assert "diffusion t = 1" not in result.table("mean changes").values("distance")
+
+
+def test_a_change_of_fig6_that_cannot_be_measured_leaves_the_others(refuse, monkeypatch):
+    monkeypatch.setattr(fig6, "_counts", lambda quick: (400, 150))
+    refuse("biharmonic", 150)
+    result = EXPERIMENTS["fig6"].compute(Shapes(own=bumpy(400)), quick=True)
+    claims = {claim.id: claim for claim in result.claims}
+    assert [claims[f"fig6-{k}"].verdict is None for k in range(1, 6)] == [False] * 4 + [True]
+    assert claims["fig6-5"].failure == REFUSED
+    assert {each.part for each in result.not_done} == {"biharmonic on 400 to 150 vertices", "400 to 150 vertices"}
