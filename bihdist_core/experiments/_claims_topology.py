@@ -8,15 +8,17 @@ import numpy as np
 from ..analysis.diagnostics import FieldChange
 from ..analysis.persistence import extrema
 from ..applications.perturbation import face_at, vertex_normals, welded, with_handle
+from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
-from ..errors import ParameterError
+from ..errors import ParameterError, SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
 from .parts import Parts
 from .result import Cell, Claim, Mark, Panel, Table
-from .shapes import DISTANCES, Shapes, distance, spread_points, start_vertex, starts
+from .shapes import DISTANCES, Shapes, distances_there, spread_points, start_vertex, starts
+from .verdicts import Numbers
 
 CANDIDATES = 400
 """Points among which pairs to be welded are sought."""
@@ -31,13 +33,18 @@ FAR_ROUND = 2.0
 """Parts touch nearly if the way along the surface is longer than this many times the straight one."""
 Pair = tuple[int, int]
 Fields = dict[str, np.ndarray]
+Change = dict[str, FieldChange]
+"""By the kinds of distances from the join, and under `WORST` the worst of biharmonic distance from all sources."""
+WORST = "biharmonic, worst"
+EDITS: dict[str, Callable[[Surface, int, int], Surface]] = {"thin handle": with_handle, "weld": welded}
 
 
 @dataclass(frozen=True, eq=False)
 class Joined:
     """Fields from where parts of a surface are joined, before and after, and their changes.
 
-    every: how biharmonic distance changes from the join and from random sources, by their names.
+    The fields and their changes are by the kinds of distances that can be had.  every: how biharmonic distance changes
+    from the join and from random sources, by their names.
     """
 
     source: int
@@ -53,81 +60,118 @@ def topology(
     """Changes by a thin handle between two tips and by a weld where two parts nearly touch, and by others like them."""
     surface = shapes[name]
     others = QUICK_OTHERS if quick else OTHERS
-    edits: dict[str, tuple[Callable[[Surface, int, int], Surface], list[Pair]]] = {
-        "thin handle": (with_handle, [tips(surface), *far_pairs(surface, 2 * others)]),
-        "weld": (welded, nearly_touching(surface, 2 * others + 1)),
-    }
     sources = {seed: start_vertex(surface, seed) for seed in starts(QUICK_SOURCES if quick else SOURCES)}
     edited: dict[str, Surface] = {}
     rows: list[tuple[Cell, ...]] = []
     panels: list[Panel] = []
     claims: list[Claim] = []
-    for k, (edit, (join, pairs)) in enumerate(edits.items()):
+    before = distances_there(shapes.laplacian(name), parts, name)
+    if "biharmonic" not in before:
+        raise SolverError(parts.why(f"biharmonic on {name}"))
+    for k, (edit, join) in enumerate(EDITS.items()):
         step = part(progress, k / 2, (k + 1) / 2)
-        found: list[dict[str, FieldChange]] = []
+        pictured, random = _pairs(surface, edit, others, parts)
+        first: Change | None = None
+        found: list[Change] = []
         ways: list[float] = []
-        for pair in pairs:
-            # Ends that are too close, or of one face, cannot be joined.
+        for q, pair in enumerate([*pictured, *random]):
+            is_pictured = q < len(pictured)
+            label = f"{edit} {1 if is_pictured else len(found) + 2}"
+            step(len(found) / (others + 1), f"{label} of {others + 1}")
             try:
                 other = join(surface, face_at(surface, pair[0]), face_at(surface, pair[1]))
-            except ParameterError:
+            except ParameterError as error:
+                # Some random ends are too close, or of one face: there are more of them.
+                if is_pictured:
+                    parts.note(label, str(error))
                 continue
-            label = f"{edit} {len(found) + 1}"
-            step(len(found) / (others + 1), f"{label} of {others + 1}")
-            joined = parts.do(label, _joined, shapes, name, other, pair[0], sources)
+            joined = parts.do(label, _joined, before, name, other, label, pair[0], sources, parts)
             if joined is None:
                 continue
-            if not found:
-                edited[edit] = other
-                panels += _panels(name, edit, joined)
             rows += [(label, "at the join", kind, *change_cells(c)) for kind, c in joined.change.items()]
             rows += [(label, seed, "biharmonic", *change_cells(joined.every[seed])) for seed in sources]
-            found.append(joined.change | {"biharmonic, worst": _worst(list(joined.every.values()))})
-            ways.append(_way_round(surface, pair))
-            if len(found) > others:
+            change = joined.change | {WORST: _worst(list(joined.every.values()))}
+            if is_pictured:
+                first = change
+                edited[edit] = other
+                panels += _panels(name, edit, joined)
+            else:
+                found.append(change)
+                ways.append(_way_round(surface, pair))
+            if len(found) == others:
                 break
-        claims.append(_claim("claims-weld" if edit == "weld" else "claims-handle", found, ways))
+        labels = [f"{edit} {number}" for number in range(1, others + 2)]
+        reason = parts.why(f"{edit}s", *labels, *(f"geodesic on {where}" for where in (name, *labels)))
+        claims.append(_claim("claims-weld" if edit == "weld" else "claims-handle", first, found, ways, reason))
     tables = [Table("topology", ("change", "source", "distance", *CHANGE_COLUMNS), tuple(rows))] if rows else []
     return {name: surface} | edited, panels, tables, claims
 
 
-def _joined(shapes: Shapes, name: str, other: Surface, end: int, sources: dict[str, int]) -> Joined:
-    """end: a vertex where the surface is joined, from which all distances are measured."""
-    laplacian, source = Laplacian(other), _still_there(other, end)
-    before, after = (_fields(each, source) for each in (shapes.laplacian(name), laplacian))
+def _pairs(surface: Surface, edit: str, others: int, parts: Parts) -> tuple[list[Pair], list[Pair]]:
+    """The pictured pair, if there is one, and twice as many others as are wanted, as some cannot be joined."""
+    if edit == "weld":
+        touching = parts.do(f"{edit}s", nearly_touching, surface, 2 * others + 1) or []
+        return touching[:1], touching[1:]
+    ends = parts.do(f"{edit} 1", tips, surface)
+    return [ends] if ends else [], parts.do(f"{edit}s", far_pairs, surface, 2 * others) or []
+
+
+def _joined(
+    had: dict[str, Distance], name: str, other: Surface, label: str, end: int, sources: dict[str, int], parts: Parts
+) -> Joined:
+    """had: the distances before.  end: a vertex where the surface is joined, from which all distances are measured.
+
+    Raises SolverError if biharmonic distance cannot be had.
+    """
+    now, source = distances_there(Laplacian(other), parts, label), _still_there(other, end)
+    if "biharmonic" not in now:
+        raise SolverError(parts.why(f"biharmonic on {label}"))
+    kinds = [kind for kind in had if kind in now]
+    before, after = ({kind: each[kind].from_source(source) for kind in kinds} for each in (had, now))
     change = _cut_changes(before, after)
     every = {"at the join": change["biharmonic"]}
     for seed, vertex in sources.items():
         there = _still_there(other, vertex)
-        was, now = (
-            {"biharmonic": distance(each, "biharmonic").from_source(there)}
-            for each in (shapes.laplacian(name), laplacian)
-        )
-        every[seed] = _cut_changes(was, now)["biharmonic"]
+        one, two = ({"biharmonic": each["biharmonic"].from_source(there)} for each in (had, now))
+        every[seed] = _cut_changes(one, two)["biharmonic"]
     return Joined(source, before, after, change, every)
 
 
-def _claim(id: str, found: list[dict[str, FieldChange]], ways: list[float]) -> Claim:
-    """ways: of each join, how many times longer than straight the way along the surface was."""
+def _claim(id: str, pictured: Change | None, others: list[Change], ways: list[float], reason: str) -> Claim:
+    """ways: of each of the other joins, how many times longer than straight the way along the surface was.
+
+    reason: why some joins, or distances, are not there.
+    """
+    found = [*([pictured] if pictured else []), *others]
     if not found:
-        return Claim(id, failure="No two parts of this surface could be joined so, and measured.")
-    worst = [change["biharmonic, worst"] for change in found]
-    ratios = [c["geodesic"].normalised_largest / w.normalised_largest for c, w in zip(found, worst, strict=True)]
-    pictured = found[0]
-    return Claim(
-        id,
-        {
-            "mean change, biharmonic": by_source([w.normalised_mean for w in worst]),
-            "largest change, biharmonic": by_source([w.normalised_largest for w in worst]),
-            "largest change, geodesic over biharmonic": by_source(ratios),
-        },
-        "At the pictured join, from its own place, after division by the maximum, mean and largest change: "
-        + ", ".join(
+        return Claim(id, failure=reason or "No two parts of this surface nearly touch, so none can be joined so.")
+    shown = len(found) - len(others)
+    numbers: dict[str, Numbers] = {
+        "mean change, biharmonic": by_source([change[WORST].normalised_mean for change in found], shown),
+        "largest change, biharmonic": by_source([change[WORST].normalised_largest for change in found], shown),
+    }
+    ratios = [_ratio(change) if "geodesic" in change else None for change in found]
+    known = [ratio for ratio in ratios if ratio is not None]
+    if known:
+        numbers["largest change, geodesic over biharmonic"] = by_source(
+            known, sum(ratio is not None for ratio in ratios[:shown])
+        )
+    note = ""
+    if pictured:
+        said = ", ".join(
             f"{kind} {percent(pictured[kind].normalised_mean)} and {percent(pictured[kind].normalised_largest)}"
             for kind in DISTANCES
+            if kind in pictured
         )
-        + f". {_shortcuts(ratios[1:], ways[1:])}",
-    )
+        note = f"At the pictured join, from its own place, over the maximum, mean and largest change: {said}. "
+    along = [(ratio, way) for ratio, way in zip(ratios[shown:], ways, strict=True) if ratio is not None]
+    is_whole = pictured is not None and len(known) == len(found)
+    note += _shortcuts([ratio for ratio, _ in along], [way for _, way in along])
+    return Claim(id, numbers, note, failure="" if is_whole else reason)
+
+
+def _ratio(change: Change) -> float:
+    return change["geodesic"].normalised_largest / change[WORST].normalised_largest
 
 
 def _shortcuts(ratios: list[float], ways: list[float]) -> str:
@@ -152,7 +196,7 @@ def _worst(found: list[FieldChange]) -> FieldChange:
 
 def _panels(name: str, edit: str, joined: Joined) -> list[Panel]:
     panels, mark = [], (Mark(joined.source, "source"),)
-    for kind in DISTANCES:
+    for kind in joined.change:
         panels.append(Panel(f"{kind}, before", name, joined.before[kind], edit, mark, ("source",)))
         panels.append(Panel(f"{kind}, after", edit, joined.after[kind], edit, mark, ("source",)))
     return panels
@@ -217,7 +261,3 @@ def _still_there(surface: Surface, vertex: int) -> int:
         return vertex
     left = np.flatnonzero(surface.component_of_vertex == 0)
     return int(left[np.linalg.norm(surface.vertices[left] - surface.vertices[vertex], axis=1).argmin()])
-
-
-def _fields(laplacian: Laplacian, source: int) -> dict[str, np.ndarray]:
-    return {kind: distance(laplacian, kind).from_source(source) for kind in DISTANCES}

@@ -10,10 +10,21 @@ from ._claims_metric import metric
 from ._claims_sampling import sampling
 from ._claims_topology import topology
 from .parts import Parts
-from .result import Result
+from .result import Claim, Result
 from .shapes import Shapes
+from .statements import statements_of
 
 TITLE = "Claims in words"
+PARTS = {
+    "metric axioms": ("claims-triangle", "claims-identity", "claims-truncated"),
+    "cost with N": ("claims-cost",),
+    "growth of eigenvalues": ("claims-weyl",),
+    "refinement": ("claims-commute", "claims-converges"),
+    "conformal maps": ("claims-conformal",),
+    "changes of topology": ("claims-handle", "claims-weld"),
+    "sub-sampling": ("claims-sampling",),
+}
+"""The statements that each part judges."""
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
@@ -42,6 +53,8 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     coarse_tables, coarse_charts, coarse_claims = parts.do(
         "sub-sampling", sampling, shapes, figure, quick, part(progress, 0.9, 1)
     ) or ([], [], [])
+    claims: list[Claim] = [*metric_claims, *cost_claims, *value_claims, *fine_claims, *moebius_claims]
+    judged = {claim.id: claim for claim in [*claims, *edit_claims, *coarse_claims]}
     return Result(
         "claims",
         TITLE,
@@ -54,14 +67,11 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         tuple(panels),
         (*cost_charts, *value_charts, *fine_charts, *coarse_charts),
         (*metric_tables, *cost_tables, *fine_tables, *moebius_tables, *edit_tables, *coarse_tables),
-        (
-            *metric_claims,
-            *cost_claims,
-            *value_claims,
-            *fine_claims,
-            *moebius_claims,
-            *edit_claims,
-            *coarse_claims,
-        ),
+        tuple(judged.get(statement.id) or _not_judged(statement.id, parts) for statement in statements_of("claims")),
         not_done=tuple(parts.not_done),
     )
+
+
+def _not_judged(id: str, parts: Parts) -> Claim:
+    """The claim of a statement whose part could not be done."""
+    return Claim(id, failure=parts.why(*(name for name, ids in PARTS.items() if id in ids)))

@@ -10,6 +10,7 @@ from bihdist_core.analysis.quality import small_radius
 from bihdist_core.experiments import (
     EXPERIMENTS,
     NAMES,
+    Parts,
     Shapes,
     _claims_growth,
     _claims_metric,
@@ -18,6 +19,7 @@ from bihdist_core.experiments import (
     fig6,
     shapes,
 )
+from bihdist_core.progress import part
 from tests.shapes import bumpy, spike, two_pieces
 
 ASSETS = Path(__file__).resolve().parents[2] / "assets"
@@ -119,3 +121,43 @@ def test_a_change_of_fig6_that_cannot_be_measured_leaves_the_others(refuse, monk
     assert [claims[f"fig6-{k}"].verdict is None for k in range(1, 6)] == [False] * 4 + [True]
     assert claims["fig6-5"].failure == REFUSED
     assert {each.part for each in result.not_done} == {"biharmonic on 400 to 150 vertices", "400 to 150 vertices"}
+
+
+def test_joins_without_a_distance_are_judged_by_the_others(refuse):
+    refuse("diffusion t = 1")
+    parts = Parts()
+    own = Shapes(own=bumpy(400))
+    _, panels, _, claims = _claims_topology.topology(own, "bumpy", True, parts, part(None, 0, 1))
+    handle, weld = claims
+    assert set(handle.numbers) == set(handle.statement.names)
+    assert (handle.verdict is None, handle.failure) == (False, "")
+    assert "diffusion" not in handle.note
+    assert panels
+    # On a surface without folds there is nothing to weld, which is no failure.
+    assert weld.failure == "No two parts of this surface nearly touch, so none can be joined so."
+    assert not any("weld" in each.part for each in parts.not_done)
+
+
+def test_a_random_join_never_stands_for_the_pictured_one(monkeypatch):
+    monkeypatch.setattr(_claims_topology, "tips", lambda surface: (0, 0))
+    parts = Parts()
+    own = Shapes(own=bumpy(400))
+    _, panels, _, (handle, _) = _claims_topology.topology(own, "bumpy", True, parts, part(None, 0, 1))
+    assert not panels
+    assert [each.part for each in parts.not_done] == ["thin handle 1"]
+    for numbers in handle.numbers.values():
+        assert (len(numbers.pictured), len(numbers.random)) == (0, 2)
+    assert handle.failure == parts.not_done[0].reason
+    assert "At the pictured join" not in handle.note
+
+
+def test_pairs_that_cannot_be_found_are_noted_and_leave_the_other_edit(monkeypatch):
+    def broken(*_):
+        raise SolverError(REFUSED)
+
+    monkeypatch.setattr(_claims_topology, "nearly_touching", broken)
+    parts = Parts()
+    _, _, _, (handle, weld) = _claims_topology.topology(Shapes(own=bumpy(400)), "bumpy", True, parts, part(None, 0, 1))
+    assert handle.verdict
+    assert (weld.verdict, weld.failure) == (None, REFUSED)
+    assert [each.part for each in parts.not_done] == ["welds"]
