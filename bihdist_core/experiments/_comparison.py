@@ -5,7 +5,6 @@ import numpy as np
 from ..applications.perturbation import vertex_normals
 from ..distances.distance import Distance
 from ..errors import SolverError
-from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from ._stated_figures import MINIMA
@@ -13,10 +12,12 @@ from .circles import BACK, PROTOCOL, RANDOM_FROM, gather_circles, shared_circles
 from .gathered import Gathered
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, kinked_edges, marks, over
 from .parts import Parts
-from .result import Chart, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, Shapes, distance, pictured_source, random_sources
+from .result import Cell, Chart, Claim, Mark, Panel, Result, Table
+from .shapes import DISTANCES, Shapes, distances_there, pictured_source, random_sources
 from .statements import STATEMENTS
 
+NEEDS = {1: ("biharmonic",), 2: ("diffusion t = 1",), 3: ("circles",), 4: ("biharmonic", "geodesic")}
+"""What each of the four statements is judged from."""
 ON_THE_BACK = -0.5
 """The cosine of normals with the direction of the view from the front, of points that are on the back."""
 FIELDS, FIELDS_EACH, QUICK_FIELDS = 24, 8, 4
@@ -34,30 +35,29 @@ def compared(
     count = QUICK_FIELDS if quick else (FIELDS if len(names) == 1 else FIELDS_EACH)
     found, parts = Gathered(), Parts()
     rows, sources, panels, charts = [], [], [], []
-    failures: dict[str, str] = {}
+    is_measured = False
     for q, name in enumerate(names):
         step = part(progress, q / len(names), (q + 1) / len(names))
         surface, laplacian = shapes[name], shapes.laplacian(name)
         pictured = pictured_source(surface, name, "back")
-        distances, missing = _distances(laplacian)
-        failures |= missing
-        for kind, reason in missing.items():
-            parts.note(f"{kind} on {name}", reason)
-        if missing:
-            shown = {kind: d.from_source(pictured) for kind, d in distances.items()}
-            panels += [
-                _panel(surface, name, kind, pictured, shown.get(kind), missing.get(kind, "")) for kind in DISTANCES
-            ]
-            continue
+        distances = distances_there(laplacian, parts, name)
         fields = {kind: d.from_source(pictured) for kind, d in distances.items()}
-        for kind, values in fields.items():
-            rows.append(field_row(surface, name, "on the back", pictured, kind, values, fields["geodesic"]))
-            panels.append(_panel(surface, name, distances[kind].label, pictured, values))
+        for kind in DISTANCES:
+            heading = distances[kind].label if kind in distances else kind
+            reason = parts.why(f"{kind} on {name}")
+            panels.append(_panel(surface, name, heading, pictured, fields.get(kind), reason))
+        if "biharmonic" not in distances and "diffusion t = 1" not in distances:
+            continue
+        is_measured = True
+        if "geodesic" in fields:
+            for kind, values in fields.items():
+                rows.append(field_row(surface, name, "on the back", pictured, kind, values, fields["geodesic"]))
         for k, source in enumerate([pictured, *random_sources(surface, count)]):
             part(step, 0, 0.6)(k / count, f"{name}, vertex {source}")
             numbers = _of_source(surface, source, distances, found, id, not k)
             sources.append((name, f"random {k}" if k else "on the back", source, *numbers))
-        _minima_on_the_front(surface, pictured, count, distances["diffusion t = 1"], found, id)
+        if "diffusion t = 1" in distances:
+            _minima_on_the_front(surface, pictured, count, distances["diffusion t = 1"], found, id)
         part(step, 0.7, 1)(0.0, f"{name}, circles")
         circled = parts.do(f"circles on {name}", shared_circles, shapes, name, count, part(step, 0.7, 1))
         if circled is None:
@@ -67,11 +67,12 @@ def compared(
             parts.note(f"circles on {name}", circled.failure)
         if np.isfinite(circled.ratios["biharmonic"][BACK]).all():
             charts.append(circled.chart(f"isotropy on {name}", BACK))
-    if not rows:
-        # No shape has all three distances: the pictures are what there is.
+    if not is_measured:
+        # No shape has what a statement needs: the pictures are what there is.
+        reasons = parts.why(*(f"{kind} on {name}" for name in names for kind in DISTANCES))
         if not any(panel.field is not None for panel in panels):
-            raise SolverError(" ".join(dict.fromkeys(failures.values())))
-        said = "Nothing was measured: " + " ".join(dict.fromkeys(failures.values()))
+            raise SolverError(reasons)
+        said = f"Nothing was measured: {reasons}"
         unmeasured = tuple(Claim(f"{id}-{k}", failure=said) for k in range(1, 5))
         surfaces = {name: shapes[name] for name in names}
         return Result(id, title, said, surfaces, tuple(panels), claims=unmeasured, not_done=tuple(parts.not_done))
@@ -86,18 +87,34 @@ def compared(
         {name: shapes[name] for name in names},
         tuple(panels),
         tuple(charts),
-        tables=(Table("fields", FIELD_COLUMNS, tuple(rows)), Table("sources", SOURCE_COLUMNS, tuple(sources))),
-        claims=tuple(found.claim(f"{id}-{k}", _note(k, charts)) for k in range(1, 5)),
+        tables=(
+            *([Table("fields", FIELD_COLUMNS, tuple(rows))] if rows else []),
+            Table("sources", SOURCE_COLUMNS, tuple(sources)),
+        ),
+        claims=tuple(
+            found.claim(
+                f"{id}-{k}",
+                _note(k, charts),
+                failure=parts.why(*(f"{what} on {name}" for name in names for what in needed)),
+            )
+            for k, needed in NEEDS.items()
+        ),
         not_done=tuple(parts.not_done),
     )
 
 
 def _of_source(
     surface: Surface, source: int, distances: dict[str, Distance], found: Gathered, id: str, is_pictured: bool
-) -> tuple[float, float, float]:
-    """Depth of minima and shares of kinks from one source."""
-    geodesic, biharmonic = (distances[kind].from_source(source) for kind in ("geodesic", "biharmonic"))
+) -> tuple[Cell, Cell, Cell]:
+    """Depth of minima and shares of kinks from one source; None for those that need another distance."""
+    if "biharmonic" not in distances:
+        return None, None, None
+    biharmonic = distances["biharmonic"].from_source(source)
     depth = deepest_minimum(surface, biharmonic, source)
+    found.add(MINIMA.name, depth, is_pictured)
+    if "geodesic" not in distances:
+        return 100 * depth, None, None
+    geodesic = distances["geodesic"].from_source(source)
     share, kinked = kinked_edges(surface, geodesic, geodesic)
     more = over(share, kinked_edges(surface, biharmonic, geodesic)[0])
     opposite = _opposite(surface, source)
@@ -109,7 +126,7 @@ def _of_source(
     # Lengths of kinks per area, in each of the two parts.
     denser = over(float(lengths[there].sum()) * (1 - far), float(lengths[~there].sum()) * far)
     names = STATEMENTS[f"{id}-4"].names
-    for name, number in ((MINIMA.name, depth), (names[0], more), (names[1], denser)):
+    for name, number in zip(names, (more, denser), strict=True):
         found.add(name, number, is_pictured)
     return 100 * depth, more, denser
 
@@ -137,17 +154,6 @@ def _note(k: int, charts: list[Chart]) -> str:
     return "".join(
         f"From the largest to the smallest circle, {c.heading}: {t}. " for c, t in zip(charts, said, strict=True)
     )
-
-
-def _distances(laplacian: Laplacian) -> tuple[dict[str, Distance], dict[str, str]]:
-    """The distances that can be had, and of the others the reason why not."""
-    distances, failures = {}, {}
-    for kind in DISTANCES:
-        try:
-            distances[kind] = distance(laplacian, kind)
-        except SolverError as error:
-            failures[kind] = str(error)
-    return distances, failures
 
 
 def _panel(

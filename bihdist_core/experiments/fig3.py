@@ -13,13 +13,14 @@ from scipy.spatial import cKDTree
 from ..analysis.diagnostics import FieldChange
 from ..applications.perturbation import punched
 from ..distances.edge_geodesic import EdgeGeodesic
+from ..errors import SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
 from .parts import Parts
 from .result import Cell, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, Shapes, distance, random_sources, spread_points, vertex_at
+from .shapes import DISTANCES, Shapes, distances_there, random_sources, spread_points, vertex_at
 
 TITLE = "A raw surface with holes"
 HOLES, HOLE_RADIUS = 24, 0.045
@@ -47,18 +48,18 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     random = random_sources(intact, QUICK_SOURCES if quick else SOURCES)
     sources |= {f"random {k}": source for k, source in enumerate(random, 1)}
     damaged: dict[str, tuple[Surface, np.ndarray]] = {}
+    punched_name = f"{name}, punched"
     if shapes.own is None:
-        scan = shapes["scan"]
-        off, same = cKDTree(intact.vertices).query(scan.vertices)
-        # A scanned point that left its place by more than an edge has no counterpart.
-        damaged["scan"] = scan, np.where(off < intact.mean_edge_length, same, -1)
+        scanned = parts.do("scan", _scanned, shapes["scan"], intact)
+        if scanned is not None:
+            damaged["scan"] = scanned
     holes = parts.do("holes", _with_holes, intact)
     if holes is not None:
-        damaged[f"{name}, punched"] = holes, np.arange(len(intact.vertices))
+        damaged[punched_name] = holes, np.arange(len(intact.vertices))
     found: dict[str, Found] = {}
     for q, (damage, (surface, there)) in enumerate(damaged.items()):
         step = part(progress, q / len(damaged), (q + 1) / len(damaged))
-        measured = parts.do(damage, _measured, shapes, name, damage, surface, there, sources, not found, step)
+        measured = parts.do(damage, _measured, shapes, name, damage, surface, there, sources, not found, parts, step)
         if measured is not None:
             found[damage] = measured
     rows = tuple(row for each in found.values() for row in each.rows)
@@ -66,12 +67,16 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         "fig3",
         TITLE,
         f"Sources: the upper back and {len(random)} random vertices. The scan is compared at each of its points with "
-        f"the nearest vertex of the intact surface; the punched surface has {HOLES} round holes of radius "
-        f"{HOLE_RADIUS:g} roots of the area, at farthest points, and all other vertices in place.",
+        "the nearest vertex of the intact surface, those farther than a mean edge from it left out; the punched "
+        f"surface has {HOLES} round holes of radius {HOLE_RADIUS:g} roots of the area, at farthest points, and all "
+        "other vertices in place.",
         {name: intact} | {damage: surface for damage, (surface, _) in damaged.items()},
         tuple(panel for each in found.values() for panel in each.panels),
         tables=(Table("changes", ("surface", "source", "distance", *CHANGE_COLUMNS), rows),) if rows else (),
-        claims=tuple(_claim(damage, each) for damage, each in found.items()),
+        claims=(
+            _claim("fig3-1", found.get("scan"), parts.why("scan") or "There is no scan of this mesh."),
+            _claim("fig3-2", found.get(punched_name), parts.why("holes", punched_name)),
+        ),
         not_done=tuple(parts.not_done),
     )
 
@@ -84,13 +89,19 @@ def _measured(
     there: np.ndarray,
     sources: dict[str, int],
     with_intact: bool,
+    parts: Parts,
     progress: Progress,
 ) -> Found:
     """there: (n,) the vertex of the intact surface that each vertex of the damaged one is, -1 for none."""
     found, intact, laplacian = Found(), shapes[name], Laplacian(surface)
     usable = np.flatnonzero((there >= 0) & (surface.component_of_vertex == 0))
     tree = cKDTree(surface.vertices[usable])
-    on = {kind: (distance(shapes.laplacian(name), kind), distance(laplacian, kind)) for kind in DISTANCES}
+    before_it, after_it = (
+        distances_there(each, parts, where) for each, where in ((shapes.laplacian(name), name), (laplacian, damage))
+    )
+    on = {kind: (each, after_it[kind]) for kind, each in before_it.items() if kind in after_it}
+    if "biharmonic" not in on:
+        raise SolverError(parts.why(f"biharmonic on {name}", f"biharmonic on {damage}"))
     for k, (label, vertex) in enumerate(sources.items()):
         progress(k / len(sources), f"{damage}, {label}")
         # The source is the point of the damaged surface nearest to it.
@@ -110,17 +121,28 @@ def _measured(
     return found
 
 
-def _claim(damage: str, found: Found) -> Claim:
+def _claim(id: str, found: Found | None, reason: str) -> Claim:
+    """reason: why nothing was found."""
+    if found is None:
+        return Claim(id, failure=reason)
     means = {kind: [change.normalised_mean for change in every] for kind, every in found.every.items()}
     said = ", ".join(
         f"{kind} {percent(values[0])} from the pictured source, {percent(float(np.median(values)))} in the median"
         for kind, values in means.items()
+        if values
     )
     return Claim(
-        "fig3-1" if damage == "scan" else "fig3-2",
+        id,
         {"mean change, biharmonic": by_source(means["biharmonic"])},
         f"Mean change after division by the maximum: {said}.",
     )
+
+
+def _scanned(scan: Surface, intact: Surface) -> tuple[Surface, np.ndarray]:
+    """The scan, and (n,) the vertex of the intact surface that each of its points is, -1 for none."""
+    off, same = cKDTree(intact.vertices).query(scan.vertices)
+    # A scanned point that left its place by more than an edge has no counterpart.
+    return scan, np.where(off < intact.mean_edge_length, same, -1)
 
 
 def _with_holes(surface: Surface) -> Surface:

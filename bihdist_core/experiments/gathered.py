@@ -24,11 +24,14 @@ class Gathered:
             return None
         return BySource(tuple(self._pictured.get(name, ())), tuple(self._random.get(name, ())))
 
-    def claim(self, id: str, note: str = "", more: Mapping[str, Numbers] | None = None) -> Claim:
-        """The claim of a statement with what was gathered of its parts; `more`: numbers of other parts."""
+    def claim(self, id: str, note: str = "", more: Mapping[str, Numbers] | None = None, failure: str = "") -> Claim:
+        """The claim of a statement with what was gathered of its parts; `more`: numbers of other parts.
+
+        failure: why some, or all, are not there.
+        """
         numbers: dict[str, Numbers] = dict(more or {})
         for name in STATEMENTS[id].names:
             found = self.numbers(name)
             if found is not None:
                 numbers[name] = found
-        return Claim(id, numbers, note)
+        return Claim(id, numbers, note, failure=failure)

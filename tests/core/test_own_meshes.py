@@ -16,6 +16,8 @@ from bihdist_core.experiments import (
     _claims_metric,
     _claims_sampling,
     _claims_topology,
+    circles,
+    fig3,
     fig6,
     shapes,
 )
@@ -89,7 +91,7 @@ def refuse(monkeypatch):
                 raise SolverError(REFUSED)
             return had(laplacian, wanted, progress)
 
-        for module in (shapes, _claims_metric, _claims_sampling, _claims_topology):
+        for module in (shapes, circles, _claims_metric, _claims_sampling, _claims_topology):
             monkeypatch.setattr(module, "distance", distance, raising=False)
 
     return refused
@@ -161,3 +163,35 @@ def test_pairs_that_cannot_be_found_are_noted_and_leave_the_other_edit(monkeypat
     assert handle.verdict
     assert (weld.verdict, weld.failure) == (None, REFUSED)
     assert [each.part for each in parts.not_done] == ["welds"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "judged"), [("diffusion t = 1", (1, 4)), ("geodesic", (1, 2, 3)), ("biharmonic", (2,))]
+)
+def test_fig4_judges_each_statement_from_the_distances_it_needs(refuse, kind, judged):
+    refuse(kind)
+    result = EXPERIMENTS["fig4"].compute(Shapes(own=bumpy(300)), quick=True)
+    assert [claim.id for claim in result.claims] == [f"fig4-{k}" for k in range(1, 5)]
+    for k, claim in enumerate(result.claims, 1):
+        if k in judged:
+            assert (set(claim.numbers), claim.failure) == (set(claim.statement.names), "")
+        else:
+            assert (claim.verdict, claim.failure) == (None, REFUSED)
+    assert [panel.failure for panel in result.panels] == [REFUSED if each == kind else "" for each in shapes.DISTANCES]
+    assert all(table.rows for table in result.tables)
+
+
+def test_fig3_loses_no_statement(refuse, monkeypatch):
+    refuse("diffusion t = 1")
+    own = Shapes(own=bumpy(400))
+    scan, punched = EXPERIMENTS["fig3"].compute(own, quick=True).claims
+    assert (scan.verdict, scan.failure) == (None, "There is no scan of this mesh.")
+    assert (set(punched.numbers), punched.failure) == (set(punched.statement.names), "")
+
+    def broken(*_):
+        raise SolverError(REFUSED)
+
+    monkeypatch.setattr(fig3, "_with_holes", broken)
+    result = EXPERIMENTS["fig3"].compute(own, quick=True)
+    assert [claim.failure for claim in result.claims] == ["There is no scan of this mesh.", REFUSED]
+    assert [each.part for each in result.not_done] == ["holes"]
