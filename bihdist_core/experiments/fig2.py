@@ -66,7 +66,8 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         "field's range, those counted and marked over 1 %; the source is not counted. The jump of the gradient across "
         "an edge is taken over the gradient's length there, or its median if that is more, away from the source and "
         "the boundary; of a kink it stays as the mesh is refined to four times as many faces, of a smooth field it "
-        "halves. " + PROTOCOL,
+        f"halves. Jumps under refinement are taken from the pictured source and the first {len(some) - 1} random "
+        "sources only. " + PROTOCOL,
         {name: surface},
         (
             Panel("the domain", name, None, "fields", (Mark(source, "source"),)),

@@ -73,8 +73,10 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         f"single precision, in blocks of {BLOCK} sources; of more than {BLOCKS} blocks so many are timed, spread "
         "evenly, and count for all. Biharmonic: factorization and diagonal, then wide solves on two threads. Dijkstra: "
         "SciPy's, on one thread, over a graph made once, all sources. Diffusion: eigenpairs until the weight falls to "
-        "1e-8 of the first, then distances of points. Judged is the processor time of all threads together, with one "
-        f"BLAS thread: the median of {REPEATS} repetitions ({MOST_REPEATS} at the largest size), the methods in turns.",
+        "1e-8 of the first, then distances of points. Times are processor times of all threads together, with one "
+        f"BLAS thread, of {REPEATS} repetitions ({MOST_REPEATS} at the largest size), the methods in turns. Judged are "
+        "the geometric mean of the ratios of two methods' times in the same repetition, with its interval, and "
+        "exponents of N fitted to the least of the repetitions; tables and charts show medians.",
         charts=(
             Chart(
                 "all pairs",
