@@ -72,7 +72,7 @@ def reproduce(
     folder = Path(out)
     _make(folder)
     if mesh is not None and Path(mesh).is_dir():
-        return _each_mesh(folder, Path(mesh), only, quick, progress, say, up)
+        return _each_mesh(folder, Path(mesh), _of_folder(chosen, only), quick, progress, say, up)
     shapes = Shapes(own=read_surface(mesh)) if mesh is not None else Shapes.from_folder(SAMPLES)
     up = "y" if mesh is None and up == "auto" else _up(up, shapes.own, mesh or "")
     sections = _sections(folder, chosen, shapes, quick, progress, say, lambda id: f"{folder / PAGE}#{id}", up)
@@ -95,6 +95,11 @@ def _chosen(only: Sequence[str], mesh: str | None) -> list[Experiment]:
     if not possible:
         raise ParameterError(f"{', '.join(only)} makes sense on the bundled meshes only.")
     return possible
+
+
+def _of_folder(chosen: Sequence[Experiment], only: Sequence[str]) -> list[Experiment]:
+    """Of those chosen what is done for each mesh of a folder."""
+    return [experiment for experiment in chosen if only or experiment.id in FOLDER_EXPERIMENTS]
 
 
 def _sections(
@@ -182,7 +187,7 @@ def _picture(folder: Path, name: str, figure) -> bytes:
 def _each_mesh(
     folder: Path,
     meshes: Path,
-    only: Sequence[str],
+    chosen: Sequence[Experiment],
     quick: bool,
     progress: Progress | None,
     say: Callable[[str], None],
@@ -192,7 +197,6 @@ def _each_mesh(
     paths = sorted(path for path in meshes.iterdir() if path.suffix.lower() in MESH_FORMATS)
     if not paths:
         raise ParameterError(f"{meshes} holds no meshes ({', '.join(MESH_FORMATS)}).")
-    chosen = [EXPERIMENTS[name] for name in only or FOLDER_EXPERIMENTS]
     stems = Counter(path.stem for path in paths)
     sections: list[Section] = []
     surfaces: list[tuple[Surface, str]] = []

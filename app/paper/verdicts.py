@@ -92,7 +92,9 @@ def changes(sections: Sequence[tuple[str, Sequence[Claim]]]) -> str:
                 f"<td>{before}</td><td>{chip(verdict)}</td><td>{escape(why)} <span class=quiet>Measured: "
                 f"{_unbroken(escape(claim.measured))}.</span></td></tr>"
             )
-    same = len(judged) - len(rows)
+    known = sum(claim.verdict is not None for _, claim in judged)
+    same = known - len(rows)
+    unknown = f" {len(judged) - known} could not be judged now." if known < len(judged) else ""
     table = (
         "<table class=changes><tr><th class=id></th><th class=what>statement</th><th class=before>before</th>"
         "<th class=now>now</th><th>why</th></tr>"
@@ -102,7 +104,7 @@ def changes(sections: Sequence[tuple[str, Sequence[Claim]]]) -> str:
     )
     return (
         '<section id="changes"><h2>What changed from the version before, and why</h2><p>The version before knew “yes” '
-        f"and “no” only. {same} of {len(judged)} verdicts are the same as before.</p>{table}</section>"
+        f"and “no” only. {same} of {known} verdicts are the same as before.{unknown}</p>{table}</section>"
     )
 
 

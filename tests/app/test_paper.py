@@ -103,6 +103,13 @@ def test_what_changed_from_the_version_before_is_told_with_its_reason():
     assert 'id="changes"' not in page("Title", "Introduction.", [section])
 
 
+def test_what_could_not_be_judged_is_not_the_same_as_before():
+    unjudged = (Claim("fig2-1", failure="It was late."), Claim("fig2-4", failure="It was late."))
+    section = Section(EXPERIMENTS["fig1"], result(claims=(*result().claims, *unjudged)))
+    changed = verdicts.changes([("fig1", section.result.claims)])
+    assert "0 of 2 verdicts are the same as before. 2 could not be judged now." in changed
+
+
 def test_a_quick_page_says_that_its_verdicts_are():
     section = Section(EXPERIMENTS["fig1"], result())
     assert "These verdicts are the quick ones" in page("Title", "Introduction.", [section], quick=True)
@@ -175,6 +182,17 @@ def test_where_more_is_to_be_read_has_its_place_on_the_page_of_a_folder(mesh_fil
     places = [line.partition("#")[2] for line in said if line.startswith(f"  more in {path}#")]
     assert places == ["a-fig1", "c-fig1"]
     assert all(f'<section id="{place}">' in path.read_text(encoding="utf-8") for place in places)
+
+
+def test_a_folder_has_only_what_makes_sense_on_any_mesh(mesh_file, tmp_path, monkeypatch):
+    monkeypatch.setattr(reproducing.Experiment, "compute", lambda *_: result(panels=()))
+    folder = tmp_path / "meshes"
+    folder.mkdir()
+    shutil.copy(mesh_file(bumpy(100)), folder / "a.off")
+    for only, there in ((["fig2", "fig3"], ["fig3"]), ([], list(reproducing.FOLDER_EXPERIMENTS))):
+        path = reproduce(str(tmp_path / "out"), only, str(folder), say=lambda _: None).page
+        sections = re.findall('<section id="(a-[^"]+)"', path.read_text(encoding="utf-8"))
+        assert sections == [f"a-{id}" for id in there]
 
 
 def test_what_cannot_be_is_refused(mesh_file, tmp_path):
