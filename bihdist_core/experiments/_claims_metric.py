@@ -1,6 +1,7 @@
 """Claims of section 4: the axioms of a metric."""
 
-from collections.abc import Mapping
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -13,58 +14,82 @@ from ..progress import Progress, part
 from ..sources.source import Place
 from ._stated_claims import ROUNDING
 from .double_points import DoublePoint, double_point
+from .parts import Parts
 from .result import Cell, Claim, Table
 from .shapes import Shapes, distance
 from .verdicts import Estimate
 
+AXIOMS, DOUBLES = "metric axioms", "two points that few eigenpairs confuse"
+"""What may be done or not, each for itself; the axioms for each distance."""
 FEW = (2, 3, 4, 5)
 """The first few eigenpairs of a truncated diffusion distance."""
 APART = (1.0, 0.5, 0.25)
 """Different points are so far apart along edges, in roots of the area; the farthest are sought first."""
 
 
-def metric(shapes: Shapes, name: str, quick: bool, progress: Progress) -> tuple[list[Table], list[Claim]]:
+def metric(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress) -> tuple[list[Table], list[Claim]]:
     """Triangle inequality over random triples, and the smallest distance of different points."""
     count, among, all_pairs = (100_000, 300, 800) if quick else (1_000_000, 1_500, 2_500)
     surface = shapes.at_most(name, all_pairs, part(progress, 0, 0.1))
     laplacian = Laplacian(surface)
     n = len(surface.vertices)
     points = np.random.default_rng(0).choice(n, min(among, n), replace=False)
-    biharmonic = distance(laplacian, "biharmonic")
-    truncated = {count: _Truncated(laplacian, 1, count) for count in FEW}
-    distances: dict[str, Distance] = {
-        "biharmonic": biharmonic,
-        "geodesic along edges": distance(laplacian, "geodesic method = dijkstra"),
-        "diffusion t = 1": distance(laplacian, "diffusion t = 1"),
-        "diffusion t = 4": distance(laplacian, "diffusion t = 4"),
-        f"diffusion t = 1, {FEW[-1]} eigenpairs": truncated[FEW[-1]],
-        "biharmonic, 200 eigenpairs": distance(laplacian, "truncated"),
+    had = partial(distance, laplacian)
+    distances: dict[str, Callable[[], Distance]] = {
+        "biharmonic": partial(had, "biharmonic"),
+        "geodesic along edges": partial(had, "geodesic method = dijkstra"),
+        "diffusion t = 1": partial(had, "diffusion t = 1"),
+        "diffusion t = 4": partial(had, "diffusion t = 4"),
+        f"diffusion t = 1, {FEW[-1]} eigenpairs": partial(_Truncated, laplacian, 1, FEW[-1]),
+        "biharmonic, 200 eigenpairs": partial(had, "truncated"),
     }
-    rows = []
-    for k, (label, each) in enumerate(distances.items()):
+    rows: dict[str, tuple[Cell, ...]] = {}
+    for k, (label, made) in enumerate(distances.items()):
         step = part(progress, 0.1 + 0.8 * k / len(distances), 0.1 + 0.8 * (k + 1) / len(distances))
-        among_points = each.pairwise(points)
-        sample = triangle_violations(among_points, count)
-        step(0.3, f"all pairs, {label}")
-        least = smallest_distance(each, part(step, 0.3, 1))[0]
-        rows.append((label, sample.triples, sample.violations, sample.worst, least / float(among_points.max())))
-    table = Table("metric", ("distance", "triples", "violations", "worst violation", "smallest distance"), tuple(rows))
-    broken = sum(row[2] for row in rows)
-    own = table.value("smallest distance", distance="biharmonic")
-    doubles = _doubles(biharmonic, truncated, part(progress, 0.9, 1))
-    return [table, *([doubles] if doubles.rows else [])], [
-        Claim("claims-triangle", {"random triples that break it by more than rounding": Estimate(rows[0][2])}),
-        Claim("claims-identity", {"smallest distance of different vertices over the largest": Estimate(own)}),
-        _truncated_claim(
+        row = parts.do(f"{AXIOMS}, {label}", _checked, label, made, points, count, step)
+        if row is not None:
+            rows[label] = row
+    columns = ("distance", "triples", "violations", "worst violation", "smallest distance")
+    table = Table("metric", columns, tuple(rows.values()))
+    broken = sum(int(row[2] or 0) for row in rows.values())
+    doubles = parts.do(DOUBLES, _doubles, laplacian, part(progress, 0.9, 1))
+    why = parts.why(f"{AXIOMS}, biharmonic")
+    triangle, identity = Claim("claims-triangle", failure=why), Claim("claims-identity", failure=why)
+    if "biharmonic" in rows:
+        violations, least = rows["biharmonic"][2], rows["biharmonic"][4]
+        triangle = Claim(
+            "claims-triangle", {"random triples that break it by more than rounding": Estimate(float(violations or 0))}
+        )
+        identity = Claim(
+            "claims-identity",
+            {"smallest distance of different vertices over the largest": Estimate(float(least or 0))},
+        )
+    truncated = Claim("claims-truncated", failure=parts.why(DOUBLES))
+    if doubles is not None:
+        truncated = _truncated_claim(
             doubles,
             f"The triangle inequality holds even so, with {broken} violations over all distances, as a sum over "
             "eigenpairs is a distance of points.",
-        ),
-    ]
+        )
+    return [each for each in (table, doubles) if each and each.rows], [triangle, identity, truncated]
 
 
-def _doubles(biharmonic: Distance, truncated: Mapping[int, "_Truncated"], progress: Progress) -> Table:
+def _checked(
+    label: str, made: Callable[[], Distance], points: np.ndarray, count: int, step: Progress
+) -> tuple[Cell, ...]:
+    """A row of the table: the axioms of a distance among points (k,), in `count` triples, and over all pairs."""
+    each = made()
+    among_points = each.pairwise(points)
+    sample = triangle_violations(among_points, count)
+    step(0.3, f"all pairs, {label}")
+    least = smallest_distance(each, part(step, 0.3, 1))[0]
+    return label, sample.triples, sample.violations, sample.worst, least / float(among_points.max())
+
+
+def _doubles(laplacian: Laplacian, progress: Progress) -> Table:
     """For each number of eigenpairs the two different points, anywhere in faces, that are nearest by them."""
+    biharmonic = distance(laplacian, "biharmonic")
+    truncated = {count: _Truncated(laplacian, 1, count) for count in FEW}
     surface = biharmonic.surface
     along = EdgeGeodesic(surface).distances(np.arange(len(surface.vertices)))
     unit = float(np.sqrt(surface.face_areas.sum()))

@@ -7,13 +7,15 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..errors import SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress
 from .measures import by_source, percent
+from .parts import Parts
 from .result import Cell, Chart, Claim, Series, Table
 from .sampled_fields import PiecewiseLinear, Smoothest
 from .shapes import DISTANCES, STARTS, Shapes, distance, spread_points, vertex_at
-from .verdicts import exponent_estimate
+from .verdicts import Numbers, exponent_estimate
 
 COUNTS, QUICK_COUNTS = (100, 150, 200, 300, 500), (100, 300)
 """Points that the fields are sampled at."""
@@ -24,7 +26,7 @@ SMOOTHEST, LINEAR = "smoothest", "piecewise linear"
 
 
 def sampling(
-    shapes: Shapes, name: str, quick: bool, progress: Progress
+    shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress
 ) -> tuple[list[Table], list[Chart], list[Claim]]:
     """Errors at all vertices of interpolated fields, from the pictured source and from 24 others (quick: 6)."""
     surface = shapes[name]
@@ -40,7 +42,11 @@ def sampling(
     fields = {}
     for k, kind in enumerate(DISTANCES):
         progress(0.2 * k, f"fields to be sampled, {kind}")
-        fields[kind] = distance(laplacian, kind).from_sources(sources)
+        columns_of = parts.do(f"{kind} to be sampled", _columns, laplacian, kind, sources)
+        if columns_of is not None:
+            fields[kind] = columns_of
+    if "biharmonic" not in fields:
+        raise SolverError(parts.why("biharmonic to be sampled"))
     rows: list[tuple[Cell, ...]] = []
     means: dict[tuple[str, str, int], np.ndarray] = {}
     for q, count in enumerate(counts):
@@ -59,36 +65,49 @@ def sampling(
     columns = ("points", "interpolant", "distance", "mean error", "least", "most", "largest error, mean")
     table = Table("sub-sampling", columns, tuple(rows))
     tables = [table, _orders(means, counts)] if len(counts) > 1 else [table]
-    return tables, _charts(means, counts), [_claim(means, judged)]
+    return tables, _charts(means, counts), [_claim(means, judged, list(fields), parts.why("geodesic to be sampled"))]
 
 
-def _claim(means: dict[tuple[str, str, int], np.ndarray], judged: int) -> Claim:
+def _columns(laplacian: Laplacian, kind: str, sources: np.ndarray) -> np.ndarray:
+    return distance(laplacian, kind).from_sources(sources)
+
+
+def _claim(means: dict[tuple[str, str, int], np.ndarray], judged: int, kinds: list[str], failure: str) -> Claim:
+    """failure: why there is no geodesic distance."""
+
     def ratio(how: str) -> list[float]:
         return list(means[how, "geodesic", judged] / means[how, "biharmonic", judged])
 
     said = "; ".join(
-        f"{how}: " + ", ".join(f"{kind} {percent(float(means[how, kind, judged].mean()))}" for kind in DISTANCES)
+        f"{how}: " + ", ".join(f"{kind} {percent(float(means[how, kind, judged].mean()))}" for kind in kinds)
         for how in (SMOOTHEST, LINEAR)
     )
+    numbers: dict[str, Numbers] = {
+        "mean error, biharmonic, smoothest interpolant": by_source(list(means[SMOOTHEST, "biharmonic", judged]))
+    }
+    if "geodesic" in kinds:
+        for how in (SMOOTHEST, LINEAR):
+            numbers[f"mean error, geodesic over biharmonic, {how} interpolant"] = by_source(ratio(how))
     return Claim(
         "claims-sampling",
-        {
-            "mean error, biharmonic, smoothest interpolant": by_source(list(means[SMOOTHEST, "biharmonic", judged])),
-            "mean error, geodesic over biharmonic, smoothest interpolant": by_source(ratio(SMOOTHEST)),
-            "mean error, geodesic over biharmonic, piecewise linear interpolant": by_source(ratio(LINEAR)),
-        },
+        numbers,
         f"Mean errors from {judged} points, over all sources, of the maximum: {said}. The smoothest "
         "interpolant minimises the sum of (Lf)²/area over the mesh (biharmonic interpolation). It favours smooth "
         "fields, and biharmonic distance above all, whose Green's function it is made of; the piecewise linear one, on "
         "the flat triangles between the points, favours none.",
+        failure=failure,
     )
+
+
+def _kinds(means: dict[tuple[str, str, int], np.ndarray]) -> list[str]:
+    return list(dict.fromkeys(kind for _, kind, _ in means))
 
 
 def _orders(means: dict[tuple[str, str, int], np.ndarray], counts: list[int]) -> Table:
     """The order of approximation: with k points their spacing is about k^(-1/2)."""
     rows: list[tuple[Cell, ...]] = []
     for how in (SMOOTHEST, LINEAR):
-        for kind in DISTANCES:
+        for kind in _kinds(means):
             error = [float(means[how, kind, count].mean()) for count in counts]
             order = exponent_estimate(np.array(counts) ** -0.5, error)
             rows.append((how, kind, order.value, order.low, order.high))
@@ -109,7 +128,7 @@ def _charts(means: dict[tuple[str, str, int], np.ndarray], counts: list[int]) ->
             "mean error over the maximum",
             tuple(
                 Series(kind, np.array(counts), np.array([float(means[how, kind, count].mean()) for count in counts]))
-                for kind in DISTANCES
+                for kind in _kinds(means)
             ),
             log_x=True,
             log_y=True,

@@ -31,7 +31,9 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     """Everything; quick: smaller meshes, fewer triples and sources."""
     (figure,), (hand,) = shapes.names("figure"), shapes.names("hand")
     parts = Parts()
-    metric_tables, metric_claims = parts.do("metric axioms", metric, shapes, figure, quick, part(progress, 0, 0.3)) or (
+    metric_tables, metric_claims = parts.do(
+        "metric axioms", metric, shapes, figure, quick, parts, part(progress, 0, 0.3)
+    ) or (
         [],
         [],
     )
@@ -51,7 +53,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         "changes of topology", topology, shapes, hand, quick, parts, part(progress, 0.75, 0.9)
     ) or ({}, [], [], [])
     coarse_tables, coarse_charts, coarse_claims = parts.do(
-        "sub-sampling", sampling, shapes, figure, quick, part(progress, 0.9, 1)
+        "sub-sampling", sampling, shapes, figure, quick, parts, part(progress, 0.9, 1)
     ) or ([], [], [])
     claims: list[Claim] = [*metric_claims, *cost_claims, *value_claims, *fine_claims, *moebius_claims]
     judged = {claim.id: claim for claim in [*claims, *edit_claims, *coarse_claims]}

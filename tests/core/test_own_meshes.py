@@ -195,3 +195,20 @@ def test_fig3_loses_no_statement(refuse, monkeypatch):
     result = EXPERIMENTS["fig3"].compute(own, quick=True)
     assert [claim.failure for claim in result.claims] == ["There is no scan of this mesh.", REFUSED]
     assert [each.part for each in result.not_done] == ["holes"]
+
+
+def test_the_axioms_of_biharmonic_distance_need_no_other_one(refuse):
+    refuse("diffusion t = 1")
+    parts = Parts()
+    tables, claims = _claims_metric.metric(Shapes(own=bumpy(300)), "bumpy", True, parts, part(None, 0, 1))
+    assert [claim.verdict is None for claim in claims] == [False] * 3
+    assert [each.part for each in parts.not_done] == ["metric axioms, diffusion t = 1"]
+    assert "diffusion t = 4" in tables[0].values("distance")
+
+
+def test_sub_sampling_is_judged_without_diffusion_distance(refuse):
+    refuse("diffusion t = 1")
+    parts = Parts()
+    tables, _, (claim,) = _claims_sampling.sampling(Shapes(own=bumpy(400)), "bumpy", True, parts, part(None, 0, 1))
+    assert set(claim.numbers) == set(claim.statement.names)
+    assert "diffusion t = 1" not in tables[0].values("distance")
