@@ -26,20 +26,24 @@ class Named:
 
 @dataclass(frozen=True)
 class Section:
-    """One experiment on the page: its result, pictures (caption, PNG) and charts (SVG), or why there are none."""
+    """One experiment on the page: its result, pictures (caption, PNG) and charts (SVG), or why there are none.
+
+    missing: what could not be done of a section without result.
+    """
 
     experiment: "Experiment | Named"
     result: Result | None
     pictures: tuple[tuple[str, bytes], ...] = ()
     charts: tuple[str, ...] = ()
     failure: str = ""
+    missing: tuple[NotDone, ...] = ()
 
     @property
     def not_done(self) -> tuple[NotDone, ...]:
         """What of it could not be done."""
         if self.failure:
             return (NotDone(self.experiment.title, self.failure),)
-        return self.result.not_done if self.result else ()
+        return self.result.not_done if self.result else self.missing
 
 
 def page(title: str, introduction: str, sections: Sequence[Section], quick: bool = False, before: bool = False) -> str:

@@ -15,7 +15,7 @@ from bihdist_core import (
     read_surface,
 )
 from bihdist_core.analysis.upright import guess_up
-from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.experiments import EXPERIMENTS, Experiment, Parts, Result, Shapes
 from bihdist_core.experiments.verdicts import FAILS, HOLDS, VERDICTS
@@ -74,14 +74,21 @@ def reproduce(
     if mesh is not None and Path(mesh).is_dir():
         return _each_mesh(folder, Path(mesh), _of_folder(chosen, only), quick, progress, say, up)
     shapes = Shapes(own=read_surface(mesh)) if mesh is not None else Shapes.from_folder(SAMPLES)
-    up = "y" if mesh is None and up == "auto" else _up(up, shapes.own, mesh or "")
+    missing = Parts()
+    up = "y" if mesh is None and up == "auto" else _up(up, shapes.own, mesh or "", missing)
     sections = _sections(folder, chosen, shapes, quick, progress, say, lambda id: f"{folder / PAGE}#{id}", up)
+    for each in missing.not_done:
+        say(f"not done: {each}")
+        sections.append(Section(Named("up", each.part), None, failure=each.reason))
     about = "the bundled meshes" if mesh is None else Path(mesh).name
     return _written(folder, sections, about, quick, before=mesh is None and not quick)
 
 
-def _up(up: str, surface: Surface | None, path: str | Path) -> str:
-    return guess_up(surface, Path(path).suffix) if up == "auto" and surface is not None else up
+def _up(up: str, surface: Surface | None, path: str | Path, parts: Parts) -> str:
+    """The axis that is up; left as it is where it cannot be guessed."""
+    if up != "auto" or surface is None:
+        return up
+    return parts.do(f"which way {Path(path).name} is up", guess_up, surface, Path(path).suffix) or "y"
 
 
 def _chosen(only: Sequence[str], mesh: str | None) -> list[Experiment]:
@@ -200,6 +207,7 @@ def _each_mesh(
     stems = Counter(path.stem for path in paths)
     sections: list[Section] = []
     surfaces: list[tuple[Surface, str]] = []
+    missing = Parts()
     for k, path in enumerate(paths):
         say(path.name)
         mine = part(progress, k / len(paths), (k + 1) / len(paths))
@@ -218,13 +226,15 @@ def _each_mesh(
         def read_more(id: str, name: str = name) -> str:
             return f"{folder / PAGE}#{name}-{id}"
 
-        its_up = _up(up, surface, path)
+        its_up = _up(up, surface, path, missing)
         for section in _sections(place, chosen, shapes, quick, mine, say, read_more, its_up):
             named = _named(section.experiment, name, path)
             sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
         surfaces.append((surface, its_up))
     if surfaces:
-        sections.insert(0, _contact_sheets(folder, surfaces))
+        sections.insert(0, _contact_sheets(folder, surfaces, missing))
+        for each in missing.not_done:
+            say(f"not done: {each}")
     return _written(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
 
 
@@ -232,26 +242,36 @@ def _named(experiment: Experiment, name: str, path: Path) -> Named:
     return Named(f"{name}-{experiment.id}", f"{path.name}: {experiment.title}")
 
 
-def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]]) -> Section:
-    """Biharmonic distance on every mesh, which has its axis up, from its highest vertex, many to a picture."""
+def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]], parts: Parts) -> Section:
+    """Biharmonic distance on every mesh, which has its axis up, from its highest vertex, many to a picture.
+
+    parts: what could not be done before; it gets what cannot be done here.
+    """
     pictures = []
     for start in range(0, len(surfaces), SHEET):
-        panels = [_on_sheet(surface, up) for surface, up in surfaces[start : start + SHEET]]
+        panels = [_on_sheet(surface, up, parts) for surface, up in surfaces[start : start + SHEET]]
         columns = min(SHEET_COLUMNS, len(panels))
         sheet = Figure(tuple(panels), columns=columns, size=Size(FINER * 230 * columns, dpi=FINER * 96))
-        pictures.append(("", _picture(folder, f"contact-sheet-{start // SHEET + 1}", sheet)))
-    return Section(
-        Named("all", "All meshes", "Biharmonic distance from each mesh's highest vertex."), None, tuple(pictures)
-    )
+        number = start // SHEET + 1
+        picture = parts.do(f"contact sheet {number}", _picture, folder, f"contact-sheet-{number}", sheet)
+        pictures += [("", picture)] if picture else []
+    named = Named("all", "All meshes", "Biharmonic distance from each mesh's highest vertex.")
+    return Section(named, None, tuple(pictures), missing=tuple(parts.not_done))
 
 
-def _on_sheet(surface: Surface, up: str) -> FigurePanel:
-    source = first_source(surface, up)
-    parts = Parts()
-    answer = parts.do("the field", lambda: Distances(Laplacian(surface)).answer(Spec.of("biharmonic"), source))
-    if answer is None:
-        return FigurePanel(surface, None, surface.name, failure=parts.not_done[0].reason, up=up)
+def _on_sheet(surface: Surface, up: str, parts: Parts) -> FigurePanel:
+    name = f"{surface.name} on the contact sheet"
+    source = parts.do(name, first_source, surface, up)
+    answer = source is not None and parts.do(name, _biharmonic, surface, source)
+    if source is None or not answer:
+        return FigurePanel(surface, None, surface.name, failure=parts.why(name), up=up)
+    if answer.failure:
+        parts.note(name, answer.failure)
     return FigurePanel(surface, answer.field, surface.name, marks=(Mark(source),), failure=answer.failure, up=up)
+
+
+def _biharmonic(surface: Surface, source: int) -> Answer:
+    return Distances(Laplacian(surface)).answer(Spec.of("biharmonic"), source)
 
 
 def _written(folder: Path, sections: Sequence[Section], about: str, quick: bool, before: bool = False) -> Reproduction:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.main import main
+from app.paper import reproduce
 from bihdist_core import Cancelled, OutputError, SolverError, Surface, write_mesh
 from bihdist_core.experiments import Parts, _claims_growth, claims
 from tests.shapes import bumpy
@@ -96,6 +97,25 @@ def test_parts_note_what_fails_once_and_go_on():
     for error in (Cancelled("enough"), OutputError("full")):
         with pytest.raises(type(error)):
             parts.do("it all", stop, error)
+
+
+def test_what_fails_beside_the_experiments_leaves_the_page(mesh_file, tmp_path, monkeypatch, capsys):
+    def broken(*_):
+        raise SolverError("It cannot be.")
+
+    monkeypatch.setattr(reproduce, "guess_up", broken)
+    monkeypatch.setattr(reproduce, "first_source", broken)
+    folder, out = tmp_path / "meshes", tmp_path / "out"
+    folder.mkdir()
+    Path(mesh_file(bumpy(120))).rename(folder / "a.off")
+    assert main(["paper", "--mesh", str(folder), "--quick", "--only", "fig3", "--out", str(out)]) == 1
+    said = capsys.readouterr()
+    assert "2 parts could not be done" in said.err
+    page = (out / "index.html").read_text(encoding="utf-8")
+    for part in ("which way a.off is up", "a.off on the contact sheet"):
+        assert f"not done: {part}: It cannot be." in said.out
+        assert f"<li>{part}: It cannot be.</li>" in page
+    assert '<section id="a-fig3">' in page
 
 
 def test_a_folder_has_its_page_with_each_mesh_and_what_cannot_be_read(mesh_file, tmp_path, capsys):
