@@ -148,9 +148,10 @@ class Kink:
     length: float
 
 
-def kinks(surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike) -> Kink:
-    """How sharp a field (n,) is folded where `near` (n,), a distance from its source, exceeds the small radius."""
-    jumps = inner_jumps(surface, field, near)
+def kinks(surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike, radius: float | None = None) -> Kink:
+    """How sharp a field (n,) is folded where `near` (n,), a distance from its source, exceeds a radius, the small one
+    by default."""
+    jumps = inner_jumps(surface, field, near, radius)
     # Around smooth extrema the gradient is short, and any jump long beside it.
     folds = jumps.jumps / np.maximum(jumps.lengths, jumps.slope) if jumps.slope > 0 else 0 * jumps.jumps
     ends = surface.vertices[jumps.edges]

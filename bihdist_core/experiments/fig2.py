@@ -7,7 +7,7 @@ geodesic field has a kink and isolines that are not aware of the shape far away;
 import numpy as np
 
 from ..analysis.persistence import extrema
-from ..analysis.quality import inner_jumps, small_radius
+from ..analysis.quality import small_radius
 from ..applications.resizing import refined
 from ..distances.distance import Distance
 from ..laplacian import Laplacian
@@ -16,7 +16,7 @@ from ..surface import Surface
 from ._stated_figures import DEEP, MINIMA
 from .circles import PROTOCOL, circles, gather_circles
 from .gathered import Gathered
-from .measures import FIELD_COLUMNS, deepest_minimum, field_row, marks
+from .measures import FIELD_COLUMNS, deepest_minimum, field_row, largest_jump, marks
 from .result import Cell, Mark, Panel, Result, Table
 from .shapes import Shapes, distance, random_sources, vertex_at
 from .statements import STATEMENTS
@@ -108,16 +108,9 @@ def _under_refinement(
         after = {kind: made.from_source(source) for kind, made in there.items()}
         jumps = {}
         for kind in there:
-            here = _largest_jump(surface, before[kind], before["geodesic"], radius)
-            jumps[kind] = here, _largest_jump(finer, after[kind], after["geodesic"], radius)
+            here = largest_jump(surface, before[kind], before["geodesic"], radius)
+            jumps[kind] = here, largest_jump(finer, after[kind], after["geodesic"], radius)
             rows.append((f"random {k}" if k else "pictured", kind, *jumps[kind]))
         found.add(smooth, jumps["biharmonic"][1] / max(jumps["biharmonic"][0], 1e-12), not k)
         found.add(kinked, jumps["geodesic"][1], not k)
     return Table("kinks under refinement", ("source", "distance", "this mesh", "refined"), tuple(rows))
-
-
-def _largest_jump(surface: Surface, field: np.ndarray, near: np.ndarray, radius: float) -> float:
-    jumps = inner_jumps(surface, field, near, radius)
-    # Around smooth extrema the gradient is short, and any jump long beside it.
-    relative = jumps.jumps / np.maximum(jumps.lengths, jumps.slope)
-    return float(relative.max(initial=0))

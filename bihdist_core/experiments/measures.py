@@ -54,13 +54,19 @@ def field_row(
         found.raw_maxima,
         isotropy_ratio(surface, field, geodesic, small_radius(surface)),
         100 * float((relative >= KINK).sum()) / max(1, len(relative)),
-        float(relative.max(initial=0)),
+        largest_jump(surface, field, geodesic),
     )
 
 
 def inner_jumps(surface: Surface, field: np.ndarray, near: np.ndarray, radius: float | None = None) -> np.ndarray:
     """(k,) relative jumps of the gradient away from the source and the boundary (see `quality.inner_jumps`)."""
     return quality.inner_jumps(surface, field, near, radius).relative
+
+
+def largest_jump(surface: Surface, field: np.ndarray, near: np.ndarray, radius: float | None = None) -> float:
+    """The largest jump of the gradient (see `quality.kinks`) where `near` (n,) exceeds a radius, the small one by
+    default."""
+    return quality.kinks(surface, field, near, radius).largest
 
 
 def deepest_minimum(surface: Surface, field: np.ndarray, source: int, among: np.ndarray | None = None) -> float:

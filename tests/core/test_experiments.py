@@ -155,6 +155,11 @@ def test_fig2_extrema_kinks_and_isotropy_over_the_domain(result):
     assert numbers(table, "isotropy ratio", distance="geodesic") == pytest.approx(1, abs=1e-9)
     biharmonic = numbers(table, "isotropy ratio", distance="biharmonic")
     assert (numbers(table, "isotropy ratio", distance="diffusion t = 1") > 2 * biharmonic).all()
+    # The largest jump of the gradient is one number in both tables.
+    refined = result("fig2").table("kinks under refinement")
+    for kind in ("geodesic", "biharmonic"):
+        jump = table.value("largest jump", distance=kind)
+        assert jump == refined.value("this mesh", source="pictured", distance=kind)
     assert {p.style for p in result("fig2").panels} == {"surface", "height"}
 
 
