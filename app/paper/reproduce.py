@@ -185,7 +185,7 @@ def _picture(folder: Path, name: str, figure) -> bytes:
     from PIL import Image
 
     buffer = io.BytesIO()
-    Image.fromarray(draw_figure(figure)).save(buffer, "PNG", optimize=True)
+    Image.fromarray(draw_figure(figure)).save(buffer, "PNG")  # optimized: 2 % smaller in five times as long
     with whole_file(folder / f"{name}.png") as temporary:
         temporary.write_bytes(buffer.getvalue())
     return buffer.getvalue()
