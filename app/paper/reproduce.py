@@ -1,9 +1,8 @@
 """Run experiments, draw them, and write the page."""
 
-import io
 import textwrap
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -23,11 +22,12 @@ from bihdist_core.formats.mesh_io import MESH_FORMATS
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import whole_file
 
-from ..figures.draw import Figure, FigurePanel, Mark, check_offscreen, draw_figure
+from ..figures.draw import Figure, FigurePanel, Mark, check_offscreen
 from ..figures.size import Size
 from ..samples import SAMPLES
 from ..session.questions import first_source
 from .charts import chart_svg
+from .drawing import Picture, Pictures
 from .page import Named, Section, page
 from .pictures import FINER, figure_of, name_of, rows_of
 
@@ -72,11 +72,14 @@ def reproduce(
     folder = Path(out)
     _make(folder)
     if mesh is not None and Path(mesh).is_dir():
-        return _each_mesh(folder, Path(mesh), _of_folder(chosen, only), quick, progress, say, up)
+        with Pictures() as pictures:
+            return _each_mesh(folder, Path(mesh), _of_folder(chosen, only), quick, progress, say, up, pictures)
     shapes = Shapes(own=read_surface(mesh)) if mesh is not None else Shapes.from_folder(SAMPLES)
     missing = Parts()
     up = "y" if mesh is None and up == "auto" else _up(up, shapes.own, mesh or "", missing)
-    sections = _sections(folder, chosen, shapes, quick, progress, say, lambda id: f"{folder / PAGE}#{id}", up)
+    with Pictures() as pictures:
+        here = f"{folder / PAGE}#"
+        sections = _sections(folder, chosen, shapes, quick, progress, say, here, up, pictures)
     for each in missing.not_done:
         say(f"not done: {each}")
         sections.append(Section(Named("up", each.part), None, failure=each.reason))
@@ -116,15 +119,19 @@ def _sections(
     quick: bool,
     progress: Progress | None,
     say: Callable[[str], None],
-    read_more: Callable[[str], str],
+    read_more: str,
     up: str,
+    pictures: Pictures,
 ) -> list[Section]:
-    """read_more: by an experiment's id, where the page has it."""
-    sections = []
+    """read_more: where the page has what is said of an experiment, to be followed by its id."""
+    sections, drawn = [], []
     for k, experiment in enumerate(chosen):
+        if experiment.is_timed:
+            pictures.wait()
         mine = part(progress, k / len(chosen), (k + 1) / len(chosen))
-        section = _section(folder, experiment, shapes, quick, mine, up)
+        section, asked = _section(folder, experiment, shapes, quick, mine, up, pictures)
         sections.append(section)
+        drawn.append(asked)
         if section.result is None:
             say(f"{experiment.id}: not done: {section.failure}")
         else:
@@ -133,9 +140,19 @@ def _sections(
                 say(f"  warning: {warning}")
             for missing in section.not_done:
                 say(f"  not done: {missing}")
-            for line in _not_held(section.result, read_more(experiment.id)):
+            for line in _not_held(section.result, f"{read_more}{experiment.id}"):
                 say(line)
-    return sections
+    return [_with_pictures(*each, say) for each in zip(sections, drawn, strict=True)]
+
+
+def _with_pictures(section: Section, asked: Mapping[str, Picture], say: Callable[[str], None]) -> Section:
+    """A section when its pictures are drawn; asked: by their captions."""
+    parts = Parts()
+    found = [(row, parts.do(f"the picture {row}".strip(), picture)) for row, picture in asked.items()]
+    for missing in parts.not_done:
+        say(f"{section.experiment.id}: not done: {missing}")
+    result = section.result and replace(section.result, not_done=(*section.result.not_done, *parts.not_done))
+    return replace(section, result=result, pictures=tuple((row, each) for row, each in found if each))
 
 
 def _judged(result: Result) -> str:
@@ -161,34 +178,31 @@ def _not_held(result: Result, where: str) -> list[str]:
     return [*lines, f"  more in {where}"] if lines else []
 
 
-def _section(folder: Path, experiment: Experiment, shapes: Shapes, quick: bool, progress: Progress, up: str) -> Section:
+def _section(
+    folder: Path,
+    experiment: Experiment,
+    shapes: Shapes,
+    quick: bool,
+    progress: Progress,
+    up: str,
+    pictures: Pictures,
+) -> tuple[Section, dict[str, Picture]]:
+    """An experiment's section, and its pictures by their captions, which are being drawn."""
     parts = Parts()
     result = parts.do(experiment.title, experiment.compute, shapes, quick, part(progress, 0, 0.9))
     if result is None:
-        return Section(experiment, None, failure=parts.not_done[0].reason)
+        return Section(experiment, None, failure=parts.not_done[0].reason), {}
     result.save(folder)
-    pictures, charts = [], []
+    asked, charts = {}, []
     for row, panels in rows_of(result).items():
-        name = name_of(result, row)
-        figure = parts.do(f"the picture {row or name}", figure_of, result, panels, up)
-        picture = figure and parts.do(f"the picture {row or name}", _picture, folder, name, figure)
-        pictures += [(row, picture)] if picture else []
+        figure = parts.do(f"the picture {row}".strip(), figure_of, result, panels, up)
+        if figure is not None:
+            asked[row] = pictures.draw(folder, name_of(result, row), figure)
     for chart in result.charts:
         svg = parts.do(f"the chart {chart.heading}", chart_svg, chart)
         charts += [] if svg is None else [svg]
     result = replace(result, not_done=(*result.not_done, *parts.not_done))
-    return Section(experiment, result, tuple(pictures), tuple(charts))
-
-
-def _picture(folder: Path, name: str, figure) -> bytes:
-    """Draw a figure, keep it as NAME.png, and give the file's content for the page."""
-    from PIL import Image
-
-    buffer = io.BytesIO()
-    Image.fromarray(draw_figure(figure)).save(buffer, "PNG")  # optimized: 2 % smaller in five times as long
-    with whole_file(folder / f"{name}.png") as temporary:
-        temporary.write_bytes(buffer.getvalue())
-    return buffer.getvalue()
+    return Section(experiment, result, charts=tuple(charts)), asked
 
 
 def _each_mesh(
@@ -199,6 +213,7 @@ def _each_mesh(
     progress: Progress | None,
     say: Callable[[str], None],
     up: str,
+    pictures: Pictures,
 ) -> Reproduction:
     """The claims and a picture of each mesh of a folder; one that fails is named and the others go on."""
     paths = sorted(path for path in meshes.iterdir() if path.suffix.lower() in MESH_FORMATS)
@@ -223,16 +238,14 @@ def _each_mesh(
         place = folder / name
         _make(place)
 
-        def read_more(id: str, name: str = name) -> str:
-            return f"{folder / PAGE}#{name}-{id}"
-
         its_up = _up(up, surface, path, missing)
-        for section in _sections(place, chosen, shapes, quick, mine, say, read_more, its_up):
+        here = f"{folder / PAGE}#{name}-"
+        for section in _sections(place, chosen, shapes, quick, mine, say, here, its_up, pictures):
             named = _named(section.experiment, name, path)
             sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
         surfaces.append((surface, its_up))
     if surfaces:
-        sections.insert(0, _contact_sheets(folder, surfaces, missing))
+        sections.insert(0, _contact_sheets(folder, surfaces, missing, pictures))
         for each in missing.not_done:
             say(f"not done: {each}")
     return _written(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
@@ -242,21 +255,21 @@ def _named(experiment: Experiment, name: str, path: Path) -> Named:
     return Named(f"{name}-{experiment.id}", f"{path.name}: {experiment.title}")
 
 
-def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]], parts: Parts) -> Section:
+def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]], parts: Parts, pictures: Pictures) -> Section:
     """Biharmonic distance on every mesh, which has its axis up, from its highest vertex, many to a picture.
 
     parts: what could not be done before; it gets what cannot be done here.
     """
-    pictures = []
+    sheets = []
     for start in range(0, len(surfaces), SHEET):
         panels = [_on_sheet(surface, up, parts) for surface, up in surfaces[start : start + SHEET]]
         columns = min(SHEET_COLUMNS, len(panels))
         sheet = Figure(tuple(panels), columns=columns, size=Size(FINER * 230 * columns, dpi=FINER * 96))
         number = start // SHEET + 1
-        picture = parts.do(f"contact sheet {number}", _picture, folder, f"contact-sheet-{number}", sheet)
-        pictures += [("", picture)] if picture else []
+        picture = parts.do(f"contact sheet {number}", pictures.draw(folder, f"contact-sheet-{number}", sheet))
+        sheets += [("", picture)] if picture else []
     named = Named("all", "All meshes", "Biharmonic distance from each mesh's highest vertex.")
-    return Section(named, None, tuple(pictures), missing=tuple(parts.not_done))
+    return Section(named, None, tuple(sheets), missing=tuple(parts.not_done))
 
 
 def _on_sheet(surface: Surface, up: str, parts: Parts) -> FigurePanel:

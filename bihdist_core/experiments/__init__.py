@@ -37,11 +37,13 @@ __all__ = [
 class Experiment:
     """One figure or table of the paper; its module is imported when first needed.
 
-    any_mesh: whether it makes sense on a reader's own mesh.
+    any_mesh: whether it makes sense on a reader's own mesh; is_timed: whether it measures times, which other work on
+    the computer would disturb.
     """
 
     id: str
     any_mesh: bool = True
+    is_timed: bool = False
 
     @property
     def title(self) -> str:
@@ -78,10 +80,10 @@ EXPERIMENTS = {
         Experiment("fig8"),
         Experiment("fig9", any_mesh=False),
         Experiment("fig10", any_mesh=False),
-        Experiment("table1"),
-        Experiment("table2"),
+        Experiment("table1", is_timed=True),
+        Experiment("table2", is_timed=True),
         Experiment("alpha"),
-        Experiment("claims"),
+        Experiment("claims", is_timed=True),
     )
 }
 """In the paper's order."""

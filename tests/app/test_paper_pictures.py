@@ -9,6 +9,7 @@ from app.drawing.camera import directions
 from app.figures.composition import page_pixels
 from app.figures.draw import Composition, draw_figure, lay_out, take_shots
 from app.paper.charts import colours_of, drawn, plain
+from app.paper.drawing import Pictures, png
 from app.paper.page import Section, page
 from app.paper.pictures import ANCHOR, CANDIDATE, FINER, TARGET, WIDTH, figures
 from app.paper.reproduce import reproduce
@@ -247,9 +248,21 @@ def test_a_picture_that_cannot_be_drawn_is_listed(tmp_path, monkeypatch):
 
     made = result(Panel("one", "bumpy", FIELD, "row"), charts=(curves("biharmonic"),))
     monkeypatch.setattr(reproducing.Experiment, "compute", lambda *_: made)
-    monkeypatch.setattr(reproducing, "draw_figure", broken)
+    monkeypatch.setattr("app.paper.drawing.Worker.ask", broken)
     said = []
     done = reproduce(str(tmp_path), ["fig1"], say=said.append)
     assert done.not_done == 1
-    assert "  not done: the picture row: There is no light." in said
+    assert "fig1: not done: the picture row: There is no light." in said
     assert "<svg" in done.page.read_text(encoding="utf-8")
+
+
+def test_pictures_are_drawn_beside_and_waited_for_before_times_are_measured(tmp_path):
+    ((_, _, figure),) = figures(result(Panel("one", "bumpy", FIELD, "row")))
+    with Pictures() as pictures:
+        asked = [pictures.draw(tmp_path, name, figure) for name in ("a", "b")]
+        pictures.wait()
+        assert {path.name for path in tmp_path.iterdir()} == {"a.png", "b.png"}
+        assert [picture() for picture in asked] == [png(figure)] * 2
+        process = pictures._worker._process
+    assert process.returncode is not None, "it ends with the page"
+    assert [id for id, each in EXPERIMENTS.items() if each.is_timed] == ["table1", "table2", "claims"]

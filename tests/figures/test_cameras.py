@@ -27,6 +27,7 @@ from app.figures.draw import Figure, FigurePanel, draw_figure
 from app.figures.raster import Studio
 from app.figures.sight import Sight
 from app.figures.turning import start_and_axis
+from app.figures.worker import Worker
 from app.main import main
 from app.paper import reproduce
 from app.samples import mesh_path
@@ -280,7 +281,7 @@ def test_a_camera_of_a_recipe_is_left_for_another_way_up(scan, tmp_path):
 
 def test_the_papers_pictures_of_a_mesh_of_ones_own_stand(scan, tmp_path, monkeypatch):
     drawn = []
-    monkeypatch.setattr(reproduce, "_picture", lambda folder, name, figure: drawn.append(figure) or b"")
+    monkeypatch.setattr(Worker, "ask", lambda self, function, figure: drawn.append(figure) or b"")
     for up, expected in (("auto", "z"), ("x", "x")):
         drawn.clear()
         reproduce.reproduce(str(tmp_path / up), ["fig1"], str(scan), quick=True, say=lambda line: None, up=up)
