@@ -23,7 +23,7 @@ from .verdicts import exponent_estimate
 
 TITLE = "Time for all pairs of vertices"
 SIZES = (2_000, 4_300, 8_000, 12_000, 16_000)
-QUICK_SIZES = (1_000, 1_700, 2_800, 4_700, 8_000)
+QUICK_SIZES = (1_000, 1_600, 2_500, 4_000, 6_000)
 PAPER = {
     2_000: (6.3, 14.4, 1.2),
     4_300: (40.3, 74.8, 4.11),
@@ -42,7 +42,7 @@ Columns = Callable[[np.ndarray], np.ndarray]
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Times from a bare mesh to an (N, N) float32 array of distances (quick: N = 1k to 8k)."""
+    """Times from a bare mesh to an (N, N) float32 array of distances (quick: N = 1k to 6k)."""
     (name,) = shapes.names("figure")
     parts = Parts()
     sizes = shapes.sizes(name, QUICK_SIZES if quick else SIZES, parts, part(progress, 0, 0.1))
