@@ -60,6 +60,7 @@ def _draw_failure(axes: Axes, page: Composition, failure: str, cell: Cell) -> No
 
 def _draw_bar(axes: Axes, page: Composition, bar: Bar) -> None:
     """A colour bar with its isolines, ticks and words."""
+    from matplotlib.collections import PolyCollection
     from matplotlib.patches import Rectangle
 
     style, panel, box = page.figure.style, page.figure.panels[bar.panel], bar.box
@@ -71,12 +72,12 @@ def _draw_bar(axes: Axes, page: Composition, bar: Bar) -> None:
         for is_there, way, (_, colour) in zip(bar.goes_beyond, (-1, 1), (parts[0], parts[-1]), strict=True):
             if is_there:
                 _draw_point(axes, box, bar.is_upright, way, colour)
-        for start, colour in parts:
-            # Each runs to the end of the bar, under the next ones: side by side they would show seams.
-            rest = (1 - start) * (box.height if bar.is_upright else box.width)
-            corner = (box.x, box.y) if bar.is_upright else (box.right - rest, box.y)
-            size = (box.width, rest) if bar.is_upright else (rest, box.height)
-            axes.add_artist(Rectangle(corner, *size, facecolor=colour, linewidth=0))
+        # Each runs to the end of the bar, under the next ones: side by side they would show seams.
+        rests = [(1 - start) * (box.height if bar.is_upright else box.width) for start, _ in parts]
+        ends = [(box.right, box.y + rest) if bar.is_upright else (box.right - rest, box.bottom) for rest in rests]
+        low = (box.x, box.y) if bar.is_upright else (box.right, box.y)
+        corners = [[low, (x, low[1]), (x, y), (low[0], y)] for x, y in ends]
+        axes.add_artist(PolyCollection(corners, facecolors=[colour for _, colour in parts], linewidths=0))
     _draw_lines_on_bar(axes, page, bar)
     if not style.coloured:
         axes.add_artist(
