@@ -10,6 +10,7 @@ from types import TracebackType
 from bihdist_core.whole_file import whole_file
 
 from ..figures.draw import Figure, draw_figure
+from ..figures.shots import Stage
 from ..figures.worker import Worker
 
 Picture = Callable[[], bytes]
@@ -53,5 +54,8 @@ def png(figure: Figure) -> bytes:
     from PIL import Image
 
     buffer = io.BytesIO()
-    Image.fromarray(draw_figure(figure)).save(buffer, "PNG")  # optimized it is 2 % smaller, in five times as long
+    # It has more pixels than the page shows of it: with still finer ones it takes half as long again.
+    with Stage(finer=1) as stage:
+        pixels = draw_figure(figure, stage=stage)
+    Image.fromarray(pixels).save(buffer, "PNG")  # optimized it is 2 % smaller, in five times as long
     return buffer.getvalue()

@@ -123,15 +123,15 @@ def _sections(
     up: str,
     pictures: Pictures,
 ) -> list[Section]:
-    """read_more: where the page has what is said of an experiment, to be followed by its id."""
-    sections, drawn = [], []
-    for k, experiment in enumerate(chosen):
+    """In the order chosen; read_more: where the page has what is said of an experiment, to be followed by its id."""
+    done: dict[str, tuple[Section, dict[str, Picture]]] = {}
+    # What is timed comes first, so that it waits for no pictures.
+    for k, experiment in enumerate(sorted(chosen, key=lambda each: not each.is_timed)):
         if experiment.is_timed:
             pictures.wait()
         mine = part(progress, k / len(chosen), (k + 1) / len(chosen))
         section, asked = _section(folder, experiment, shapes, quick, mine, up, pictures)
-        sections.append(section)
-        drawn.append(asked)
+        done[experiment.id] = section, asked
         if section.result is None:
             say(f"{experiment.id}: not done: {section.failure}")
         else:
@@ -142,7 +142,7 @@ def _sections(
                 say(f"  not done: {missing}")
             for line in _not_held(section.result, f"{read_more}{experiment.id}"):
                 say(line)
-    return [_with_pictures(*each, say) for each in zip(sections, drawn, strict=True)]
+    return [_with_pictures(*done[experiment.id], say) for experiment in chosen]
 
 
 def _with_pictures(section: Section, asked: Mapping[str, Picture], say: Callable[[str], None]) -> Section:
