@@ -18,7 +18,7 @@ from .timing import Time, busy, timed
 from .verdicts import Estimate, exponent_estimate
 
 SIZES = (4_000, 8_000, 16_000, 28_000, 56_000, 111_000)
-QUICK_SIZES = (1_000, 2_000, 4_000, 8_000, 16_000)
+QUICK_SIZES = (1_000, 2_000, 4_000, 6_000, 8_000)
 STRETCH = 2.0
 """The factor of the Moebius transformation in the plane."""
 REPEATS, COLUMNS = 2, 10

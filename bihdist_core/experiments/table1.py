@@ -23,7 +23,7 @@ from .verdicts import exponent_estimate
 
 TITLE = "Time for all pairs of vertices"
 SIZES = (2_000, 4_300, 8_000, 12_000, 16_000)
-QUICK_SIZES = (1_000, 1_600, 2_500, 4_000, 6_000)
+QUICK_SIZES = (1_000, 1_500, 2_000, 4_000, 6_000)
 PAPER = {
     2_000: (6.3, 14.4, 1.2),
     4_300: (40.3, 74.8, 4.11),
