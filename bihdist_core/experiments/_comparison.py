@@ -40,7 +40,7 @@ def compared(
         step = part(progress, q / len(names), (q + 1) / len(names))
         surface, laplacian = shapes[name], shapes.laplacian(name)
         pictured = pictured_source(surface, name, "back")
-        distances = distances_there(laplacian, parts, name)
+        distances = distances_there(laplacian, parts, name, pictured)
         fields = {kind: d.from_source(pictured) for kind, d in distances.items()}
         for kind in DISTANCES:
             heading = distances[kind].label if kind in distances else kind

@@ -7,6 +7,7 @@ import pytest
 
 from bihdist_core import SolverError, Surface
 from bihdist_core.analysis.quality import small_radius
+from bihdist_core.distances.geodesic import GeodesicDistance
 from bihdist_core.experiments import (
     EXPERIMENTS,
     NAMES,
@@ -74,6 +75,21 @@ def test_a_distance_that_cannot_be_had_leaves_the_others_their_pictures():
     assert [claim.verdict for claim in result.claims] == [None] * 4
     assert all("emeshing would help" in claim.failure for claim in result.claims)
     assert result.protocol.startswith("Nothing was measured")
+
+
+@pytest.mark.parametrize("id", ["fig4", "fig5"])
+def test_a_distance_that_fails_from_the_pictured_source_leaves_the_others_their_pictures(id, monkeypatch):
+    def broken(self, source, progress=None):
+        raise IndexError("no such edge")
+
+    monkeypatch.setattr(GeodesicDistance, "from_source", broken)
+    result = EXPERIMENTS[id].compute(Shapes(own=bumpy(300)), quick=True)
+    panels = {panel.heading.split(",")[0]: panel for panel in result.panels}
+    assert panels["geodesic"].failure == "An unexpected error, IndexError: no such edge."
+    assert panels["biharmonic"].field is not None
+    assert panels["diffusion"].field is not None
+    assert [each.part for each in result.not_done] == ["geodesic on bumpy"]
+    assert [claim.verdict is None for claim in result.claims] == [False, False, False, True]
 
 
 REFUSED = "It cannot be had here."
