@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -29,6 +30,11 @@ if "PYTEST_XDIST_WORKER" in os.environ:
         )
     for _name in THREADS:
         os.environ.setdefault(_name, "1")
+
+
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    # Shells have what they run in the background ignore interruptions, and so would the programs that tests begin.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_configure(config):

@@ -92,7 +92,6 @@ def test_an_interrupt_closes_the_window_and_is_raised(application, tmp_path):
         tmp_path,
         """
         import os, signal, threading
-        signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background it may be ignored
         threading.Timer(3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
         try:
             bihdist.show("hand", ["biharmonic"])
