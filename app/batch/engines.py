@@ -17,8 +17,9 @@ from typing import Any, Protocol
 from bihdist_core.errors import ParameterError
 
 from ..version import version
+from .doing import do
 from .memory import available, share
-from .task import Report, Task, do, gone, refused
+from .task import Report, Task, gone, refused
 
 SPARE = 0.9
 """Of the memory that is free at the beginning, what tasks may take."""

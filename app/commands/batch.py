@@ -98,10 +98,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from ..batch.doing import PARTS
     from ..batch.drive import Outcome, do_all, found_meshes, write_tables
     from ..batch.results import check_format
     from ..batch.storage import Folder
-    from ..batch.task import PARTS
 
     wanted = _wanted(options)
     check_format(wanted.arrays)

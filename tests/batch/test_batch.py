@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,13 +15,11 @@ from scipy.io import loadmat
 
 from app.batch.drive import found_meshes
 from app.batch.engines import Processes
-from app.main import main
 from bihdist_core import BiharmonicDistance, Laplacian, ParameterError, read_surface, write_mesh
 from bihdist_core.analysis.sampling import farthest_points
 from bihdist_core.laplacian import eigenpairs
+from tests.batch.runs import ROOT, batch, rows
 from tests.shapes import bumpy, torus, two_pieces
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
@@ -41,15 +38,6 @@ def done(folder, tmp_path_factory):
     out = tmp_path_factory.mktemp("out")
     assert batch(folder, out, "--do", "fields,pairs,eigen,fps", "--sources", "farthest:12", "--eigenpairs", "9") == 0
     return out
-
-
-def batch(meshes, out, *options):
-    return main(["batch", str(meshes), "--out", str(out), "--workers", "2", *map(str, options)])
-
-
-def rows(out, table="summary"):
-    with (Path(out) / f"{table}.csv").open(newline="") as file:
-        return list(csv.DictReader(file))
 
 
 # ---------------------------------------------------------------------- what is written

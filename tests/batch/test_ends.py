@@ -1,6 +1,5 @@
 """What ends a command, its processes or its cluster: the tables say what is there and what is not."""
 
-import csv
 import os
 import shutil
 import signal
@@ -8,7 +7,6 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -17,11 +15,9 @@ from app.batch.engines import Processes
 from app.batch.task import Part, Report, refused
 from app.batch.wanted import Wanted
 from app.commands import batch as command
-from app.main import main
 from bihdist_core import write_mesh
+from tests.batch.runs import ROOT, batch, rows
 from tests.shapes import bumpy
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
@@ -33,16 +29,6 @@ def folder(tmp_path_factory):
     return place
 
 
-def batch(meshes, out, *options):
-    return main(["batch", str(meshes), "--out", str(out), "--workers", "2", *map(str, options)])
-
-
-def lines(out, table="summary"):
-    """Of a table: mesh, work and what else is asked for."""
-    with (Path(out) / f"{table}.csv").open(newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def test_a_cluster_without_its_scheduler_is_a_failure_of_what_is_left(folder, tmp_path):
     pytest.importorskip("distributed")
     script = tmp_path / "cluster.py"
@@ -52,10 +38,10 @@ def test_a_cluster_without_its_scheduler_is_a_failure_of_what_is_left(folder, tm
     run = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=120)
     assert run.returncode == 1, run.stderr
     assert "Traceback" not in run.stderr
-    failures = lines(tmp_path / "out", "failures")
+    failures = rows(tmp_path / "out", "failures")
     assert [row["mesh"] for row in failures] == ["bumpy0", "bumpy1", "bumpy2"]
     assert {row["reason"].partition(":")[0] for row in failures} == {"The cluster was lost"}
-    assert lines(tmp_path / "out") == []
+    assert rows(tmp_path / "out") == []
 
 
 WITHOUT_SCHEDULER = """
@@ -103,7 +89,7 @@ def test_an_interruption_from_the_terminal_ends_all_processes_in_silence(tmp_pat
     assert run.returncode == 130
     assert "interrupted; 1 result in" in said
     assert "Traceback" not in said
-    assert [row["mesh"] for row in lines(out)] == ["small"]
+    assert [row["mesh"] for row in rows(out)] == ["small"]
 
 
 def test_processes_leave_an_interruption_to_the_one_that_began_them(folder, tmp_path, capfd):
@@ -143,7 +129,7 @@ def test_tables_are_written_whatever_fails(folder, tmp_path, monkeypatch, where)
         monkeypatch.setattr(command, "_pages", fails)
     with pytest.raises(OSError, match="no space"):
         batch(folder, tmp_path, "--do", "fields")
-    assert len(lines(tmp_path)) == {"reports": 2, "pages": 3}[where]
+    assert len(rows(tmp_path)) == {"reports": 2, "pages": 3}[where]
 
 
 def test_an_interrupted_set_of_figures_says_which_are_missing(folder, tmp_path, monkeypatch):
@@ -159,10 +145,10 @@ def test_an_interrupted_set_of_figures_says_which_are_missing(folder, tmp_path, 
     with monkeypatch.context() as patch:
         patch.setattr(Processes, "reports", interrupted)
         assert batch(meshes, out, "--do", "figure") == 130
-    assert [(row["mesh"], row["work"]) for row in lines(out, "failures")] == [("torn", "figure")]
-    assert lines(out) == []
+    assert [(row["mesh"], row["work"]) for row in rows(out, "failures")] == [("torn", "figure")]
+    assert rows(out) == []
     assert batch(meshes, out, "--do", "fields") == 1
-    assert [row["work"] for row in lines(out, "failures")] == ["fields", "figure"]
+    assert [row["work"] for row in rows(out, "failures")] == ["fields", "figure"]
     write_mesh(meshes / "torn.off", bumpy(60))
     assert batch(meshes, out, "--do", "figure,fields") == 0
     assert not (out / "failures.csv").exists()

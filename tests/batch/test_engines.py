@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 from app.batch import engines, memory
+from app.batch.doing import do
 from app.batch.drive import drive, found_meshes, tasks_for
 from app.batch.engines import Processes
 from app.batch.storage import Folder
-from app.batch.task import do, done_before
+from app.batch.task import done_before
 from app.batch.wanted import Sources, Wanted
 from app.main import main
 from bihdist_core import BiharmonicDistance, read_surface, write_mesh
@@ -287,7 +288,7 @@ def test_more_memory_is_asked_for_than_is_used(tmp_path):
 def test_parts_of_a_large_mesh_are_put_together(folder, tmp_path, monkeypatch, arrays):
     if arrays == "zarr":
         zarr = pytest.importorskip("zarr")
-    monkeypatch.setattr("app.batch.task.PART_BYTES", 8 * 128 * 30)
+    monkeypatch.setattr("app.batch.doing.PART_BYTES", 8 * 128 * 30)
     wanted = Wanted(("fields", "pairs"), sources=Sources("all"), arrays=arrays)
     (task,) = [t for t in tasks_of(folder, tmp_path, wanted) if t.name == "ring"]
     outcome = driven([task], InTurn())
@@ -305,7 +306,7 @@ def test_parts_of_a_large_mesh_are_put_together(folder, tmp_path, monkeypatch, a
 
 
 def test_parcels_of_a_large_mesh_are_added_up(folder, tmp_path, monkeypatch):
-    monkeypatch.setattr("app.batch.task.PART_COLUMNS", 50)
+    monkeypatch.setattr("app.batch.doing.PART_COLUMNS", 50)
     labels = tmp_path / "labels.npy"
     np.save(labels, np.arange(128) % 3)
     wanted = Wanted(("pairs",), labels=str(labels))

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from app.batch.doing import do
 from app.batch.drive import found_meshes, tasks_for
-from app.batch.task import do, done_before
+from app.batch.task import done_before
 from app.batch.wanted import Sources, Wanted
 from bihdist_core import BiharmonicDistance, Surface, write_mesh
 from tests.shapes import bumpy

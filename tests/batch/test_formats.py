@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
+from app.batch.doing import do
 from app.batch.drive import found_meshes, tasks_for
-from app.batch.task import do
 from app.batch.wanted import ARRAYS, LAYOUTS, Sources, Wanted
 from bihdist_core import BiharmonicDistance, DiffusionDistance, nearest, read_surface, write_mesh
 from tests.shapes import bumpy
@@ -136,7 +136,7 @@ def test_other_files_have_checksums_of_their_own(mesh, tmp_path):
 
 
 def test_neighbours_of_a_large_mesh_are_put_together(mesh, tmp_path, monkeypatch):
-    monkeypatch.setattr("app.batch.task.PART_COLUMNS", 50)
+    monkeypatch.setattr("app.batch.doing.PART_COLUMNS", 50)
     (task,), _ = tasks_for(
         found_meshes(str(mesh.parent)), Wanted(("nearest",), sources=Sources("all"), nearest=5), str(tmp_path), "1"
     )

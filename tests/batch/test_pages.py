@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.batch.doing import do
 from app.batch.drive import found_meshes, tasks_for
 from app.batch.figures import length_power, shared_ends
 from app.batch.pages import write_pages
 from app.batch.storage import Folder
-from app.batch.task import Failure, do
+from app.batch.task import Failure
 from app.batch.wanted import MAXIMA, RANGES, Wanted
 from app.document.camera import Camera
 from app.document.document import comparison

@@ -2,16 +2,18 @@
 
 import json
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from app.batch import task as tasks
+from app.batch import doing
+from app.batch.doing import do, opened
 from app.batch.drive import found_meshes, tasks_for
 from app.batch.maps import found_maps
 from app.batch.memory import needed
 from app.batch.storage import Folder
-from app.batch.task import do, done_before, opened
+from app.batch.task import done_before
 from app.batch.wanted import Sources, Wanted
 from bihdist_core import GeodesicDistance, read_surface, write_mesh
 from tests.shapes import bumpy, torus
@@ -34,7 +36,7 @@ def task_for(mesh, out, *works, **options):
 
 
 def in_parts(monkeypatch):
-    monkeypatch.setattr(tasks, "PART_BYTES", 8 * 128 * 30)
+    monkeypatch.setattr(doing, "PART_BYTES", 8 * 128 * 30)
 
 
 def finish(report):
@@ -42,7 +44,7 @@ def finish(report):
     parts = [task for task in report.more if task.part]
     for part in parts:
         assert not do(part).failures
-    return tasks.replace(parts[0], part=tasks.replace(parts[0].part, is_whole=True))
+    return replace(parts[0], part=replace(parts[0].part, is_whole=True))
 
 
 # ---------------------------------------------------------------------- parts
@@ -173,6 +175,6 @@ def test_a_task_with_many_landmarks_asks_for_their_memory(mesh, tmp_path, monkey
     marks = tmp_path / "marks.txt"
     marks.write_text("".join(f"{k}\n" for k in range(100)))
     asked = []
-    monkeypatch.setattr(tasks, "needed", lambda n, wanted, landmarks: asked.append((n, landmarks)) or 0)
+    monkeypatch.setattr(doing, "needed", lambda n, wanted, landmarks: asked.append((n, landmarks)) or 0)
     do(task_for(mesh, tmp_path / "out", "fields", sources=Sources("landmarks", file=str(marks))))
     assert asked == [(128, 100)]

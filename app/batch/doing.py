@@ -1,0 +1,288 @@
+"""Doing a task, anywhere.
+
+Whatever goes wrong with one result ends no other: it becomes a failure with its reason.
+
+What is there already is not done again.  A task of a large mesh comes back with parts, blocks of columns that several
+processes may do; when all are there, the last task puts them together.
+"""
+
+import hashlib
+import io
+import os
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from bihdist_core.analysis.parcels import ParcelSums, labelled, parcel_sums
+from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.errors import BihdistError
+from bihdist_core.solver.blas import one_blas_thread
+from bihdist_core.solver.worker_threads import without_workers
+
+from .maps import evaluated
+from .memory import PART_BYTES, allowed, needed
+from .results import Blocks, facts_of, write_facts, write_result
+from .storage import Folder
+from .task import Failure, Part, Report, Row, Task, done_before
+from .wanted import LAYOUTS, MAXIMA
+from .works import (
+    WORK,
+    Made,
+    Mesh,
+    fields,
+    neighbours,
+    neighbours_made,
+    pairs_made,
+    parcels_made,
+    said_of_fields,
+)
+
+PARTS = ".parts"
+"""The folder of parts, until they are put together."""
+PART_COLUMNS = 8192
+"""Columns of a part of the means between parcels, or of neighbours, which keep little of them."""
+
+
+def do(task: Task) -> Report:
+    """Do what is missing of a task; never raises for what is wrong with its mesh or its results."""
+    with one_blas_thread(), without_workers():
+        if task.part is None:
+            return _do_mesh(task)
+        part = task.part
+        if task.needs > allowed(is_expected=True):
+            return Report(task, needs=task.needs)
+        try:
+            # Asked again of what has been put together, as clusters do that have lost a worker, its parts are gone.
+            name = task.result_name(part.work, part.distance)
+            facts = facts_of(Folder(task.out), name, task.key(part.work, part.distance))
+            if facts is not None:
+                row = Row(task.name, part.work, part.distance, 0.0, True, facts)
+                return Report(task, (row,) if part.is_whole else ())
+            return (_join if part.is_whole else _do_part)(task, part)
+        except Exception as error:
+            return Report(task, failures=(Failure(task.name, part.work, part.distance, failure_in_words(error)),))
+
+
+def _do_mesh(task: Task) -> Report:
+    there = done_before(task)
+    if there is not None:
+        return there
+    wanted, folder = task.wanted, Folder(task.out)
+    try:
+        mesh = opened(task)
+    except Exception as error:
+        reason = failure_in_words(error)
+        return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in wanted.results()))
+    needs = needed(_vertices(task, mesh), wanted, _landmarks(mesh))
+    if needs > allowed(is_expected=bool(task.needs)):
+        return Report(task, needs=needs)
+    rows, failures, more = [], [], []
+    for work, distance in wanted.results():
+        name, key = task.result_name(work, distance), task.key(work, distance)
+        facts, begin = facts_of(folder, name, key), time.monotonic()
+        if facts is not None:
+            rows.append(Row(task.name, work, distance, 0.0, False, facts))
+            continue
+        try:
+            if parts := _parts(task, mesh, work, distance):
+                more += [replace(task, part=part, needs=needs) for part in parts]
+                continue
+            facts = _made(task, mesh, work, distance, folder, name, key)
+            rows.append(Row(task.name, work, distance, time.monotonic() - begin, True, facts))
+        except Exception as error:
+            failures.append(Failure(task.name, work, distance, failure_in_words(error)))
+    return Report(task, tuple(rows), tuple(failures), tuple(more))
+
+
+def _vertices(task: Task, mesh: Mesh) -> int:
+    """Of the mesh, or of the one that a map leads to if that is larger, by the sizes of their files."""
+    more = 1.0 if task.map is None else os.path.getsize(task.map.other) / max(1, os.path.getsize(task.mesh))
+    return int(len(mesh.surface.vertices) * max(1.0, more))
+
+
+def _landmarks(mesh: Mesh) -> int:
+    """How many there are; 0 if the sources are others, or a file of them is none, which is said where they are read."""
+    if mesh.wanted.sources.rule != "landmarks":
+        return 0
+    try:
+        return len(mesh.sources(mesh.wanted.distances[0]))
+    except BihdistError:
+        return 0
+
+
+def _made(task: Task, mesh: Mesh, work: str, distance: str, folder: Folder, name: str, key: str) -> dict[str, Any]:
+    if work == "figure":
+        from .figures import figure_made
+
+        facts = figure_made(task.mesh, mesh, folder, f"{name}.png")
+        return write_facts(folder, name, key, f"{name}.png", {**facts, **_said_of(task, mesh, work)})
+    if task.map is not None:
+        made = evaluated(mesh, task.map)
+    elif work == MAXIMA:
+        from .figures import maxima_made
+
+        made = maxima_made(task.mesh, mesh)
+    else:
+        made = WORK[work](mesh, distance)
+    return _written(task, mesh, work, folder, name, key, made)
+
+
+def _written(task: Task, mesh: Mesh, work: str, folder: Folder, name: str, key: str, made: Made) -> dict[str, Any]:
+    facts = {**made.facts, **_said_of(task, mesh, work)}
+    if facts.get("accuracy") and work != "fps" and task.wanted.dtype == "float32":
+        facts["accuracy"] += ", written in single precision: within 6e-8 of each value"
+    layout = task.wanted.layout if work == "pairs" else ""
+    if not layout:
+        format = task.wanted.arrays if work != MAXIMA else "npy"
+        # Files of several arrays say themselves what rows and columns are.
+        beside = _numbers(made.facts) if format in ("npz", "mat") else {}
+        return write_result(folder, name, key, {**made.arrays, **beside}, facts, format)
+    arrays = dict(zip(LAYOUTS[layout], (made.arrays["dist"], np.array(made.facts["sqrt_area"])), strict=False))
+    return write_result(folder, name, key, arrays, facts, "mat", f"{layout}/{task.name}.mat")
+
+
+def _numbers(facts: dict[str, Any]) -> dict[str, np.ndarray]:
+    """The vertices that are sources, and the labels of parcels, counted from 0."""
+    given = {name: facts.get(name) for name in ("sources", "labels")}
+    return {
+        name: np.array(numbers)
+        for name, numbers in given.items()
+        if isinstance(numbers, list) and numbers and all(isinstance(each, int) for each in numbers)
+    }
+
+
+def _said_of(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
+    surface = mesh.surface
+    own, others = task.read(work)
+    return {
+        "mesh": surface.name,
+        "checksum": own,
+        **({"checksums": others} if others else {}),
+        "vertices": len(surface.vertices),
+        "faces": len(surface.faces),
+        "components": surface.component_count,
+        "area": float(surface.face_areas.sum()),
+        "repairs": list(surface.remarks),
+        "areas": task.wanted.areas,
+        "version": task.version,
+    }
+
+
+# ---------------------------------------------------------------------- large meshes
+def _parts(task: Task, mesh: Mesh, work: str, distance: str) -> list[Part]:
+    """The parts of a result, none if it is done at once."""
+    n, wanted = len(mesh.surface.vertices), task.wanted
+    if work == "pairs" and wanted.labels:
+        total = len(labelled(mesh.surface, mesh.labels, mesh.mask))
+        step = PART_COLUMNS
+    elif work == "nearest":
+        total, step = len(mesh.sources(distance)), PART_COLUMNS
+    elif work in ("fields", "pairs"):
+        total = len(mesh.sources(distance))
+        step = max(1, int(PART_BYTES // (8 * n)))
+    else:
+        return []
+    if total <= step:
+        return []
+    return [Part(work, distance, begin, min(begin + step, total), total) for begin in range(0, total, step)]
+
+
+def _part_name(task: Task, part: Part) -> str:
+    return f"{_parts_folder(task, part)}/{part.begin}-{part.end}.npy"
+
+
+def _parts_folder(task: Task, part: Part) -> str:
+    """Of this mesh alone: others may have the same content, and are done at the same time."""
+    which = f"{task.name} {task.key(part.work, part.distance)}"
+    return f"{PARTS}/{hashlib.sha256(which.encode()).hexdigest()[:32]}"
+
+
+def _do_part(task: Task, part: Part) -> Report:
+    folder, name = Folder(task.out), _part_name(task, part)
+    if folder.size(name) is None:
+        mesh = opened(task)
+        if task.wanted.labels and part.work == "pairs":
+            sums = parcel_sums(mesh.distance(part.distance), mesh.labels, mesh.mask, part.begin, part.end)
+            columns = sums.sums
+        elif part.work == "nearest":
+            made = neighbours(mesh, part.distance, part.begin, part.end).arrays
+            # Whole numbers this small are exact as float64.
+            columns = np.stack([made["indices"], made["distances"]])
+        else:
+            columns = fields(mesh, part.distance, part.begin, part.end).arrays["fields"]
+            if part.work == "pairs":
+                columns = columns[np.array(mesh.sources(part.distance))].T
+        with folder.writing(name) as path, path.open("wb") as file:
+            np.save(file, columns)
+    return Report(task)
+
+
+def _join(task: Task, part: Part) -> Report:
+    """The result of which all parts are there."""
+    begin, folder, mesh = time.monotonic(), Folder(task.out), opened(task)
+    parts = _parts(task, mesh, part.work, part.distance)
+    name, key = task.result_name(part.work, part.distance), task.key(part.work, part.distance)
+    if part.work == "pairs" and task.wanted.labels:
+        names, of_each = np.unique(mesh.labels[labelled(mesh.surface, mesh.labels, mesh.mask)], return_counts=True)
+        sums = sum(_read_part(folder, task, each) for each in parts)
+        found = ParcelSums(names, of_each, np.asarray(sums)).parcels
+        made = parcels_made(mesh.distance(part.distance), found, task.wanted.dtype)
+    elif part.work == "nearest":
+        indices, values = np.concatenate([_read_part(folder, task, each) for each in parts], axis=1)
+        distance, sources = mesh.distance(part.distance), mesh.sources(part.distance)
+        made = neighbours_made(mesh, distance, sources, indices.astype(int), values)
+    else:
+        distance, sources = mesh.distance(part.distance), mesh.sources(part.distance)
+        rows = len(mesh.surface.vertices) if part.work == "fields" else part.total
+        axis = 1 if part.work == "fields" else 0
+        is_both = part.work == "pairs" and not distance.is_symmetric
+        blocks = Blocks(
+            (rows, part.total),
+            np.dtype(task.wanted.dtype),
+            axis,
+            lambda: _both_ways(folder, task, parts) if is_both else (_read_part(folder, task, p) for p in parts),
+        )
+        if part.work == "fields":
+            made = Made({"fields": blocks}, said_of_fields(distance, sources, task.wanted.sources.rule))
+        else:
+            made = Made(*pairs_made(mesh, distance, sources, blocks))
+    facts = _written(task, mesh, part.work, folder, name, key, made)
+    folder.remove(_parts_folder(task, part))
+    return Report(task, (Row(task.name, part.work, part.distance, time.monotonic() - begin, True, facts),))
+
+
+def _read_part(folder: Folder, task: Task, part: Part) -> np.ndarray:
+    name = _part_name(task, part)
+    if folder.local is not None and (folder.local / name).exists():
+        # As much of it as is looked at.
+        return np.load(folder.local / name, mmap_mode="r", allow_pickle=False)
+    content = folder.read(name)
+    if content is None:
+        raise OSError(f"a part of the result is gone: {name}")
+    return np.load(io.BytesIO(content), allow_pickle=False)
+
+
+def _both_ways(folder: Folder, task: Task, parts: list[Part]) -> Iterator[np.ndarray]:
+    """Rows of a matrix of pairs of which each part has those from its sources: the means of both ways, and 0."""
+    for part in parts:
+        rows = np.array(_read_part(folder, task, part))
+        back = [np.array(_read_part(folder, task, each)[:, part.begin : part.end]) for each in parts]
+        rows = (rows + np.concatenate(back).T) / 2
+        rows[np.arange(len(rows)), np.arange(part.begin, part.end)] = 0
+        yield rows
+
+
+_last: tuple[tuple[Any, ...], Mesh] | None = None
+
+
+def opened(task: Task) -> Mesh:
+    """The mesh of a task; parts of one mesh that the same process does share it, with its factor."""
+    global _last
+    which, last = (task.mesh, task.checksums, task.wanted), _last  # which other threads may replace
+    if last is None or last[0] != which:
+        last = _last = None  # its memory is needed
+        last = _last = (which, Mesh(task.mesh, task.name, task.wanted))
+    return last[1]

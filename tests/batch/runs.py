@@ -1,0 +1,19 @@
+"""Runs of `bihdist batch`, and what they leave."""
+
+import csv
+from pathlib import Path
+
+from app.main import main
+
+ROOT = Path(__file__).parents[2]
+
+
+def batch(meshes, out, *options):
+    """The exit status."""
+    return main(["batch", str(meshes), "--out", str(out), "--workers", "2", *map(str, options)])
+
+
+def rows(out, table="summary"):
+    """Of a table, by its columns."""
+    with (Path(out) / f"{table}.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
