@@ -31,6 +31,8 @@ COUNTS_FOR = {
     **dict.fromkeys(("recipe", "range"), ("figure",)),
     "nearest": ("nearest",),
     "eigenpairs": ("eigen",),
+    "dtype": ("fields", "pairs", "nearest", "eigen"),
+    "format": (*FROM_SOURCES, "eigen", "evaluate"),
     **dict.fromkeys(("labels", "layout"), ("pairs",)),
     **dict.fromkeys(("mask", "sources", "landmarks", "sample"), FROM_SOURCES),
     **dict.fromkeys(("source", "distance", *PARAMETERS), (*FROM_SOURCES, "figure")),
@@ -89,8 +91,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--symmetry", metavar="FILE", help="for evaluate: partners of vertices that count as right, too"
     )
     parser.add_argument("--samples", type=count, metavar="K", help="for evaluate: of so many vertices")
-    parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), default="npy", help="of arrays")
-    parser.add_argument("--dtype", choices=("float32", "float64"), default="float64", help="of arrays")
+    parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), help="of arrays (default: npy)")
+    parser.add_argument("--dtype", choices=("float32", "float64"), help="of arrays (default: float64)")
     parser.add_argument("--workers", type=count, metavar="K", help="processes here (default: as many as cores)")
     parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's .json")
     add_distance(parser, "repeat for more (default: biharmonic)")
@@ -125,8 +127,12 @@ def run(options: argparse.Namespace) -> int:
         finally:
             write_tables(folder, outcome, meshes, evaluated)
     folder.sweep()
-    if not outcome.failures:
-        folder.remove(PARTS)  # what is left there is of other options
+    left = folder.size(PARTS)
+    if left:
+        where = f"{folder}/{PARTS}"
+        tell(f"{where} has {left / 1e6:.1f} MB of unfinished work; the same command goes on from there, or delete it.")
+    else:
+        folder.remove(PARTS)
     pages, lines = _pages(folder, outcome)
     if lines:
         write_tables(folder, outcome, meshes, evaluated, lines)
@@ -194,8 +200,8 @@ def _wanted(options: argparse.Namespace) -> "Wanted":
         sources=_sources(options),
         eigenpairs=options.eigenpairs or 100,
         nearest=options.nearest or 10,
-        dtype=options.dtype,
-        arrays=options.format,
+        dtype=options.dtype or "float64",
+        arrays=options.format or "npy",
         samples=options.samples or 0,
         layout=options.layout or "",
         labels=os.path.abspath(options.labels) if options.labels else "",
@@ -229,7 +235,7 @@ def _check_together(options: argparse.Namespace) -> None:
     takes_several = asked.intersection(FROM_SOURCES) - ({"pairs"} if options.labels else set())
     if len(options.source or ()) > 1 and not takes_several:
         raise ParameterError("Figures have one source; name one vertex after --source.")
-    if options.layout and options.format != "npy":
+    if options.layout and options.format not in (None, "npy"):
         raise ParameterError(f"--layout {options.layout} writes .mat files; leave out --format {options.format}.")
 
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import pytest
 
+from app.batch.doing import PARTS
 from app.batch.drive import drive, found_meshes, tasks_for
 from app.batch.engines import Processes
 from app.batch.task import Part, Report, refused
@@ -162,3 +163,16 @@ def test_what_has_no_room_is_said_of_its_part_alone(folder, tmp_path):
     (failure,) = found[part]
     assert (failure.name, failure.work, failure.distance) == (task.name, "fields", "biharmonic")
     assert "It needs about 3.0 GB of memory" in failure.reason
+
+
+def test_unfinished_work_of_another_command_stays_and_is_told_of(folder, tmp_path, capsys):
+    out = tmp_path / "out"
+    begun = out / PARTS / "another" / "0-64.npy"
+    begun.parent.mkdir(parents=True)
+    begun.write_bytes(bytes(2_000_000))
+    assert batch(folder, out, "--do", "eigen", "--eigenpairs", "5") == 0
+    assert begun.exists()
+    assert "has 2.0 MB of unfinished work" in capsys.readouterr().err
+    begun.unlink()
+    assert batch(folder, out, "--do", "eigen", "--eigenpairs", "5") == 0
+    assert not (out / PARTS).exists()

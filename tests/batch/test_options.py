@@ -30,6 +30,8 @@ def folder(tmp_path_factory):
         ("--do fields --recipe x.json", "--recipe goes with --do figure."),
         ("--do fields --range own", "--range goes with --do figure."),
         ("--do fields --range size", "--range goes with --do figure."),
+        ("--do figure --dtype float32", "--dtype goes with --do fields, pairs, nearest or eigen."),
+        ("--do figure --format zarr", "--format goes with --do fields, pairs, nearest, fps, eigen or evaluate."),
         ("--do fields --nearest 10", "--nearest goes with --do nearest."),
         ("--do fields --eigenpairs 100", "--eigenpairs goes with --do eigen."),
         ("--do fields --layout dist", "--layout goes with --do pairs."),
