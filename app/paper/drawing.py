@@ -2,16 +2,16 @@
 
 import io
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
-from concurrent.futures import wait as wait_for
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import TracebackType
 
+from bihdist_core import BihdistError
 from bihdist_core.whole_file import whole_file
 
 from ..figures.draw import Figure, draw_figure
 from ..figures.shots import Stage
-from ..figures.worker import Worker
+from ..figures.worker import GONE, Worker
 
 Picture = Callable[[], bytes]
 """Waits for a picture, and gives its PNG; raises BihdistError if it could not be drawn, OutputError if not written."""
@@ -21,32 +21,38 @@ class Pictures:
     """A context: within it pictures are drawn one after another."""
 
     def __enter__(self) -> "Pictures":
-        self._worker = Worker(threads=1)
+        self._worker: Worker | None = None
         self._turn = ThreadPoolExecutor(1, thread_name_prefix="pictures")
-        self._begun: list[Future[bytes]] = []
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         self._turn.shutdown(wait=False, cancel_futures=True)
-        self._worker.close()
+        if self._worker is not None:
+            self._worker.close()
 
     def draw(self, folder: Path, name: str, figure: Figure) -> Picture:
         """Have a figure drawn, and kept as NAME.png."""
 
         def drawn() -> bytes:
-            content: bytes = self._worker.ask(png, figure)
+            content = self._drawn(figure)
             with whole_file(folder / f"{name}.png") as temporary:
                 temporary.write_bytes(content)
             return content
 
-        future = self._turn.submit(drawn)
-        self._begun.append(future)
-        return future.result
+        return self._turn.submit(drawn).result
 
-    def wait(self) -> None:
-        """Until none is being drawn, so that what is timed has the computer for itself."""
-        wait_for(self._begun)
-        self._begun.clear()
+    def _drawn(self, figure: Figure) -> bytes:
+        """By a process that begins with the first picture, and anew after one that has ended it."""
+        if self._worker is None:
+            self._worker = Worker(threads=1)
+        try:
+            content: bytes = self._worker.ask(png, figure)
+        except BihdistError as error:
+            if str(error) == GONE:
+                self._worker.close()
+                self._worker = None
+            raise
+        return content
 
 
 def png(figure: Figure) -> bytes:

@@ -125,10 +125,8 @@ def _sections(
 ) -> list[Section]:
     """In the order chosen; read_more: where the page has what is said of an experiment, to be followed by its id."""
     done: dict[str, tuple[Section, dict[str, Picture]]] = {}
-    # What is timed comes first, so that it waits for no pictures.
+    # What is timed comes first: no pictures are being drawn then.
     for k, experiment in enumerate(sorted(chosen, key=lambda each: not each.is_timed)):
-        if experiment.is_timed:
-            pictures.wait()
         mine = part(progress, k / len(chosen), (k + 1) / len(chosen))
         section, asked = _section(folder, experiment, shapes, quick, mine, up, pictures)
         done[experiment.id] = section, asked

@@ -13,6 +13,7 @@ from app.paper.drawing import Pictures, png
 from app.paper.page import Section, page
 from app.paper.pictures import ANCHOR, CANDIDATE, FINER, TARGET, WIDTH, figures
 from app.paper.reproduce import reproduce
+from bihdist_core import BihdistError
 from bihdist_core.experiments import EXPERIMENTS, Chart, Mark, Panel, Result, Series
 from bihdist_core.progress import silent
 from tests.shapes import bumpy
@@ -256,13 +257,40 @@ def test_a_picture_that_cannot_be_drawn_is_listed(tmp_path, monkeypatch):
     assert "<svg" in done.page.read_text(encoding="utf-8")
 
 
-def test_pictures_are_drawn_beside_and_waited_for_before_times_are_measured(tmp_path):
+def test_pictures_are_drawn_by_a_process_that_begins_with_the_first(tmp_path):
     ((_, _, figure),) = figures(result(Panel("one", "bumpy", FIELD, "row")))
     with Pictures() as pictures:
+        assert pictures._worker is None
         asked = [pictures.draw(tmp_path, name, figure) for name in ("a", "b")]
-        pictures.wait()
-        assert {path.name for path in tmp_path.iterdir()} == {"a.png", "b.png"}
         assert [picture() for picture in asked] == [png(figure)] * 2
+        assert {path.name for path in tmp_path.iterdir()} == {"a.png", "b.png"}
         process = pictures._worker._process
     assert process.returncode is not None, "it ends with the page"
+
+
+def test_a_picture_that_ends_the_process_leaves_the_others(tmp_path):
+    ((_, _, figure),) = figures(result(Panel("one", "bumpy", FIELD, "row")))
+    with Pictures() as pictures:
+        pictures.draw(tmp_path, "a", figure)()
+        pictures._worker._process.kill()
+        with pytest.raises(BihdistError, match="ended without a word"):
+            pictures.draw(tmp_path, "b", figure)()
+        assert pictures.draw(tmp_path, "c", figure)() == png(figure)
+    assert {path.name for path in tmp_path.iterdir()} == {"a.png", "c.png"}
+
+
+def test_what_is_timed_comes_first(tmp_path, monkeypatch):
+    from app.paper import reproduce as reproducing
+
+    monkeypatch.setattr(reproducing.Experiment, "compute", lambda *_: result(Panel("one", "bumpy", FIELD, "row")))
+    said = []
+    page = reproduce(str(tmp_path), ["fig1", "claims", "table2", "alpha"], say=said.append).page.read_text("utf-8")
+    assert [line.partition(":")[0] for line in said if not line.startswith(" ")] == [
+        "table2",
+        "claims",
+        "fig1",
+        "alpha",
+    ]
+    places = [page.index(f'id="{id}"') for id in ("fig1", "table2", "alpha", "claims")]
+    assert places == sorted(places)
     assert [id for id, each in EXPERIMENTS.items() if each.is_timed] == ["table1", "table2", "claims"]
