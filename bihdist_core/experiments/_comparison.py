@@ -35,20 +35,20 @@ def compared(
     count = QUICK_FIELDS if quick else (FIELDS if len(names) == 1 else FIELDS_EACH)
     found, parts = Gathered(), Parts()
     rows, sources, panels, charts = [], [], [], []
-    is_measured = False
     for q, name in enumerate(names):
         step = part(progress, q / len(names), (q + 1) / len(names))
         surface, laplacian = shapes[name], shapes.laplacian(name)
         pictured = pictured_source(surface, name, "back")
-        distances = distances_there(laplacian, parts, name, pictured)
-        fields = {kind: d.from_source(pictured) for kind, d in distances.items()}
+        distances = distances_there(laplacian, parts, name)
+        tried = {kind: parts.do(f"{kind} on {name}", d.from_source, pictured) for kind, d in distances.items()}
+        fields = {kind: field for kind, field in tried.items() if field is not None}
         for kind in DISTANCES:
             heading = distances[kind].label if kind in distances else kind
             reason = parts.why(f"{kind} on {name}")
             panels.append(_panel(surface, name, heading, pictured, fields.get(kind), reason))
-        if "biharmonic" not in distances and "diffusion t = 1" not in distances:
+        distances = {kind: distances[kind] for kind in fields}
+        if "biharmonic" not in fields and "diffusion t = 1" not in fields:
             continue
-        is_measured = True
         if "geodesic" in fields:
             for kind, values in fields.items():
                 rows.append(field_row(surface, name, "on the back", pictured, kind, values, fields["geodesic"]))
@@ -67,7 +67,7 @@ def compared(
             parts.note(f"circles on {name}", circled.failure)
         if np.isfinite(circled.ratios["biharmonic"][BACK]).all():
             charts.append(circled.chart(f"isotropy on {name}", BACK))
-    if not is_measured:
+    if not sources:
         # No shape has what a statement needs: the pictures are what there is.
         reasons = parts.why(*(f"{kind} on {name}" for name in names for kind in DISTANCES))
         if not any(panel.field is not None for panel in panels):

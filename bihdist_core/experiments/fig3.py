@@ -50,7 +50,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     damaged: dict[str, tuple[Surface, np.ndarray]] = {}
     punched_name = f"{name}, punched"
     if shapes.own is None:
-        scanned = parts.do("scan", _scanned, shapes["scan"], intact)
+        scanned = parts.do("scan", _scanned, shapes, intact)
         if scanned is not None:
             damaged["scan"] = scanned
     holes = parts.do("holes", _with_holes, intact)
@@ -138,8 +138,9 @@ def _claim(id: str, found: Found | None, reason: str) -> Claim:
     )
 
 
-def _scanned(scan: Surface, intact: Surface) -> tuple[Surface, np.ndarray]:
+def _scanned(shapes: Shapes, intact: Surface) -> tuple[Surface, np.ndarray]:
     """The scan, and (n,) the vertex of the intact surface that each of its points is, -1 for none."""
+    scan = shapes["scan"]
     off, same = cKDTree(intact.vertices).query(scan.vertices)
     # A scanned point that left its place by more than an edge has no counterpart.
     return scan, np.where(off < intact.mean_edge_length, same, -1)

@@ -135,19 +135,9 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
     return made
 
 
-def distances_there(laplacian: Laplacian, parts: Parts, where: str, source: int | None = None) -> dict[str, Distance]:
-    """Those of `DISTANCES` that can be had on a surface; of the others it is noted why not, as "KIND on WHERE".
-
-    source: a vertex from which they must give a field as well.
-    """
-
-    def had(kind: str) -> Distance:
-        made = distance(laplacian, kind)
-        if source is not None:
-            made.from_source(source)
-        return made
-
-    made = {kind: parts.do(f"{kind} on {where}", had, kind) for kind in DISTANCES}
+def distances_there(laplacian: Laplacian, parts: Parts, where: str) -> dict[str, Distance]:
+    """Those of `DISTANCES` that can be had on a surface; of the others it is noted why not, as "KIND on WHERE"."""
+    made = {kind: parts.do(f"{kind} on {where}", distance, laplacian, kind) for kind in DISTANCES}
     return {kind: each for kind, each in made.items() if each is not None}
 
 

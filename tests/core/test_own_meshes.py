@@ -228,3 +228,10 @@ def test_sub_sampling_is_judged_without_diffusion_distance(refuse):
     tables, _, (claim,) = _claims_sampling.sampling(Shapes(own=bumpy(400)), "bumpy", True, parts, part(None, 0, 1))
     assert set(claim.numbers) == set(claim.statement.names)
     assert "diffusion t = 1" not in tables[0].values("distance")
+
+
+def test_fig3_without_its_scan_has_the_holes():
+    result = EXPERIMENTS["fig3"].compute(Shapes({"figure": bumpy(600)}), quick=True)
+    assert [each.part for each in result.not_done] == ["scan"]
+    assert [claim.verdict is None for claim in result.claims] == [True, False]
+    assert "'scan'" in result.claims[0].failure
