@@ -1,6 +1,6 @@
 """The table of distances: everything that has to be known of one before it is made.
 
-The command line, the panels' controls, recipes and the README's table are made from it.  Importing it imports neither
+The command line, the panels' controls, recipes and the guide's table are made from it.  Importing it imports neither
 numpy nor any distance.
 
 A distance of somebody else's joins through the entry point group `bihdist.distances`: each entry point is named with
@@ -88,7 +88,7 @@ class Kind:
     """One distance, before it is made.
 
     word: as it is typed; name: in a menu; hint: what to look for; squares: the squared distance as a formula; scaling:
-    the p of the README's table; cost: in words.  make: a function or class that is called with a Laplacian, the
+    the p of the guide's table; cost: in words.  make: a function or class that is called with a Laplacian, the
     parameters and `progress`, or where it is: "module:name".  quick(distance): the parameters of a fast stand-in to be
     shown until this one is there, or None.
     """
