@@ -111,7 +111,7 @@ _HTML = """<!doctype html>
   }
 </style>
 <header><h1><!-- count --></h1><p><!-- words --></p>
-<input type="search" placeholder="Name contains …" aria-label="Name contains"></header>
+<input type="search" placeholder="Name contains…" aria-label="Name contains"></header>
 <main>
 <!-- figures -->
 </main>

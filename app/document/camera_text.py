@@ -33,7 +33,7 @@ def read_camera(text: str) -> View:
     except ValueError:
         numbers = []
     if len(numbers) != 11:
-        shown = said if len(said) <= SHOWN else f"{said[:SHOWN]} …"
+        shown = said if len(said) <= SHOWN else f"{said[:SHOWN]}…"
         raise ParameterError(
             f"{shown!r} is no camera; copy one with Copy camera, or paste eleven numbers: position, focal point, up "
             "and extent."

@@ -101,7 +101,7 @@ def _wrapped(draw: ImageDraw.ImageDraw, text: str, font: ImageFont.FreeTypeFont,
         else:
             lines.append(word)
     if len(lines) > most:
-        lines = [*lines[: most - 1], f"{lines[most - 1]} …"]
+        lines = [*lines[: most - 1], f"{lines[most - 1]}…"]
     return "\n".join(_cut(draw, line, font, wide) for line in lines)
 
 

@@ -169,9 +169,7 @@ def _not_held(result: Result, where: str) -> list[str]:
     lines = []
     for claim in result.claims:
         if claim.verdict != HOLDS:
-            text, measured = (
-                textwrap.shorten(words, SHORT, placeholder=" …") for words in (claim.text, claim.measured)
-            )
+            text, measured = (textwrap.shorten(words, SHORT, placeholder="…") for words in (claim.text, claim.measured))
             lines.append(f"  {claim.verdict or 'not judged'}: {text.rstrip('.')} ({measured.rstrip('.')})")
     return [*lines, f"  more in {where}"] if lines else []
 

@@ -45,7 +45,7 @@ class Actions:
         action.setAutoRepeat(not act.is_check)  # or it would flicker while its key is held
         action.setChecked(act.is_on)
         shown = action.shortcut().toString(QtGui.QKeySequence.SequenceFormat.NativeText)
-        words = act.tip or act.text.replace("&", "").replace(" …", "")
+        words = act.tip or act.text.replace("&", "").replace("…", "")
         action.setToolTip(f"{words} ({shown})" if shown else words)
         if act.icon:
             put_icon(action, act.icon)

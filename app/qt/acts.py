@@ -59,10 +59,10 @@ def _dock(word: str, text: str, key: str, tip: str, icon: str) -> Act:
 
 
 FILE = (
-    Act("open", "&Open …", lambda w: w.files.choose(), ("Ctrl+O",), "Open a mesh, a session or a recipe", "open"),
+    Act("open", "&Open…", lambda w: w.files.choose(), ("Ctrl+O",), "Open a mesh, a session or a recipe", "open"),
     Act(
         "open beside",
-        "Open beside …",
+        "Open beside…",
         lambda w: w.files.choose_beside(),
         ("Ctrl+Shift+O",),
         "A second mesh, with panels and a camera of its own",
@@ -76,21 +76,19 @@ FILE = (
         needs_mesh=True,
     ),
     Act("save", "&Save session", lambda w: w.session_file.save_or_say(), ("Ctrl+S",), "", "save", needs_mesh=True),
-    Act(
-        "save as", "Save session &as …", lambda w: w.session_file.choose_and_save(), ("Ctrl+Shift+S",), needs_mesh=True
-    ),
+    Act("save as", "Save session &as…", lambda w: w.session_file.choose_and_save(), ("Ctrl+Shift+S",), needs_mesh=True),
     Act(
         "figure",
-        "&Export figure …",
+        "&Export figure…",
         lambda w: w.files.export_figure(),
         ("Ctrl+E",),
         "A figure of what is shown, for a paper or a slide",
         "export-figure",
         needs_mesh=True,
     ),
-    Act("movie", "Export &movie …", lambda w: w.files.export_movie(), ("Ctrl+M",), needs_mesh=True),
+    Act("movie", "Export &movie…", lambda w: w.files.export_movie(), ("Ctrl+M",), needs_mesh=True),
     Act(
-        "screenshot", "S&creenshot of the window …", lambda w: w.files.choose_screenshot(), ("Ctrl+P",), needs_mesh=True
+        "screenshot", "S&creenshot of the window…", lambda w: w.files.choose_screenshot(), ("Ctrl+P",), needs_mesh=True
     ),
     Act("quit", "&Quit", lambda w: w.close(), ("Ctrl+Q",)),
 )
@@ -136,7 +134,7 @@ EDIT = (
         tip="One line of Python that makes the figure of what is shown",
         needs_mesh=True,
     ),
-    Act("preferences", "&Preferences …", lambda w: w.choices.ask_preferences(), ("Ctrl+,",), "", "settings"),
+    Act("preferences", "&Preferences…", lambda w: w.choices.ask_preferences(), ("Ctrl+,",), "", "settings"),
 )
 VIEW = (
     Act("reset", "&Reset", lambda w: w.reset_view(), ("R", "Home"), "See all of it", "reset-view", needs_mesh=True),
@@ -214,7 +212,7 @@ VIEW = (
         needs_mesh=True,
         is_check=True,
     ),
-    Act("crease", "&Angle of creases …", lambda w: w.choices.ask_crease(), needs_mesh=True),
+    Act("crease", "&Angle of creases…", lambda w: w.choices.ask_crease(), needs_mesh=True),
     Act(
         "full screen",
         "&Full screen for talks",
@@ -280,7 +278,7 @@ TOOLS = (
     ),
     Act(
         "save curve",
-        "Save the drawn curve …",
+        "Save the drawn curve…",
         lambda w: w.curve_files.save_source(w.grid.active),
         tip="The curve that distances start from, as curve.json: a source in words and on the command line",
         needs_mesh=True,

@@ -225,7 +225,7 @@ class Gestures:
             menu.addAction("Isoline through here", lambda: window.choices.isoline.pass_through(panel, vertex))
             if window.session.document.isolines.through:
                 menu.addAction("Remove isolines through points", window.choices.isoline.pass_through_none)
-            menu.addAction("Save isolines …", lambda: window.docks.writing.save_isolines(panel))
+            menu.addAction("Save isolines…", lambda: window.docks.writing.save_isolines(panel))
             menu.addSeparator()
             menu.addAction("Centre the view here\tC", lambda: view.centre(met.position))
             menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, met))

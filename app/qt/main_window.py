@@ -87,7 +87,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.views, self.changes = Views(self), Changes(self)
         self.waits = Waits(self)
         self.notice = Notice()
-        self._opening = QtWidgets.QLabel("Opening …")
+        self._opening = QtWidgets.QLabel("Opening…")
         self._opening.setProperty("quiet", True)
         self._opening.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
         self._stack = QtWidgets.QStackedWidget()

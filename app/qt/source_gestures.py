@@ -169,11 +169,11 @@ class SourceGestures:
         """What can be done to the source at a place."""
         member, members = self._member_at(panel, met), self._members(panel)
         if member is None:
-            menu.addAction("Add to the source\tCtrl+Click", lambda: self.add(panel, self.at(panel, met)))
+            menu.addAction("Add to the source\tCtrl+click", lambda: self.add(panel, self.at(panel, met)))
         elif len(members) > 1:
-            menu.addAction("Remove from the source\tCtrl+Click", lambda: self.remove(panel, member))
+            menu.addAction("Remove from the source\tCtrl+click", lambda: self.remove(panel, member))
         if isinstance(member, Curve):
-            menu.addAction("Save this curve …", lambda: self._window.curve_files.choose_and_save(member))
+            menu.addAction("Save this curve…", lambda: self._window.curve_files.choose_and_save(member))
         loop = self._loop_near(panel, met)
         if loop is not None:
             menu.addAction("This boundary as source", lambda: self.put(panel, loop))

@@ -147,7 +147,7 @@ def test_an_end_is_typed_at_the_bar(shown):
     assert shown.document.panels[1].maximum is None
     assert shown.window.tools["range"].accessibleDescription() == "Typed"
     assert [action.text() for action in shown.window.menus.range.actions() if action.isChecked()] == [
-        "This panel ends at …"
+        "This panel ends at…"
     ]
     panel.ask_end()
     box.own.click()

@@ -142,7 +142,7 @@ def test_what_is_cancelled_leaves_nothing(small, out):
     movie_dialog(small, 2000).export(str(out / "long.gif"))
     small.until(lambda: small.exports.running[0].words.startswith("frame"))
     small.chip.stop.click()
-    assert small.chip.share.text() == "Movie, stopping …"
+    assert small.chip.share.text() == "Movie, stopping…"
     assert not small.chip.stop.isEnabled()
     small.until(lambda: not small.exports.running)
     assert os.listdir(out) == []

@@ -225,7 +225,7 @@ def test_the_menu_of_a_place_offers_what_can_be_done_there(opened):
         "Add to the source",
         "Pin here",
         "Isoline through here",
-        "Save isolines …",
+        "Save isolines…",
         "Centre the view here",
         "Zoom to it",
         f"Copy vertex id {target}",

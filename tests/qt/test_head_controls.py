@@ -69,7 +69,7 @@ def test_words_leave_as_the_panel_becomes_narrower(head):
 
 def test_a_hidden_number_opens_its_pop_up_from_the_name_s_menu(head, application):
     h = head("diffusion", 150)
-    choose(h, "Diffusion time: 1.00 …")
+    choose(h, "Diffusion time: 1.00…")
     QtTest.QTest.qWait(20)
     (control,) = h.controls
     assert control.pop_up.isVisible()

@@ -157,5 +157,5 @@ def test_isolines_are_saved_from_the_menu_of_a_place_too(opened, tmp_path):
     middle = s.panels[1].view.rect().center()
     s.window.gestures._open_menu(s.document.panels[1].id, s.panels[1].view.met_at(middle), middle)
     (menu,) = [each for each in s.application.topLevelWidgets() if isinstance(each, QMenu) and each.isVisible()]
-    assert "Save isolines …" in [action.text() for action in menu.actions()]
+    assert "Save isolines…" in [action.text() for action in menu.actions()]
     menu.hide()

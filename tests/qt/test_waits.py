@@ -138,7 +138,7 @@ def test_each_panel_tells_what_it_waits_for_and_how_far_that_is(screen, mesh_fil
     pretend(s, (0.2, "biharmonic"), (nan, "eigenpairs: solving"))
     s.until(s.panels[0].waiting.isVisible)
     # The first has its answer, and only finds out how accurate that is.
-    said = ["Checking the accuracy, 20 %", "Eigenpairs …", "Waiting …"]
+    said = ["Checking the accuracy, 20 %", "Eigenpairs…", "Waiting…"]
     assert [panel.waiting.text for panel in s.panels] == said
     assert ["no values" in panel.bar.accessibleDescription() for panel in s.panels] == [False, True, True]
 

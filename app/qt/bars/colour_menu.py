@@ -43,7 +43,7 @@ class ColourMenu(QtWidgets.QMenu):
             action.setToolTip(MAPS[word].hint if word else "As the style has it")
             action.triggered.connect(lambda *_, word=word: window.choices.colour_map(word))
         self._own = self._entry(self._maps, "", ("map", None))
-        self._file = self.addAction("From a file …", window.choices.ask_colours)
+        self._file = self.addAction("From a file…", window.choices.ask_colours)
         self._file.setToolTip("Rows of red, green and blue, or ParaView's .json")
         self.addSeparator()
         self.reversed = self._tick("Reversed", "From the other end", window.choices.reverse_colours)

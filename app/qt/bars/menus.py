@@ -60,11 +60,11 @@ class Menus:
             ],
         )
         self.range.addSeparator()
-        typed = self.range.addAction("This panel ends at …")
+        typed = self.range.addAction("This panel ends at…")
         typed.setData("typed")
         typed.setCheckable(True)  # while one does
         typed.triggered.connect(window.choices.ask_end)
-        self.range.addAction("As in a session or recipe …", window.choices.ask_ends)
+        self.range.addAction("As in a session or recipe…", window.choices.ask_ends)
         self.shading = self._choices(
             "S&hading",
             window.choices.shading,

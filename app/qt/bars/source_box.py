@@ -59,7 +59,7 @@ class SourceBox(TextBox):
         self.setCursorPosition(0)
         self.setModified(False)
         self.forgive()
-        known = f"\nNow: {words if len(words) < 200 else words[:200] + ' …'}" if len(words) > 10 else ""
+        known = f"\nNow: {words if len(words) < 200 else words[:200] + '…'}" if len(words) > 10 else ""
         self.setToolTip(f"What distances start from: type {WHAT} and press Enter (G){known}")
         width = WIDTH if isinstance(source, int | None) else WIDER
         if width == self.maximumWidth():

@@ -56,7 +56,7 @@ class AnchorsDock(Instrument):
         self.shows.chosen.connect(self._show_total)
         self.extrema = AnchorExtrema(window)
         self.samples = AnchorSamples(window)
-        self.save_field = QtWidgets.QPushButton("Save field …", autoDefault=False)
+        self.save_field = QtWidgets.QPushButton("Save field…", autoDefault=False)
         self.save_field.setToolTip("What panels show of interpolants, a column for each")
         self.save_field.clicked.connect(self.save_fields)
         self._clock = AnchorClock(window)
@@ -105,14 +105,14 @@ class AnchorsDock(Instrument):
     def head_widgets(self) -> list[QtWidgets.QWidget]:
         read, write, more = (FlatButton(self, icon) for icon in ("open", "save", "more"))
         for button, tip, do in (
-            (read, "Read anchors: CSV, JSON, MeshLab's picked points …", self.choose_and_read),
-            (write, "Save the anchors …", self.choose_and_save),
+            (read, "Read anchors: CSV, JSON, MeshLab's picked points…", self.choose_and_read),
+            (write, "Save the anchors…", self.choose_and_save),
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)
             button.opened.connect(do)
         menu = QtWidgets.QMenu(more)
-        menu.addAction("Save the interpolants as fields …", self.save_fields)
+        menu.addAction("Save the interpolants as fields…", self.save_fields)
         menu.addAction("Pins become anchors", self.take_pins)
         menu.addSeparator()
         menu.addAction("Show distances again", self.end_tool)

@@ -45,7 +45,7 @@ class LevelBox(QtWidgets.QWidget):
         self._levels: Levels | None = None
         self._asked: tuple[Any, ...] | None = None
         self.band: Band | None = None
-        self.lines = QtWidgets.QPushButton("Save isolines …", autoDefault=False)
+        self.lines = QtWidgets.QPushButton("Save isolines…", autoDefault=False)
         self.lines.setToolTip("The panel's isolines as coordinates: CSV, OBJ, VTP or JSON")
         self.lines.clicked.connect(self.save_isolines)
         self.low, self.high = TextBox(), TextBox()
@@ -58,8 +58,8 @@ class LevelBox(QtWidgets.QWidget):
         self.more.setText("Save")
         menu = QtWidgets.QMenu(self.more)
         menu.addAction("Select its vertices", self.select)
-        menu.addAction("Save vertex ids …", self.save_ids)
-        menu.addAction("Save the cut-out mesh …", self.save_mesh)
+        menu.addAction("Save vertex ids…", self.save_ids)
+        menu.addAction("Save the cut-out mesh…", self.save_mesh)
         self.more.setMenu(menu)
         self.more.setToolTip("The region between the two values")
         row = QtWidgets.QHBoxLayout()

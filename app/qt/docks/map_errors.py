@@ -173,7 +173,7 @@ class MapErrors(QtWidgets.QWidget):
     def _over(self, judged: Judgement | None) -> str:
         """Over how many vertices, by which distance."""
         if judged is None:
-            return "Finding errors …"
+            return "Finding errors…"
         if not judged.curves:
             return " ".join(dict.fromkeys(judged.failures.values()))
         known = f"{judged.known:,}" if judged.is_whole else f"{judged.known:,} of {judged.wanted:,}"
@@ -249,7 +249,7 @@ class MapErrors(QtWidgets.QWidget):
         menu = self.save.menu()
         menu.clear()
         for spec, found in self._full_maps().items():
-            action = menu.addAction(f"Save the map by {self.name_of(spec).lower()} …")
+            action = menu.addAction(f"Save the map by {self.name_of(spec).lower()}…")
             action.triggered.connect(lambda *_, spec=spec, found=found: self.save_map(spec, found))
 
     def save_map(self, spec: Spec, found: Any) -> None:

@@ -56,18 +56,18 @@ class MapTruth:
             return
         has_ids = len(asked.one.surface.vertices) == len(asked.two.surface.vertices)
         self._add("Same ids", partial(self._choose, word="identity", file=None), word == "identity", has_ids)
-        self._add("A map's file …", self.choose, word == "file")
+        self._add("A map's file…", self.choose, word == "file")
         self._add("Not known", partial(self._choose, word="none", file=None), word == "none")
         self._menu.addSeparator()
         for samples, words in SAMPLES.items():
             self._add(words, partial(self._choose, samples=samples), truth.samples == samples)
         self._menu.addSeparator()
-        self._add("Symmetric partners from a map's file …", self.choose_partners)
-        self._add("Show the map of a file …", self.choose_map)
+        self._add("Symmetric partners from a map's file…", self.choose_partners)
+        self._add("Show the map of a file…", self.choose_map)
         self._menu.addSeparator()
         has_curves = bool(self._section.named_curves())
-        self._add("Save the curves as a figure …", self.save_figure, can=has_curves)
-        self._add("Save the curves' numbers …", self.save_numbers, can=has_curves)
+        self._add("Save the curves as a figure…", self.save_figure, can=has_curves)
+        self._add("Save the curves' numbers…", self.save_numbers, can=has_curves)
 
     def _add(self, words: str, do: Callable[[], None], is_on: bool | None = None, can: bool = True) -> None:
         action = self._menu.addAction(words)

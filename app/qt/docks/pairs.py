@@ -43,7 +43,7 @@ class PairsDock(Instrument):
         self.hint.setProperty("quiet", True)
         self.start = QtWidgets.QPushButton("Show predictions", autoDefault=False)
         self.start.clicked.connect(self.begin)
-        self.open_beside = QtWidgets.QPushButton("Open beside …", autoDefault=False)
+        self.open_beside = QtWidgets.QPushButton("Open beside…", autoDefault=False)
         self.open_beside.clicked.connect(self._open_beside)
         self.accept = QtWidgets.QPushButton("Accept", autoDefault=False, objectName="fill")
         self.accept.setToolTip("The best candidate is the partner (Enter)")
@@ -82,8 +82,8 @@ class PairsDock(Instrument):
     def head_widgets(self) -> list[QtWidgets.QWidget]:
         read, write, more = (FlatButton(self, icon) for icon in ("open", "save", "more"))
         for button, tip, do in (
-            (read, "Read pairs: a line i,j for each …", self.choose_and_read),
-            (write, "Save the pairs …", self.choose_and_save),
+            (read, "Read pairs: a line i,j for each…", self.choose_and_read),
+            (write, "Save the pairs…", self.choose_and_save),
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)

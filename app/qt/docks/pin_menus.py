@@ -27,8 +27,8 @@ class PinMenu:
         dock, menu = self._dock, self.whole
         menu.clear()
         has_pins = bool(dock.places)
-        menu.addAction("Read pins …", dock.files.choose_and_read)
-        menu.addAction("Save pins …", dock.files.choose_and_save).setEnabled(has_pins)
+        menu.addAction("Read pins…", dock.files.choose_and_read)
+        menu.addAction("Save pins…", dock.files.choose_and_save).setEnabled(has_pins)
         menu.addSeparator()
         menu.addAction("Copy the list", dock.copy_list).setEnabled(has_pins)
         menu.addAction("Copy the distances", dock.copy_matrix).setEnabled(len(dock.places) > 1)

@@ -28,7 +28,7 @@ from .pin_menus import PinMenu
 from .pin_table import PinRow, PinTable
 
 PAD = 12
-EMPTY = "Shift-click a surface to pin a point, or type vertex ids."
+EMPTY = "Shift+click a surface to pin a point, or type vertex ids."
 WORD = re.compile(r"f[0-9]+:[^,;\s]*,[^,;\s]*|[^,;\s]+")
 """Of what is typed: a place in a face has a comma of its own."""
 
@@ -131,7 +131,7 @@ class PinsDock(Instrument):
         copy, save, more = (FlatButton(self, icon) for icon in ("copy", "save", "more"))
         for button, tip, do in (
             (copy, "Copy the list, with all digits", self.copy_list),
-            (save, "Save pins …", self.files.choose_and_save),
+            (save, "Save pins…", self.files.choose_and_save),
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)

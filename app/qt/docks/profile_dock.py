@@ -23,7 +23,7 @@ from .profile_charts import ProfileCharts
 from .profile_choices import WAYS, ProfileChoices
 from .profile_files import ProfileFiles
 
-FINDING = "Finding the path …"
+FINDING = "Finding the path…"
 
 NEAR = 14.0
 """Logical pixels from the path within which the pointer on a surface means it."""

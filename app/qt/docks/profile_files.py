@@ -30,8 +30,8 @@ class ProfileFiles:
     def menu(self, parent: QtWidgets.QWidget) -> QtWidgets.QMenu:
         menu = QtWidgets.QMenu(parent)
         self._actions = [
-            menu.addAction("Save the numbers …", self.choose_numbers),
-            menu.addAction("Save as a figure …", self.choose_figure),
+            menu.addAction("Save the numbers…", self.choose_numbers),
+            menu.addAction("Save as a figure…", self.choose_figure),
             menu.addAction("Copy the numbers", self.copy),
         ]
         self.allow(False)

@@ -38,12 +38,12 @@ WAYS = ("labels", "mesh", "boundaries")
 
 FORMATS = {"labels": LABEL_FORMATS, "mesh": REGION_MESH_FORMATS, "boundaries": CURVE_FORMATS}
 TITLES = {
-    "labels": "Labels of the vertices …",
-    "mesh": "Mesh cut along the boundaries …",
-    "boundaries": "Boundaries …",
+    "labels": "Labels of the vertices…",
+    "mesh": "Mesh cut along the boundaries…",
+    "boundaries": "Boundaries…",
 }
 
-NO_PINS = "There are no pins. Shift-click the surface, or pin the farthest points."
+NO_PINS = "There are no pins. Shift+click the surface, or pin the farthest points."
 NO_PANEL = "Tick a distance above: each part of the surface then belongs to the pin that is nearest by it."
 
 
@@ -199,7 +199,7 @@ class RegionsDock(Instrument):
             self._words.setText(failure)
             self._words.show()
         is_on_its_way = any(not self._findings.is_divided(panel.id) for _, panel in shown) and bool(document.pins)
-        self.said.emit("dividing …" if is_on_its_way else "")
+        self.said.emit("dividing…" if is_on_its_way else "")
 
     def text(self) -> str:
         """The areas, or their shares of the whole, with tabulators and all digits; pins by their numbers."""
@@ -228,7 +228,7 @@ class RegionsDock(Instrument):
 
     def _save(self, panel: int, way: str) -> None:
         name = f"{self.window_.session.surface.name}-{way}"
-        save(self.window_, TITLES[way].removesuffix(" …"), name, FORMATS[way], partial(self.write, panel, way))
+        save(self.window_, TITLES[way].removesuffix("…"), name, FORMATS[way], partial(self.write, panel, way))
 
     def save_to(self, panel: int, way: str, path: str) -> bool:
         """Write the regions of a panel, one of WAYS; whether that could be done."""

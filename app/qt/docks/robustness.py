@@ -76,9 +76,9 @@ class RobustnessDock(Instrument):
         self.brush_size.setAccessibleName("Size of the brush")
         self.weld = ChosenRow("Weld", "Pick two", "Let the surface grow together at two places", is_check=True)
         self.handle = ChosenRow("Handle", "Pick two", "A thin tube from one place to another", is_check=True)
-        self.pose = ChosenRow("Pose", "Open …", "Another pose from a file with the same vertices and faces")
+        self.pose = ChosenRow("Pose", "Open…", "Another pose from a file with the same vertices and faces")
         self.table = ChangeTable(window)
-        self.save_button = QtWidgets.QPushButton("Save changed mesh …", autoDefault=False)
+        self.save_button = QtWidgets.QPushButton("Save changed mesh…", autoDefault=False)
         self.remove_button = QtWidgets.QPushButton("Remove change", autoDefault=False)
         self._lay_out()
         self._connect()
@@ -164,7 +164,7 @@ class RobustnessDock(Instrument):
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
         write, more = FlatButton(self, "save"), FlatButton(self, "more")
-        write.setToolTip("Save the changed mesh …")
+        write.setToolTip("Save the changed mesh…")
         write.setAccessibleName("Save the changed mesh")
         write.opened.connect(self.choose_and_save)
         menu = QtWidgets.QMenu(more)

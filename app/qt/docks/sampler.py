@@ -36,7 +36,7 @@ class Sampler(QtWidgets.QWidget):
         self.pin = QtWidgets.QPushButton("Pin them", autoDefault=False)
         self.pin.setToolTip("Each point is the farthest from the source and those before it, and becomes a pin")
         self.pin.clicked.connect(lambda *_: self.pin_them())
-        self.save = QtWidgets.QPushButton("Save …", autoDefault=False)
+        self.save = QtWidgets.QPushButton("Save…", autoDefault=False)
         self.save.setToolTip("Their vertex ids as text or an array, or as a file of pins")
         self.save.clicked.connect(lambda *_: self._save())
         self.words = QtWidgets.QLabel()

@@ -139,8 +139,8 @@ class ScatterDock(Instrument):
         self._save.setToolTip("Save the scatter as a figure, or its numbers")
         self._save.setAccessibleName("What to do with the scatter")
         menu = QtWidgets.QMenu(self._save)
-        menu.addAction("Save as a figure …", self.save_figure)
-        menu.addAction("Save the numbers …", self.save_numbers)
+        menu.addAction("Save as a figure…", self.save_figure)
+        menu.addAction("Save the numbers…", self.save_numbers)
         self._save.setMenu(menu)
         self._save.setEnabled(False)
         self._found: Agreement | None = None

@@ -15,7 +15,7 @@ from ...drawing.style import PINS
 from ..look.look import LOOK
 from .saving import save
 
-WAYS = {"ids": "Save vertex ids …", "field": "Save as a field …", "mesh": "Save the cut-out mesh …"}
+WAYS = {"ids": "Save vertex ids…", "field": "Save as a field…", "mesh": "Save the cut-out mesh…"}
 COLOUR_NAMES = (
     "Green",
     "Orange",
@@ -135,7 +135,7 @@ class SelectionList(QtWidgets.QTreeWidget):
         if path is not None:
             write(path)
         else:
-            title = WAYS[way].removesuffix(" …")
+            title = WAYS[way].removesuffix("…")
             save(self._window, title, f"{surface.name} {selection.name}", SELECTION_WAYS[way], write)
 
     @property

@@ -104,7 +104,7 @@ class TruncationBox(QtWidgets.QWidget):
         self._is_on, self._request = True, self._wanted
         self._background.ask(self._request)
         if self.loss is None:
-            self._say("Eigenpairs …")
+            self._say("Eigenpairs…")
 
     def _rest(self, words: str) -> None:
         self._background.ask(None)

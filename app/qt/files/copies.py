@@ -54,7 +54,7 @@ def copy_picture(window: Any, recipe: Recipe, surfaces: Surfaces, answers: list)
     _Waiting(draughtsman, window).number = draughtsman.ask(
         "copy", whole_picture, figure_of(recipe, surfaces, answers), MOST
     )
-    window.say("Drawing the picture …")
+    window.say("Drawing the picture…")
 
 
 class _Waiting(QtCore.QObject):
@@ -115,4 +115,4 @@ def _kept(recipe: Recipe, given: Any) -> Path:
 
 
 def _short(line: str) -> str:
-    return line if len(line) <= SHOWN else f"{line[: SHOWN - 2]} …"
+    return line if len(line) <= SHOWN else f"{line[: SHOWN - 2]}…"

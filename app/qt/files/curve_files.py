@@ -48,7 +48,7 @@ class CurveFiles:
         curves = [each for point in points for each in members_of(point.at) if isinstance(each, Curve)]
         if len(curves) == 1:
             return self.choose_and_save(curves[0])
-        where = "right-click the one that is to be saved" if curves else "draw one on the surface (D)"
+        where = "right click the one that is to be saved" if curves else "draw one on the surface (D)"
         self._window.say(f"The source has {len(curves) or 'no'} curve{'s' * bool(curves)}; {where}")
         return False
 

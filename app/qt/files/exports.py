@@ -34,7 +34,7 @@ class Export(QtCore.QObject):
     def __init__(self, work: Callable[..., None], path: str, what: str, exports: "Exports") -> None:
         super().__init__(exports)
         self.path, self.what = path, what
-        self.fraction, self.words = 0.0, "starting …"
+        self.fraction, self.words = 0.0, "starting…"
         self.is_stopping = False
         self._exports = exports
         self._progress.connect(self._go_on)
@@ -51,7 +51,7 @@ class Export(QtCore.QObject):
 
     def _go_on(self, fraction: float, words: str) -> None:
         if not self.is_stopping:
-            self.fraction, self.words = fraction, words or "writing the file …"
+            self.fraction, self.words = fraction, words or "writing the file…"
             self._exports.changed.emit()
 
     def _end(self, message: str | None) -> None:
@@ -104,7 +104,7 @@ class Exports(QtCore.QObject):
     def cancel(self, export: Export) -> None:
         """Stop it: what was at the path stays.  It runs on until its process has noticed."""
         if export in self.running:
-            export.is_stopping, export.words = True, "stopping …"
+            export.is_stopping, export.words = True, "stopping…"
             export.job.cancel()
             self.changed.emit()
 
@@ -224,7 +224,7 @@ class ExportChip(QtWidgets.QWidget):
             name = self.fontMetrics().elidedText(
                 os.path.basename(export.path), QtCore.Qt.TextElideMode.ElideMiddle, 240
             )
-            how_far = "stopping …" if export.is_stopping else f"{export.percent} %"
+            how_far = "stopping…" if export.is_stopping else f"{export.percent} %"
             # An ampersand in a name would underline the letter after it.
             action.setText(f"Cancel {export.what.lower()} {name}, {how_far}".replace("&", "&&"))
             action.setEnabled(not export.is_stopping)
@@ -236,7 +236,7 @@ def _summary(running: list[Export]) -> tuple[str, float]:
     if len(running) > 1:
         return f"{len(running)} exports, {int(100 * mean)} %", mean
     return (
-        f"{running[0].what}, stopping …" if running[0].is_stopping else f"{running[0].what} {int(100 * mean)} %"
+        f"{running[0].what}, stopping…" if running[0].is_stopping else f"{running[0].what} {int(100 * mean)} %"
     ), mean
 
 

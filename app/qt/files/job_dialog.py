@@ -212,7 +212,7 @@ class JobDialog(QtWidgets.QDialog):
         self.refusal = _sentence()
         role = QtWidgets.QDialogButtonBox.ButtonRole
         buttons = QtWidgets.QDialogButtonBox(self)  # which a default button must know of
-        self.save = buttons.addButton("Export …", role.AcceptRole)
+        self.save = buttons.addButton("Export…", role.AcceptRole)
         self.save.setDefault(True)
         self.save.setToolTip("Choose where the file goes; it is drawn in the background")
         self.cancel = buttons.addButton("Cancel", role.RejectRole)

@@ -166,7 +166,7 @@ class PreviewPane(QtWidgets.QWidget):
         painter.setPen(QtGui.QColor(theme.warning if self.is_warning else theme.quiet))
         painter.setFont(LOOK.font(12.5))
         line = QtCore.QRect(self.MARGIN, box.bottom() + 10, self.width() - 2 * self.MARGIN, self.LINE + 12)
-        words = self.caption or ("Drawing …" if self.is_waiting else "")
+        words = self.caption or ("Drawing…" if self.is_waiting else "")
         flags = QtCore.Qt.AlignmentFlag.AlignHCenter | QtCore.Qt.AlignmentFlag.AlignTop
         painter.drawText(line, int(flags) | int(QtCore.Qt.TextFlag.TextWordWrap), words)
         if self.is_waiting:

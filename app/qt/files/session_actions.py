@@ -196,7 +196,7 @@ def _mesh_instead(window, message: str, path: str) -> str:
     if window.quiet:
         return path
     box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=window)
-    choose = box.addButton("Choose the mesh …", QtWidgets.QMessageBox.ButtonRole.ActionRole)
+    choose = box.addButton("Choose the mesh…", QtWidgets.QMessageBox.ButtonRole.ActionRole)
     as_it_is = box.addButton("Show it as it is", QtWidgets.QMessageBox.ButtonRole.AcceptRole) if path else None
     box.addButton(QtWidgets.QMessageBox.StandardButton.Cancel)
     box.exec()

@@ -43,7 +43,7 @@ class TakenEnds(QtCore.QObject):
             self._lane = Lane("ends", self._compute, self._progress.emit, self._failed.emit)
         self._end_waiting()
         self._wanted = [path]
-        waiting = QtWidgets.QProgressDialog(f"The fields of {os.path.basename(path)} …", "Cancel", 0, 100, self._window)
+        waiting = QtWidgets.QProgressDialog(f"The fields of {os.path.basename(path)}…", "Cancel", 0, 100, self._window)
         waiting.setCancelButton(QtWidgets.QPushButton("Cancel", autoDefault=False))
         waiting.setWindowTitle("Ranges")
         waiting.setMinimumDuration(PATIENCE_MS)

@@ -15,9 +15,9 @@ GESTURES: Group = (
     (
         ("Put the source there", "click on the surface"),
         ("Move the source", "drag its mark"),
-        ("Pin a point", "Shift-click on the surface"),
+        ("Pin a point", "Shift+click on the surface"),
         ("Turn all panels", "drag"),
-        ("Move all panels", "Shift-drag or middle drag"),
+        ("Move all panels", "Shift+drag or middle drag"),
         ("Paint a selection", "hold B and drag; with Ctrl it takes away"),
         ("Zoom to the pointer", "wheel"),
         ("Centre the view here", "double click"),

@@ -176,7 +176,7 @@ class ColourBar(QtWidgets.QWidget):
         if self._reading is not None:
             menu = QtWidgets.QMenu(self)
             # Once the menu is gone: two sheets do not pop up at a time.
-            menu.addAction("Ends at …").triggered.connect(lambda *_: QtCore.QTimer.singleShot(0, self.end_wanted.emit))
+            menu.addAction("Ends at…").triggered.connect(lambda *_: QtCore.QTimer.singleShot(0, self.end_wanted.emit))
             menu.aboutToHide.connect(menu.deleteLater)
             menu.popup(event.globalPos())
 

@@ -63,7 +63,7 @@ class PanelHead(QtWidgets.QWidget):
         self.more.setToolTip("Add, duplicate, move or remove panels")
         self.more.setAccessibleName("The panel: add, duplicate, move, remove")
         self.more.setMenu(self._menu(None))
-        self._about = self.more.menu().addAction("What to look for …")
+        self._about = self.more.menu().addAction("What to look for…")
         self._about.triggered.connect(lambda: QtCore.QTimer.singleShot(0, lambda: self._open_info(self.more)))
         self._line_under_about = self.more.menu().addSeparator()
         self.edits = {word: self.more.menu().addAction(word) for word in PANEL_EDITS}

@@ -119,7 +119,7 @@ class NumberControl(QtWidgets.QWidget):
 
     def add_to(self, menu: QtWidgets.QMenu) -> None:
         """Offer the same in another menu."""
-        action = menu.addAction(f"{self.tip}: {shown_value(self.parameter, self.value)} …")
+        action = menu.addAction(f"{self.tip}: {shown_value(self.parameter, self.value)}…")
         # After the menu has given back mouse and keys.
         action.triggered.connect(lambda: QtCore.QTimer.singleShot(0, lambda: self.open_under(self.parentWidget())))
 

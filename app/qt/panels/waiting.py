@@ -36,7 +36,7 @@ class Waiting(QtWidgets.QWidget):
     @property
     def text(self) -> str:
         known = 0.0 <= self._fraction <= 1.0
-        return f"{self._words}, {self._fraction:.0%}".replace("%", " %") if known else f"{self._words} …"
+        return f"{self._words}, {self._fraction:.0%}".replace("%", " %") if known else f"{self._words}…"
 
     def fit(self, width: int) -> None:
         """Take the width of a view."""
