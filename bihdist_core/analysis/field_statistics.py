@@ -9,18 +9,21 @@ import numpy.typing as npt
 from ..errors import ParameterError
 from ..surface import Surface
 from .field_scatter import field_scatter
+from .linear_field import LinearField
 
 
 @dataclass(frozen=True, eq=False)
 class FieldStatistics:
-    """A field (n,) over the area of its surface; in the field's unit, NaN left out.
+    """A field (n,), linear on each face, over the area of its surface; in the field's unit, NaN left out.
 
-    mean, deviation: mean and standard deviation of the values at the vertices by their areas, a third of those of their
-    faces; so the mean is that of the field, linear on each face, exactly.  mean_size: the same of |field|, of a
-    difference its mean deviation.
-    least, greatest, largest: of field and of |field|; least_at, greatest_at, largest_at: vertices where (the smallest
-    id).  shares, quantiles: (q,) the field is at most quantiles[i] on shares[i] of the area.
-    bins: (b + 1,) ends, ascending, and areas: (b,) of each; their sum is the area of the vertices that have a value.
+    All but the extremes are of the faces at whose corners the field is finite, and exact, as the area of a band between
+    two values is.
+    mean, deviation: mean and standard deviation by area.  mean_size: the mean of |field|, of a difference its mean
+    deviation.
+    count: of vertices that have a value.  least, greatest, largest: of field and of |field| over these; least_at,
+    greatest_at, largest_at: vertices where (the smallest id).
+    shares, quantiles: (q,) the field is at most quantiles[i] on shares[i] of the area.
+    bins: (b + 1,) ends, ascending, and areas: (b,) of each.
     """
 
     count: int
@@ -53,28 +56,22 @@ def field_statistics(
 ) -> FieldStatistics:
     """The statistics of a field (n,), such as a distance or the difference of two.
 
-    bins: how many, of equal width from the least to the greatest value, or (b + 1,) their ends, ascending; values on an
-    end count above it, those on the last end below it.  shares: (q,) from 0 to 1.
-    Raises ParameterError for a field of another shape or with no finite value at a vertex of a face, and bad bins or
-    shares.
+    bins: how many, of equal width from the least to the greatest value, or (b + 1,) their ends, ascending; faces on
+    which the field is an end count above it, those on the last end below it.  shares: (q,) from 0 to 1.
+    Raises ParameterError for a field of another shape or that is finite on no face, and bad bins or shares.
     """
-    f, ids, weights = _chosen(surface, field)
+    f, ids, faces = _chosen(surface, field)
     share = np.asarray(shares, np.float64)
     if share.ndim != 1 or not ((share >= 0) & (share <= 1)).all():
         raise ParameterError(f"Shares of the area are numbers from 0 to 1, not {shares!r}.")
-    total = weights.sum()
-    # From one of the values on, so that a constant field has no deviation.
-    mean = float(f[0] + weights @ (f - f[0]) / total)
+    mean = faces.mean()
     edges = _edges(bins, float(f.min()), float(f.max()))
-    order = np.argsort(f, kind="stable")
-    reached = np.cumsum(weights[order])
-    at = np.searchsorted(reached, share * reached[-1])
     low, high, largest = int(f.argmin()), int(f.argmax()), int(np.abs(f).argmax())
     return FieldStatistics(
         count=len(f),
         mean=mean,
-        mean_size=float(weights @ np.abs(f) / total),
-        deviation=float(np.sqrt(weights @ (f - mean) ** 2 / total)),
+        mean_size=faces.mean_size(),
+        deviation=faces.deviation(mean),
         least=float(f[low]),
         least_at=int(ids[low]),
         greatest=float(f[high]),
@@ -82,9 +79,9 @@ def field_statistics(
         largest=float(abs(f[largest])),
         largest_at=int(ids[largest]),
         shares=share,
-        quantiles=f[order][at],
+        quantiles=faces.quantiles(share),
         bins=edges,
-        areas=np.histogram(f, edges, weights=weights)[0],
+        areas=faces.histogram(edges),
     )
 
 
@@ -93,7 +90,8 @@ class Agreement:
     """How two fields go together over the vertices at which both are finite, `count` of them; no unit but `largest`'s.
 
     spearman: rank correlation, from -1 to 1; by_area: the same with vertices weighted by area.  NaN where a field is
-    constant.  mean, largest: of |a - b| by area, or, where each was divided by its maximum, of that; largest_at: where.
+    constant.  mean, largest: of |a - b|, linear on each face, by area and exactly, or, where each was divided by its
+    maximum, of that; largest_at: where.
     """
 
     count: int
@@ -115,11 +113,14 @@ def field_agreement(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares
     apart = np.abs(f - g)
     worst = int(apart.argmax())
     orders, total = (_order(f), _order(g)), weights.sum()
+    difference = np.full(len(surface.vertices), np.nan)
+    difference[ids] = f - g
+    faces = LinearField.on(surface, difference)
     return Agreement(
         count=len(ids),
         spearman=_correlation(*orders, np.ones(len(ids))),
         by_area=_correlation(*orders, weights) if total > 0 else float("nan"),
-        mean=float(weights @ apart / total) if total > 0 else float("nan"),
+        mean=faces.mean_size() if faces.area > 0 else float("nan"),
         largest=float(apart[worst]),
         largest_at=int(ids[worst]),
     )
@@ -170,17 +171,17 @@ def _ranks(of: Order, w: np.ndarray) -> np.ndarray:
     return ranks
 
 
-def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Values, ids and areas of the vertices that have a value."""
+def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[np.ndarray, np.ndarray, LinearField]:
+    """Values and ids of the vertices that have a value, and the faces that have one everywhere."""
     f = np.asarray(field)
     n = len(surface.vertices)
     if f.shape != (n,) or f.dtype.kind not in "biuf":
         raise ParameterError(f"A field is a real number for each of {n} vertices, not {f.shape}.")
+    faces = LinearField.on(surface, f)
+    if not faces.area > 0:
+        raise ParameterError(f"The field has no finite value on {surface.name}: on no face is it finite.")
     ids = np.flatnonzero(np.isfinite(f) & (surface.component_of_vertex >= 0))
-    weights = corner_areas(surface)[ids]
-    if not weights.sum() > 0:
-        raise ParameterError(f"The field has no finite value on {surface.name}.")
-    return f[ids].astype(np.float64), ids, weights
+    return f[ids].astype(np.float64), ids, faces
 
 
 def _edges(bins: int | npt.ArrayLike, least: float, greatest: float) -> np.ndarray:

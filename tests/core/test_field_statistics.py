@@ -9,10 +9,12 @@ from bihdist_core import (
     GeodesicDistance,
     Laplacian,
     ParameterError,
+    Surface,
     TruncatedBiharmonicDistance,
     VertexError,
+    band,
 )
-from bihdist_core.analysis.field_statistics import corner_areas, field_agreement, field_statistics, rank_correlation
+from bihdist_core.analysis.field_statistics import field_agreement, field_statistics, rank_correlation
 from bihdist_core.analysis.truncation import truncation_loss
 from bihdist_core.applications.resizing import refined
 from tests.shapes import grid, two_pieces
@@ -25,30 +27,75 @@ def test_known_numbers_on_a_plane():
     assert found.mean == pytest.approx(3, rel=1e-12)
     assert (found.least, found.greatest, found.largest) == (-2, 8, 8)
     assert (found.least_at, found.greatest_at) == (0, 10)
-    assert found.quantiles[2] == pytest.approx(3, abs=1)
-    # Columns of vertices have the area 10 each, the outermost half.
-    assert found.areas.tolist() == pytest.approx([15, 50, 35], rel=1e-12)
-    assert found.mean_size == pytest.approx(np.average(np.abs(x - 2), weights=corner_areas(plane)), rel=1e-12)
+    # x is uniform on [0, 10].
+    assert found.quantiles == pytest.approx([-1.5, 0.5, 3, 5.5, 7.5], abs=1e-12)
+    assert found.areas == pytest.approx([20, 45, 35], rel=1e-12)
+    assert found.mean_size == pytest.approx((2**2 + 8**2) / 20, rel=1e-12)
+    assert found.deviation == pytest.approx(10 / np.sqrt(12), rel=1e-12)
+    # The same where 0 is inside faces, and where two corners are below it.
+    assert field_statistics(plane, x - 2.3).mean_size == pytest.approx((2.3**2 + 7.7**2) / 20, rel=1e-12)
+    assert field_statistics(plane, 2.3 - x).mean_size == pytest.approx((2.3**2 + 7.7**2) / 20, rel=1e-12)
 
 
-def test_the_mean_is_that_of_the_linear_field(rough, field):
+def test_a_finer_mesh_changes_nothing_of_a_linear_field(rough, field):
     fine = refined(refined(rough))
-    middle = np.concatenate([field, field[rough.edges].mean(axis=1)])
-    values = np.concatenate([middle, middle[refined(rough).edges].mean(axis=1)])
-    one, other = field_statistics(rough, field), field_statistics(fine, values)
-    assert one.mean == pytest.approx(other.mean, rel=1e-12)
+    values = field - field.mean()
+    for surface in (rough, refined(rough)):
+        values = np.concatenate([values, values[surface.edges].mean(axis=1)])
+    one, other = field_statistics(rough, field - field.mean()), field_statistics(fine, values)
     assert one.areas.sum() == pytest.approx(rough.face_areas.sum(), rel=1e-12)
-    assert one.quantiles == pytest.approx(other.quantiles, abs=0.03 * one.greatest)
+    for name in ("mean", "mean_size", "deviation", "quantiles", "areas"):
+        assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-9, abs=1e-9 * one.greatest), name
 
 
-def test_quantiles_reach_their_share_of_the_area(rough, field):
-    shares = np.linspace(0, 1, 21)
-    found = field_statistics(rough, field, shares=shares)
-    areas, total = corner_areas(rough), rough.face_areas.sum()
-    for share, value in zip(shares, found.quantiles, strict=True):
-        assert areas[field <= value].sum() >= share * total * (1 - 1e-9)
-        assert areas[field < value].sum() <= share * total * (1 + 1e-9)
-    assert (found.quantiles[0], found.quantiles[-1]) == (field.min(), field.max())
+def test_quantiles_and_bins_cover_what_bands_do(rough, field):
+    machine_part = Surface(*_long_faces())
+    by_angle = np.arctan2(machine_part.vertices[:, 1], machine_part.vertices[:, 0])
+    for surface, values, is_level in (
+        (rough, field, False),
+        (machine_part, by_angle, False),
+        (rough, field.round(1), True),
+    ):
+        total = surface.face_areas.sum()
+        found = field_statistics(surface, values, bins=7, shares=[0, 0.25, 0.5, 0.75, 1])
+        for share, value in zip(found.shares[1:-1], found.quantiles[1:-1], strict=True):
+            # Between them where the field is the value on whole faces, both of them elsewhere.
+            least, most = (band(surface, values, high=x).area / total for x in (np.nextafter(value, -np.inf), value))
+            assert least - 1e-10 <= share <= most + 1e-10
+            assert is_level or most - least < 1e-10
+        assert found.quantiles[[0, -1]].tolist() == [values.min(), values.max()]
+        bands = [band(surface, values, *ends).area for ends in zip(found.bins[:-1], found.bins[1:], strict=True)]
+        assert found.areas == pytest.approx(bands, abs=1e-10 * total)
+
+
+def _long_faces():
+    """A tube whose ends alone have vertices, and one of them many more: areas of vertices say little."""
+    many, few = (np.linspace(0, 2 * np.pi, k, endpoint=False) for k in (90, 6))
+    vertices = [(np.cos(a), np.sin(a), z) for angles, z in ((many, 0), (few, 9)) for a in angles]
+    near = 90 + (np.arange(90) * 6 // 90)
+    faces = [(i, (i + 1) % 90, near[i]) for i in range(90)]
+    faces += [(near[i], (i + 1) % 90, near[(i + 1) % 90]) for i in range(90) if near[i] != near[(i + 1) % 90]]
+    return vertices, faces
+
+
+def test_where_the_field_is_level_the_quantile_is_its_value():
+    plane = grid(10, 10)
+    x = np.clip(plane.vertices[:, 0], 3, 6)
+    found = field_statistics(plane, x, bins=[3, 4, 6], shares=[0.1, 0.3, 0.31, 0.5, 0.59, 0.61, 0.9])
+    assert found.quantiles == pytest.approx([3, 3, 3.1, 5, 5.9, 6, 6], abs=1e-12)
+    assert found.areas == pytest.approx([40, 60], rel=1e-12)
+
+
+def test_faces_without_a_value_are_left_out_as_from_a_band():
+    plane = grid(10, 10)
+    x = plane.vertices[:, 0].copy()
+    x[plane.vertices[:, 1] > 7.5] = np.nan
+    found = field_statistics(plane, x)
+    assert found.areas.sum() == pytest.approx(70, rel=1e-12) == band(plane, x).area
+    assert found.mean == pytest.approx(5, rel=1e-12)
+    assert found.quantiles == pytest.approx([0.5, 2.5, 5, 7.5, 9.5], rel=1e-12)
+    agreement = field_agreement(plane, x, 0 * x + 4)
+    assert agreement.mean == pytest.approx((4**2 + 6**2) / 20, rel=1e-12)
 
 
 def test_vertices_without_a_value_are_left_out():
