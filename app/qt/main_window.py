@@ -160,6 +160,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
         def restoring() -> None:
             self.once_built(lambda: self.docks.restore(document.dock_places))
+            self.session_file.take_as_given()
             arrived()
 
         self.session.show_instead(document, arriving, restoring)
@@ -243,8 +244,6 @@ class MainWindow(QtWidgets.QMainWindow):
     def surface_remade(self, opened: Opened, *beside: Opened) -> None:
         """The same of surfaces that are made from the first, which stays: whoever made them goes on."""
         self.gestures.begin()
-        names = ", ".join(dict.fromkeys(each.surface.name for each in (opened, *beside)))
-        self.setWindowTitle(f"{names} - Biharmonic distance")
         recipe = Recipe(self.session.document, self.page)
         more = unseen(recipe, STYLES[self.page.style])
         self.status.show_surface(opened.surface, more, [each.surface for each in beside])

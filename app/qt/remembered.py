@@ -22,6 +22,9 @@ from ..document.looks import UPS
 MOST_RECENT = 10
 MOST_UPS = 1000
 
+SESSION = ".session"
+"""Of the file, beside what a window shows, that says which session that is."""
+
 
 def folder() -> Path:
     """Of this program's data for the user."""
@@ -99,11 +102,15 @@ def own_state() -> Path:
     return folder() / f"open-{os.getpid()}.json"
 
 
-def keep_state(write: Callable[[Path], None]) -> None:
-    """Keep what the window shows, which `write` writes as a recipe at a path, to be offered after a crash."""
+def keep_state(write: Callable[[Path], None], session: str | None) -> None:
+    """Keep what the window shows, to be offered after a crash.
+
+    write: writes it as a recipe at a path.  session: the path of the session's file, None if it has none yet.
+    """
     with suppress(OSError, BihdistError):
         folder().mkdir(parents=True, exist_ok=True)
         write(own_state())
+        own_state().with_suffix(SESSION).write_text(os.path.abspath(session) if session else "", encoding="utf-8")
     if own_state() not in _held and own_state().exists():
         lock = _lock(own_state())
         lock.tryLock(0)
@@ -118,9 +125,16 @@ def forget_state() -> None:
         lock.unlock()
 
 
+def session_of(path: Path) -> str | None:
+    """The path of the session's file, of what a window showed; None if it had none."""
+    with suppress(OSError, ValueError):
+        return path.with_suffix(SESSION).read_text(encoding="utf-8") or None
+    return None
+
+
 def remove_state(path: Path) -> None:
     """What a window showed, with its arrays."""
-    for part in (path, path.with_suffix(".npz")):
+    for part in (path, path.with_suffix(".npz"), path.with_suffix(SESSION)):
         with suppress(OSError):
             part.unlink()
 

@@ -69,7 +69,9 @@ def _untrue(hands: Hands) -> list[str]:
     if window.source_box.text() != known:
         found.append(f"the box says {window.source_box.text()!r}, the document {known}")
     names = ", ".join(dict.fromkeys(session.opened(mesh.name).surface.name for mesh in document.surfaces))
-    if window.windowTitle() != f"{names} - Biharmonic distance":
+    path = window.session_file.path
+    title = f"{Path(path).name}[*] - {names}" if path else f"{names}[*]"
+    if window.windowTitle() != f"{title} - Biharmonic distance":
         found.append(f"title {window.windowTitle()}")
     if window.status.counts.text.removeprefix("A").split()[0].replace(",", "") != str(len(session.surface.vertices)):
         found.append(f"counts {window.status.counts.text}")

@@ -121,31 +121,6 @@ def test_a_mesh_that_is_gone_or_has_changed_is_said_and_another_can_be_pointed_a
     assert (s.source, len(s.panels)) == (9, 4)
 
 
-def test_closing_asks_only_where_something_saved_has_changed(screen, mesh_file, tmp_path):
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
-    asked = []
-
-    def answer(word):
-        return lambda question: asked.append(question) or word
-
-    file = s.window.session_file
-    s.session.show(move_source(s.document, 0, 6))
-    assert file.may_close(answer("cancel"))
-    file.save(str(tmp_path / "s.json"))
-    s.window.reset_view("top")
-    assert file.may_close(answer("cancel"))
-    assert not asked
-    s.session.show(move_source(s.document, 0, 7))
-    assert not file.may_close(answer("cancel"))
-    assert file.may_close(answer("discard"))
-    assert file.may_close(answer("save"))
-    assert asked == ["s.json has changed since it was saved."] * 3
-    assert read_recipe(tmp_path / "s.json").document.sources == (7,)
-    assert file.may_close(answer("cancel"))
-    assert len(asked) == 3
-
-
 def test_recent_files_are_listed_the_last_first(screen, mesh_file, tmp_path):
     from app.qt import remembered
 
@@ -160,39 +135,6 @@ def test_recent_files_are_listed_the_last_first(screen, mesh_file, tmp_path):
     assert meshes[-1] not in remembered.recent()
     (remembered.folder() / "recent.json").write_text("[1, {")
     assert remembered.recent() == []
-
-
-def test_after_a_crash_what_was_shown_is_offered_and_after_a_proper_end_it_is_not(screen, mesh_file, tmp_path):
-    from app.qt import remembered
-
-    s = screen()
-    s.window.remembers = True
-    arranged(s, mesh_file(bumpy(300)))
-    s.until(lambda: remembered.own_state().exists(), seconds=10)
-    assert remembered.lost_states() == []  # this process is there
-    # Another process keeps its state, and ends without a word once it is told to.
-    code = "import os; from app.qt import remembered as r; text = input(); "
-    code += "r.keep_state(lambda p: p.write_text(text)); "
-    command = [sys.executable, "-c", f"{code}print(r.own_state()); print(flush=True); input(); os._exit(1)"]
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-    with subprocess.Popen(command, cwd=ROOT, **pipes) as process:
-        process.stdin.write(json.dumps(json.loads(remembered.own_state().read_text())) + "\n")
-        process.stdin.flush()
-        lost = Path(process.stdout.readline().strip())
-        process.stdout.readline()
-        assert lost.exists()
-        assert remembered.lost_states() == []
-        process.stdin.write("\n")
-        process.stdin.flush()
-        process.wait()
-    assert remembered.lost_states() == [lost]
-    other = screen()
-    other.window.session_file.open(str(lost), is_own=False)
-    other.until(lambda: other.session.is_complete)
-    assert other.document == s.document
-    assert other.window.session_file.path is None
-    s.window.close()
-    assert not remembered.own_state().exists()
 
 
 def test_view_saves_its_session(mesh_file, tmp_path):

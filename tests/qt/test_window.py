@@ -266,7 +266,7 @@ def test_a_dropped_file_is_opened(screen, mesh_file):
     )
     s.window.files.eventFilter(s.window, drop)
     s.until(lambda: s.session.is_complete)
-    assert s.window.windowTitle() == "dropped.off - Biharmonic distance"
+    assert s.window.windowTitle() == "dropped.off[*] - Biharmonic distance"
 
 
 def test_samples_are_listed_with_their_pictures_and_open(screen):

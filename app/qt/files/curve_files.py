@@ -73,6 +73,7 @@ class CurveFiles:
         with whole_file(path) as temporary:
             Path(temporary).write_text(curve_text(curve), encoding="utf-8")
         self.paths[curve] = os.path.abspath(path)
+        self._window.session_file.show_title()
         self._window.say(f"Saved {os.path.basename(path)}")
 
     def path_of(self, curve: Curve) -> str:

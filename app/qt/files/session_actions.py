@@ -13,9 +13,10 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import BihdistError, ParameterError
 
 from ...document.beside_edits import MOST_SHOWN
-from ...document.document import MeshFile, content
+from ...document.document import Document, MeshFile, content
 from ...document.file import checksum, read_recipe, with_paths
 from ...document.page import Recipe
+from ...document.work import work_in
 from ...drawing.style import style_of
 from ...samples import mesh_path
 from ...session.given import Given
@@ -31,6 +32,9 @@ FILES = (
 KEEP_MS = 2000
 """What the window shows is kept so long after a change, in case of a crash."""
 
+IN_NO_FILE = Recipe(Document())
+"""As what a recovered session was saved: nothing of it was."""
+
 
 class SessionFile:
     """The file that a window's session is saved in, if any, and whether it is as it was saved."""
@@ -39,8 +43,9 @@ class SessionFile:
         self._window = window
         self.path: str | None = None
         self._saved: Recipe | None = None
+        self._given = work_in(Document())  # what came from the command line or from Python
         self._keep_soon = QtCore.QTimer(window, singleShot=True, interval=KEEP_MS)
-        self._keep_soon.timeout.connect(self._keep)
+        self._keep_soon.timeout.connect(self.keep)
 
     # ------------------------------------------------------------------ saving
     def recipe(self) -> Recipe:
@@ -52,18 +57,46 @@ class SessionFile:
 
     @property
     def is_changed(self) -> bool:
-        """Whether something was saved or opened, and what is shown has changed since.
+        """Whether closing would lose something: a change since the session was saved or opened, or unsaved work.
 
         The camera does not count, nor do the places of docks.
         """
         if self._saved is None:
-            return False
-        now, then = self.recipe(), self._saved
+            return bool(self._unsaved_work)
+        window = self._window
         seen, saved = (
-            replace(each.document, camera="home", beside=content(each.document).beside, dock_places=None)
-            for each in (now, then)
+            replace(document, camera="home", beside=content(document).beside, dock_places=None)
+            for document in (window.session.document, self._saved.document)
         )
-        return (seen, now.page) != (saved, then.page)
+        return (seen, window.page) != (saved, self._saved.page)
+
+    @property
+    def _unsaved_work(self) -> list[str]:
+        """What is in no file, by what it is called: of a session that was never saved."""
+        kept = {**self._given}
+        kept["drawn sources"] |= self._window.curve_files.paths.keys()
+        return [word for word, work in work_in(self._window.session.document).items() if work - kept[word]]
+
+    def take_as_given(self) -> None:
+        """What is shown comes from somewhere, and can be had from there again."""
+        self._given = work_in(self._window.session.document)
+        self.show_title()
+
+    def _belongs_to(self, path: str | None, saved: Recipe) -> None:
+        """The session is that of a file, None for none yet, in which it was saved so."""
+        self.path, self._saved = path, saved
+        self.show_title()
+
+    def show_title(self) -> None:
+        """The session's file, if it has one, the meshes, and whether closing would lose something."""
+        session = self._window.session
+        opened = [session.opened(mesh.name) for mesh in session.document.surfaces]
+        meshes = ", ".join(dict.fromkeys(each.surface.name for each in opened if each is not None))
+        parts = [part for part in (os.path.basename(self.path or ""), meshes, "Biharmonic distance") if part]
+        # Doubled, Qt's word for the sign of change is a part of the name.
+        first, *others = (part.replace("[*]", "[*][*]") for part in parts)
+        self._window.setWindowTitle(" - ".join([f"{first}[*]", *others]))
+        self._window.setWindowModified(self.is_changed)
 
     def save(self, path: str | None = None) -> None:
         """Into a file, the one it was saved in or opened from if none is given; OutputError if that cannot be."""
@@ -73,7 +106,7 @@ class SessionFile:
             raise ParameterError("There is nothing to save before a mesh is open.")
         recipe = self.recipe()
         self._write(recipe, path)
-        self.path, self._saved = path, recipe
+        self._belongs_to(path, recipe)
         self._remember(path)
         self._window.say(f"Saved {os.path.basename(path)}")
 
@@ -102,18 +135,46 @@ class SessionFile:
         return True
 
     def may_close(self, ask: Callable[[str], str]) -> bool:
-        """Whether the window may close: `ask(question)` says "save", "discard" or "cancel" where something changed."""
+        """Whether the window may close: where it would lose something, `ask(question)` says "save", "discard" or
+        "cancel"."""
         if not self.is_changed:
             return True
-        answer = ask(f"{os.path.basename(self.path or '')} has changed since it was saved.")
+        answer = ask(self._question)
         return answer == "discard" or (answer == "save" and self.save_or_say())
 
+    @property
+    def _question(self) -> str:
+        if self.path is not None:
+            return f"{os.path.basename(self.path)} has unsaved changes."
+        if self._saved is not None:
+            return "What was recovered has not been saved."
+        *others, last = self._unsaved_work
+        return f"The {' and '.join([', '.join(others), last] if others else [last])} have not been saved."
+
     # ------------------------------------------------------------------ opening
-    def open(self, path: str, is_own: bool = True) -> None:
+    def open(self, path: str) -> None:
         """Show a session or recipe; a sentence where that cannot be, and a way to point at a mesh that is gone.
 
-        is_own: whether the file becomes the session's, to be saved in again.
+        From then on it is the session's file, to be saved in again.
         """
+
+        def arrived() -> None:
+            self._belongs_to(path, self.recipe())
+            self._remember(path)
+
+        self._show(path, arrived)
+
+    def recover(self, lost: Path) -> None:
+        """Show what was kept of a window that did not end as it should: unsaved, under the name that it had."""
+
+        def arrived() -> None:
+            self._belongs_to(remembered.session_of(lost), IN_NO_FILE)
+            self.keep()  # before what holds it now is gone
+            remembered.remove_state(lost)
+
+        self._show(str(lost), arrived)
+
+    def _show(self, path: str, arrived: Callable[[], None]) -> None:
         try:
             recipe = read_recipe(path)
             count = len(recipe.document.surfaces)
@@ -127,11 +188,6 @@ class SessionFile:
             return
         if recipe is None:
             return
-
-        def arrived() -> None:
-            if is_own:
-                self.path, self._saved = path, self.recipe()
-                self._remember(path)
 
         # Nothing changes before the mesh is there: it may not open.
         self._window.show_document(recipe.document, recipe.page, arrived)
@@ -174,15 +230,17 @@ class SessionFile:
     # ------------------------------------------------------------------ crashes
     def document_changed(self) -> None:
         """Keep it, soon; a window that a script looks at leaves nothing behind."""
+        self.show_title()
         if self._window.remembers:
             self._keep_soon.start()
 
-    def _keep(self) -> None:
+    def keep(self) -> None:
+        """Keep what is shown now."""
         if self._window.session.surface is not None:
             recipe = self.recipe()
             meshes = tuple(with_paths(mesh, _absolute) for mesh in recipe.document.surfaces)
             recipe = replace(recipe, document=replace(recipe.document, surfaces=meshes))
-            remembered.keep_state(lambda path: self._write(recipe, path, stays=True))
+            remembered.keep_state(lambda path: self._write(recipe, path, stays=True), self.path)
 
     def forget(self) -> None:
         """The window closes as it should."""
@@ -212,7 +270,7 @@ def _absolute(path: str) -> str:
 
 
 def offer_lost_state(window) -> None:
-    """After a crash: ask whether what was shown then should be shown again; asked once."""
+    """After a crash: ask whether what was shown then should be shown again; of several windows, one at each start."""
     lost = remembered.lost_states()
     if not lost:
         return
@@ -226,9 +284,9 @@ def offer_lost_state(window) -> None:
 
     def answered(button: object) -> None:
         if box.standardButton(button) == QtWidgets.QMessageBox.StandardButton.Yes:
-            window.session_file.open(str(lost[0]), is_own=False)
-        for path in lost:
-            remembered.remove_state(path)
+            window.session_file.recover(lost[0])
+        else:
+            remembered.remove_state(lost[0])
 
     box.buttonClicked.connect(answered)
     box.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)

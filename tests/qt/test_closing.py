@@ -1,0 +1,205 @@
+"""Closing the window: what would be lost is asked about and seen in the title; after a crash it is offered again."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.document.anchoring import add_anchor
+from app.document.change_edits import change_mesh
+from app.document.document import comparison
+from app.document.edits import move_source
+from app.document.file import read_recipe, recipe_text
+from app.document.measuring import add_pins, select
+from app.document.page import Recipe
+from app.document.pairing import place_point
+from bihdist_core.applications.changes import Perturbation
+from bihdist_core.sources.source import Curve, Place
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    """Nothing of the user's is read or written."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+
+
+class Asked(list):
+    """The questions that are asked on closing, each answered by a word."""
+
+    def answering(self, word):
+        return lambda question: self.append(question) or word
+
+
+def title(window):
+    """As the desktop shows it, and whether with the sign of change."""
+    return window.windowTitle(), window.isWindowModified()
+
+
+WORK = {
+    "pins": lambda document: add_pins(document, [7]),
+    "anchors": lambda document: add_anchor(document, 7, 1.0)[0],
+    "selections": lambda document: select(document, "ear", np.arange(9)),
+    "drawn sources": lambda document: move_source(document, 0, curve()),
+    "changes to the mesh": lambda document: change_mesh(document, Perturbation(noise=0.1)),
+}
+
+
+def curve():
+    return Curve(tuple(Place.of(0, *weights) for weights in ((0.2, 0.3), (0.6, 0.3))))
+
+
+def test_closing_asks_where_work_would_be_lost_that_was_never_saved(screen, mesh_file, tmp_path):
+    s, asked = screen(), Asked()
+    s.open(mesh_file(bumpy(300)), 5)
+    file = s.window.session_file
+    s.session.show(move_source(s.document, 0, 6))
+    assert file.may_close(asked.answering("cancel"))
+    assert title(s.window) == ("mesh.off[*] - Biharmonic distance", False)
+    for word, add in WORK.items():
+        s.session.show(add(s.document))
+        s.until(lambda: not s.session.is_opening)
+        assert not file.may_close(asked.answering("cancel"))
+        assert asked.pop() == f"The {word} have not been saved."
+        assert s.window.isWindowModified()
+        s.session.undo()
+        s.until(lambda: not s.session.is_opening and not s.window.isWindowModified())
+        assert file.may_close(asked.answering("cancel"))
+    for word in ("pins", "anchors", "drawn sources"):
+        s.session.show(WORK[word](s.document))
+    assert not file.may_close(asked.answering("cancel"))
+    assert asked.pop() == "The pins, anchors and drawn sources have not been saved."
+    s.window.curve_files.save(curve(), str(tmp_path / "curve.json"))
+    assert not file.may_close(asked.answering("cancel"))
+    assert asked.pop() == "The pins and anchors have not been saved."
+    assert file.may_close(asked.answering("discard"))
+
+
+def test_what_was_given_from_outside_is_not_asked_about_until_there_is_more(screen, mesh_file):
+    s, asked = screen(), Asked()
+    s.window.show_document(add_pins(comparison(mesh_file(bumpy(300)), sources=(curve(),)), [7, 8]))
+    s.until(lambda: s.session.is_complete)
+    assert s.window.session_file.may_close(asked.answering("cancel"))
+    assert not s.window.isWindowModified()
+    s.session.show(add_pins(s.document, [9]))
+    assert not s.window.session_file.may_close(asked.answering("cancel"))
+    assert asked == ["The pins have not been saved."]
+
+
+def test_pairs_are_asked_about(screen, mesh_file):
+    s, asked = screen(), Asked()
+    s.open(mesh_file(bumpy(120)), 5)
+    s.session.open_beside(mesh_file(bumpy(120), "other.off"))
+    s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
+    s.session.show(place_point(s.document, "A", 7))
+    assert not s.window.session_file.may_close(asked.answering("cancel"))
+    assert asked == ["The pairs have not been saved."]
+    assert title(s.window) == ("mesh.off, other.off[*] - Biharmonic distance", True)
+
+
+def test_closing_asks_where_a_session_has_changed_since_it_was_saved(screen, mesh_file, tmp_path):
+    s, asked = screen(), Asked()
+    s.open(mesh_file(bumpy(300)), 5)
+    file = s.window.session_file
+    file.save(str(tmp_path / "s [*].json"))
+    assert title(s.window) == ("s [*][*].json[*] - mesh.off - Biharmonic distance", False)
+    s.window.reset_view("top")
+    assert file.may_close(asked.answering("cancel"))
+    assert not asked
+    s.session.show(move_source(s.document, 0, 7))
+    assert s.window.isWindowModified()
+    s.session.undo()
+    assert not s.window.isWindowModified()
+    s.session.redo()
+    assert not file.may_close(asked.answering("cancel"))
+    assert file.may_close(asked.answering("discard"))
+    assert file.may_close(asked.answering("save"))
+    assert asked == ["s [*].json has unsaved changes."] * 3
+    assert read_recipe(tmp_path / "s [*].json").document.sources == (7,)
+    assert not s.window.isWindowModified()
+    assert file.may_close(asked.answering("cancel"))
+    assert len(asked) == 3
+
+
+@pytest.mark.parametrize("was_saved", [False, True])
+def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_path, was_saved):
+    from qtpy.QtWidgets import QMessageBox
+
+    from app.qt import remembered
+    from app.qt.files.session_actions import offer_lost_state
+
+    s, saved = screen(), tmp_path / "s.json"
+    s.window.remembers = True
+    s.open(mesh_file(bumpy(300)), 5)
+    if was_saved:
+        s.window.session_file.save(str(saved))
+    s.session.show(replace(move_source(s.document, 0, 9), isolines=12))
+    s.until(lambda: s.session.is_complete)
+    s.window.session_file.keep()
+    assert remembered.own_state().exists()
+    assert remembered.lost_states() == []  # this process is there
+    # Another process keeps its state, and ends without a word once it is told to.
+    code = "import os; from app.qt import remembered as r; text = input(); session = input() or None; "
+    code += "r.keep_state(lambda p: p.write_text(text), session); "
+    command = [sys.executable, "-c", f"{code}print(r.own_state()); print(flush=True); input(); os._exit(1)"]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, cwd=ROOT, **pipes) as process:
+        process.stdin.write(json.dumps(json.loads(remembered.own_state().read_text())) + "\n")
+        process.stdin.write((remembered.session_of(remembered.own_state()) or "") + "\n")
+        process.stdin.flush()
+        lost = Path(process.stdout.readline().strip())
+        process.stdout.readline()
+        assert lost.exists()
+        assert remembered.lost_states() == []
+        process.stdin.write("\n")
+        process.stdin.flush()
+        process.wait()
+    assert remembered.lost_states() == [lost]
+    other, asked = screen(), Asked()
+    other.window.remembers = True
+    offer_lost_state(other.window)
+    box = other.window.findChild(QMessageBox)
+    box.button(QMessageBox.StandardButton.Yes).click()
+    other.until(lambda: other.session.is_complete)
+    assert other.document == s.document
+    # It is kept by the other window from now on.
+    assert remembered.lost_states() == []
+    file = other.window.session_file
+    name = "s.json[*] - mesh.off" if was_saved else "mesh.off[*]"
+    assert title(other.window) == (f"{name} - Biharmonic distance", True)
+    assert not file.may_close(asked.answering("cancel"))
+    assert asked == ["s.json has unsaved changes." if was_saved else "What was recovered has not been saved."]
+    file.save(None if was_saved else str(saved))
+    assert read_recipe(saved).document.sources == (9,)
+    assert title(other.window) == ("s.json[*] - mesh.off - Biharmonic distance", False)
+    assert file.may_close(asked.answering("cancel"))
+    s.window.close()
+    assert not remembered.own_state().exists()
+    assert list(remembered.folder().glob("open-*.session")) == []
+
+
+def test_what_cannot_be_shown_again_is_offered_the_next_time(screen, mesh_file):
+    from qtpy.QtWidgets import QMessageBox
+
+    from app.qt import remembered
+    from app.qt.files.session_actions import offer_lost_state
+
+    s = screen()
+    remembered.folder().mkdir(parents=True)
+    lost = remembered.folder() / "open-999999.json"
+    lost.write_text(recipe_text(Recipe(comparison(str(lost.parent / "gone.off"))), "9"))
+    offer_lost_state(s.window)
+    s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.Yes).click()
+    assert "gone.off is not there" in s.refusals[-1]
+    assert remembered.lost_states() == [lost]
+    s.settle(0.05)
+    offer_lost_state(s.window)
+    s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.No).click()
+    assert remembered.lost_states() == []
