@@ -1,6 +1,7 @@
 """The meshes that come with the program, by name."""
 
 import os
+import re
 from pathlib import Path
 
 _ROOT = Path(__file__).resolve().parent.parent
@@ -10,6 +11,12 @@ SAMPLES = next((_ROOT / name for name in ("bihdist_assets", "assets") if (_ROOT 
 
 def sample_names() -> list[str]:
     return sorted(path.stem for path in SAMPLES.glob("*.ply"))
+
+
+def sample_title(name: str) -> str:
+    """ "Figure pose 2" of figure_pose2."""
+    words = re.sub(r"(?<=[a-z])(?=[0-9])", " ", name.replace("_", " "))
+    return words[:1].upper() + words[1:]
 
 
 def thumbnail(name: str) -> Path:

@@ -39,7 +39,8 @@ class Actions:
         return True
 
     def _new(self, act: Act) -> QtWidgets.QAction:
-        action = QtWidgets.QAction(act.text, self._window)
+        action = QtWidgets.QAction(act.text, self._window, objectName=act.word)
+        action.setProperty("lack", act.lack)
         action.setShortcuts([QtGui.QKeySequence(key) for key in act.keys])
         action.setCheckable(act.is_check)
         action.setAutoRepeat(not act.is_check)  # or it would flicker while its key is held

@@ -10,6 +10,8 @@ VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
 VIEW_TEXTS = {"right": "Ri&ght", "bottom": "Botto&m", "source": "From the &source"}
 """Where not the first letter is the key in a menu."""
 
+NO_SECOND = "open a mesh beside first"
+
 ISOLINES = (0, 10, 20, 30, 50)
 
 
@@ -18,7 +20,8 @@ class Act:
     """word: its name here; do: what it does with the window.
 
     keys: the first is the one that is shown.  of_view: they work where a panel has the keys, and not in a box.
-    needs_mesh: it makes no sense without one.  is_on: a check is ticked at first.
+    needs_mesh: it makes no sense without one.  is_on: a check is ticked at first.  lack: why it cannot be done where it
+    is disabled although there is a mesh.
     """
 
     word: str
@@ -31,6 +34,7 @@ class Act:
     needs_mesh: bool = False
     is_check: bool = False
     is_on: bool = False
+    lack: str = ""
 
 
 def _turn(right: int, up: int) -> Callable[[Any], object]:
@@ -74,6 +78,7 @@ FILE = (
         lambda w: w.session.close_beside(),
         tip="The first mesh alone, without the panels of the second",
         needs_mesh=True,
+        lack=NO_SECOND,
     ),
     Act("save", "&Save session", lambda w: w.session_file.save_or_say(), ("Ctrl+S",), "", "save", needs_mesh=True),
     Act("save as", "Save session &as…", lambda w: w.session_file.choose_and_save(), ("Ctrl+Shift+S",), needs_mesh=True),
@@ -93,8 +98,18 @@ FILE = (
     Act("quit", "&Quit", lambda w: w.close(), ("Ctrl+Q",)),
 )
 EDIT = (
-    Act("undo", "&Undo", lambda w: w.session.undo(), ("Ctrl+Z",), "Undo the last change", "undo"),
-    Act("redo", "&Redo", lambda w: w.session.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "Do it again", "redo"),
+    Act(
+        "undo", "&Undo", lambda w: w.session.undo(), ("Ctrl+Z",), "Undo the last change", "undo", lack="nothing to undo"
+    ),
+    Act(
+        "redo",
+        "&Redo",
+        lambda w: w.session.redo(),
+        ("Ctrl+Shift+Z", "Ctrl+Y"),
+        "Do it again",
+        "redo",
+        lack="nothing to redo",
+    ),
     Act(
         "copy camera",
         "Copy ca&mera",
@@ -173,6 +188,7 @@ VIEW = (
         needs_mesh=True,
         is_check=True,
         is_on=True,
+        lack=NO_SECOND,
     ),
     Act("next up", "The &next axis up", lambda w: w.views.next_up(), ("U",), needs_mesh=True),
     Act("other end up", "Upside &down", lambda w: w.views.other_end_up(), ("Shift+U",), needs_mesh=True),
@@ -333,7 +349,7 @@ INSTRUMENTS: tuple[Act, ...] = (
 """The docks, in the order of the menu."""
 
 HELP = (
-    Act("keys", "&Gestures and keys", lambda w: w.guide.show_keys(), ("F1",), "", "info"),
+    Act("keys", "All &commands and gestures", lambda w: w.guide.show_commands(), ("F1",), "", "info"),
     Act("tour", "A &tour in five steps", lambda w: w.guide.start_tour()),
     Act("about", "&About", lambda w: w.guide.show_about()),
 )

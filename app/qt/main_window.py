@@ -180,7 +180,7 @@ class MainWindow(QtWidgets.QMainWindow):
             self._start_page.open_wanted.connect(self.files.choose)
             self._start_page.chosen.connect(self.files.open)
             self._start_page.tour_wanted.connect(self.guide.start_tour)
-            self._start_page.keys_wanted.connect(self.guide.show_keys)
+            self._start_page.commands_wanted.connect(self.guide.show_commands)
             self._stack.addWidget(self._start_page)
         self._stack.setCurrentWidget(self._start_page)
 

@@ -282,7 +282,9 @@ def _dialogs(d: Driver) -> None:
 
 def _help(d: Driver) -> None:
     d.pointer("key", "F1")
-    d.shot("gestures and keys")
+    d.shot("commands")
+    d.tool("type", "difference")
+    d.shot("commands with a word")
     d.close_dialogs()
     d.window.guide.start_tour()
     for step in range(5):

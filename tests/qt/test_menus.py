@@ -1,4 +1,4 @@
-"""The menus: whole on a small screen, with no letter or key that means two things, and all keys in the help."""
+"""The menus: whole on a small screen, with no letter or key that means two things, and all keys in the palette."""
 
 import re
 from collections import Counter
@@ -37,13 +37,12 @@ def test_no_letter_means_two_things_in_a_menu_and_no_key_in_the_window(screen):
     assert {key for key, count in keys.items() if count > 1} == set()
 
 
-def test_all_keys_are_in_the_help(screen):
+def test_all_keys_are_in_the_palette(screen):
     from qtpy import QtGui
 
     from app.qt.acts import ALL
-    from app.qt.pages.keys import entries_of
 
     s = screen()
-    said = {keys for _, entries in entries_of(s.window.menuBar()) for _, both in entries for keys in both.split(" or ")}
+    said = {keys for each in s.window.guide.commands() for keys in each.keys.split(" or ") if each.action.shortcuts()}
     native = QtGui.QKeySequence.SequenceFormat.NativeText
     assert {QtGui.QKeySequence(key).toString(native) for act in ALL for key in act.keys} == said

@@ -48,11 +48,16 @@ def test_random_actions_leave_true_panels_and_no_exception(application, tmp_path
 def test_dialogs_that_are_closed_are_gone(screen):
     from qtpy import QtCore, QtWidgets
 
+    from app.qt.pages.palette import Palette
+
     s = screen()
-    for open_it in (s.window.guide.show_keys, s.window.choices.ask_preferences):
+    for kind, open_it in (
+        (Palette, s.window.guide.show_commands),
+        (QtWidgets.QDialog, s.window.choices.ask_preferences),
+    ):
         open_it()
         s.settle(0.05)
-        (dialog,) = s.window.findChildren(QtWidgets.QDialog)
-        dialog.reject()
+        (dialog,) = s.window.findChildren(kind)
+        dialog.close()
         s.application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
-        assert s.window.findChildren(QtWidgets.QDialog) == []
+        assert s.window.findChildren(kind) == []

@@ -145,10 +145,11 @@ def test_each_sample_has_a_tile_of_equal_size_inside_the_page_at_any_width(page,
 
 
 def test_tiles_say_what_the_files_hold(page):
-    from app.qt.pages.start_places import title_of, vertex_count
+    from app.qt.pages.start_places import vertex_count
+    from app.samples import sample_title
     from bihdist_core import read_surface
 
-    assert title_of("figure_pose2") == "Figure pose 2"
+    assert sample_title("figure_pose2") == "Figure pose 2"
     tile = next(tile for tile in page.tiles.tiles if tile.sample == "genus3")
     assert tile.title == "Genus 3"
     assert tile.count == f"{len(read_surface(mesh_path('genus3')).vertices):,} vertices"
@@ -217,10 +218,10 @@ def test_links_and_the_button_say_what_is_wanted(page):
     said = []
     page.open_wanted.connect(lambda: said.append("open"))
     page.tour_wanted.connect(lambda: said.append("tour"))
-    page.keys_wanted.connect(lambda: said.append("keys"))
-    for button in (page.zone.open, page.tour, page.keys):
+    page.commands_wanted.connect(lambda: said.append("commands"))
+    for button in (page.zone.open, page.tour, page.commands):
         button.click()
-    assert said == ["open", "tour", "keys"]
+    assert said == ["open", "tour", "commands"]
 
 
 def test_a_refusal_stands_above_the_title_on_a_few_lines(page, application):

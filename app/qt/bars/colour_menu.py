@@ -71,7 +71,9 @@ class ColourMenu(QtWidgets.QMenu):
         self.bands.setChecked(colours.bands)
 
     def _head(self, text: str) -> None:
-        self.addAction(text).setEnabled(False)
+        head = self.addAction(text)
+        head.setEnabled(False)
+        head.setProperty("heading", True)
 
     def _entry(self, group: QtWidgets.QActionGroup, text: str, data: object) -> QtWidgets.QAction:
         action = self.addAction(text)

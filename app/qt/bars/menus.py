@@ -6,7 +6,7 @@ from qtpy import QtGui, QtWidgets
 
 from bihdist_core.analysis.upright import DIRECTIONS
 
-from ...samples import mesh_path, sample_names, thumbnail
+from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from .. import remembered
 from ..acts import INSTRUMENTS, TURNS, VIEWS
 from ..look.numbers import MINUS
@@ -151,7 +151,7 @@ class Menus:
         large_icons.setParent(menu)
         menu.setStyle(large_icons)
         for name in sample_names():
-            action = menu.addAction(QtGui.QIcon(str(thumbnail(name))), name.replace("_", " ").capitalize())
+            action = menu.addAction(QtGui.QIcon(str(thumbnail(name))), sample_title(name))
             action.triggered.connect(lambda *_, name=name: self._window.open(mesh_path(name)))
         return menu
 

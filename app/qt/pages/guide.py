@@ -1,10 +1,13 @@
-"""The menu Help: gestures and keys, the tour, about.  `window` is the main window."""
+"""The menu Help: the palette of commands, the tour, about.  `window` is the main window."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...samples import mesh_path
 from ...version import version
 from .messages import tell
+
+if TYPE_CHECKING:
+    from .commands import Command
 
 ABOUT = (
     "The distance of Lipman, Rustamov and Funkhouser, Biharmonic Distance, ACM Transactions on Graphics 29(3), 2010: "
@@ -18,11 +21,24 @@ class Guide:
     def __init__(self, window) -> None:
         self._window = window
         self._tour: Any = None
+        self._recent: list[str] = []  # commands by their titles, the last first
 
-    def show_keys(self) -> None:
-        from .keys import GESTURES, KeysDialog, entries_of
+    def commands(self) -> "list[Command]":
+        """Those of the menus, and of what the active panel can show."""
+        from .commands import commands_of
 
-        KeysDialog([GESTURES, *entries_of(self._window.menuBar())], self._window).show()
+        window = self._window
+        menus = [("", action.menu()) for action in window.menuBar().actions() if action.menu() is not None]
+        has_mesh = window.session.surface is not None
+        if has_mesh and window.grid.active >= 0:
+            menus.append(("Show here", window.grid.panel(window.grid.active).head.name.menu()))
+        return commands_of(menus, has_mesh)
+
+    def show_commands(self) -> None:
+        from .commands import GESTURES
+        from .palette import Palette
+
+        Palette([*self.commands(), *GESTURES], self._recent, self._window).open()
 
     def start_tour(self) -> None:
         """Of what is shown, of a sample if nothing is open."""

@@ -28,7 +28,7 @@ class StartPage(QtWidgets.QWidget):
     open_wanted = QtCore.Signal()
     chosen = QtCore.Signal(str)
     tour_wanted = QtCore.Signal()
-    keys_wanted = QtCore.Signal()
+    commands_wanted = QtCore.Signal()
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -43,8 +43,8 @@ class StartPage(QtWidgets.QWidget):
             place.clicked.connect(lambda *_, place=place: self.chosen.emit(place.path))
         self.tour = _link("Take the five-step tour")
         self.tour.clicked.connect(lambda: self.tour_wanted.emit())
-        self.keys = _link("Gestures and keys")
-        self.keys.clicked.connect(lambda: self.keys_wanted.emit())
+        self.commands = _link("All commands")
+        self.commands.clicked.connect(lambda: self.commands_wanted.emit())
         self._fill()
         self._dress()
         LOOK.changed.connect(self._dress)
@@ -107,7 +107,7 @@ class StartPage(QtWidgets.QWidget):
         links = QtWidgets.QHBoxLayout(spacing=8)
         links.addWidget(self.tour)
         links.addSpacing(16)
-        links.addWidget(self.keys)
+        links.addWidget(self.commands)
         links.addWidget(_quiet("F1"))
         links.addStretch(1)
 

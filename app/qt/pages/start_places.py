@@ -1,7 +1,6 @@
 """What can be chosen on the start page: a recent file, as a row, or a sample, as a tile with its picture."""
 
 import os
-import re
 from datetime import datetime, timedelta
 from functools import lru_cache
 
@@ -9,7 +8,7 @@ import numpy as np
 from PIL import Image
 from qtpy import QtCore, QtGui, QtWidgets
 
-from ...samples import mesh_path, sample_names, thumbnail
+from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from ..look.look import LOOK
 from ..remembered import Recent
 
@@ -161,7 +160,7 @@ class SampleTile(Place):
 
     def __init__(self, name: str) -> None:
         super().__init__(mesh_path(name))
-        self.sample, self.title = name, title_of(name)
+        self.sample, self.title = name, sample_title(name)
         count = vertex_count(self.path)
         self.count = f"{count:,} vertices" if count else ""
         self.setAccessibleName(f"{self.title}, {self.count}")
@@ -183,12 +182,6 @@ class SampleTile(Place):
 
 def _picture_side(width: int) -> int:
     return min(max(width - 24, SMALLEST_PICTURE), LARGEST_PICTURE)
-
-
-def title_of(name: str) -> str:
-    """ "Figure pose 2" of figure_pose2."""
-    words = re.sub(r"(?<=[a-z])(?=[0-9])", " ", name.replace("_", " "))
-    return words[:1].upper() + words[1:]
 
 
 @lru_cache(maxsize=64)

@@ -1,4 +1,4 @@
-"""The table of gestures and keys, and the tour through the window."""
+"""The tour through the window."""
 
 from types import SimpleNamespace
 
@@ -55,61 +55,6 @@ def target_of(tour):
     return QRect(target.mapTo(tour.window, QPoint(0, 0)), target.size())
 
 
-# ---------------------------------------------------------------------- keys
-def test_the_table_is_made_from_the_menus_actions(window):
-    from qtpy import QtGui
-
-    from app.qt.pages.keys import entries_of
-
-    bar = window.menuBar()
-    file, empty, view = bar.addMenu("&File"), bar.addMenu("&Empty"), bar.addMenu("&View")
-    file.addAction("&Open…").setShortcut("Ctrl+O")
-    file.addAction("&Save && close ...").setShortcuts([QtGui.QKeySequence("Ctrl+S"), QtGui.QKeySequence("F2")])
-    file.addSeparator()
-    file.addAction("No keys")
-    empty.addAction("None here")
-    hidden = view.addAction("Hidden")
-    hidden.setShortcut("H")
-    hidden.setVisible(False)
-    view.addMenu("&From").addAction("&Front").setShortcut("1")
-    native = QtGui.QKeySequence.SequenceFormat.NativeText
-    ctrl_o, ctrl_s = (QtGui.QKeySequence(keys).toString(native) for keys in ("Ctrl+O", "Ctrl+S"))
-    assert entries_of(bar) == [
-        ("File", (("Open", ctrl_o), ("Save & close", f"{ctrl_s} or F2"))),
-        ("View", (("Front", "1"),)),
-    ]
-
-
-def test_the_filter_leaves_lines_with_all_words(window, application):
-    from qtpy.QtCore import Qt
-    from qtpy.QtTest import QTest
-
-    from app.qt.pages.keys import GESTURES, KeysDialog
-
-    dialog = KeysDialog([GESTURES, ("Edit", (("Undo", "Ctrl+Z"), ("Redo", "Ctrl+Y")))], window)
-    dialog.show()
-
-    def left():
-        return [line.what for table in dialog.tables for line in table.lines if line.isVisible()]
-
-    assert not dialog.isModal()
-    assert len(left()) == len(GESTURES[1]) + 2
-    QTest.keyClicks(dialog.box, "CTRL z")
-    assert left() == ["Undo"]
-    assert [table.isVisible() for table in dialog.tables] == [False, True]
-    dialog.box.setText("edit")
-    assert left() == ["Undo", "Redo"]
-    dialog.box.setText("nowhere")
-    assert left() == []
-    assert dialog.nothing.isVisible()
-    dialog.box.clear()
-    assert len(left()) == len(GESTURES[1]) + 2
-    assert not dialog.nothing.isVisible()
-    QTest.keyClick(dialog.box, Qt.Key.Key_Escape)
-    assert not dialog.isVisible()
-
-
-# ---------------------------------------------------------------------- the tour
 def test_five_steps_forwards_and_back_with_the_card_inside_and_beside(tour, application):
     ends = []
     tour.ended.connect(lambda: ends.append(tour.at))

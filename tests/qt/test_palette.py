@@ -1,0 +1,169 @@
+"""The palette of commands: made from the menus, found by the words people know, run by the keyboard alone."""
+
+import pytest
+
+pytest.importorskip("qtpy")
+from qtpy import QtCore, QtGui, QtWidgets
+from qtpy.QtTest import QTest
+
+from tests.shapes import bumpy
+
+KEYS = QtCore.Qt.Key
+
+
+def native(keys):
+    return QtGui.QKeySequence(keys).toString(QtGui.QKeySequence.SequenceFormat.NativeText)
+
+
+def test_commands_are_made_from_the_menus(application):
+    from app.qt.pages.commands import NO_MESH, Command, commands_of
+
+    bar = QtWidgets.QMenuBar()
+    file, view = bar.addMenu("&File"), bar.addMenu("&View")
+    opening = file.addAction("&Open…")
+    opening.setShortcut("Ctrl+O")
+    closing = file.addAction("&Save && close")
+    closing.setShortcuts([QtGui.QKeySequence("Ctrl+S"), QtGui.QKeySequence("F2")])
+    file.addSeparator()
+    view.addAction("Hidden").setVisible(False)
+    view.addAction("Style").setProperty("heading", True)
+    undo = view.addAction("Undo")
+    undo.setEnabled(False)
+    undo.setProperty("lack", "nothing to undo")
+    colours = view.addMenu("Co&lours")
+    ember = colours.addAction("Ember\tE")
+    colours.menuAction().setEnabled(False)
+    found = commands_of([("", file), ("", view)], has_mesh=True)
+    assert [(each.title, each.keys, each.action, each.can_run, each.lack) for each in found] == [
+        ("Open…", native("Ctrl+O"), opening, True, ""),
+        ("Save & close", f"{native('Ctrl+S')} or F2", closing, True, ""),
+        ("Undo", "", undo, False, "nothing to undo"),
+        ("Colours: Ember", "E", ember, False, ""),
+    ]
+    assert commands_of([("", view)], has_mesh=False)[1].lack == NO_MESH
+    assert isinstance(found[0], Command)
+
+
+def test_what_can_be_run_and_what_has_the_words_in_its_title_stands_first():
+    from app.qt.pages.commands import Command, found
+
+    rows = [
+        Command("Redo", "Ctrl+Y", "again", can_run=True),
+        Command("Shift it", "", "save", can_run=True),
+        Command("Nothing to save", can_run=True),
+        Command("Save session", "Ctrl+S"),
+        Command("Save as", can_run=True),
+        Command("Reversed colours", "", "", can_run=True),
+    ]
+
+    def titles(typed):
+        return [each.title for each in found(rows, typed)]
+
+    assert titles("save") == ["Save as", "Nothing to save", "Shift it", "Save session"]
+    assert titles("ctrl y") == ["Redo"]
+    assert titles("COLOR rev") == titles("colour") == titles("ever") == ["Reversed colours"]
+    assert titles("nowhere") == []
+    assert len(titles("")) == len(rows)
+
+
+@pytest.fixture
+def shown(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)))
+    return s
+
+
+def palette_of(s):
+    """Opened by its key, where the keys are."""
+    s.window.activateWindow()
+    QTest.qWaitForWindowActive(s.window)
+    QTest.keyClick(s.window, KEYS.Key_F1)
+    s.settle(0.1)
+    (palette,) = (
+        each for each in s.window.findChildren(QtWidgets.QFrame) if hasattr(each, "rows") and each.isVisible()
+    )
+    return palette
+
+
+def titles(palette):
+    return [palette.rows.item(k).text() for k in range(palette.rows.count())]
+
+
+def current(palette):
+    return palette.rows.currentItem().text()
+
+
+def test_the_words_people_know_find_what_they_mean_and_all_synonyms_belong_to_something(shown):
+    from app.qt.acts import ALL
+    from app.qt.pages.commands import found, plain
+    from app.qt.synonyms import SYNONYMS
+
+    commands = shown.window.guide.commands()
+    for typed, meant in {
+        "rotate": "Turn to the left",
+        "difference": "Difference with: Geodesic",
+        "save": "Save session",
+        "colour": "Colours: Ember",
+        "color": "Colours: Ember",
+        "measure": "Pins",
+        "compare": "Add a panel",
+        "zoom": "Nearer",
+        "contours": "Isolines: 20 steps",
+        "dark mode": "Theme: Dark",
+    }.items():
+        rows = found(commands, typed)
+        assert [each.title for each in rows if each.title.endswith(meant) and each.can_run], typed
+        assert rows[0].can_run
+    menus = shown.window.findChildren(QtWidgets.QMenu)
+    known = {act.word for act in ALL} | {plain(menu.title()) for menu in menus} | {"Show here"}
+    assert set(SYNONYMS) - known == set()
+
+
+def test_the_keyboard_alone_finds_and_runs_a_command_and_leaves(shown):
+    palette = palette_of(shown)
+    assert "Turn all panels" in titles(palette)
+    QTest.keyClicks(palette.box, "wirefr")
+    assert current(palette) == "Shading: Wireframe"
+    QTest.keyClick(palette.box, KEYS.Key_Return)
+    shown.settle()
+    assert shown.document.shading.wireframe
+    assert not palette.isVisible()
+    palette = palette_of(shown)
+    assert current(palette) == "Shading: Wireframe"  # what was run last
+    assert palette.rows.currentItem().data(QtCore.Qt.ItemDataRole.UserRole).is_on
+    QTest.keyClick(palette.box, KEYS.Key_Down)
+    QTest.keyClick(palette.box, KEYS.Key_Down)
+    assert palette.rows.currentRow() == 2
+    QTest.keyClick(palette.box, KEYS.Key_Up)
+    assert palette.rows.currentRow() == 1
+    QTest.keyClick(palette.box, KEYS.Key_Escape)
+    shown.settle()
+    assert not palette.isVisible()
+    assert shown.document.shading.wireframe
+
+
+def test_a_distance_of_the_active_panel_is_a_command(shown):
+    palette = palette_of(shown)
+    QTest.keyClicks(palette.box, "difference geodesic")
+    QTest.keyClick(palette.box, KEYS.Key_Enter)
+    shown.settle()
+    assert [part.spec.word for part in shown.document.panels[0].shows.parts] == ["biharmonic", "geodesic"]
+
+
+def test_what_cannot_be_run_says_why_and_stays(screen):
+    s = screen()
+    palette = palette_of(s)
+    QTest.keyClicks(palette.box, "export figure")
+    row = palette.rows.currentItem().data(QtCore.Qt.ItemDataRole.UserRole)
+    assert (row.title, row.lack) == ("Export figure…", "open a mesh first")
+    QTest.keyClick(palette.box, KEYS.Key_Return)
+    s.settle(0.05)
+    assert palette.isVisible()
+    palette.box.setText("paint a selection")
+    assert current(palette) == "Paint a selection"
+    QTest.keyClick(palette.box, KEYS.Key_Return)
+    assert palette.isVisible()
+    palette.box.setText("gibberish")
+    assert palette.nothing.isVisible()
+    QTest.keyClick(palette.box, KEYS.Key_Return)
+    palette.close()
