@@ -22,12 +22,13 @@ from bihdist_core.errors import BihdistError
 from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.worker_threads import without_workers
 
+from .layouts import NORMALISED, laid_out
 from .maps import evaluated
 from .memory import PART_BYTES, allowed, needed
 from .results import Blocks, facts_of, write_facts, write_result
 from .storage import Folder
 from .task import Failure, Part, Report, Row, Task, done_before
-from .wanted import LAYOUTS, MAXIMA
+from .wanted import MAXIMA
 from .works import (
     WORK,
     Made,
@@ -140,7 +141,9 @@ def _written(task: Task, mesh: Mesh, work: str, folder: Folder, name: str, key: 
         # Files of several arrays say themselves what rows and columns are.
         beside = _numbers(made.facts) if format in ("npz", "mat") else {}
         return write_result(folder, name, key, {**made.arrays, **beside}, facts, format)
-    arrays = dict(zip(LAYOUTS[layout], (made.arrays["dist"], np.array(made.facts["sqrt_area"])), strict=False))
+    arrays = laid_out(layout, made.arrays["dist"], made.facts["sqrt_area"])
+    if layout == "dist" and not task.wanted.normalise:
+        facts["note"] = NORMALISED
     return write_result(folder, name, key, arrays, facts, "mat", f"{layout}/{task.name}.mat")
 
 
@@ -157,6 +160,11 @@ def _numbers(facts: dict[str, Any]) -> dict[str, np.ndarray]:
 def _said_of(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
     surface = mesh.surface
     own, others = task.read(work)
+    scaled: dict[str, Any] = {}
+    if task.wanted.normalise and work in WORK:
+        scaled = {"scaled_by": mesh.scale}
+        if work != "eigen":
+            scaled["normalisation"] = task.wanted.normalise
     return {
         "mesh": surface.name,
         "checksum": own,
@@ -165,6 +173,7 @@ def _said_of(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
         "faces": len(surface.faces),
         "components": surface.component_count,
         "area": float(surface.face_areas.sum()),
+        **scaled,
         "repairs": list(surface.remarks),
         "areas": task.wanted.areas,
         "version": task.version,

@@ -139,7 +139,10 @@ def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
 
 
 def _whole(arrays: Mapping[str, Array]) -> dict[str, np.ndarray]:
-    return {name: array.whole() if isinstance(array, Blocks) else array for name, array in arrays.items()}
+    """Blocks that have two names are put together once."""
+    blocks = {id(array): array for array in arrays.values() if isinstance(array, Blocks)}
+    wholes = {key: array.whole() for key, array in blocks.items()}
+    return {name: wholes.get(id(array), array) for name, array in arrays.items()}
 
 
 def read_arrays(folder: Folder, file: str) -> dict[str, np.ndarray]:

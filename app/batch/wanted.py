@@ -15,9 +15,8 @@ SIZE, SHARED, OWN = RANGES = ("size", "shared", "own")
 one value in mesh units; at the maximum of each mesh."""
 ARRAYS = ("npy", "npz", "mat", "zarr")
 """Formats of arrays."""
-LAYOUTS = {"dist": ("dist",), "geodist": ("geodist", "sqrt_area")}
-"""Folders of .mat files as benchmarks of shape matching read them, with the names in the files: `dist` that of
-Self-Supervised-Multimodal-Shape-Matching, `geodist` that of GeomFmaps and DUO-FM."""
+LAYOUTS = ("dist", "geodist")
+"""Folders of .mat files as benchmarks of shape matching read them (see `layouts`)."""
 READ = {"fields": {"landmarks", "mask"}, "pairs": {"landmarks", "labels", "mask"}, "nearest": {"landmarks", "mask"},
         "fps": {"mask"}}  # fmt: skip
 """What a work reads beside the mesh: a change of it is one of its results."""
@@ -47,8 +46,9 @@ class Sources:
 class Wanted:
     """works: of WORKS, in their order; distances: specs in words; nearest: as many neighbours; samples: of a map, that
     many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  layout: of
-    LAYOUTS, for pairs.  recipe: the text of that which figures are drawn from; range: of RANGES; maxima:
-    where those of panels end, if they are not their own."""
+    LAYOUTS, for pairs.  normalise: "area" for distances and eigenpairs of the mesh scaled to area 1.  recipe: the text
+    of that which figures are drawn from; range: of RANGES; maxima: where those of panels end, if they are not their
+    own."""
 
     works: tuple[str, ...]
     distances: tuple[str, ...] = ("biharmonic",)
@@ -62,6 +62,7 @@ class Wanted:
     labels: str = ""
     mask: str = ""
     layout: str = ""
+    normalise: str = ""
     recipe: str = ""
     range: str = OWN
     maxima: tuple[float, ...] = ()
@@ -97,11 +98,11 @@ class Wanted:
         """What tells this result from others: of a mesh and other files (by their checksums), options and version."""
         says = asdict(self)
         of_work = {
-            "fields": {"areas", "sources", "dtype", "arrays", "mask"},
-            "pairs": {"areas", "sources", "dtype", "arrays", "mask", "labels", "layout"},
-            "nearest": {"areas", "sources", "dtype", "arrays", "mask", "nearest"},
-            "eigen": {"areas", "eigenpairs", "dtype", "arrays"},
-            "fps": {"areas", "sources", "arrays", "mask"},
+            "fields": {"areas", "sources", "dtype", "arrays", "mask", "normalise"},
+            "pairs": {"areas", "sources", "dtype", "arrays", "mask", "labels", "layout", "normalise"},
+            "nearest": {"areas", "sources", "dtype", "arrays", "mask", "nearest", "normalise"},
+            "eigen": {"areas", "eigenpairs", "dtype", "arrays", "normalise"},
+            "fps": {"areas", "sources", "arrays", "mask", "normalise"},
             "figure": {"recipe", "range", "maxima"},
             "evaluate": {"areas", "samples", "arrays"},
             MAXIMA: {"recipe"},

@@ -1,7 +1,7 @@
 """What is done with one mesh: a function for each work, from the mesh to arrays and what is to be said of them."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -46,7 +46,18 @@ class Mesh:
 
     @cached_property
     def distances(self) -> Distances:
-        return Distances(Laplacian(self.surface, self.wanted.areas))
+        return Distances(Laplacian(self.scaled, self.wanted.areas))
+
+    @cached_property
+    def scaled(self) -> Surface:
+        """The surface that distances and eigenpairs are those of."""
+        if not self.wanted.normalise:
+            return self.surface
+        return replace(self.surface, vertices=self.surface.vertices * self.scale)
+
+    @property
+    def scale(self) -> float:
+        return 1 / float(np.sqrt(self.surface.face_areas.sum())) if self.wanted.normalise else 1.0
 
     def distance(self, words: str) -> Distance:
         return self.distances.get(Spec.parse(words))
@@ -144,7 +155,7 @@ def pairs(mesh: Mesh, words: str) -> Made:
 
 def pairs_made(mesh: Mesh, distance: Distance, sources: list[Source], among: Array) -> tuple[dict[str, Array], dict]:
     """With the root of the area, by which benchmarks divide."""
-    area = float(np.sqrt(mesh.surface.face_areas.sum()))
+    area = float(np.sqrt(mesh.scaled.face_areas.sum()))
     arrays: dict[str, Array] = {"dist": among}
     if mesh.wanted.arrays in ("npz", "mat"):
         arrays["sqrt_area"] = np.array(area)

@@ -34,6 +34,7 @@ COUNTS_FOR = {
     "dtype": ("fields", "pairs", "nearest", "eigen"),
     "format": (*FROM_SOURCES, "eigen", "evaluate"),
     **dict.fromkeys(("labels", "layout"), ("pairs",)),
+    "normalise": (*FROM_SOURCES, "eigen"),
     **dict.fromkeys(("mask", "sources", "landmarks", "sample"), FROM_SOURCES),
     **dict.fromkeys(("source", "distance", *PARAMETERS), (*FROM_SOURCES, "figure")),
     "areas": (*FROM_SOURCES, "eigen", "figure", "evaluate"),
@@ -83,8 +84,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--layout",
         choices=("dist", "geodist"),
-        help="for pairs: .mat files in a folder as benchmarks of shape matching have them",
+        help="for pairs: .mat files in a folder as benchmarks of shape matching read them: dist for ULRSSM and others "
+        "that divide by nothing and want --normalise area; geodist for GeomFmaps, DUO-FM and AttentiveFMaps",
     )
+    parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
     parser.add_argument("--maps", metavar="FOLDER", help="for evaluate: maps called cat-dog.npy, from cat to dog")
     parser.add_argument("--truth", metavar="WHAT", help="for evaluate: identity, or a folder of maps of the same names")
     parser.add_argument(
@@ -204,6 +207,7 @@ def _wanted(options: argparse.Namespace) -> "Wanted":
         arrays=options.format or "npy",
         samples=options.samples or 0,
         layout=options.layout or "",
+        normalise=options.normalise or "",
         labels=os.path.abspath(options.labels) if options.labels else "",
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,

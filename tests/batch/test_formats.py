@@ -10,8 +10,17 @@ from scipy.io import loadmat
 
 from app.batch.doing import do
 from app.batch.drive import found_meshes, tasks_for
-from app.batch.wanted import ARRAYS, LAYOUTS, Sources, Wanted
-from bihdist_core import BiharmonicDistance, DiffusionDistance, nearest, read_surface, write_mesh
+from app.batch.wanted import ARRAYS, LAYOUTS, Sources, Wanted, slug
+from bihdist_core import (
+    BiharmonicDistance,
+    DiffusionDistance,
+    GeodesicDistance,
+    Laplacian,
+    nearest,
+    read_surface,
+    write_mesh,
+)
+from bihdist_core.laplacian import eigenpairs
 from tests.shapes import bumpy
 
 FIRST = {"fields": "fields", "pairs": "dist", "nearest": "indices", "eigen": "eigenvalues", "fps": "vertices"}
@@ -124,8 +133,86 @@ def test_layouts_say_what_they_are_too(mesh, tmp_path, layout):
     assert (said["distance"], said["unit"], said["normalisation"]) == ("biharmonic", "mesh units", "none")
     found = opened(tmp_path / said["file"])
     assert found[layout].shape == (128, 128)
-    if "sqrt_area" in LAYOUTS[layout]:
-        assert float(found["sqrt_area"]) == np.sqrt(read_surface(mesh).face_areas.sum())
+
+
+def read_by_geomfmaps(mat):
+    return mat["Gamma"], mat["SQRarea"][0]
+
+
+def read_by_geomfmaps_on_shrec(mat):
+    return mat["Gamma"], mat["sqrt_area"][0].todense()
+
+
+def read_by_duo_fm(mat):
+    distances = mat["Gamma"] if "Gamma" in mat else mat["G"]
+    return distances, mat["SQRarea"][0] if "SQRarea" in mat else 1
+
+
+def read_by_attentive_fmaps(mat):
+    return np.asarray(mat["geodist"], np.float32), mat["sqrt_area"].toarray().flatten()[0]
+
+
+def read_by_ulrssm(mat):
+    return mat["dist"], 1
+
+
+@pytest.mark.parametrize("in_parts", [False, True])
+def test_benchmarks_read_their_layouts_as_errors_over_the_root_of_the_area(mesh, tmp_path, monkeypatch, in_parts):
+    surface, options = read_surface(mesh), {"distances": ("geodesic",), "sources": Sources("all")}
+    found, right = np.arange(0, 120, 3), np.arange(1, 121, 3)
+    expected = GeodesicDistance(surface).pairwise(np.arange(128))[right, found] / np.sqrt(surface.face_areas.sum())
+    of_geodist = read_by_geomfmaps, read_by_geomfmaps_on_shrec, read_by_duo_fm, read_by_attentive_fmaps
+    for layout, normalise, readers in (("geodist", "", of_geodist), ("dist", "area", (read_by_ulrssm,))):
+        out = tmp_path / layout
+        wanted = Wanted(("pairs",), **options, layout=layout, normalise=normalise)
+        tasks, _ = tasks_for(found_meshes(str(mesh.parent)), wanted, str(out), "1")
+        if in_parts:
+            monkeypatch.setattr("app.batch.doing.PART_BYTES", 8 * 128 * 50)
+            parts = do(tasks[0]).more
+            assert len(parts) == 3
+            tasks = [*parts, replace(parts[0], part=replace(parts[0].part, is_whole=True))]
+        for task in tasks:
+            report = do(task)
+            assert not report.failures
+        for reader in readers:
+            distances, root = reader(loadmat(out / report.rows[0].facts["file"]))
+            errors = np.take(distances, np.ravel_multi_index((right, found), distances.shape)) / root
+            np.testing.assert_allclose(np.ravel(errors), expected, rtol=1e-6)
+
+
+def test_normalised_results_are_those_of_the_mesh_scaled_to_area_1(mesh, tmp_path):
+    surface = read_surface(mesh)
+    root = np.sqrt(surface.face_areas.sum())
+    unit = replace(surface, vertices=surface.vertices / root)
+    words = ("biharmonic", "diffusion(t=1/4)")
+    options = {"distances": words, "sources": Sources("farthest", count=9), "eigenpairs": 7, "arrays": "npz"}
+    (task,), _ = tasks_for(
+        found_meshes(str(mesh.parent)), Wanted(WORKS, **options, normalise="area"), str(tmp_path), "1"
+    )
+    sources = np.load(tmp_path / "bumpy.fps.biharmonic.npz")["vertices"] if not do(task).failures else None
+    fields = {word: np.load(tmp_path / f"bumpy.fields.{slug(word)}.npz")["fields"] for word in words}
+    np.testing.assert_allclose(fields["biharmonic"], BiharmonicDistance(unit).from_sources(sources), rtol=1e-9)
+    np.testing.assert_allclose(
+        fields["biharmonic"], BiharmonicDistance(surface).from_sources(sources) / root, rtol=1e-9
+    )
+    pairs = np.load(tmp_path / "bumpy.pairs.biharmonic.npz")
+    np.testing.assert_allclose(pairs["dist"], fields["biharmonic"][sources], atol=1e-9)
+    assert pairs["sqrt_area"] == pytest.approx(1, rel=1e-12)
+    eigen = np.load(tmp_path / "bumpy.eigen.npz")
+    np.testing.assert_allclose(eigen["eigenvalues"], eigenpairs(Laplacian(unit), 7).eigenvalues, rtol=1e-9)
+    for work in ("fields", "pairs", "nearest", "fps"):
+        said = json.loads((tmp_path / f"bumpy.{work}.biharmonic.json").read_text())
+        assert (said["normalisation"], said["scaled_by"]) == ("area", pytest.approx(1 / root, rel=1e-12))
+        assert said["area"] == pytest.approx(root**2, rel=1e-12)
+    assert json.loads((tmp_path / "bumpy.eigen.json").read_text())["scaled_by"] == pytest.approx(1 / root, rel=1e-12)
+
+
+def test_the_layout_dist_says_when_its_metrics_want_another_scale(mesh, tmp_path):
+    options = {"works": ("pairs",), "sources": Sources("all"), "layout": "dist"}
+    assert "--normalise area" in made(mesh, tmp_path, **options)["pairs"]["note"]
+    said = made(mesh, tmp_path, **options, normalise="area")["pairs"]
+    assert "note" not in said
+    assert said["sqrt_area"] == pytest.approx(1, rel=1e-12)
 
 
 def test_other_files_have_checksums_of_their_own(mesh, tmp_path):
