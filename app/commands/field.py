@@ -1,11 +1,8 @@
 """`bihdist field`: distances of all vertices, into a file."""
 
 import argparse
-import re
 
-from bihdist_core.sources.source import Source
-from bihdist_core.sources.words import short_words_of
-
+from ..document.field_names import distinct, field_name
 from ..document.quantities import Difference
 from .mesh import Facts, add_meshes, into_each, read_laplacian
 from .options import SOURCE, add_areas, add_distance, quantities, source
@@ -57,17 +54,7 @@ def _one(options: argparse.Namespace) -> Facts:
         if chosen.raw:
             check_units(*(distance.unit for distance in known))
         columns = difference(*fields, raw=chosen.raw)
-    word = "_minus_".join(spec.word for spec in chosen.specs)
-    names = [f"{word}_from_{name}" for name in _names(options.source)]
+    names = distinct([field_name(chosen, [each]) for each in options.source])
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
     size = f"{columns.shape[0]} vertices, {counted(columns.shape[1], 'source')}"
     return {"said": [f"{label}, {size}{said}"], "label": label, "shape": list(columns.shape), "fields": names}
-
-
-def _names(sources: list[Source]) -> list[str]:
-    """A word for each source, of letters, digits and `_`, no two alike."""
-    names: list[str] = []
-    for each in sources:
-        name = re.sub("[^0-9A-Za-z.]+", "_", short_words_of(each))
-        names.append(name if name not in names else f"{name}_{len(names) + 1}")
-    return names

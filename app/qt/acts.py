@@ -95,6 +95,13 @@ FILE = (
     Act(
         "screenshot", "S&creenshot of the window…", lambda w: w.files.choose_screenshot(), ("Ctrl+P",), needs_mesh=True
     ),
+    Act(
+        "save fields",
+        "Save all &fields…",
+        lambda w: w.field_files.save_all(),
+        tip="The values of all panels at the vertices, in one file",
+        needs_mesh=True,
+    ),
     Act("quit", "&Quit", lambda w: w.close(), ("Ctrl+Q",)),
 )
 EDIT = (
@@ -266,6 +273,13 @@ PANELS = (
         Act(f"panel {word}", word, lambda w, word=word: w.choices.edit_panel(w.grid.active, word), needs_mesh=True)
         for word in PANEL_EDITS
         if word != "Add a panel"
+    ),
+    Act(
+        "save field",
+        "Save &field…",
+        lambda w: w.field_files.save(w.grid.active),
+        tip="The values of the active panel at the vertices",
+        needs_mesh=True,
     ),
     Act("next panel", "&Next panel", lambda w: w.grid.focus(1), ("Tab",), of_view=True, needs_mesh=True),
     Act("previous panel", "&Previous panel", lambda w: w.grid.focus(-1), ("Shift+Tab",), of_view=True, needs_mesh=True),

@@ -11,6 +11,7 @@ from ..document.change_edits import show_in_row
 from ..document.edits import move_source
 from ..document.quantities import Quantity
 from .anchor_gestures import AnchorGestures
+from .docks.isoline_files import save_isolines
 from .look.numbers import number
 from .pair_gestures import PairGestures
 from .pin_gestures import PinGestures
@@ -225,7 +226,8 @@ class Gestures:
             menu.addAction("Isoline through here", lambda: window.choices.isoline.pass_through(panel, vertex))
             if window.session.document.isolines.through:
                 menu.addAction("Remove isolines through points", window.choices.isoline.pass_through_none)
-            menu.addAction("Save isolines…", lambda: window.docks.writing.save_isolines(panel))
+            menu.addAction("Save isolines…", lambda: save_isolines(window, panel))
+            menu.addAction("Save field…", lambda: window.field_files.save(panel))
             menu.addSeparator()
             menu.addAction("Centre the view here\tC", lambda: view.centre(met.position))
             menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, met))
@@ -241,6 +243,8 @@ class Gestures:
             menu.addSeparator()
             for word in ("undo", "redo", "add panel"):
                 menu.addAction(actions[word])
+            menu.addSeparator()
+            menu.addAction("Save field…", lambda: window.field_files.save(panel))
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(where)
 

@@ -25,6 +25,7 @@ from .changes import Changes
 from .choices import Choices
 from .files.curve_files import CurveFiles
 from .files.exports import ExportChip, Exports
+from .files.field_files import FieldFiles
 from .files.files import Files
 from .files.session_actions import SessionFile
 from .look.look import LOOK
@@ -67,7 +68,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.page = Page()
         self.session_file = SessionFile(self)
         self.files, self.choices, self.guide = Files(self), Choices(self), Guide(self)
-        self.exports, self.curve_files = Exports(self), CurveFiles(self)
+        self.exports, self.curve_files, self.field_files = Exports(self), CurveFiles(self), FieldFiles(self)
         self.grid: Any = None  # a PanelGrid, once what draws has been imported
         self.gestures: Any = None  # what the mouse means in it
         self.docks: Any = None  # the instruments
@@ -126,6 +127,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.ended.connect(self.choices.end_at)
         self.grid.looked.connect(self.views.moved)
         self.grid.cancelled.connect(self.session.cancel)
+        self.grid.save_wanted.connect(self.field_files.save)
         self.wear()
         self._scroll = QtWidgets.QScrollArea()
         self._scroll.setWidgetResizable(True)

@@ -148,7 +148,9 @@ def test_truncation_follows_sources_of_other_kinds(opened):
 
 def test_isolines_are_saved_from_the_menu_of_a_place_too(opened, tmp_path):
     s = opened
-    s.window.docks.writing.save_isolines(s.document.panels[1].id, str(tmp_path / "lines.csv"))
+    from app.qt.docks.isoline_files import save_isolines
+
+    save_isolines(s.window, s.document.panels[1].id, str(tmp_path / "lines.csv"))
     s.until((tmp_path / "lines.csv").exists)
     rows = np.genfromtxt(tmp_path / "lines.csv", delimiter=",", names=True)
     assert np.allclose(np.unique(rows["value"]), s.panels[1].view.scene.isolines)

@@ -11,8 +11,8 @@ from .candidate_errors import CandidateErrors
 from .dock import Dock
 from .findings import Findings
 from .instrument import Instrument
-from .isoline_files import Writing
 from .picking import Picking
+from .writing import Writing
 
 NARROW = 1_100
 """Logical pixels of the window's width under which the docks at the right are tabs of one."""

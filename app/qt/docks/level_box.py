@@ -17,7 +17,7 @@ from ..look.numbers import share
 from ..look.text_box import TextBox, mark_wrong
 from ..panels.flat_button import FlatButton
 from .background import Background
-from .isoline_files import Levels
+from .isoline_files import Levels, save_isolines
 from .saving import vertices_in_words
 
 REST_MS = 250
@@ -135,7 +135,7 @@ class LevelBox(QtWidgets.QWidget):
 
     def save_isolines(self, *_: object, path: str = "") -> None:
         """path: asks for one if it is empty."""
-        self._window.docks.writing.save_isolines(self._window.grid.active, path)
+        save_isolines(self._window, self._window.grid.active, path)
 
     def save_ids(self, path: str = "") -> None:
         self._save_region("ids", path)

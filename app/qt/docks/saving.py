@@ -43,7 +43,15 @@ def ask_path(window: Any, title: str, name: str, formats: Sequence[str]) -> str:
     dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
     dialog.setNameFilters([f"{NAMES[extension]} (*{extension})" for extension in formats])
     dialog.setDefaultSuffix(formats[0].removeprefix("."))
-    dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(re.search(r"\*\.(\w+)", chosen)[1]))
+
+    def take_format(chosen: str) -> None:
+        extension = re.search(r"\*(\.\w+)", chosen)[1]
+        dialog.setDefaultSuffix(extension.removeprefix("."))
+        stem, typed = os.path.splitext(os.path.basename(dialog.selectedFiles()[0]))
+        if typed in formats:
+            dialog.selectFile(stem + extension)
+
+    dialog.filterSelected.connect(take_format)
     dialog.selectFile(re.sub(r"[^\w.-]+", "-", name).strip("-") + formats[0])
     if not dialog.exec():
         return ""
@@ -59,8 +67,14 @@ def written(window: Any, path: str, write: Callable[[str], object]) -> bool:
     except BihdistError as error:
         window.failed(str(error))
         return False
-    window.say(f"Saved {os.path.basename(path)}")
+    window.say(saved_words(path))
     return True
+
+
+def saved_words(path: str) -> str:
+    """That a file is written, and where."""
+    folder, name = os.path.split(os.path.abspath(path))
+    return f"Saved {name} in {folder}"
 
 
 def vertices_in_words(count: int) -> str:

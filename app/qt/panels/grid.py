@@ -60,6 +60,7 @@ class PanelGrid(QtWidgets.QWidget):
     hovered = QtCore.Signal(int, object)  # panel, a `Met` or None beside the surface
     looked = QtCore.Signal(Camera, str)  # where the user has turned or moved the camera of a surface to
     menu_wanted = QtCore.Signal(int, object, object)  # panel, a `Met` or None, where on the screen
+    save_wanted = QtCore.Signal(int)  # the panel's field
     ended = QtCore.Signal(int, object)  # panel, where its colour bar is to end
     cancelled = QtCore.Signal(int)  # what is computed for a panel
     activated = QtCore.Signal(int)
@@ -202,6 +203,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.head.clicked.connect(lambda: self.activate(panel.id))
         panel.head.changed.connect(lambda chosen: self.chosen.emit(panel.id, chosen))
         panel.head.asked.connect(lambda word: self.asked.emit(panel.id, word))
+        panel.head.save_wanted.connect(lambda: self.save_wanted.emit(panel.id))
         panel.ended.connect(lambda end: self.ended.emit(panel.id, end))
         panel.cancelled.connect(lambda: self.cancelled.emit(panel.id))
         panel.show_style(self._style)

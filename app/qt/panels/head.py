@@ -35,12 +35,14 @@ EXACT = ("biharmonic", "commute-time")
 class PanelHead(QtWidgets.QWidget):
     """One line that says what a panel shows and changes it.
 
-    `changed(Quantity)` for each choice; `asked(str)`, a word of PANEL_EDITS; `clicked()` when it is pressed or
-    reached by keyboard.  With less room, words go into the menus; the name is cut last.
+    `changed(Quantity)` for each choice; `asked(str)`, a word of PANEL_EDITS; `save_wanted()` for a file of the field;
+    `clicked()` when it is pressed or reached by keyboard.  With less room, words go into the menus; the name is cut
+    last.
     """
 
     changed = QtCore.Signal(object)
     asked = QtCore.Signal(str)
+    save_wanted = QtCore.Signal()
     clicked = QtCore.Signal()
 
     def __init__(self, shows: Quantity, parent: QtWidgets.QWidget | None = None) -> None:
@@ -60,8 +62,8 @@ class PanelHead(QtWidgets.QWidget):
         self.info.setAccessibleName("What to look for, and how exact it is")
         self.info.opened.connect(lambda: self._open_info(self.info))
         self.more = FlatButton(self, "more")
-        self.more.setToolTip("Add, duplicate, move or remove panels")
-        self.more.setAccessibleName("The panel: add, duplicate, move, remove")
+        self.more.setToolTip("Add, duplicate, move or remove panels, save the field")
+        self.more.setAccessibleName("The panel: add, duplicate, move, remove, save")
         self.more.setMenu(self._menu(None))
         self._about = self.more.menu().addAction("What to look for…")
         self._about.triggered.connect(lambda: QtCore.QTimer.singleShot(0, lambda: self._open_info(self.more)))
@@ -69,6 +71,8 @@ class PanelHead(QtWidgets.QWidget):
         self.edits = {word: self.more.menu().addAction(word) for word in PANEL_EDITS}
         for word, action in self.edits.items():
             action.triggered.connect(lambda *_, word=word: self.asked.emit(word))
+        self.more.menu().addSeparator()
+        self.more.menu().addAction("Save field…").triggered.connect(self.save_wanted)
         self._sheet = PopUp(self)
         self._sheet_words = QtWidgets.QLabel(self._sheet)
         self._sheet_words.setWordWrap(True)

@@ -1,0 +1,43 @@
+"""What fields are called in the files that they are written to."""
+
+import re
+from collections.abc import Sequence
+
+from bihdist_core.sources.source import Source
+from bihdist_core.sources.words import short_words_of
+
+from .document import Document, Panel
+from .quantities import Quantity
+
+
+def field_name(shows: Quantity, sources: Sequence[Source]) -> str:
+    """ "biharmonic_from_12", "biharmonic_minus_geodesic_from_12": parameters are not named."""
+    return _from("_minus_".join(part.word.replace(" ", "_") for part in shows.parts), sources)
+
+
+def field_names(document: Document, panels: Sequence[Panel]) -> list[str]:
+    """Those of what panels of a document show; where several are alike, with their parameters."""
+    points = [[document.point(name).at for name in panel.shows.points] for panel in panels]
+    sources = [[at for at in each if at is not None] for each in points]
+    shows = [panel.shows for panel in panels]
+    names = [field_name(each, starts) for each, starts in zip(shows, sources, strict=True)]
+    whole = [_from(_plain(str(each)), starts) for each, starts in zip(shows, sources, strict=True)]
+    return distinct([name if names.count(name) == 1 else more for name, more in zip(names, whole, strict=True)])
+
+
+def distinct(names: Sequence[str]) -> list[str]:
+    """No two alike: one that was there before has its place behind it."""
+    found: list[str] = []
+    for name in names:
+        found.append(name if name not in found else f"{name}_{len(found) + 1}")
+    return found
+
+
+def _from(word: str, sources: Sequence[Source]) -> str:
+    """With a word of letters, digits and `_` for each source."""
+    starts = "_and_".join(_plain(short_words_of(each)) for each in sources)
+    return f"{word}_from_{starts}" if starts else word
+
+
+def _plain(words: str) -> str:
+    return re.sub("[^0-9A-Za-z.]+", "_", words).strip("_")

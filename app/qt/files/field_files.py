@@ -1,0 +1,73 @@
+"""The fields that panels show, saved as values at vertices.  `window` is the main window."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
+
+from ...document.beside_edits import letter_of
+from ...document.document import Panel
+from ...document.field_names import field_names
+from ...document.quantity_names import quantity_name
+
+
+class FieldFiles:
+    """Asks where fields go, and lets them be written in the background, as `bihdist field` writes them."""
+
+    def __init__(self, window) -> None:
+        self._window = window
+
+    def save(self, id: int, path: str = "") -> None:
+        """The field of a panel by its id; path: asks for one if it is empty."""
+        panel = self._window.session.document.panel(id)
+        fields = self._fields([panel])
+        if fields:
+            (name,) = fields
+            self._write("Save the field", panel, name, fields, path, "")
+        else:
+            self._window.failed(self._why_not(panel))
+
+    def save_all(self, path: str = "") -> None:
+        """Those of all panels, of each mesh into a file of its own."""
+        document = self._window.session.document
+        for mesh in document.surfaces:
+            panels = document.panels_of(mesh.name)
+            fields = self._fields(panels)
+            if fields:
+                left_out = [panel for panel in panels if not self._has_field(panel)]
+                said = "".join(f"; {self._why_not(panel)}" for panel in left_out)
+                self._write("Save all fields", panels[0], "fields", fields, path, said)
+            elif panels:
+                self._window.failed(" ".join(self._why_not(panel) for panel in panels))
+
+    def _write(self, title: str, panel: Panel, name: str, fields: dict[str, np.ndarray], path: str, said: str) -> None:
+        session = self._window.session
+        surface, letter = session.surface_in(panel.id), letter_of(session.document, panel)
+
+        def write(path: str) -> None:
+            write_fields(path, surface, fields)
+
+        title = f"{title} of {letter}: {surface.name}" if letter else title
+        name = " ".join([Path(surface.name).stem, *letter, name])
+        self._window.docks.writing.save(title, name, FIELD_FORMATS, write, path, said)
+
+    def _fields(self, panels: Sequence[Panel]) -> dict[str, np.ndarray]:
+        """(n,) each, of the panels that have one, by name."""
+        session = self._window.session
+        there = [panel for panel in panels if self._has_field(panel)]
+        names = field_names(session.document, there)
+        return {name: session.shown[panel.id].answer.field for name, panel in zip(names, there, strict=True)}
+
+    def _has_field(self, panel: Panel) -> bool:
+        """Whether it shows one that answers what it is asked: nothing of before, and no stand-in."""
+        session = self._window.session
+        return session.is_answered(panel.id) and session.shown[panel.id].answer.field is not None
+
+    def _why_not(self, panel: Panel) -> str:
+        session, name = self._window.session, quantity_name(panel.shows)
+        if not session.is_answered(panel.id):
+            return f"{name} has no field yet."
+        answer = session.shown[panel.id].answer
+        return f"{name} is shown in colours, and has no field." if answer.colours is not None else answer.failure

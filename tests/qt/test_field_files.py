@@ -1,0 +1,191 @@
+"""Fields of panels, saved from the window as `bihdist field` writes them."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.document.change_edits import change_mesh
+from app.document.edits import add_panel, move_source
+from app.document.map_colours import MapColours
+from app.document.quantities import quantity
+from bihdist_core.applications.changes import Perturbation
+from bihdist_core.formats.field_output import FIELD_FORMATS
+from bihdist_core.sources.source import Place, SourceSet
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+
+
+@pytest.fixture
+def paths(monkeypatch, tmp_path):
+    """Answers for the dialog that asks where, one after the other, and what it was asked with: title and name."""
+    answers, asked = [], []
+
+    def ask(window, title, name, formats):
+        assert formats == FIELD_FORMATS
+        asked.append((title, name))
+        return str(tmp_path / answers.pop(0))
+
+    monkeypatch.setattr("app.qt.docks.writing.ask_path", ask)
+    return answers, asked
+
+
+def entry(menu, text):
+    """Of a menu, as it is pressed."""
+    next(action for action in menu.actions() if action.text() == text).trigger()
+
+
+def said(s):
+    """What the status bar says, once something has been written."""
+    s.until(lambda: s.window.status.message.text.startswith("Saved") or s.refusals)
+    text = s.window.status.message.text
+    s.window.say("")
+    return text
+
+
+def written_by_the_command(mesh, source, panel, out):
+    from app.main import main
+
+    assert main(["field", mesh, "--source", source, "--distance", str(panel.shows), "-o", str(out)]) == 0
+    return Path(out).read_bytes()
+
+
+def test_every_panel_saves_what_the_command_writes_in_every_format(screen, mesh_file, tmp_path, paths):
+    answers, asked = paths
+    mesh, s = mesh_file(bumpy(300)), screen()
+    s.open(mesh, 5)
+    s.session.show(add_panel(s.document, quantity("biharmonic - geodesic")))
+    s.until(lambda: s.session.is_complete)
+    assert len(s.panels) == 4
+    for place, extension in enumerate(FIELD_FORMATS):
+        answers.append(f"mine{extension}")
+        entry(s.panels[place].head.more.menu(), "Save field…")
+        assert said(s) == f"Saved mine{extension} in {tmp_path}"
+        written = (tmp_path / f"mine{extension}").read_bytes()
+        there = tmp_path / f"theirs{extension}"
+        assert written == written_by_the_command(mesh, "5", s.document.panels[place], there)
+    assert asked[0] == ("Save the field", "mesh biharmonic_from_5")
+    assert asked[-1] == ("Save the field", "mesh biharmonic_minus_geodesic_from_5")
+    # By the menu Panels that of the active panel, from a source of several parts.
+    s.session.show(move_source(s.document, 0, SourceSet((7, Place(12, (0.2, 0.5, 0.3))))))
+    s.until(lambda: s.session.is_complete)
+    s.window.grid.activate(s.document.panels[0].id)
+    answers.append("again.csv")
+    s.window.actions_by_word["save field"].trigger()
+    assert said(s)
+    theirs = written_by_the_command(mesh, "7+f12:0.2,0.5", s.document.panels[0], tmp_path / "theirs.csv")
+    assert (tmp_path / "again.csv").read_bytes() == theirs
+
+
+def test_the_menu_at_the_pointer_offers_it_on_the_surface_and_beside_it(screen, mesh_file, tmp_path, paths):
+    from qtpy import QtCore, QtWidgets
+
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    answers, _ = paths
+    view = s.panels[1].view
+    for met in (view.met_at(view.rect().center()), None):
+        answers.append("at.npy")
+        view.menu_wanted.emit(met, QtCore.QPoint(5, 5))
+        menu = QtWidgets.QApplication.activePopupWidget()
+        entry(menu, "Save field…")
+        menu.close()
+        assert said(s)
+        assert np.array_equal(np.load(tmp_path / "at.npy"), s.answers[1].field)
+        (tmp_path / "at.npy").unlink()
+
+
+def test_all_fields_are_columns_of_one_file_with_names_that_tell_them_apart(screen, mesh_file, tmp_path, paths):
+    answers, asked = paths
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    for shows in ("diffusion(t=1/4)", "diffusion(t=1/4)"):
+        s.session.show(add_panel(s.document, quantity(shows)))
+    s.session.show(add_panel(s.document, MapColours()))
+    s.until(lambda: s.session.is_complete)
+    answers.append("all.csv")
+    file = s.window.menuBar().actions()[0].menu()
+    entry(file, "Save all &fields…")
+    assert said(s) == f"Saved all.csv in {tmp_path}; Positions is shown in colours, and has no field."
+    assert asked == [("Save all fields", "mesh fields")]
+    with open(tmp_path / "all.csv", newline="") as lines:
+        header, *rows = csv.reader(lines)
+    assert header == [
+        "vertex",
+        "biharmonic_from_5",
+        "geodesic_from_5",
+        "diffusion_from_5",
+        "diffusion_t_1_4_from_5",
+        "diffusion_t_1_4_from_5_5",
+    ]
+    values = np.array(rows, float)
+    for column, answer in enumerate(s.answers[:-1], 1):
+        assert np.array_equal(values[:, column], answer.field)
+
+
+def test_two_meshes_have_a_file_each(screen, mesh_file, tmp_path, paths):
+    answers, asked = paths
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    s.session.show(change_mesh(s.document, Perturbation(noise=0.1)))
+    s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
+    answers += ["one.npy", "other.npy"]
+    s.window.actions_by_word["save fields"].trigger()
+    s.until(lambda: (tmp_path / "other.npy").exists())
+    assert asked == [(f"Save all fields of {letter}: mesh.off", f"mesh {letter} fields") for letter in "AB"]
+    for mesh, name in zip(s.document.surfaces, ("one", "other"), strict=True):
+        fields = [s.session.shown[panel.id].answer.field for panel in s.document.panels_of(mesh.name)]
+        assert np.array_equal(np.load(tmp_path / f"{name}.npy"), np.column_stack(fields), equal_nan=True)
+
+
+def test_a_field_that_is_not_there_is_not_saved(screen, mesh_file, tmp_path, paths):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    s.session.show(move_source(s.document, 0, 9))
+    assert not s.session.is_complete  # the answers are those of the source before
+    s.window.field_files.save(s.document.panels[0].id)
+    s.window.field_files.save_all()
+    assert s.refusals == [
+        "Biharmonic has no field yet.",
+        "Biharmonic has no field yet. Geodesic has no field yet. Diffusion has no field yet.",
+    ]
+    s.until(lambda: s.session.is_complete)
+    paths[0].append("nowhere/a.npy")
+    s.window.field_files.save(s.document.panels[0].id)
+    s.until(lambda: len(s.refusals) == 3)
+    assert "nowhere" in s.refusals[2]
+
+
+def test_files_are_written_one_after_the_other_and_none_is_left_out(screen, mesh_file, tmp_path):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    for number in range(5):
+        s.window.field_files.save(s.document.panels[number % 3].id, str(tmp_path / f"{number}.npy"))
+    s.until(lambda: s.window.status.message.text.startswith("Saved 4.npy"))
+    for number in range(5):
+        assert np.array_equal(np.load(tmp_path / f"{number}.npy"), s.answers[number % 3].field)
+
+
+def test_the_dialog_writes_the_format_that_is_chosen_in_it(screen, mesh_file, tmp_path):
+    from dataclasses import replace
+
+    from qtpy import QtCore, QtWidgets
+
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    s.window.preferences = replace(s.window.preferences, last_folder=str(tmp_path))
+
+    def choose():
+        dialog = QtWidgets.QApplication.activeModalWidget()
+        (wanted,) = [each for each in dialog.nameFilters() if ".vtp" in each]
+        box = dialog.findChild(QtWidgets.QComboBox, "fileTypeCombo")
+        box.setCurrentText(wanted)
+        box.activated[str].emit(wanted)
+        dialog.accept()
+
+    QtCore.QTimer.singleShot(0, choose)
+    s.window.field_files.save(s.document.panels[0].id)
+    assert said(s) == f"Saved mesh-biharmonic_from_5.vtp in {tmp_path}"
+    assert b"biharmonic_from_5" in (tmp_path / "mesh-biharmonic_from_5.vtp").read_bytes()
