@@ -353,6 +353,15 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.grid is not None:
             self.grid.focus()
 
+    def focusNextPrevChild(self, is_next: bool) -> bool:
+        """Tab; but what is hidden or disabled while it has the keys gives them to the panels, not to the next."""
+        now = self.focusWidget()
+        is_lost = now is not None and not (now.isVisible() and now.isEnabled())
+        if is_lost and self.grid is not None and self._stack.currentWidget() is self._scroll:
+            self.leave_boxes()
+            return True
+        return super().focusNextPrevChild(is_next)
+
     def change_part(self) -> None:
         """From the panels to the tool bar, and back."""
         if self.tool_bar.isAncestorOf(self.focusWidget() or self):

@@ -308,3 +308,31 @@ def test_a_session_brings_pins_and_their_dock_back(opened, screen, tmp_path):
     listed = other.window.docks._docks["pins"].content
     assert listed.distances.spec == Spec.of("geodesic", method="dijkstra")
     assert listed.ways.choice() == "share"
+
+
+def test_titles_are_written_whole_in_as_many_lines_as_they_need(opened):
+    from qtpy import QtCore, QtGui
+
+    from app.document.edits import add_panel
+    from app.document.quantities import quantity
+
+    s = opened
+    dock = dock_of(s)
+    type_ids(s, dock, "12, 40")
+    document = s.document
+    for text in ("truncated(k=30)", "commute-time", "biharmonic - geodesic"):
+        document = add_panel(document, quantity(text))
+    s.session.show(document)
+    s.until(lambda: s.session.is_complete)
+    s.settle(0.1)
+    table = dock.table
+    header, model = table.horizontalHeader(), table.rows
+    titles = ["".join(model.headerData(k, QtCore.Qt.Orientation.Horizontal).split()) for k in range(3, 9)]
+    assert titles == ["".join(title.split()) for title in model.titles]
+    metrics = QtGui.QFontMetrics(header.font())
+    for column in range(2, 9):
+        text = model.headerData(column, QtCore.Qt.Orientation.Horizontal)
+        wide = max(metrics.horizontalAdvance(line) for line in text.split("\n"))
+        assert wide <= header.sectionSize(column)
+        assert metrics.lineSpacing() * len(text.split("\n")) <= header.height()
+    assert any("\n" in model.headerData(k, QtCore.Qt.Orientation.Horizontal) for k in range(3, 9))

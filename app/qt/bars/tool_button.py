@@ -1,7 +1,8 @@
 """A button of the tool bar: an icon, quiet words, the value that is chosen; words go first where room is short."""
 
-from qtpy import QtCore, QtGui, QtWidgets
+from qtpy import QtCore, QtGui
 
+from ..look.bare_button import BareButton
 from ..look.icons import SIDE, pixmap
 from ..look.look import LOOK
 
@@ -12,16 +13,13 @@ FULL, VALUES, ICONS = 2, 1, 0
 """How much is written: words and values, values, nothing."""
 
 
-class ToolButton(QtWidgets.QToolButton):
+class ToolButton(BareButton):
     """icon: of `assets/icons`; words: what it is about; is_meant: the one button that is filled."""
 
     def __init__(self, icon: str, words: str = "", is_meant: bool = False) -> None:
         super().__init__()
         self._icon, self._words, self._value = icon, words, ""
         self._is_meant, self._detail = is_meant, FULL
-        self._has_keys = False
-        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
-        self.setPopupMode(QtWidgets.QToolButton.ToolButtonPopupMode.InstantPopup)
         self.setCursor(QtCore.Qt.CursorShape.ArrowCursor)
         LOOK.changed.connect(self._refit)
 
@@ -64,14 +62,6 @@ class ToolButton(QtWidgets.QToolButton):
     def minimumSizeHint(self) -> QtCore.QSize:
         return self.sizeHint()
 
-    def focusInEvent(self, event: QtGui.QFocusEvent) -> None:
-        # Where the keys are is shown to those who use them.
-        self._has_keys = event.reason() not in (
-            QtCore.Qt.FocusReason.MouseFocusReason,
-            QtCore.Qt.FocusReason.PopupFocusReason,
-        )
-        super().focusInEvent(event)
-
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         theme, painter = LOOK.theme, QtGui.QPainter(self)
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
@@ -81,7 +71,7 @@ class ToolButton(QtWidgets.QToolButton):
         ground = theme.fill if is_filled else ""
         if self.isChecked():
             ground = theme.selection
-        if is_on and self.underMouse() and not is_filled:
+        if is_on and self.is_pointed and not is_filled:
             ground = theme.hover
         if is_pressed and not is_filled:
             ground = theme.pressed
@@ -90,7 +80,7 @@ class ToolButton(QtWidgets.QToolButton):
             painter.setPen(QtCore.Qt.PenStyle.NoPen)
             painter.setBrush(QtGui.QColor(ground))
             painter.drawRoundedRect(box, 6, 6)
-        if self.hasFocus() and self._has_keys:
+        if self.has_keys:
             painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
             painter.setPen(QtGui.QPen(QtGui.QColor(theme.text if is_filled else theme.accent), 2))
             painter.drawRoundedRect(box, 6, 6)

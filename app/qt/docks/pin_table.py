@@ -1,6 +1,7 @@
 """The list of pins: a row for each with its number, name, vertex, and what every panel has there."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from qtpy import QtCore, QtGui, QtWidgets
@@ -15,11 +16,11 @@ PAD = 6
 LEAST_NAME = 44
 """Logical pixels of a name at least; where there is no room for it the table is scrolled."""
 
-WIDEST = 56
-"""Of a column that only its title needs."""
-
 TITLE = 19
 """Logical pixels beside the words of a title, together."""
+
+PIECES = re.compile(r"[^ ]+(?: −)?")
+"""Of a title, each whole on a line; a minus stays with what is before it."""
 
 BADGE, NAME, VERTEX = range(3)
 ROLE = QtCore.Qt.ItemDataRole
@@ -50,6 +51,7 @@ class PinRows(QtCore.QAbstractTableModel):
         super().__init__(parent)
         self.rows: tuple[PinRow, ...] = ()
         self.titles: tuple[str, ...] = ()
+        self.lines: dict[int, str] = {}  # titles by their columns, in as many lines as they need
         self.title_tips: tuple[str, ...] = ()
 
     def show(self, rows: Sequence[PinRow], titles: Sequence[str], tips: Sequence[str]) -> None:
@@ -71,6 +73,15 @@ class PinRows(QtCore.QAbstractTableModel):
 
     def columnCount(self, parent: QtCore.QModelIndex = QtCore.QModelIndex()) -> int:  # noqa: B008 (Qt's own default)
         return 0 if parent.isValid() else 3 + len(self.titles)
+
+    def title(self, column: int) -> str:
+        return ("", "Name", "Vertex", *self.titles)[column]
+
+    def show_lines(self, lines: dict[int, str]) -> None:
+        """Write titles, by their columns, in these lines."""
+        if lines != self.lines:
+            self.lines = lines
+            self.headerDataChanged.emit(QtCore.Qt.Orientation.Horizontal, 0, self.columnCount() - 1)
 
     def text(self, row: PinRow, column: int) -> str:
         return (str(row.number), row.name, row.vertex, *row.values)[column]
@@ -105,7 +116,7 @@ class PinRows(QtCore.QAbstractTableModel):
         if way != QtCore.Qt.Orientation.Horizontal:
             return None
         if role == ROLE.DisplayRole:
-            return ("", "Name", "Vertex", *self.titles)[section]
+            return self.lines.get(section) or self.title(section)
         if role == ROLE.ToolTipRole and section > VERTEX:
             return self.title_tips[section - 3]
         if role == ROLE.TextAlignmentRole:
@@ -149,7 +160,6 @@ class PinTable(QtWidgets.QTableView):
         header = self.horizontalHeader()
         header.setHighlightSections(False)
         header.setMinimumSectionSize(20)
-        header.setTextElideMode(QtCore.Qt.TextElideMode.ElideRight)
         header.setSectionResizeMode(QtWidgets.QHeaderView.ResizeMode.Fixed)
         self._points: tuple[str, ...] = ()
         self.selectionModel().selectionChanged.connect(self._choose)
@@ -189,25 +199,25 @@ class PinTable(QtWidgets.QTableView):
             self.edit(self.rows.index(min(rows), NAME))
 
     def fit(self) -> None:
-        """Columns as wide as what is in them; the name has the rest."""
+        """Columns as wide as what is in them, with titles in several lines where there is little room; the name has
+        the rest.
+        """
         scale = LOOK.scale
         self.verticalHeader().setDefaultSectionSize(round(ROW * scale))
         font, head = LOOK.font(13), QtGui.QFontMetrics(LOOK.font(12))
-        widths, cut = {BADGE: round(24 * scale)}, {}
+        widths, more_for = {BADGE: round(24 * scale)}, {}
         for column in range(VERTEX, self.rows.columnCount()):
             texts = [self.rows.text(row, column) for row in self.rows.rows]
-            title = self.rows.headerData(column, QtCore.Qt.Orientation.Horizontal)
+            title = self.rows.title(column)
             wide = max([number_width(font, text) for text in texts], default=0)
-            title_wide = whole = head.horizontalAdvance(str(title)) + TITLE
-            if column > VERTEX:
-                title_wide = min(title_wide, WIDEST * scale)  # its tip says it in full
-            widths[column] = round(max(wide + 2 * PAD, title_wide) + 0.5)
-            cut[column] = max(round(whole + 0.5) - widths[column], 0)
+            longest = max(map(head.horizontalAdvance, PIECES.findall(title)), default=0)
+            widths[column] = round(max(wide + 2 * PAD, longest + TITLE) + 0.5)
+            more_for[column] = max(head.horizontalAdvance(title) + TITLE - widths[column], 0)
         room = self.viewport().width() - sum(widths.values())
         names = [QtGui.QFontMetrics(font).horizontalAdvance(row.name) for row in self.rows.rows]
         least = max(round(LEAST_NAME * scale), head.horizontalAdvance("Name") + TITLE)
         room -= max([least, *(name + 2 * PAD for name in names)])
-        for column, missing in sorted(cut.items(), key=lambda each: each[1]):
+        for column, missing in sorted(more_for.items(), key=lambda each: each[1]):
             # Where names need less, titles have more.
             more = min(missing, max(room, 0))
             widths[column] += more
@@ -217,6 +227,10 @@ class PinTable(QtWidgets.QTableView):
         for column, width in widths.items():
             if column < self.rows.columnCount():
                 self.setColumnWidth(column, width)
+        self.rows.show_lines(
+            {k: _in_lines(self.rows.title(k), widths[k] - TITLE, head.horizontalAdvance) for k in more_for}
+        )
+        self.updateGeometries()
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)
@@ -267,6 +281,15 @@ class PinTable(QtWidgets.QTableView):
     def _open_menu(self, at: QtCore.QPoint) -> None:
         if self._points:
             self.menu_wanted.emit(self.viewport().mapToGlobal(at))
+
+
+def _in_lines(title: str, room: int, wide: Callable[[str], int]) -> str:
+    """The title with a new line wherever the next piece does not fit into the room."""
+    lines: list[str] = []
+    for piece in PIECES.findall(title):
+        longer = f"{lines[-1]} {piece}" if lines else piece
+        lines[-1:] = [longer] if not lines or wide(longer) <= room else [lines[-1], piece]
+    return "\n".join(lines)
 
 
 class _Cells(QtWidgets.QStyledItemDelegate):

@@ -11,6 +11,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import OutputError
 
 from ...figures.job import FigureJob
+from ..look.bare_button import BareButton
 from ..look.icons import pixmap, put_icon
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
@@ -165,6 +166,7 @@ class ExportChip(QtWidgets.QWidget):
         self._listed: list[tuple[Export, QtWidgets.QAction]] = []
         self.share = _Share(self)
         self.share.clicked.connect(self.open_menu)
+        self.menu.aboutToHide.connect(self.share.update)
         self.stop = QtWidgets.QToolButton(self)
         self.stop.setIconSize(QtCore.QSize(14, 14))
         self.stop.setFixedSize(22, 22)
@@ -240,16 +242,14 @@ def _summary(running: list[Export]) -> tuple[str, float]:
     ), mean
 
 
-class _Share(QtWidgets.QAbstractButton):
+class _Share(BareButton):
     """Words and a bar, painted here: digits of one width, and no new picture while nothing that is seen changes."""
 
     PAD, GAP, BAR, CHEVRON = 6, 8, 56, 14
 
     def __init__(self, parent: QtWidgets.QWidget) -> None:
         super().__init__(parent)
-        self._fraction, self._has_menu, self._by_keys = 0.0, False, False
-        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
-        self.setAttribute(QtCore.Qt.WidgetAttribute.WA_Hover)
+        self._fraction, self._has_menu = 0.0, False
         LOOK.changed.connect(self._look_anew)
 
     def _look_anew(self) -> None:
@@ -277,11 +277,6 @@ class _Share(QtWidgets.QAbstractButton):
         head, _, last = self.text().removesuffix(" %").rpartition(" ")
         return f"{head} 100 %" if last.isdigit() else self.text()
 
-    def focusInEvent(self, event: QtGui.QFocusEvent) -> None:
-        reason = QtCore.Qt.FocusReason
-        self._by_keys = event.reason() in (reason.TabFocusReason, reason.BacktabFocusReason)
-        super().focusInEvent(event)
-
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         theme, painter = LOOK.theme, QtGui.QPainter(self)
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
@@ -307,10 +302,10 @@ class _Share(QtWidgets.QAbstractButton):
     def _paint_ground(self, painter: QtGui.QPainter) -> None:
         theme, box = LOOK.theme, QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1)
         painter.setPen(QtCore.Qt.PenStyle.NoPen)
-        if self.isDown() or self.underMouse():
+        if self.isDown() or self.is_pointed:
             painter.setBrush(QtGui.QColor(theme.pressed if self.isDown() else theme.hover))
             painter.drawRoundedRect(box, 6, 6)
-        if self.hasFocus() and self._by_keys:
+        if self.has_keys:
             painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
             painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 2))
             painter.drawRoundedRect(box, 6, 6)
@@ -320,7 +315,7 @@ class _Share(QtWidgets.QAbstractButton):
             return
         painter.setPen(QtCore.Qt.PenStyle.NoPen)
         # Where the ground is that of the pointer, the usual line would be lost in it.
-        painter.setBrush(QtGui.QColor(LOOK.theme.strong if self.underMouse() else LOOK.theme.border))
+        painter.setBrush(QtGui.QColor(LOOK.theme.strong if self.is_pointed else LOOK.theme.border))
         painter.drawRoundedRect(box, 2, 2)
         painter.setClipRect(QtCore.QRectF(box.left(), box.top(), box.width() * self._fraction, box.height()))
         painter.setBrush(QtGui.QColor(LOOK.theme.accent))

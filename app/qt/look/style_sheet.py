@@ -111,6 +111,7 @@ QLabel {{ background: transparent; }}
 QLabel[quiet="true"] {{ color: {theme.quiet}; }}
 QLabel[small="true"] {{ font-size: {small}px; }}
 QLabel[error="true"] {{ color: {theme.error}; }}
+#activeLine {{ background: {theme.accent}; }}
 #popUp {{ background: {theme.raised}; border: 1px solid {theme.strong}; }}
 QLabel[refusal="true"] {{ background: {theme.error_ground}; color: {theme.error}; border-radius: 6px;
   padding: 8px 12px; }}

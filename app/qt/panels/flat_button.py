@@ -2,6 +2,7 @@
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ..look.bare_button import BareButton
 from ..look.icons import pixmap
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
@@ -19,7 +20,7 @@ ARROW = 14
 ICON_SIDE = 28
 
 
-class FlatButton(QtWidgets.QToolButton):
+class FlatButton(BareButton):
     """Paints itself; with a menu or a pop-up it opens on Space, Enter and Down.
 
     text: what it says; symbol: quiet, before the text where there is room; icon_name: instead of words.
@@ -39,9 +40,6 @@ class FlatButton(QtWidgets.QToolButton):
         self.symbol, self.icon_name = "", icon_name
         self.bold, self.quiet = bold, quiet
         self.has_arrow = has_arrow and not icon_name
-        self._by_keyboard = False
-        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
-        self.setPopupMode(QtWidgets.QToolButton.ToolButtonPopupMode.InstantPopup)
         self.clicked.connect(self.opened)
         LOOK.changed.connect(self.update)
 
@@ -63,7 +61,7 @@ class FlatButton(QtWidgets.QToolButton):
     def _width(self, text: str) -> float:
         return number_width(LOOK.font(bold=self.bold), text)
 
-    # ------------------------------------------------------------------ keys and focus
+    # ------------------------------------------------------------------ keys
     def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
         keys = QtCore.Qt.Key
         opens = event.key() in (keys.Key_Return, keys.Key_Enter, keys.Key_Space, keys.Key_Down)
@@ -74,24 +72,17 @@ class FlatButton(QtWidgets.QToolButton):
         else:
             self.click()
 
-    def focusInEvent(self, event: QtGui.QFocusEvent) -> None:
-        reasons = QtCore.Qt.FocusReason
-        # A menu that closes gives the focus back, however it was opened.
-        if event.reason() not in (reasons.PopupFocusReason, reasons.ActiveWindowFocusReason):
-            self._by_keyboard = event.reason() != reasons.MouseFocusReason
-        super().focusInEvent(event)
-
     # ------------------------------------------------------------------ painting
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         theme = LOOK.theme
         painter = QtGui.QPainter(self)
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
         is_open = self.isDown() or (self.menu() is not None and self.menu().isVisible())
-        if self.isEnabled() and (is_open or self.underMouse()):
+        if self.isEnabled() and (is_open or self.is_pointed):
             painter.setPen(QtCore.Qt.PenStyle.NoPen)
             painter.setBrush(QtGui.QColor(theme.pressed if is_open else theme.hover))
             painter.drawRoundedRect(QtCore.QRectF(self.rect()), 6, 6)
-        if self._by_keyboard and self.hasFocus():
+        if self.has_keys:
             paint_ring(painter, QtCore.QRectF(self.rect()))
         text, quiet = (theme.text, theme.quiet) if self.isEnabled() else (theme.disabled, theme.disabled)
         if self.icon_name:

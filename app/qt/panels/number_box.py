@@ -119,12 +119,14 @@ class PopUp(QtWidgets.QFrame):
     def __init__(self, parent: QtWidgets.QWidget, objectName: str = "popUp") -> None:
         super().__init__(parent, QtCore.Qt.WindowType.Popup | QtCore.Qt.WindowType.FramelessWindowHint)
         self.setObjectName(objectName)
+        self._under = parent
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
         # The click that closes it does not also press what is under it, which might open it again.
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_NoMouseReplay)
 
     def open_under(self, control: QtWidgets.QWidget, right: int = 0) -> None:
         """Below a control, on the screen; right: of its left side."""
+        self._under = control
         self.setFont(LOOK.font())
         self.adjustSize()
         place = control.mapToGlobal(QtCore.QPoint(right, control.height() + 2))
@@ -143,6 +145,7 @@ class PopUp(QtWidgets.QFrame):
 
     def hideEvent(self, event: QtGui.QHideEvent) -> None:
         super().hideEvent(event)
+        self._under.update()  # the pointer may have left it meanwhile
         self.closed.emit()
 
 

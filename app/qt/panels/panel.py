@@ -58,9 +58,9 @@ class DistancePanel(QtWidgets.QWidget):
         self.bar.end_wanted.connect(self.ask_end)
         self._end = EndPopUp(self)
         self._end.chosen.connect(self.ended)
-        self.waiting = Waiting(self.view)
+        self.waiting = Waiting(self)
         self.waiting.cancelled.connect(self.cancelled)
-        self._accent = QtWidgets.QWidget(self)
+        self._accent = QtWidgets.QWidget(self, objectName="activeLine")
         self._accent.setAttribute(QtCore.Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         layout = QtWidgets.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -68,7 +68,7 @@ class DistancePanel(QtWidgets.QWidget):
         layout.addWidget(self.head)
         layout.addWidget(self.view, 1)
         layout.addWidget(self.bar)
-        self.view.resized.connect(lambda: self.waiting.fit(self.view.width()))
+        self.view.resized.connect(self._place_waiting)
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Ignored)
         self._opened: Opened | None = None
         self._shape: Surface | None = None
@@ -77,8 +77,8 @@ class DistancePanel(QtWidgets.QWidget):
         self._zooms: tuple[Zoom, ...] = ()
         self._isolines = TWENTY_STEPS
         self.answer: Answer | None = None
-        self._is_preview = self._is_waiting = self._in_shares = False
-        self._paint_accent(False)
+        self._is_preview = self._is_waiting = self._in_shares = self._is_compact = False
+        self.show_active(False)
 
     # ------------------------------------------------------------------ how it looks
     def show_style(self, style: Style) -> bool:
@@ -87,19 +87,22 @@ class DistancePanel(QtWidgets.QWidget):
 
     def show_active(self, is_active: bool) -> None:
         """Whether this is the panel that the keys go to."""
-        self._paint_accent(is_active)
-
-    def _paint_accent(self, is_active: bool) -> None:
         self._accent.setVisible(is_active)
-        self._accent.setStyleSheet(f"background: {LOOK.theme.accent}")
         self._accent.raise_()
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)
-        is_compact = self.height() < COMPACT_BELOW * LOOK.scale
-        self.head.set_compact(is_compact)
-        self.bar.set_compact(is_compact)
+        self._is_compact = self.height() < COMPACT_BELOW * LOOK.scale
+        self.head.set_compact(self._is_compact)
+        self.bar.set_compact(self._is_compact)
         self._accent.setGeometry(0, 0, self.width(), ACCENT)
+        self._place_waiting()
+
+    def _place_waiting(self) -> None:
+        """Over the view, or where the shape fills that, over the bar, if it is empty; if not, a line has to do."""
+        is_at_bar, view = self._is_compact and self._is_waiting, self.view.geometry()
+        top = view.bottom() + 1 if is_at_bar else view.top()
+        self.waiting.fit(top, view.width(), self._is_compact, is_at_bar or not self._is_compact)
 
     def rest(self) -> None:
         """Show nothing, and keep nothing of what was shown."""
@@ -323,6 +326,7 @@ class DistancePanel(QtWidgets.QWidget):
         is_waiting = progress is not None and is_old
         changes = is_waiting != self._is_waiting
         self._is_waiting = is_waiting
+        self._place_waiting()
         self.view.dim(is_waiting)
         # Why there is no field is not said of one that is on its way.
         self.view.over.say("" if is_waiting or self.answer is None else self.answer.failure)
