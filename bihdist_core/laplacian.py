@@ -54,6 +54,20 @@ class Laplacian:
         """(n,) vertex areas, unit length squared."""
         return vertex_areas(self.surface, self.areas_kind)
 
+    @once
+    def eigenpair_counts(self) -> np.ndarray:
+        """(c,) how many eigenpairs each component has besides the constant: as vertices with an area, less one."""
+        label = self.surface.component_of_vertex[self.areas > 0]
+        return np.bincount(label[label >= 0], minlength=len(self.components)) - 1
+
+    def check_eigenpairs(self, k: int, most: int) -> None:
+        """ParameterError, which says what is possible, unless there are k eigenpairs among `most`."""
+        if not 1 <= k <= most:
+            name = self.surface.name
+            raise ParameterError(
+                f"{name} has {most} eigenpairs besides the constant, and k is {k}; choose k from 1 to {most}."
+            )
+
     def component_of(self, vertex: int) -> "Component":
         """The component a vertex belongs to; VertexError if there is none."""
         return self.components[self.surface.component_of_vertex[self.surface.check_vertex(vertex)]]
@@ -201,8 +215,8 @@ class Component:
     # ------------------------------------------------------------------ the spectrum
     @property
     def most_eigenpairs(self) -> int:
-        """How many there are besides the constant: as many as vertices with an area, less one."""
-        return int((self.areas > 0).sum()) - 1
+        """How many there are besides the constant (`Laplacian.eigenpair_counts`)."""
+        return int(self.laplacian.eigenpair_counts[self.index])
 
     def spectrum(self, count: int, progress: Progress | None = None) -> Spectrum:
         """At least the first `count` eigenpairs (of at most `most_eigenpairs`); grown and kept."""
@@ -229,9 +243,7 @@ def eigenpairs(laplacian: "Laplacian | Surface", count: int, progress: Progress 
     """
     laplacian = as_laplacian(laplacian)
     components = laplacian.components
-    most = sum(c.most_eigenpairs for c in components)
-    if not 1 <= count <= most:
-        raise ParameterError(f"{laplacian.surface.name} has {most} eigenpairs besides constants; {count} asked for.")
+    laplacian.check_eigenpairs(count, int(laplacian.eigenpair_counts.sum()))
     spectra = [
         c.spectrum(count, part(progress, k / len(components), (k + 1) / len(components)))
         for k, c in enumerate(components)

@@ -82,6 +82,11 @@ class Surface:
         return int(self.component_of_vertex.max()) + 1
 
     @property
+    def largest_component_size(self) -> int:
+        """How many vertices the component 0 has."""
+        return int((self.component_of_vertex == 0).sum())
+
+    @property
     def unreferenced_count(self) -> int:
         return int((self.component_of_vertex < 0).sum())
 

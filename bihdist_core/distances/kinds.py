@@ -9,7 +9,7 @@ the distance's word and leads to a `Kind`.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
 from importlib import import_module
@@ -21,6 +21,7 @@ from ..errors import ParameterError
 if TYPE_CHECKING:
     from ..laplacian import Laplacian
     from ..progress import Progress
+    from ..surface import Surface
     from .distance import Distance
 
 GROUP = "bihdist.distances"
@@ -31,8 +32,9 @@ Value = float | int | str
 class Parameter:
     """One number or word that a distance has.
 
-    choices: what a word may be.  above: what a number must exceed; a whole number if the default is one.  shown: from
-    where to where a control offers it, in equal steps of its logarithm if `logarithmic`; marks: values it should hit.
+    choices: what a word may be.  above: what a number must exceed, at_most: and not; a whole number if the default is
+    one.  shown: from where to where a control offers it, in equal steps of its logarithm if `logarithmic`; marks:
+    values it should hit.  most: the `at_most` that a surface has, where that depends on it.
     """
 
     name: str
@@ -43,6 +45,15 @@ class Parameter:
     shown: tuple[float, float] = (0.0, 1.0)
     logarithmic: bool = False
     marks: tuple[float, ...] = ()
+    at_most: float = math.inf
+    most: "Callable[[Surface], int] | None" = None
+
+    def on(self, surface: "Surface") -> "Parameter":
+        """The parameter with the values that it can have on a surface."""
+        if self.most is None:
+            return self
+        most = self.most(surface)
+        return replace(self, at_most=most, shown=(self.shown[0], min(self.shown[1], most)))
 
     @property
     def is_whole(self) -> bool:
@@ -58,9 +69,10 @@ class Parameter:
             number = math.nan if isinstance(value, (bool, str)) else float(value)  # type: ignore[arg-type]
         except (TypeError, ValueError, OverflowError):
             number = math.nan
-        if not self.above < number < math.inf or (self.is_whole and number != int(number)):
+        if not (self.above < number < math.inf and number <= self.at_most) or (self.is_whole and number != int(number)):
             kind = "a whole number" if self.is_whole else "a number"
-            raise ParameterError(f"{self.name} must be {kind} above {self.above:g}, not {_shown(value)}.")
+            most = "" if self.at_most == math.inf else f" and at most {self.at_most:g}"
+            raise ParameterError(f"{self.name} must be {kind} above {self.above:g}{most}, not {_shown(value)}.")
         return int(number) if self.is_whole else number
 
     def parsed(self, text: str) -> Value:
@@ -169,6 +181,14 @@ class Spec:
         """The same with other values."""
         return Spec.of(self.word, **{**dict(self.values), **values})
 
+    def on(self, surface: "Surface") -> "Spec":
+        """The same, with no value above what a surface has."""
+        most = {name: self.kind.parameter(name).on(surface).at_most for name, _ in self.values}
+        over = {
+            name: int(most[name]) for name, value in self.values if not isinstance(value, str) and value > most[name]
+        }
+        return self.changed(**over) if over else self
+
     def load(self) -> Callable[..., "Distance"]:
         """Import what makes it, so that `build` need not."""
         make = self.kind.make
@@ -230,7 +250,9 @@ def _shown(value: object) -> str:
 
 
 PAPER_TIMES = (1 / 15, 1 / 8, 1 / 4, 1.0, 4.0)
-_PAIRS = Parameter("k", 200, "how many eigenpairs", shown=(1, 2000))
+_PAIRS = Parameter(
+    "k", 200, "how many eigenpairs", shown=(1, 2000), most=lambda surface: surface.largest_component_size - 1
+)
 
 OURS = (
     Kind(

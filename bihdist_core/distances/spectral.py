@@ -91,8 +91,8 @@ class SpectralDistance(Distance):
 class PowerDistance(SpectralDistance):
     """The family of the paper's section 6, weights 1 / lambda^alpha, from the first k eigenpairs.
 
-    alpha > 1 (else the sum diverges on a surface: ParameterError); scales like length ** (alpha - 1).  A component
-    with fewer than k + 1 vertices uses all its eigenpairs.
+    alpha > 1 (else the sum diverges on a surface); scales like length ** (alpha - 1).  A component with fewer than
+    k + 1 vertices uses all its eigenpairs.  Raises ParameterError for another alpha, and if no component has k of them.
     """
 
     def __init__(
@@ -102,17 +102,14 @@ class PowerDistance(SpectralDistance):
             raise ParameterError(f"alpha is {alpha:g}; the sum of 1 / lambda^alpha needs alpha > 1.")
         super().__init__(laplacian)
         self.alpha, self.k = float(alpha), checked_count(k)
-        self.label = f"1/λ^{alpha:g}, {self._most()} eigenpairs"
+        self.laplacian.check_eigenpairs(self.k, int(self.laplacian.eigenpair_counts.max()))
+        self.label = f"1/λ^{alpha:g}, {self.k} eigenpairs"
         self.length_power = self.alpha - 1
         self.prepare(self.laplacian.components[0], progress)
 
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
         spectrum = component.spectrum(self.k, progress)
         return spectrum, spectrum.eigenvalues[: self.k] ** -self.alpha
-
-    def _most(self) -> int:
-        """How many eigenpairs the largest component has of the k."""
-        return min(self.k, self.laplacian.components[0].most_eigenpairs)
 
     def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
         return np.full(len(eigenvalues), self.alpha)
@@ -150,7 +147,7 @@ class TruncatedBiharmonicDistance(PowerDistance):
 
     def __init__(self, laplacian: Laplacian | Surface, k: int = 200, progress: Progress | None = None) -> None:
         super().__init__(laplacian, alpha=2.0, k=k, progress=progress)
-        self.label = f"biharmonic, {self._most()} eigenpairs"
+        self.label = f"biharmonic, {self.k} eigenpairs"
 
 
 def checked_number(value: float, name: str) -> float:

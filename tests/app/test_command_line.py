@@ -222,6 +222,27 @@ def test_a_figure_of_failures_only_is_refused(mesh_file, tmp_path, capsys):
     assert not list(tmp_path.glob("f.*"))
 
 
+@pytest.mark.parametrize("words", [["truncated(k=200)"], ["power"]])
+@pytest.mark.parametrize("command", [["field", "-o", "f.npy"], ["figure", "-o", "f.png"], ["statistics"]])
+def test_more_eigenpairs_than_the_mesh_has_are_refused(mesh, tmp_path, capsys, monkeypatch, command, words):
+    monkeypatch.chdir(tmp_path)
+    word, *rest = command
+    told = refused(capsys, word, mesh, "--source", "0", "--distance", *words, *rest)
+    assert re.search("has 199 eigenpairs besides the constant, and k is 200; choose k from 1 to 199", told)
+    assert not list(tmp_path.glob("f.*"))
+
+
+def test_a_recipe_with_more_eigenpairs_than_another_mesh_has_fails_in_that_panel_alone(
+    mesh, mesh_file, tmp_path, capsys
+):
+    words = ["--distance", "truncated", "--k", "140", "--distance", "biharmonic", "--source", "0"]
+    assert main(["figure", mesh, *words, "-o", str(tmp_path / "f.png")]) == 0
+    again = ["--recipe", str(tmp_path / "f.json"), "--mesh", mesh_file(bumpy(100), "small.off")]
+    assert main(["figure", *again, "-o", str(tmp_path / "g.png")]) == 1
+    assert "small.off has 99 eigenpairs besides the constant, and k is 140" in capsys.readouterr().err
+    assert (tmp_path / "g.png").stat().st_size > 1000
+
+
 # ---------------------------------------------------------------------- info and version
 def test_info_counts_what_is_there(mesh_file, capsys):
     assert main(["info", mesh_file(two_pieces())]) == 0

@@ -22,14 +22,21 @@ from bihdist_core import (
 )
 from bihdist_core.distances.accuracy import Certificate
 from bihdist_core.distances.distance import root
+from bihdist_core.laplacian import Component, as_laplacian, eigenpairs
 from tests.shapes import bumpy, components_apart, fin, grid, slivers, spike, tetrahedron, torus, two_pieces
+
+
+def pair_count(surface):
+    """Thirty eigenpairs, or as many as there are."""
+    return min(30, int(as_laplacian(surface).eigenpair_counts.max()))
+
 
 DISTANCES = {
     "biharmonic": BiharmonicDistance,
     "commute-time": CommuteTimeDistance,
     "diffusion": lambda s: DiffusionDistance(s, t=0.5),
-    "truncated": lambda s: TruncatedBiharmonicDistance(s, k=30),
-    "power": lambda s: PowerDistance(s, alpha=1.5, k=30),
+    "truncated": lambda s: TruncatedBiharmonicDistance(s, k=pair_count(s)),
+    "power": lambda s: PowerDistance(s, alpha=1.5, k=pair_count(s)),
     "exact": lambda s: GeodesicDistance(s, "exact"),
     "heat": lambda s: GeodesicDistance(s, "heat"),
     "dijkstra": lambda s: GeodesicDistance(s, "dijkstra"),
@@ -219,10 +226,28 @@ def test_wrong_kinds_of_parameters_are_refused_in_a_sentence():
             make()
 
 
-def test_no_more_eigenpairs_are_named_than_there_are():
-    s = bumpy(60)
-    assert TruncatedBiharmonicDistance(s, k=5000).label == "biharmonic, 59 eigenpairs"
-    assert PowerDistance(s, k=59).label == "1/λ^1.5, 59 eigenpairs"
+@pytest.mark.parametrize("make", [TruncatedBiharmonicDistance, PowerDistance, lambda s, k: eigenpairs(s, k)])
+@pytest.mark.parametrize("k", [60, 99_999])
+def test_more_eigenpairs_than_there_are_are_refused_before_anything_is_factored(make, k, monkeypatch):
+    monkeypatch.setattr(Component, "factor", lambda *_, **__: pytest.fail("it is factored"))
+    with pytest.raises(
+        ParameterError, match=f"has 59 eigenpairs besides the constant, and k is {k}; choose k from 1 to 59"
+    ):
+        make(bumpy(60), k=k)
+
+
+def test_each_component_has_as_many_eigenpairs_as_it_can_give():
+    distance = PowerDistance(two_pieces(), k=59)
+    assert distance.label == "1/λ^1.5, 59 eigenpairs"
+    assert [distance.points(component).shape[1] for component in distance.laplacian.components] == [59, 3]
+    with pytest.raises(ParameterError, match="two pieces has 59 eigenpairs besides the constant, and k is 60"):
+        PowerDistance(two_pieces(), k=60)
+
+
+def test_a_vertex_without_an_area_has_no_eigenpair():
+    laplacian = Laplacian(two_pieces())
+    laplacian.areas = laplacian.areas * (np.arange(65) != 3)
+    assert laplacian.eigenpair_counts.tolist() == [58, 3]
 
 
 @pytest.mark.parametrize("length", [1e11, 1e13, 1e30])

@@ -9,7 +9,7 @@ import pytest
 
 from bihdist_core import Laplacian, ParameterError
 from bihdist_core.distances.kinds import OURS, Spec, kind_of, kinds
-from tests.shapes import bumpy
+from tests.shapes import bumpy, two_pieces
 
 ROOT = Path(__file__).parents[2]
 every_kind = pytest.mark.parametrize("kind", OURS, ids=lambda kind: kind.word)
@@ -81,6 +81,20 @@ def test_what_cannot_be_is_refused_in_a_sentence(text, words):
 def test_values_of_the_wrong_kind_are_refused(value):
     with pytest.raises(ParameterError, match="k must be a whole number above 0"):
         Spec.of("truncated", k=value)
+
+
+def test_on_a_surface_k_is_bounded_by_the_eigenpairs_there_are():
+    surface, k = two_pieces(), kind_of("truncated").parameter("k")
+    bounded = k.on(surface)
+    assert (bounded.at_most, bounded.shown) == (59, (1, 59))
+    assert bounded.checked(59) == 59
+    with pytest.raises(ParameterError, match="k must be a whole number above 0 and at most 59, not 60"):
+        bounded.checked(60)
+    assert k.on(bumpy(3000)).shown == k.shown
+    assert Spec.of("power", alpha=3).on(surface) == Spec.of("power", alpha=3, k=59)
+    assert Spec.of("power", k=5).on(surface) == Spec.of("power", k=5)
+    alpha = kind_of("power").parameter("alpha")
+    assert alpha.on(surface) is alpha
 
 
 def test_a_stand_in_is_asked_of_the_distance_itself():

@@ -47,7 +47,7 @@ def test_all_eigenpairs_there_are_and_not_one_more():
     s = two_pieces()
     assert len(eigenpairs(s, 59 + 3).eigenvalues) == 62
     for count in (0, 63):
-        with pytest.raises(ParameterError, match="62 eigenpairs besides constants"):
+        with pytest.raises(ParameterError, match=f"62 eigenpairs besides the constant, and k is {count}"):
             eigenpairs(s, count)
 
 
