@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.distances.difference import PERCENTAGE_POINTS
 from bihdist_core.errors import SolverError
 
 from ..document.camera import Camera, View
@@ -71,7 +72,9 @@ def _ended(document: Document, mesh: Mesh, answers: Sequence[Any]) -> Document:
         return document
     root = float(np.sqrt(mesh.surface.face_areas.sum())) if wanted.range == SIZE else 1.0
     panels = tuple(
-        replace(panel, maximum=end * root ** length_power(answer.unit) or None) if panel.maximum is None else panel
+        replace(panel, maximum=end * root ** length_power(answer.unit) / answer.scale or None)
+        if panel.maximum is None
+        else panel
         for panel, end, answer in zip(document.panels, wanted.maxima, answers, strict=True)
     )
     return replace(document, panels=panels)
@@ -81,7 +84,7 @@ def end_in_words(end: float, unit: str, range: str, is_signed: bool) -> str:
     """Where the colours of a panel end on all meshes: 0.6 √area of each mesh."""
     sign, power = "±" * is_signed, length_power(unit)
     if range != SIZE or not power:
-        in_unit = f" {unit}" if power else ""
+        in_unit = f" {unit}" if power or unit == PERCENTAGE_POINTS else ""
         return f"{sign}{end:.4g}{in_unit} on all meshes"
     known = {1.0: " √area", -1.0: " / √area"}
     return f"{sign}{end:.4g}{known.get(power, f' √area^{power:g}')} of each mesh"
@@ -112,7 +115,7 @@ def figure_made(path: str, mesh: Mesh, folder: Folder, file: str) -> dict[str, A
             "label": answer.label,
             "unit": answer.unit,
             "maximum": float(answer.maximum),
-            "colours_end_at": float(panel.maximum if panel.maximum is not None else answer.maximum),
+            "colours_end_at": float(answer.maximum if panel.maximum is None else panel.maximum * answer.scale),
             "of_set": end_in_words(end, answer.unit, mesh.wanted.range, answer.is_signed),
             "accuracy": answer.accuracy.text,
         }

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class FieldOf:
     """field: (n,), NaN where there is none; word: of letters, digits and `_`; said: how accurate it is.
 
-    is_signed: it has values on both sides of 0.  of_shares: they are differences of shares.
+    is_signed: it has values on both sides of 0.
     """
 
     laplacian: "Laplacian"
@@ -29,11 +29,17 @@ class FieldOf:
     unit: str
     said: str
     is_signed: bool
-    of_shares: bool
 
     @property
     def surface(self) -> "Surface":
         return self.laplacian.surface
+
+    @property
+    def scale(self) -> float:
+        """What fractions of a maximum are multiplied by to be in its unit."""
+        from bihdist_core.distances.difference import scale_of
+
+        return scale_of(self.unit)
 
     @property
     def top(self) -> float:
@@ -48,7 +54,7 @@ def field_of(
 ) -> FieldOf:
     """What `words` say, from the source, with the options beside them; laplacian: of the mesh if it is there."""
     from bihdist_core.distances.answers import Distances
-    from bihdist_core.distances.difference import check_units, difference
+    from bihdist_core.distances.difference import PERCENTAGE_POINTS, check_units, difference
     from bihdist_core.sources.pieces import pieces_of
 
     from ..document.quantities import Difference
@@ -58,17 +64,19 @@ def field_of(
     pieces, distances = pieces_of(options.source, laplacian.surface), Distances(laplacian)
     known = [distances.get(spec, progress) for spec in chosen.specs]
     fields = [distance.from_source(options.source, progress) for distance in known]
-    is_signed = isinstance(chosen, Difference)
-    of_shares = isinstance(chosen, Difference) and not chosen.raw
-    if is_signed and not of_shares:
-        check_units(*(distance.unit for distance in known))
+    unit, field = known[0].unit, fields[0]
+    if isinstance(chosen, Difference):
+        field = difference(*fields, raw=chosen.raw)
+        if chosen.raw:
+            check_units(*(distance.unit for distance in known))
+        else:
+            unit, field = PERCENTAGE_POINTS, 100 * field
     return FieldOf(
         laplacian,
-        difference(*fields, raw=not of_shares) if is_signed else fields[0],
+        field,
         " − ".join(distance.label_from(pieces) for distance in known),
         "_minus_".join(spec.word for spec in chosen.specs),
-        "" if of_shares else known[0].unit,
+        unit,
         "".join(dict.fromkeys(accuracy(distance) for distance in known)),
-        is_signed,
-        of_shares,
+        isinstance(chosen, Difference),
     )

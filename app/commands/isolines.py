@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> None:
     wanted = isolines_of(options)
     with progress_line() as progress:
         it = field_of(options, options.distance, progress)
-    top = it.top
+    wanted = wanted.scaled(it.scale)
     if options.output:
         values = _values(it, wanted, options.isoline_through or ())
         lines = isolines(it.surface, it.field, values)
@@ -61,7 +61,9 @@ def run(options: argparse.Namespace) -> None:
         size = f"{counted(len(lines), 'curve')} at {counted(len(values), 'value')}, together {length:.6g} long"
         print(f"{options.output}: {it.label}, {size}{it.said}")
     if options.region:
-        found = band(it.surface, it.field, *region_from_words(options.region, top))
+        # Of a difference 5 % are five percentage points, and not a share of its largest value.
+        ends = region_from_words(options.region, 1.0 if it.scale != 1 else it.top)
+        found = band(it.surface, it.field, *(it.scale * end for end in ends))
         if options.region_ids:
             write_ids(options.region_ids, found.vertices)
             print(f"{options.region_ids}: {_vertices(len(found.vertices))}")

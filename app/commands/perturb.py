@@ -80,7 +80,7 @@ def _say_changes(
     """How far the fields from one vertex differ, at the vertices that both meshes have."""
     from bihdist_core.analysis.diagnostics import field_change
     from bihdist_core.applications.perturbation import image_of
-    from bihdist_core.distances.answers import Distances, same_on
+    from bihdist_core.distances.answers import Distances, percent, same_on
 
     from ..session.questions import vertex_at
 
@@ -94,9 +94,9 @@ def _say_changes(
             new = two.get(spec, progress).from_source(there, progress)[common]
             found = field_change(old, new)
             print(
-                f"{spec} from {start}: changes by {found.normalised_mean:.3g} of its maximum in the mean, at most "
-                f"{found.normalised_largest:.3g}; before each is divided by its own, {found.mean:.3g} and "
-                f"{found.largest:.3g}"
+                f"{spec} from {start}: changes by {percent(found.normalised_mean)} of its maximum in the mean, at most "
+                f"{percent(found.normalised_largest)}; before each is divided by its own, {percent(found.mean)} and "
+                f"{percent(found.largest)}"
             )
 
 

@@ -76,7 +76,7 @@ def _tell(it: FieldOf) -> None:
 
 
 def _written(value: float, it: FieldOf) -> str:
-    return f"{value:.2%}" if it.of_shares else f"{value:.6g}"
+    return f"{value:.2f}%" if it.scale == 100 else f"{value:.6g}"
 
 
 def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> None:
@@ -115,7 +115,7 @@ def _save_histogram(options: argparse.Namespace, it: FieldOf) -> None:
 
     look = _look(options)
     shares, colours = found.areas / found.areas.sum(), look.style.bin_colours(found.bins, it.top, it.is_signed)
-    figure = HistogramFigure(found.bins, shares, colours, it.label, it.unit, it.of_shares, found.mean, look)
+    figure = HistogramFigure(found.bins, shares, colours, it.label, it.unit, found.mean, look)
     save_histogram_figure(figure, options.histogram)
 
 

@@ -1,7 +1,7 @@
 """How fields and surfaces look, as far as a document says it: isolines, colours, shading, and which way is up."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from bihdist_core.errors import ParameterError
 
@@ -56,6 +56,13 @@ class Isolines:
             object.__setattr__(self, "values", tuple(sorted(set(self.values))))
         if not 0 <= self.bold <= MOST_ISOLINES:
             raise ParameterError(f"Every so many isolines are bolder, 0 to {MOST_ISOLINES}, not {self.bold}.")
+
+    def scaled(self, factor: float) -> "Isolines":
+        """The same lines of a field that is so many times as large."""
+        if factor == 1 or (self.spacing is None and not self.values):
+            return self
+        spacing = None if self.spacing is None else factor * self.spacing
+        return replace(self, spacing=spacing, values=tuple(factor * value for value in self.values))
 
 
 @dataclass(frozen=True)

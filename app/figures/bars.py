@@ -7,6 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from bihdist_core.distances.answers import with_unit
+
 from ..drawing.bands import beyond
 from .boxes import Box, Words
 from .description import Figure
@@ -45,7 +47,7 @@ class Bar:
 
 def ends(figure: Figure, panel: int) -> tuple[float, float]:
     """What stands at the ends of a panel's bar."""
-    top = 100.0 if figure.range == "shares" else figure.tops()[panel]
+    top = 100.0 if figure.is_in_shares(panel) else figure.tops()[panel]
     return (-top if figure.panels[panel].signed else 0.0), top
 
 
@@ -68,21 +70,18 @@ def end_words(figure: Figure, panel: int) -> str:
     each = figure.panels[panel]
     if each.field is None:
         return ""
-    if each.signed:
+    if each.largest:
+        end = each.largest.replace(" % ", f"{BOUND}% ").replace(" at vertex ", f" at{BOUND}vertex{BOUND}")
+    elif each.signed:
         vertex = int(np.nanargmax(np.abs(each.field))) if np.isfinite(each.field).any() else 0
         end = f"largest{BOUND}{_signed(each.field[vertex])} at{BOUND}vertex{BOUND}{vertex}"
     else:
         top = figure.tops()[panel]
         is_own = figure.is_of_set or any(goes_beyond(figure, panel))
         end = f"max{BOUND}{each.own_top if is_own else top:.4g}"
-    if figure.range == "shares" and not figure.has_one_bar:
+    if figure.is_in_shares(panel) and not figure.has_one_bar:
         return f"% of the {end}{with_unit(each.unit)}"
     return f"{each.unit}, {end}" if each.unit else end
-
-
-def with_unit(unit: str) -> str:
-    """What follows a value in a unit."""
-    return unit.removeprefix("1") if unit.startswith("1 /") else f" {unit}" if unit else ""
 
 
 def bar_words(figure: Figure, panel: int) -> str:
@@ -98,7 +97,7 @@ def bar_words(figure: Figure, panel: int) -> str:
 
 def shared_words(figure: Figure, panel: int) -> str:
     """What stands at the one bar of all panels."""
-    if figure.range == "shares":
+    if figure.is_in_shares(panel):
         return "% of each maximum" if not figure.panels[panel].signed else "% of each largest value"
     return end_words(figure, panel)
 

@@ -63,7 +63,7 @@ class FigurePanel:
     nothing gets smaller with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.
     lines: those that the field starts from; regions: boundaries of the pins' regions; selected: (n, 4) uint8 colours of
     vertices that stand out, see `selected_colours`; path: that of a profile.  colours: (n, 3) of the surface's own,
-    instead of a field, grey where they are NaN.
+    instead of a field, grey where they are NaN.  largest: of a difference, in words, how large it is and where.
     """
 
     surface: Surface
@@ -91,6 +91,7 @@ class FigurePanel:
     selected: np.ndarray | None = None
     path: tuple[SourceLine, ...] = ()
     colours: np.ndarray | None = None
+    largest: str = ""
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -189,21 +190,31 @@ class Figure:
     def tops(self) -> list[float]:
         """The end of each panel's colours."""
         own = [p.top for p in self.panels]
-        if self.range != "shared":
+        if self.range == "own":
             return own
         kinds = [_kind(p) for p in self.panels]
-        return [max(end for end, other in zip(own, kinds, strict=True) if other == kind) for kind in kinds]
+        return [
+            own[k] if self.is_in_shares(k) else max(end for end, other in zip(own, kinds, strict=True) if other == kind)
+            for k, kind in enumerate(kinds)
+        ]
+
+    def is_in_shares(self, panel: int) -> bool:
+        """Whether a bar reads shares of its end; a difference keeps its unit, and ends as others of it do."""
+        return self.range == "shares" and not self.panels[panel].largest
 
     @property
     def has_one_bar(self) -> bool:
         """Whether one colour bar serves all panels."""
-        return self.range != "own" and len({kind for kind in map(self._bar_kind, self.panels) if kind}) == 1
+        return self.range != "own" and len({kind for kind in map(self._bar_kind, range(len(self.panels))) if kind}) == 1
 
-    def _bar_kind(self, panel: FigurePanel) -> tuple[str, bool] | None:
-        kind = _kind(panel)
-        return kind if kind is None or self.range == "shared" else ("", kind[1])
+    def _bar_kind(self, panel: int) -> tuple[str, ...] | None:
+        each = self.panels[panel]
+        kind = _kind(each)
+        return kind if kind is None or not self.is_in_shares(panel) else ("", *kind[1:])
 
 
-def _kind(panel: FigurePanel) -> tuple[str, bool] | None:
+def _kind(panel: FigurePanel) -> tuple[str, ...] | None:
     """What two panels have alike if one colour bar can serve both; None without a field."""
-    return None if panel.field is None else (panel.unit, panel.signed)
+    if panel.field is None:
+        return None
+    return (panel.unit, "a difference" if panel.largest else "signed" if panel.signed else "")

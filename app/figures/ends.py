@@ -35,7 +35,11 @@ def ends_in(path: str | os.PathLike[str], progress: Progress | None = None) -> t
     answers = compute(document, surfaces, progress)
     tops = figure_of(replace(recipe, document=document), surfaces, answers).tops()
     return tuple(
-        End(str(panel.shows), top if answer.field is not None else 0.0, isinstance(panel.shows, Difference))
+        End(
+            str(panel.shows),
+            top / answer.scale if answer.field is not None else 0.0,
+            isinstance(panel.shows, Difference),
+        )
         for panel, answer, top in zip(document.panels, answers, tops, strict=True)
     )
 

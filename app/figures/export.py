@@ -29,7 +29,7 @@ from ..drawing.selected import selected_colours
 from ..drawing.source_lines import SourceLine, source_lines
 from ..drawing.style import PINS, style_of
 from ..session.anchors import anchor_value, anchors_on
-from ..session.bar_ends import own_end
+from ..session.bar_ends import own_end, typed_end
 from ..session.changed import carried
 from ..session.extrema import extrema_of
 from ..session.given import Given
@@ -115,7 +115,11 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         replace(
             _figure_panel(recipe, panel, surfaces[panel.surface], answer),
             path=path.get(panel.surface, ()),
-            maximum=own_end(document, shown, panel.id, surfaces.get) if document.range == "own" else panel.maximum,
+            maximum=(
+                own_end(document, shown, panel.id, surfaces.get)
+                if document.range == "own"
+                else typed_end(document, panel.id, answer)
+            ),
         )
         for panel, answer in zip(document.panels, answers, strict=True)
     )
@@ -216,8 +220,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         label="" if answer.failure else answer.label,
         unit=answer.unit,
         failure=answer.failure,
-        maximum=panel.maximum,
-        isolines=NO_LINES if answer.is_rough else document.isolines,
+        isolines=NO_LINES if answer.is_rough else document.isolines.scaled(answer.scale),
         through=tuple(point.value for point in through),
         views=recipe.page.views or (document.camera_of(panel.surface),),
         marks=(
@@ -232,6 +235,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         zooms=_zooms(document, opened),
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
+        largest=answer.largest_words,
         shading=document.shading,
         up=up if up != "auto" else opened.up,
         source=vertex_at(starts[0], surface) if starts else None,
@@ -336,8 +340,8 @@ def _largest(answer: Answer) -> list[Mark]:
     vertex = answer.largest
     if vertex is None or answer.field is None:
         return []
-    value = float(answer.field[vertex])
-    return [Mark(vertex, text=f"{value:+.3g} at {vertex}".replace("-", "−"), is_largest=True)]
+    value, percent = float(answer.field[vertex]), " %" if answer.scale == 100 else ""
+    return [Mark(vertex, text=f"{value:+.3g}{percent} at {vertex}".replace("-", "−"), is_largest=True)]
 
 
 def _anchor_marks(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:

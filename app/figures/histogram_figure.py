@@ -23,7 +23,7 @@ HIGH, SLANT = 2.0, 0.62
 class HistogramFigure:
     """ends: (b + 1,) of the bins; shares: (b,) of the area, together 1; colours: (b, 3), from 0 to 1.
 
-    name: of the field; unit: of its values.  in_percent: these are shares of 1.  mean: by area.
+    name: of the field; unit: of its values.  mean: by area.
     """
 
     ends: np.ndarray
@@ -31,7 +31,6 @@ class HistogramFigure:
     colours: np.ndarray
     name: str
     unit: str = ""
-    in_percent: bool = False
     mean: float | None = None
     look: ChartLook = USUAL_LOOK
 
@@ -46,10 +45,8 @@ def save_histogram_figure(
 
 def _draw(page: Figure, figure: HistogramFigure) -> None:
     look, axes = figure.look, page.add_subplot()
-    unit = "%" if figure.in_percent else figure.unit
-    dress(axes, look, f"{figure.name} ({unit})" if unit else figure.name, "% of the area")
-    scale = 100 if figure.in_percent else 1
-    ends = scale * figure.ends
+    dress(axes, look, f"{figure.name} ({figure.unit})" if figure.unit else figure.name, "% of the area")
+    ends = figure.ends
     axes.bar(
         ends[:-1],
         100 * figure.shares,
@@ -61,9 +58,9 @@ def _draw(page: Figure, figure: HistogramFigure) -> None:
     )
     axes.set_xlim(float(ends[0]), float(ends[-1]))
     if figure.mean is not None:
-        mean = scale * figure.mean
+        mean = figure.mean
         axes.axvline(mean, color=look.style.text, linewidth=0.9, linestyle="--", gid="mean")
-        words = f"mean {mean:.4g}{' %' if figure.in_percent else ''}".replace("-", "−")
+        words = f"mean {mean:.4g}".replace("-", "−")
         axes.annotate(
             words,
             (mean, 1.0),

@@ -6,14 +6,13 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from bihdist_core.distances.answers import Answer
+from bihdist_core.distances.answers import Answer, with_unit
 from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Place, Source
 from bihdist_core.sources.words import short_words_of
 
 from ..document.page import Recipe
 from ..document.sourcing import members_of
 from ..session.questions import source_at
-from .bars import with_unit
 from .description import Figure
 from .layout import lay_out
 from .size import MM_PER_INCH, UNITS_PER_INCH

@@ -19,17 +19,30 @@ def bar_end(
 
     opened: as in `own_end`.
     """
-    if document.range == "shares":
-        return None
+    answers = {other: each.answer for other, each in shown.items()}
+    answer = answers[id]
     if document.range == "own":
-        return own_end(document, {other: each.answer for other, each in shown.items()}, id, opened)
-    unit = shown[id].answer.unit
+        return own_end(document, answers, id, opened)
+    if not is_shared(document, answer):
+        return None
+    kind = (answer.unit, answer.signs is None)
     ends = [
-        document.panel(other).maximum or shown[other].answer.maximum
-        for other in shown
-        if shown[other].answer.unit == unit
+        typed_end(document, other, each) or each.maximum
+        for other, each in answers.items()
+        if (each.unit, each.signs is None) == kind
     ]
     return max(ends)
+
+
+def is_shared(document: Document, answer: Answer) -> bool:
+    """Whether all panels of the unit end alike; differences do, too, where distances are in fractions."""
+    return document.range == "shared" or (document.range == "shares" and answer.signs is not None)
+
+
+def typed_end(document: Document, id: int, answer: Answer) -> float | None:
+    """Where the colour bar of a panel was told to end, in the unit of its answer; None if it was not."""
+    end = document.panel(id).maximum
+    return None if end is None else end * answer.scale
 
 
 def own_end(
@@ -42,8 +55,10 @@ def own_end(
     """
     panel = document.panel(id)
     other = partner(document, panel) if panel.maximum is None else None
-    if other is None or id not in answers or other.id not in answers:
+    if id not in answers:
         return panel.maximum
+    if other is None or other.id not in answers:
+        return typed_end(document, id, answers[id])
     if other.maximum is not None:
         return None  # one that was typed is meant for its panel alone
     return max(_old_maximum(answers[each.id], opened(each.surface)) for each in (panel, other)) or None
@@ -58,7 +73,7 @@ def _old_maximum(answer: Answer, opened: Opened | None) -> float:
 
 def ends_with(document: Document, shown: Mapping[int, Shown], id: int) -> list[int]:
     """The panels, by their ids, whose bars may end elsewhere when a panel shows another answer; itself, too."""
-    if document.range == "shared":
+    if is_shared(document, shown[id].answer):
         return list(shown)
     other = partner(document, document.panel(id)) if document.range == "own" else None
     return [id] if other is None or other.id not in shown else [id, other.id]

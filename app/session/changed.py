@@ -10,7 +10,8 @@ from bihdist_core import BihdistError, Cancelled, ParameterError, SolverError
 from bihdist_core.analysis.diagnostics import field_change
 from bihdist_core.applications.perturbation import image_of
 from bihdist_core.distances.accuracy import Certificate
-from bihdist_core.distances.answers import Answer, failed, same_on
+from bihdist_core.distances.answers import Answer, failed, percent, same_on
+from bihdist_core.distances.difference import PERCENTAGE_POINTS
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source, SourceSet
 
@@ -115,13 +116,15 @@ def change_of(question: ChangeQuestion, opened: "Opened", progress: Progress | N
     except (BihdistError, MemoryError) as error:
         return failed(str(question), error)
     shares = [answer.accuracy.share for answer in (before, after)]
+    name = after.label.partition(",")[0]
     certificate = Certificate() if None in shares else Certificate.of(sum(share for share in shares if share))
     return Answer(
         label=f"change of {after.label}",
-        unit="difference of shares",
+        unit=PERCENTAGE_POINTS,
         field=field,
         certificate=certificate,
         is_signed=True,
+        signs=(f"{name} is farther after", f"{name} is nearer after"),
         is_rough=crosses_itself(field, opened.surface.faces),
         remark=remark,
     )
@@ -198,9 +201,9 @@ def _compared(before: np.ndarray | None, after: np.ndarray | None, ids: np.ndarr
     both = np.isfinite(old) & np.isfinite(after)
     found = field_change(old[both], after[both])
     field = np.full(len(after), np.nan)
-    field[both] = after[both] / after[both].max() - old[both] / old[both].max()
+    field[both] = 100 * (after[both] / after[both].max() - old[both] / old[both].max())
     field.flags.writeable = False
     return field, (
-        f"mean {found.normalised_mean:.3g}, largest {found.normalised_largest:.3g}, each as a share of its own "
-        f"maximum; raw, over the maximum before: {found.mean:.3g}, {found.largest:.3g}"
+        f"mean {percent(found.normalised_mean)}, largest {percent(found.normalised_largest)}, each of its own "
+        f"maximum; of the maximum before: mean {percent(found.mean)}, largest {percent(found.largest)}"
     )

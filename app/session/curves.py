@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core.distances.answers import Answer
+from bihdist_core.distances.difference import PERCENTAGE_POINTS
 
 from ..document.document import Document
-from ..document.quantities import Difference
 from ..document.quantity_names import quantity_name
 
 
@@ -17,7 +17,7 @@ class ProfileCurve:
     """A field along the path.
 
     values: (k,) at its points, NaN where it has none, in `unit`; colour: as #rrggbb.  whole: what a share of 1 is.
-    is_share: the values are shares already, as a difference's may be.  is_dashed: the colour is another curve's, too.
+    is_share: the values are percentage points, as a difference's may be.  is_dashed: the colour is another curve's.
     """
 
     name: str
@@ -32,7 +32,7 @@ class ProfileCurve:
     @property
     def shares(self) -> np.ndarray:
         """(k,) the values as shares of the greatest."""
-        return self.values if self.is_share else self.values / self.whole if self.whole > 0 else 0 * self.values
+        return self.values / 100 if self.is_share else self.values / self.whole if self.whole > 0 else 0 * self.values
 
 
 def profile_curve(
@@ -51,7 +51,7 @@ def profile_curve(
         answer.maximum,
         answer.unit,
         answer.is_signed,
-        isinstance(shows, Difference) and not shows.raw,
+        answer.unit == PERCENTAGE_POINTS,
         place >= len(colours),
     )
 

@@ -122,7 +122,7 @@ def pins_text(places: Sequence[PinnedPlace], surface: Surface, answers: Sequence
         row = [str(place.number), place.pin.name, vertex, *map(repr, place.position(surface.vertices).tolist())]
         for _, answer in answers:
             value = np.nan if answer.field is None else place.value(answer.field)
-            share = value / answer.maximum if answer.maximum > 0 else np.nan
+            share = value / answer.maximum if answer.maximum > 0 and not answer.signs else np.nan
             row += ["" if np.isnan(number) else repr(float(number)) for number in (value, share)]
         lines.append("\t".join(row))
     return "\n".join(lines) + "\n"

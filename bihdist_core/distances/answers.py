@@ -17,7 +17,7 @@ from ..progress import Progress, part, silent
 from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
 from .accuracy import Certificate
-from .difference import check_units, difference
+from .difference import PERCENTAGE_POINTS, check_units, difference, scale_of
 from .distance import ELSEWHERE, Distance
 from .kinds import Spec
 
@@ -31,9 +31,10 @@ class Answer:
 
     label and unit: the distance's; certificate: how accurate the field is, None as long as that is not known.  A field
     that is signed has values on both sides of 0, as differences have; its maximum is that of the absolute values.
-    is_rough: whether it is noise, which isolines would only cover.  remark: what else is to be said of it.  colours:
-    (n, 3) red, green and blue from 0 to 1, NaN where there is none, of what is shown in colours instead of a field;
-    leads_to: (n,) the vertices of another surface that they stand for, -1 for none.
+    is_distance: it says how far vertices are.  signs: of a difference, what a positive and a negative value mean, such
+    as "biharmonic is farther".  is_rough: whether it is noise, which isolines would only cover.  remark: what else is
+    to be said of it.  colours: (n, 3) red, green and blue from 0 to 1, NaN where there is none, of what is shown in
+    colours instead of a field; leads_to: (n,) the vertices of another surface that they stand for, -1 for none.
     """
 
     label: str
@@ -42,6 +43,8 @@ class Answer:
     failure: str = ""
     certificate: Certificate | None = None
     is_signed: bool = False
+    is_distance: bool = False
+    signs: tuple[str, str] | None = None
     is_rough: bool = False
     remark: str = ""
     colours: np.ndarray | None = None
@@ -59,6 +62,20 @@ class Answer:
         if self.field is None or not self.is_signed or self.maximum == 0:
             return None
         return int(np.nanargmax(np.abs(self.field)))
+
+    @property
+    def scale(self) -> float:
+        """What fractions of a maximum are multiplied by to be in the field's unit: 100 for percentage points."""
+        return scale_of(self.unit)
+
+    @property
+    def largest_words(self) -> str:
+        """Of a difference: "biharmonic is farther by 14.2 % of its maximum at vertex 0"; "" where there is none."""
+        if self.field is None or self.signs is None or self.largest is None:
+            return ""
+        value = float(self.field[self.largest])
+        unit = " % of its maximum" if self.unit == PERCENTAGE_POINTS else with_unit(self.unit)
+        return f"{self.signs[value < 0]} by {plain(abs(value))}{unit} at vertex {self.largest}"
 
     @property
     def is_final(self) -> bool:
@@ -85,14 +102,45 @@ def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Ans
             check_units(minuend.unit, subtrahend.unit)
         except ParameterError as error:
             return failed(label, error)
-    field = difference(minuend.field, subtrahend.field, raw)
+    field = difference(minuend.field, subtrahend.field, raw) * (1.0 if raw else 100.0)
     field.flags.writeable = False
-    unit = (minuend.unit or subtrahend.unit) if raw else "difference of shares"
+    unit = (minuend.unit or subtrahend.unit) if raw else PERCENTAGE_POINTS
     certificate = None
     if minuend.certificate is not None and subtrahend.certificate is not None:
         shares = [c.share for c in (minuend.certificate, subtrahend.certificate)]
         certificate = Certificate() if None in shares else Certificate.of(sum(share for share in shares if share))
-    return Answer(label=label, unit=unit, field=field, certificate=certificate, is_signed=True)
+    return Answer(
+        label=label,
+        unit=unit,
+        field=field,
+        certificate=certificate,
+        is_signed=True,
+        signs=_signs(minuend, subtrahend),
+    )
+
+
+def _signs(minuend: Answer, subtrahend: Answer) -> tuple[str, str]:
+    """Names of two distances that differ, each with what it is where it is the larger."""
+    larger = "farther" if minuend.is_distance and subtrahend.is_distance else "larger"
+    labels = (minuend.label, subtrahend.label)
+    names = [label.partition(",")[0] for label in labels]
+    first, second = names if names[0] != names[1] else labels
+    return f"{first} is {larger}", f"{second} is {larger}"
+
+
+def plain(value: float) -> str:
+    """Three digits without a power of ten, unless that would be long."""
+    return f"{value:.3g}" if not 1e3 <= abs(value) < 1e7 else f"{value:,.0f}"
+
+
+def percent(fraction: float) -> str:
+    """ "14.2 %"."""
+    return f"{plain(100 * fraction)} %"
+
+
+def with_unit(unit: str) -> str:
+    """What follows a value in a unit."""
+    return unit.removeprefix("1") if unit.startswith("1 /") else f" {unit}" if unit else ""
 
 
 def failed(label: str, error: Exception) -> Answer:
@@ -203,7 +251,7 @@ class Distances:
             else:
                 field, label = distance.from_pieces(pieces, part(progress, 0.9, 1)), distance.label_from(pieces)
             field.flags.writeable = False
-            answer = Answer(label=label, unit=distance.unit, field=field)
+            answer = Answer(label=label, unit=distance.unit, field=field, is_distance=True)
             if at_once is not None and not all(map(distance.is_judged, components)):
                 at_once(answer)
                 # Whoever has a newer question need not wait for the certificate of this one.

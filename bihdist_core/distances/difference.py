@@ -20,6 +20,15 @@ def difference(minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, raw: bool = Fa
     return a - b if raw else _shares(a) - _shares(b)
 
 
+PERCENTAGE_POINTS = "percentage points"
+"""The unit of a difference of fractions, each of its own maximum, times 100."""
+
+
+def scale_of(unit: str) -> float:
+    """What fractions of a maximum are multiplied by to be in a field's unit."""
+    return 100.0 if unit == PERCENTAGE_POINTS else 1.0
+
+
 def check_units(minuend: str, subtrahend: str) -> None:
     """ParameterError for values of different units, which have no difference."""
     if minuend != subtrahend:

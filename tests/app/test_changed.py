@@ -58,7 +58,7 @@ def opened(document):
 
 
 @pytest.mark.parametrize("change", CHANGES, ids=words_of_change)
-def test_the_three_panels_are_before_after_and_the_difference_of_shares(mesh, change):
+def test_the_three_panels_are_before_after_and_the_difference_in_percentage_points(mesh, change):
     document, surfaces, answers = opened(changed(mesh, change))
     before = surfaces["A"].surface
     after, ids = perturbed(before, change)
@@ -75,11 +75,14 @@ def test_the_three_panels_are_before_after_and_the_difference_of_shares(mesh, ch
     top, was = max(new[v] for v in both), max(seen[ids[v]] for v in both)
     expected = np.full(len(ids), np.nan)
     for v in both:
-        expected[v] = new[v] / top - seen[ids[v]] / was
+        expected[v] = 100 * (new[v] / top - seen[ids[v]] / was)
     assert answers[2].is_signed
     assert answers[2].field == pytest.approx(expected, abs=1e-9, nan_ok=True)
     mean, largest = np.nanmean(np.abs(expected)), np.nanmax(np.abs(expected))
-    assert f"mean {mean:.3g}, largest {largest:.3g}, each" in answers[2].remark
+    assert f"mean {mean:.3g} %, largest {largest:.3g} %, each" in answers[2].remark
+    way = "farther" if expected[answers[2].largest] > 0 else "nearer"
+    said = f"biharmonic is {way} after by {largest:.3g} % of its maximum at vertex {answers[2].largest}"
+    assert answers[2].largest_words == said
 
 
 def test_both_sides_are_computed_by_one_method(mesh):
@@ -97,7 +100,7 @@ def test_both_sides_are_computed_by_one_method(mesh):
     ids = surfaces["B"].ids
     kept = ids >= 0
     old, new = heat[ids[kept]], after.field[kept]
-    np.testing.assert_allclose(change.field[kept], new / new.max() - old / old.max(), atol=1e-12)
+    np.testing.assert_allclose(change.field[kept], 100 * (new / new.max() - old / old.max()), atol=1e-10)
     assert np.abs(before.field - heat).max() > 0.01 * heat.max()
 
 

@@ -44,7 +44,18 @@ def test_values_may_be_named_and_lie_on_both_sides_of_0(mesh, tmp_path):
     expected = isolines(surface, difference(*fields), [-0.01, 0.01])
     assert len(rows(out)) == sum(len(line.points) for line in expected)
     assert main([*words, "--isolines", "0", "--isoline-through", "12"]) == 0
-    assert np.unique(rows(out)["value"]) == pytest.approx(difference(*fields)[12], abs=1e-12)
+    assert np.unique(rows(out)["value"]) == pytest.approx(100 * difference(*fields)[12], abs=1e-10)
+
+
+def test_percent_of_a_difference_are_points_and_not_shares_of_its_largest(mesh, capsys):
+    words = ["isolines", mesh, "--source", "7+90", "--distance", "biharmonic - geodesic"]
+    said = []
+    for region in ("1%:", "0.01:"):
+        assert main([*words, "--region", region]) == 0
+        said.append(capsys.readouterr().out.partition(": ")[2])
+    assert said[0] == said[1]
+    # Nowhere do they differ by half of their maxima.
+    assert main([*words, "--region", "50%:"]) == 2
 
 
 def test_a_region_between_two_values(mesh, tmp_path, capsys):

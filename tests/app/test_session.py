@@ -202,14 +202,14 @@ def replace_last_face(surface):
 
 
 # ---------------------------------------------------------------------- differences
-def test_a_difference_is_that_of_the_shares_or_of_the_values(desk, mesh_file):
+def test_a_difference_is_in_percentage_points_or_that_of_the_values(desk, mesh_file):
     d = desk([BIHARMONIC, Spec.of("geodesic")])
     session = d.opened(mesh_file(bumpy(200)), source=3)
     a, b = (answer.field for answer in d.answers)
     session.show(add_panel(session.document, quantity("biharmonic - geodesic")))
     session.show(add_panel(session.document, quantity("raw biharmonic - geodesic")))
     d.complete()
-    assert np.allclose(d.answers[2].field, a / a.max() - b / b.max())
+    assert np.allclose(d.answers[2].field, 100 * (a / a.max() - b / b.max()))
     assert np.allclose(d.answers[3].field, a - b)
     assert d.answers[2].is_signed
     assert d.answers[2].largest == np.abs(d.answers[2].field).argmax()

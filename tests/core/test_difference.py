@@ -35,6 +35,35 @@ def test_the_accuracy_of_a_difference_is_at_most_the_sum():
     assert difference_of(one, Answer(label="b", failure="It broke.")).failure == "It broke."
 
 
+@pytest.mark.parametrize(
+    ("fields", "raw", "words"),
+    [
+        (([0.0, 1.0, 4.0], [0.0, 2.142, 5.0]), False, "geodesic is farther by 17.8 % of its maximum at vertex 1"),
+        (([0.0, 3.142, 4.0], [0.0, 1.0, 5.0]), False, "biharmonic is farther by 58.5 % of its maximum at vertex 1"),
+        (([0.0, 3.0, 4.0], [0.0, 1.0, 5.0]), True, "biharmonic is farther by 2 mesh units at vertex 1"),
+        (([0.0, 3.0], [0.0, 3.0]), False, ""),
+    ],
+)
+def test_a_difference_says_in_words_which_is_farther_and_by_how_much(fields, raw, words):
+    labels = ("biharmonic, exact", "geodesic, exact")
+    one, other = (
+        Answer(label=label, unit="mesh units", field=np.array(field), is_distance=True)
+        for label, field in zip(labels, fields, strict=True)
+    )
+    found = difference_of(one, other, raw)
+    assert found.largest_words == words
+    assert found.unit == ("mesh units" if raw else "percentage points")
+    assert np.allclose(found.field, difference(*fields, raw=raw) * (1 if raw else 100))
+
+
+def test_two_of_one_name_and_what_is_no_distance_are_told_apart():
+    one = Answer(label="diffusion, t = 1", field=np.array([0.0, 1.0, 2.0]), is_distance=True)
+    other = Answer(label="diffusion, t = 4", field=np.array([0.0, 2.0, 2.0]), is_distance=True)
+    assert difference_of(one, other).largest_words.startswith("diffusion, t = 4 is farther by 50 % of its maximum")
+    mine = Answer(label="height", field=np.array([0.0, 2.0, 2.0]))
+    assert difference_of(one, mine).largest_words == "height is larger by 50 % of its maximum at vertex 1"
+
+
 def test_shares_are_of_the_largest_absolute_value():
     assert np.allclose(difference([0, 0.5, 1], [0, -5, -10]), [0, 1, 2])
     assert np.allclose(difference([0, 0.5, 1], [-1e3, 0, 1e-9]), [1, 0.5, 1])

@@ -13,7 +13,7 @@ import pytest
 from matplotlib.patches import Rectangle
 
 from app.document.document import Zoom
-from app.figures.bars import bar_words, shared_words
+from app.figures.bars import bar_words, ends, shared_words
 from app.figures.canvas import Composition, drawn, matplotlib_settings
 from app.figures.draw import Figure, FigurePanel, Mark, save_figure
 from app.figures.fonts import check_font
@@ -217,6 +217,23 @@ def test_the_unit_stands_before_the_maximum_where_one_bar_is_in_shares(ball):
     of = Figure(panels, range="shares")
     assert [bar_words(of, k) for k in (0, 1)] == ["1 / mesh units, max\xa00.5078", "mesh units, max\xa00.5078"]
     assert shared_words(of, 0) == "% of each maximum"
+
+
+@pytest.mark.parametrize("range", ["own", "shared", "shares"])
+def test_a_difference_is_in_percentage_points_in_every_range(ball, range):
+    words = "biharmonic is farther by 14.2 % of its maximum at vertex 99"
+    distance = FigurePanel(ball, np.linspace(0, 0.5, 100), label="biharmonic", unit="mesh units")
+    panels = [
+        FigurePanel(ball, np.linspace(-top, top, 100), label="b", unit="percentage points", signed=True, largest=words)
+        for top in (14.2, 7.1)
+    ]
+    of = Figure((distance, *panels), range=range)
+    assert bar_words(of, 1).replace("\xa0", " ") == f"b (percentage points, {words})"
+    assert ends(of, 1) == (-14.2, 14.2)
+    # Of one unit, they end together unless each has its own.
+    assert ends(of, 2)[1] == (7.1 if range == "own" else 14.2)
+    assert not of.has_one_bar
+    assert Figure(tuple(panels), range=range).has_one_bar == (range != "own")
 
 
 def test_numbers_of_insets_stand_on_grounds_inside_the_page():

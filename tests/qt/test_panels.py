@@ -123,11 +123,21 @@ def test_a_panel_shows_the_difference_of_two_distances_and_names_the_largest(scr
         return panel.bar._reading.low, panel.bar._reading.high
 
     assert chosen("Difference with", "Geodesic") == ("Biharmonic − Geodesic", "biharmonic, exact − geodesic, exact")
-    assert np.allclose(panel.answer.field, one - other)
+    assert np.allclose(panel.answer.field, 100 * (one - other))
     vertex = int(np.abs(one - other).argmax())
-    largest = number((one - other)[vertex], signed=True)
-    assert panel.bar._reading.remark == f"largest {largest} at vertex {vertex}"
-    assert ends() == pytest.approx((-panel.answer.maximum, panel.answer.maximum))
+    value = panel.answer.field[vertex]
+    largest = f"{number(value, signed=True)} %"
+    farther = "biharmonic" if value > 0 else "geodesic"
+    words = f"{farther} is farther by {abs(value):.3g} % of its maximum at vertex {vertex}"
+    for word in ("own", "shared", "shares"):
+        s.window.choices.range(word)
+        assert (panel.bar._reading.unit, panel.bar._reading.remark) == ("percentage points", words)
+        assert ends() == pytest.approx((-panel.answer.maximum, panel.answer.maximum))
+        ticks = [tick.text for tick in panel.bar._layout.ticks]
+        assert all(tick.endswith(" %") and abs(float(tick[:-2].replace("−", "-"))) <= abs(value) for tick in ticks)
+    assert s.panels[1].bar._layout.ticks[-1].text == "100 %"
+    for _ in range(2):
+        s.session.undo()
     s.window.grid.pointing.show(panel.id, vertex)
     assert (panel.view.over.pointed.value, panel.bar._reading.value) == (largest, panel.answer.field[vertex])
     of_commute_time = "Biharmonic − Commute-time", "biharmonic, exact − commute-time, exact"

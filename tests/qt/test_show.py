@@ -63,11 +63,11 @@ def test_arrays_and_fields_have_panels_and_the_right_numbers(shown):
     field = BiharmonicDistance(SURFACE).from_source(7)
     assert np.allclose(exact.field, field, atol=1e-12)
     height = HEIGHT - HEIGHT.min()
-    assert np.allclose(difference.field, field / field.max() - height / height.max(), atol=1e-12)
+    assert np.allclose(difference.field, 100 * (field / field.max() - height / height.max()), atol=1e-10)
     assert (difference.quantity, difference.label, difference.unit) == (
         "biharmonic - height",
         "biharmonic, exact − height",
-        "difference of shares",
+        "percentage points",
     )
     assert np.array_equal(bend.field, -HEIGHT)
 

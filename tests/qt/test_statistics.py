@@ -5,6 +5,7 @@ import pytest
 
 from app.document.measuring import vertices_of
 from app.document.quantities import quantity
+from app.qt.look.numbers import number
 from bihdist_core import band, field_statistics, rank_correlation, read_surface
 from bihdist_core.analysis.truncation import truncation_loss
 from bihdist_core.distances.kinds import Spec
@@ -50,7 +51,7 @@ def test_a_difference_has_its_parts_rank_correlation_and_signs(opened):
     worst = int(np.abs(d).argmax())
     assert dock.facts.facts[0] == (
         f"largest, at vertex {worst}",
-        f"{100 * d[worst]:+.1f} %".replace("-", "−"),
+        f"{number(d[worst], signed=True)} %",
     )
     bars = dock.histogram.bars
     areas = field_statistics(s.session.surface, d, 40).areas

@@ -4,7 +4,7 @@ import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ..look.look import LOOK
-from ..look.numbers import number, number_width, paint_number, share, tick, ticks
+from ..look.numbers import number, number_width, paint_number, percent, share, tick, ticks
 
 HEIGHT = 128
 PAD = 2.0
@@ -21,20 +21,18 @@ class Histogram(QtWidgets.QWidget):
         super().__init__(parent)
         self._ends, self._shares = np.empty(0), np.empty(0)
         self._colours = np.empty((0, 3))
-        self._in_shares = self._is_signed = False
+        self._unit, self._is_signed = "", False
         self._under: int | None = None
         self.setMouseTracking(True)
         self.setAccessibleName("Histogram by area")
         self.setFixedHeight(HEIGHT)
         LOOK.follow(self, self.update)
 
-    def show_bins(
-        self, ends: np.ndarray, areas: np.ndarray, colours: np.ndarray, in_shares: bool, is_signed: bool
-    ) -> None:
-        """ends: (b + 1,); areas: (b,) of each bin; colours: (b, 3), 0 to 1; in_shares: the values are shares of 1."""
+    def show_bins(self, ends: np.ndarray, areas: np.ndarray, colours: np.ndarray, unit: str, is_signed: bool) -> None:
+        """ends: (b + 1,); areas: (b,) of each bin; colours: (b, 3), 0 to 1; unit: of the values."""
         total = areas.sum()
         self._ends, self._shares = ends, areas / total if total > 0 else areas
-        self._colours, self._in_shares, self._is_signed = colours, in_shares, is_signed
+        self._colours, self._unit, self._is_signed = colours, unit, is_signed
         self._under = None
         self.update()
 
@@ -76,17 +74,16 @@ class Histogram(QtWidgets.QWidget):
         painter.setFont(LOOK.font(12))
         metrics = QtGui.QFontMetricsF(painter.font())
         painter.setPen(QtGui.QColor(theme.quiet))
-        scale = 100.0 if self._in_shares else 1.0
-        for value in ticks(low * scale, high * scale, max(int(self.width() / 72), 2)):
+        for value in ticks(low, high, max(int(self.width() / 72), 2)):
             words = self._tick(value)
-            x = PAD + (value / scale - low) / ((high - low) or 1) * (self.width() - 2 * PAD)
+            x = PAD + (value - low) / ((high - low) or 1) * (self.width() - 2 * PAD)
             width = number_width(painter.font(), words)
             x = min(max(x - width / 2, 0), self.width() - width)
             paint_number(painter, x, round(bottom + 5 + metrics.ascent()), words)
 
     def _tick(self, value: float) -> str:
         plus = "+" if self._is_signed and value > 0 else ""
-        return f"{plus}{tick(value)}{' %' if self._in_shares and value else ''}"
+        return f"{plus}{tick(value)}{percent(self._unit) if value else ''}"
 
     def mouseMoveEvent(self, event: QtGui.QMouseEvent) -> None:
         bars = self.bars
@@ -104,7 +101,7 @@ class Histogram(QtWidgets.QWidget):
 
     def _words(self, k: int) -> str:
         def written(value: float) -> str:
-            return share(value, self._is_signed) if self._in_shares else number(value, self._is_signed)
+            return number(value, self._is_signed) + percent(self._unit)
 
         low, high = written(float(self._ends[k])), written(float(self._ends[k + 1]))
         return f"{low} to {high}: {share(float(self._shares[k]))}"

@@ -10,10 +10,12 @@ from bihdist_core.analysis.isoline_output import ISOLINE_FORMATS, write_isolines
 from bihdist_core.analysis.isoline_tracing import isolines
 from bihdist_core.errors import ParameterError
 
+from ..look.numbers import percent
+
 
 @dataclass(frozen=True, eq=False)
 class Levels:
-    """What can be saved of a panel: its surface, its field (n,) with the end of its bar, and the isolines' values."""
+    """What can be saved of a panel: its surface, its field (n,), and the isolines' values; maximum: what 100 % are."""
 
     surface: Surface
     field: np.ndarray
@@ -29,7 +31,7 @@ def levels_of(window: Any, panel: int) -> Levels | None:
         return None
     answer = shown.answer
     values = np.array(window.grid.panel(panel).view.scene.isolines)
-    return Levels(opened.surface, answer.field, answer.label, answer.maximum, values)
+    return Levels(opened.surface, answer.field, answer.label, 100.0 if percent(answer.unit) else answer.maximum, values)
 
 
 def write_levels(path: str, levels: Levels) -> None:

@@ -16,7 +16,7 @@ from ...document.measuring import add_pins, change_pin, move_pin, remove_pins
 from ...drawing.style import PINS
 from ...session.pinned import PinnedPlace, pinned_on
 from ...session.questions import source_at
-from ..look.numbers import number, share
+from ..look.numbers import number, percent, share
 from ..look.segments import Segments
 from ..look.text_box import TextBox, mark_wrong
 from ..panels.flat_button import FlatButton
@@ -330,5 +330,7 @@ def written(place: PinnedPlace, answer: Answer) -> tuple[str, str]:
     value = np.nan if answer.field is None else place.value(answer.field)
     if np.isnan(value):
         return "–", "–"
-    part = share(value / answer.maximum, answer.is_signed) if answer.maximum > 0 else "–"
-    return number(value, answer.is_signed), part
+    said = number(value, answer.is_signed) + percent(answer.unit)
+    if answer.signs:
+        return said, said  # in percentage points, or in a unit of which no maximum is a whole
+    return said, share(value / answer.maximum, answer.is_signed) if answer.maximum > 0 else "–"

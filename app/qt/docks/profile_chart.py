@@ -7,7 +7,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ...session.curves import ProfileCurve
 from ..look.look import LOOK
-from ..look.numbers import number, number_width, paint_number, share
+from ..look.numbers import number, number_width, paint_number, percent, share
 from ..panels.flat_button import paint_ring
 from .badges import BADGE, Badge, paint_badge
 from .chart import Axis, CardLine, Chart, paint_card, paint_dot
@@ -199,7 +199,7 @@ def _words(curve: ProfileCurve, at: float) -> tuple[str, str]:
     if np.isnan(at):
         return "–", ""
     if curve.is_share:
-        return "", share(at, signed=True)
+        return "", number(at, signed=True) + percent(curve.unit)
     part = share(at / curve.whole, curve.is_signed) if curve.whole > 0 else ""
     return number(at, curve.is_signed), part
 

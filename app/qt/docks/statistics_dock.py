@@ -18,7 +18,7 @@ from ...drawing.style import style_of
 from ...session.opened import Opened
 from ...session.questions import DifferenceQuestion, Question
 from ..look.look import LOOK
-from ..look.numbers import number, share
+from ..look.numbers import number, percent, share
 from ..panels.flat_button import FlatButton
 from ..panels.quantity_menu import quantity_name
 from .background import Background
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 BINS = 40
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
-DIFFERENCE_OF_SHARES = "difference of shares"
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,8 +196,7 @@ class StatisticsDock(Instrument):
         scene = self.window_.grid.panel(self._panel).view.scene
         top, signed = scene.maximum, answer.is_signed
         colours = scene.style.bin_colours(found.bins, top, signed)
-        in_shares = answer.unit == DIFFERENCE_OF_SHARES
-        self.histogram.show_bins(found.bins, found.areas, colours, in_shares, signed)
+        self.histogram.show_bins(found.bins, found.areas, colours, answer.unit, signed)
         self._unit.setText("share of the area")
         self.facts.show_facts(self._facts(found, answer))
         self.quantiles.show_facts(self._quantiles(found, answer))
@@ -234,15 +232,13 @@ class StatisticsDock(Instrument):
 
     @staticmethod
     def _written(value: float, answer: Answer, with_sign: bool = True, exact: bool = False) -> tuple[str, ...]:
-        """The value, and its share of the maximum where it is no share itself."""
+        """The value, and its share of the maximum, which means nothing of a difference."""
         signed = answer.is_signed and with_sign
-        if exact:
-            has_share = answer.unit != DIFFERENCE_OF_SHARES and answer.maximum > 0
-            return (repr(float(value)), repr(float(value / answer.maximum))) if has_share else (repr(float(value)),)
-        if answer.unit == DIFFERENCE_OF_SHARES:
-            return (share(value, signed),)
-        top = answer.maximum
-        return (number(value, signed), share(value / top, signed)) if top > 0 else (number(value, signed),)
+        top = 0.0 if answer.signs else answer.maximum
+        said = repr(float(value)) if exact else number(value, signed) + percent(answer.unit)
+        if not top > 0:
+            return (said,)
+        return said, repr(float(value / top)) if exact else share(value / top, signed)
 
     def _say_bin(self, words: str) -> None:
         self._unit.setText(words or "share of the area")
@@ -257,14 +253,12 @@ class StatisticsDock(Instrument):
         page, document = window.page, window.session.document
         style = style_of(page.style, document.colours)
         top = window.grid.panel(self._panel).view.scene.maximum
-        in_shares = answer.unit == DIFFERENCE_OF_SHARES
         return HistogramFigure(
             found.bins,
             found.areas / found.areas.sum(),
             style.bin_colours(found.bins, top, answer.is_signed),
             self.name.text(),
-            "" if in_shares else answer.unit,
-            in_shares,
+            answer.unit,
             found.mean,
             ChartLook.of(page, style),
         )

@@ -5,6 +5,8 @@ from functools import lru_cache
 
 from qtpy import QtCore, QtGui
 
+from bihdist_core.distances.difference import PERCENTAGE_POINTS
+
 DIGITS = 4
 MINUS = "−"
 TICK_STEPS = (1.0, 2.0, 2.5, 5.0)
@@ -31,6 +33,11 @@ def number(value: float, signed: bool = False) -> str:
 def share(value: float, signed: bool = False) -> str:
     """Of a maximum: "77.6 %"."""
     return "–" if math.isnan(value) else f"{100 * value:{'+' if signed else ''}.1f} %".replace("-", MINUS)
+
+
+def percent(unit: str) -> str:
+    """What follows numbers in a unit, so that they can be read without it: " %" for percentage points."""
+    return " %" if unit == PERCENTAGE_POINTS else ""
 
 
 def tick(value: float) -> str:

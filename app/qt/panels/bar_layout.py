@@ -7,7 +7,7 @@ from itertools import pairwise
 from qtpy import QtCore, QtGui
 
 from ..look.look import LOOK
-from ..look.numbers import MINUS, number, number_width, share, ticks
+from ..look.numbers import MINUS, number, number_width, percent, share, ticks
 
 WIDEST, NARROW, MARGIN = 440, 200, 16
 """Of the bar; a narrow one says only what cannot be left out, and the tooltip the rest."""
@@ -35,7 +35,8 @@ class Reading:
     """What a bar has to say: values in `unit`; lines: those of the isolines; maximum: the field's own.
 
     bold, through: those of the lines that are bolder, and that pass through points.
-    value: at the pointer, or None; words: in its place; note: in place of the maximum.  in_shares: the ticks are shares
+    value: at the pointer, or None; words: in its place; note: in place of the maximum, short_note where that is too
+    long.  in_shares: the ticks are shares
     of high.
     """
 
@@ -49,6 +50,7 @@ class Reading:
     value: float | None = None
     words: str = ""
     note: str = ""
+    short_note: str = ""
     in_shares: bool = False
     bold: frozenset[float] = frozenset()
     through: frozenset[float] = frozenset()
@@ -76,9 +78,18 @@ class Reading:
         """All of it, for the tooltip."""
         if self.words:
             return f"{self.words}, {self.remark}"
-        value = "" if self.value is None else number(self.value, self.signed)
+        value = "" if self.value is None else self.written(self.value)
         right = f"{self.share} of {number(self.maximum)}" if self.share else self.remark
-        return ", ".join(part for part in (f"{value} {self.unit}".strip(), right) if part)
+        return ", ".join(part for part in (f"{value} {self.value_unit}".strip(), right) if part)
+
+    def written(self, value: float) -> str:
+        """A value as it stands above the bar."""
+        return number(value, self.signed) + percent(self.unit)
+
+    @property
+    def value_unit(self) -> str:
+        """What stands after a value; nothing where that is in percent."""
+        return "" if self.value is not None and percent(self.unit) else self.unit
 
 
 @dataclass(frozen=True)
@@ -168,21 +179,23 @@ def _choices(reading: Reading) -> list[tuple[list[Word], list[Word], bool]]:
     Words leave before numbers do, and nothing is cut as long as something else can leave.
     """
     cut = LEAST * LOOK.scale
-    unit = [Word(reading.unit)] if reading.unit else []
+    unit = [Word(reading.value_unit)] if reading.value_unit else []
     remark = [Word(reading.remark)]
-    cut_remark = [replace(remark[0], least=cut)] if reading.note else []
+    short_remark = [Word(reading.short_note)] if reading.short_note else remark
+    cut_remark = [replace(short_remark[0], least=cut)] if reading.note else []
     if reading.words:
         said = Word(reading.words, is_quiet=False)
         return [([said], remark, False), ([said], [], False), ([replace(said, least=cut)], [], False)]
     if reading.value is None:
-        return [(unit, remark, bool(unit)), ([], remark, False), ([], cut_remark, False)]
-    text = number(reading.value, reading.signed)
+        whole = [(unit, remark, bool(unit)), ([], remark, False), (unit, short_remark, bool(unit))]
+        return [*whole, ([], short_remark, False), ([], cut_remark, False)]
+    text = reading.written(reading.value)
     alone = [Word(text, False, True)]
     # Room for values down to a tenth of the maximum, so that no word comes and goes while the pointer moves.
-    usual = [number(s * reading.maximum, reading.signed) for s in ((-1, -0.1) if reading.signed else (1, 0.1))]
+    usual = [reading.written(s * reading.maximum) for s in ((-1, -0.1) if reading.signed else (1, 0.1))]
     value = [replace(alone[0], least=max(Word(each, is_bold=True).width for each in (text, *usual)))]
     if not reading.share:
-        whole = [(value + unit, remark, bool(unit)), (value, remark, False)]
+        whole = [(value + unit, remark, bool(unit)), (value, remark, False), (value, short_remark, False)]
         return [*whole, (value, cut_remark, False), (alone, [], False)]
     part = Word(reading.share, False)
     least = max(part.width, Word(share(1.0, reading.signed)).width)
@@ -233,8 +246,8 @@ def _ticks_at(reading: Reading, values: list[float], row: QtCore.QRectF) -> tupl
     """Each centred under its value, but within the bar, or left out."""
     top, found = max(abs(reading.low), abs(reading.high)), []
     for value in values:
-        percent = " %" if reading.in_shares and reading.high > 0 else ""
-        word = Word(tick_text(value, top, reading.signed) + percent, size=12)
+        sign = " %" if reading.in_shares and reading.high > 0 else percent(reading.unit)
+        word = Word(tick_text(value, top, reading.signed) + sign, size=12)
         x = row.left() + row.width() * reading.place(value) - word.width / 2
         if word.width <= row.width():
             found.append(word.at(max(min(x, row.right() - word.width), row.left()), row))

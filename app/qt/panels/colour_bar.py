@@ -132,9 +132,9 @@ class ColourBar(QtWidgets.QWidget):
         """Words in the place of a value."""
         self._say(value=None, words=text)
 
-    def show_note(self, text: str) -> None:
-        """A remark in the place of the maximum; empty for none."""
-        self._say(note=text)
+    def show_note(self, text: str, short: str = "") -> None:
+        """A remark in the place of the maximum, perhaps with a shorter one where that has no room; empty for none."""
+        self._say(note=text, short_note=short)
 
     def clear(self) -> None:
         """No field: empty and grey."""

@@ -57,7 +57,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.bar = ColourBar(self)
         self.bar.end_wanted.connect(self.ask_end)
         self._end = EndPopUp(self)
-        self._end.chosen.connect(self.ended)
+        self._end.chosen.connect(lambda end: self.ended.emit(None if end is None else end / self._scale))
         self.waiting = Waiting(self)
         self.waiting.cancelled.connect(self.cancelled)
         self._accent = QtWidgets.QWidget(self, objectName="activeLine")
@@ -78,6 +78,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._isolines = TWENTY_STEPS
         self.answer: Answer | None = None
         self._is_preview = self._is_waiting = self._in_shares = self._is_compact = False
+        self._scale = 1.0  # of its values, where those of the document are fractions
         self.show_active(False)
 
     # ------------------------------------------------------------------ how it looks
@@ -158,7 +159,7 @@ class DistancePanel(QtWidgets.QWidget):
         """These, and one through each of the points, which have dots."""
         self._isolines = isolines
         scene = self.view.scene
-        scene.show_isolines(isolines, tuple(point.value for point in through))
+        scene.show_isolines(isolines.scaled(self._scale), tuple(point.value for point in through))
         lines = scene.levels.values[scene.levels.is_through]
         self.marks.mark_passed([point for point in through if point.value in lines])
         self._show_bands()
@@ -173,7 +174,7 @@ class DistancePanel(QtWidgets.QWidget):
     def _edges(self) -> np.ndarray:
         """(k,) shares of the maximum at which bands end."""
         is_signed = self.answer is not None and self.answer.is_signed
-        return band_edges(self._isolines, self.view.scene.maximum, is_signed)
+        return band_edges(self._isolines.scaled(self._scale), self.view.scene.maximum, is_signed)
 
     @property
     def opened(self) -> Opened | None:
@@ -219,8 +220,11 @@ class DistancePanel(QtWidgets.QWidget):
 
         height: of the relief that a flat surface becomes.  in_shares: the bar reads shares of the maximum.
         """
-        self._in_shares = in_shares
+        self._in_shares = in_shares and shown.answer.signs is None
         self.answer = answer = shown.answer
+        if answer.scale != self._scale:
+            self._scale = answer.scale
+            self.view.scene.show_isolines(self._isolines.scaled(self._scale))
         self._raise(answer, maximum or answer.maximum, height)
         if answer.colours is not None:
             self.view.scene.show_colours(answer.colours)
@@ -261,7 +265,10 @@ class DistancePanel(QtWidgets.QWidget):
             through_colours=(style.source, style.mark_edge),
         )
         self.bar.show_shares(not answer.is_signed)
-        if answer.largest is not None:
+        if answer.signs:
+            said = answer.largest_words
+            self.bar.show_note(said, said.replace(" of its maximum", ""))
+        elif answer.largest is not None:
             value = float(answer.field[answer.largest])
             self.bar.show_note(f"largest {number(value, signed=True)} at vertex {answer.largest}")
         else:

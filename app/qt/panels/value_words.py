@@ -4,8 +4,8 @@ import numpy as np
 
 from bihdist_core.distances.answers import Answer
 
-from ...document.quantities import Difference, Quantity
-from ..look.numbers import number, share
+from ...document.quantities import Quantity
+from ..look.numbers import number, percent, share
 
 NOT_CONNECTED, UNDEFINED = "not connected to the source", "undefined here"
 NOWHERE = "mapped nowhere"
@@ -24,7 +24,7 @@ def value_words(answer: Answer | None, vertex: int | None, shows: Quantity) -> t
     if np.isnan(value):
         return (NOT_CONNECTED if shows.points else UNDEFINED), ""
     if answer.is_signed:
-        return number(value, signed=True), ""
+        return number(value, signed=True) + percent(answer.unit), ""
     return number(value), share(value / answer.maximum) if answer.maximum > 0 else ""
 
 
@@ -33,5 +33,6 @@ def copied_words(answer: Answer | None, vertex: int, shows: Quantity) -> str:
     if answer is None:
         return ""
     value, part = value_words(answer, vertex, shows)
-    said = f"{answer.label}: {value} {answer.unit}{f' ({part})' if part and not isinstance(shows, Difference) else ''}"
+    unit = "" if percent(answer.unit) else answer.unit
+    said = f"{answer.label}: {value} {unit}{f' ({part})' if part else ''}"
     return said.strip()
