@@ -67,7 +67,7 @@ def test_every_panel_saves_what_the_command_writes_in_every_format(screen, mesh_
         there = tmp_path / f"theirs{extension}"
         assert written == written_by_the_command(mesh, "5", s.document.panels[place], there)
     assert asked[0] == ("Save the field", "mesh biharmonic_from_5")
-    assert asked[-1] == ("Save the field", "mesh biharmonic_minus_geodesic_from_5")
+    assert asked[-1] == ("Save the field", "mesh biharmonic_minus_geodesic_percent_from_5")
     # By the menu Panels that of the active panel, from a source of several parts.
     s.session.show(move_source(s.document, 0, SourceSet((7, Place(12, (0.2, 0.5, 0.3))))))
     s.until(lambda: s.session.is_complete)
