@@ -64,7 +64,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     which.add_argument(
         "--landmarks", metavar="FILE", help="vertices from a .npy, .txt or file of pins; {name} is the mesh's name"
     )
-    which.add_argument("--sample", type=count, metavar="K", help="K vertices by chance, the same each time")
+    which.add_argument("--sample", type=count, metavar="K", help="K random vertices, the same each time")
     parser.add_argument("--seed", type=int, metavar="N", help="of --sample (default: 0)")
     parser.add_argument("--nearest", type=count, metavar="K", help="for nearest (default: 10)")
     parser.add_argument("--eigenpairs", type=count, metavar="K", help="for eigen (default: 100)")

@@ -25,8 +25,9 @@ def add_range(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--range",
         metavar="RANGE",
-        help="where colour bars end: own, shared (equal units), shares (0 to 100 %%), a number, or one or `own` for "
-        "each panel such as 0.8,own,2; or a session or recipe, whose ends are taken",
+        help="where colour bars end: own (own maximum), shared (one for all panels of a unit), shares (fraction of "
+        "the maximum), a number, or one or `own` for each panel such as 0.8,own,2; or a session or recipe, whose ends "
+        "are taken",
     )
     parser.add_argument(
         "--shared-range", action=argparse.BooleanOptionalAction, default=None, help="the same as --range shared"

@@ -98,7 +98,12 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     add_selections(parser)
     add_profile(parser)
     parser.add_argument(
-        "--height", type=float, nargs="?", const=0.35, metavar="SHARE", help="a flat mesh becomes a relief"
+        "--height",
+        type=float,
+        nargs="?",
+        const=0.35,
+        metavar="FRACTION",
+        help="a flat mesh becomes a height field, its highest point at this fraction of its extent",
     )
     add_colours(parser)
     add_range(parser)

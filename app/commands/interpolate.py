@@ -29,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         type=share,
         default=0.0,
         metavar="S",
-        help="how far around an anchor its cone is rounded, a share from 0 to 1 (default: 0)",
+        help="how far around an anchor its cone is rounded, a fraction from 0 to 1 (default: 0)",
     )
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy, .csv, .ply or .vtp file")
     add_distance(parser, "a field; repeat for more (default: biharmonic)")

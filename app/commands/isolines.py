@@ -23,7 +23,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
     parser.add_argument("-o", "--output", metavar="OUT", help="the isolines: a .csv, .obj, .vtp or .json file")
     add_levels(parser)
-    parser.add_argument("--region", metavar="LOW:HIGH", help="between two values, or shares of the maximum: 20%%:40%%")
+    parser.add_argument(
+        "--region", metavar="LOW:HIGH", help="between two values, or fractions of the maximum: 20%%:40%%"
+    )
     parser.add_argument("--region-ids", metavar="OUT", help="its vertices: a .txt, .npy or .csv file")
     parser.add_argument("--region-mesh", metavar="OUT", help="cut out along its isolines: a .ply or .vtp file")
     add_distance(parser)

@@ -47,7 +47,7 @@ def add_up(parser: argparse.ArgumentParser, default: str = "guessed") -> None:
 
 
 def add_pins(parser: argparse.ArgumentParser) -> None:
-    words = "a drop with a number at a vertex or a place in a face (f311:0.2,0.5); repeat for more, in their order"
+    words = "a pin with a number at a vertex or a place in a face (f311:0.2,0.5); repeat for more, in their order"
     parser.add_argument("--pin", type=point, metavar="V", action="append", help=words)
 
 
@@ -216,5 +216,5 @@ def positive(text: str) -> float:
 def share(text: str) -> float:
     value = _number(text)
     if not 0 <= value <= 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a share from 0 to 1")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a fraction from 0 to 1")
     return value

@@ -32,11 +32,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     add_distance(parser, "a curve; repeat for more (default: biharmonic, geodesic, diffusion(t=1))")
     add_areas(parser)
-    parser.add_argument("--values", action="store_true", help="a chart of values, not of shares of each maximum")
+    parser.add_argument("--values", action="store_true", help="a chart of values, not of fractions of each maximum")
     parser.add_argument("--size", metavar="SIZE", default="", help="the width of the chart, such as 85mm or double")
     parser.add_argument("--style", metavar="NAME", default="paper", help="paper, uniform, lines or dark")
     parser.add_argument("--font", metavar="FAMILY", default="", help="of all words (default: DejaVu Sans)")
-    parser.add_argument("--text", type=float, metavar="POINTS", help="the size of all letters (default: 8)")
+    parser.add_argument("--text", type=float, metavar="POINTS", help="the size of all text (default: 8)")
 
 
 def run(options: argparse.Namespace) -> int:

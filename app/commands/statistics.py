@@ -19,14 +19,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_distance(parser, "two to compare them (default: biharmonic)")
     parser.add_argument("--histogram", metavar="OUT", help="of the first, by area: a figure, or a .csv or .npy of bins")
     parser.add_argument("--scatter", metavar="OUT", help="of the second over the first: a figure, or a .csv or .npy")
-    parser.add_argument("--values", action="store_true", help="compare values, and not shares of the maxima")
+    parser.add_argument("--values", action="store_true", help="compare values, and not fractions of the maxima")
     parser.add_argument(
         "--truncation", type=int, metavar="K", help="what a sum over K eigenpairs loses of the biharmonic distance"
     )
     parser.add_argument("--size", default="", help="of a chart: 85mm, column, double (default: as wide as a column)")
     parser.add_argument("--style", default="paper", help="of a chart: paper, uniform, lines or dark (default: paper)")
     parser.add_argument("--font", default="", metavar="FAMILY", help="of a chart")
-    parser.add_argument("--text", type=float, metavar="POINTS", help="size of the letters of a chart (default: 8)")
+    parser.add_argument("--text", type=float, metavar="POINTS", help="size of the text of a chart (default: 8)")
     add_areas(parser)
 
 

@@ -107,7 +107,7 @@ class FieldArray:
         if not self.name or self.name != self.name.strip() or " - " in self.name or self.name.startswith("raw "):
             raise ParameterError(f"{self.name!r} is no name for a field; use a word or two.")
         if not self.name.isprintable() or len(self.name) > LONGEST_NAME:
-            raise ParameterError(f"A field's name has up to {LONGEST_NAME} letters, all of them printable.")
+            raise ParameterError(f"A field's name has up to {LONGEST_NAME} characters, all of them printable.")
         if self.name.partition("(")[0] in kinds():
             raise ParameterError(f"A field needs a name of its own; {self.name!r} is a distance.")
 
@@ -251,7 +251,9 @@ class Document:
         one_of(self.up, UPS, "direction")
         one_of(self.projection, PROJECTIONS, "projection")
         if not 0 <= self.height <= 10:
-            raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
+            raise ParameterError(
+                f"The height of a height field is a fraction of the surface's extent, not {self.height:g}."
+            )
         checked_view(self.camera)
 
     def mesh(self, name: str = "A") -> MeshFile:

@@ -153,7 +153,7 @@ class Selection:
 
 def check_name(name: str, what: str) -> None:
     if name and (not name.isprintable() or len(name) > LONGEST_NAME or name != name.strip()):
-        raise ParameterError(f"The name of a {what} has up to {LONGEST_NAME} printable letters, not {name[:80]!r}.")
+        raise ParameterError(f"The name of a {what} has up to {LONGEST_NAME} printable characters, not {name[:80]!r}.")
 
 
 def _check_colour(colour: int) -> None:

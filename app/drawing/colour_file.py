@@ -86,7 +86,7 @@ def _stops(rows: list[tuple[int, list[float]]]) -> Stops:
     for number, values in rows:
         for value in values[-3:]:
             if not 0 <= value <= whole:
-                raise ParameterError(f", line {number}: {value:g} is no share of a colour, 0 to {whole:g}.")
+                raise ParameterError(f", line {number}: {value:g} is no part of a colour, 0 to {whole:g}.")
     if len(rows[0][1]) == 3:
         places = np.linspace(0, 1, len(rows)).tolist()
     else:

@@ -108,9 +108,11 @@ class FigurePanel:
         for view in self.views:
             checked_view(view)
         if self.height and not is_flat(self.surface.vertices[self.surface.component_of_vertex >= 0]):
-            raise ParameterError("A relief needs a flat surface, with the same z everywhere.")
+            raise ParameterError("A height field needs a flat surface, with the same z everywhere.")
         if not 0 <= self.height <= 10:
-            raise ParameterError(f"The height of a relief is a share of the surface's extent, not {self.height:g}.")
+            raise ParameterError(
+                f"The height of a height field is a fraction of the surface's extent, not {self.height:g}."
+            )
         self.surface.check_vertices([m.vertex for m in (*self.marks, *self.zooms)])
 
     @property
@@ -178,7 +180,7 @@ class Figure:
             units = ", ".join(sorted({unit or "none" for unit, _ in kinds}))
             raise ParameterError(
                 f"Panels in different units ({units}) cannot share a range; "
-                "with --range shares (in Python range='shares') they have one bar, in shares of each maximum."
+                "with --range shares (in Python range='shares') they have one bar, in fractions of each maximum."
             )
 
     @property

@@ -300,11 +300,11 @@ def hidden_words(page: Composition) -> list[str]:
         views = f"the view {names}" if len(panel.views) == 1 else f"the views {names}"
         # Of extrema there may be dozens, on all sides.
         marks = [mark for mark in map(panel.marks.__getitem__, sorted(hidden)) if not mark.extremum]
-        for what in ("ring", "drop"):
+        for what in ("ring", "pin marker"):
             some = [mark for mark in marks if (mark.number is None) == (what == "ring")]
             rest = f"hidden in {views}: a dashed {what}; try --view source or --two-views."
             if len(some) > MOST_NAMED:
-                others = "marked places" if what == "ring" else "drops" if some[0].name else "pins"
+                others = "marked places" if what == "ring" else "numbered points" if some[0].name else "pins"
                 found[f"{_named(some[0])} and {len(some) - 1} other {others} are {rest}"] = None
                 continue
             for mark in some:

@@ -75,7 +75,7 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
             f"{shown.heading or answer.label}, {low:.4g} to {top:.4g}{with_unit(shown.unit)}".replace("-", "−")
         )
     sentences.append("; ".join(parts))
-    ranges = {"shared": "Panels of one unit share a range", "shares": "Colours are shares of each maximum"}
+    ranges = {"shared": "Panels of one unit share a range", "shares": "Colours are fractions of each maximum"}
     if figure.range in ranges:
         sentences.append(ranges[figure.range])
     isolines = figure.panels[0].isolines

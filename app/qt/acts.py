@@ -159,7 +159,7 @@ EDIT = (
     Act("preferences", "&Preferences…", lambda w: w.choices.ask_preferences(), ("Ctrl+,",), "", "settings"),
 )
 VIEW = (
-    Act("reset", "&Reset", lambda w: w.reset_view(), ("R", "Home"), "See all of it", "reset-view", needs_mesh=True),
+    Act("reset", "Hom&e", lambda w: w.reset_view(), ("R", "Home"), "See all of it", "reset-view", needs_mesh=True),
     *(
         Act(
             f"view {name}",
@@ -241,7 +241,7 @@ VIEW = (
         "&Full screen for talks",
         lambda w: w.choices.toggle_full_screen(),
         ("F11",),
-        "Panels and bars only, in larger letters",
+        "Panels and bars only, in larger text",
         is_check=True,
     ),
 )

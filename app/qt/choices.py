@@ -12,11 +12,12 @@ from ..document.changing import changed_mesh
 from ..document.edits import ADD, MOST_ADDED, PANEL_EDITS, add_another, end_at, has_ends, possible_edits, with_range
 from ..document.looks import Colours
 from ..drawing.colour_file import read_stops
-from ..drawing.colour_maps import MAPS
 from .bars.colour_menu import colours_in_words
 from .bars.isoline_menu import isolines_in_words
+from .bars.menus import RANGE_NAMES
 from .files.taken_ends import TakenEnds
 from .isoline_choices import IsolineChoices
+from .look.canvas import map_word
 from .look.look import LOOK, TALK
 from .preferences import Preferences, save
 
@@ -43,7 +44,7 @@ class Choices:
         for name, value in {
             "isolines": isolines_in_words(document.isolines),
             "colours": colours_in_words(style, document.colours),
-            "range": shown_range.capitalize(),
+            "range": RANGE_NAMES[shown_range],
         }.items():
             window.tools[name].show_value(value)
         menus = window.menus
@@ -108,15 +109,13 @@ class Choices:
         session.show(replace(session.document, shading=replace(session.document.shading, **changes)))
 
     def style(self, word: str) -> None:
-        """One of the drawing's styles, for the panels and for the figures to come.
-
-        Of two styles that differ in nothing but their map, one takes its own.
-        """
+        """One of the drawing's styles, for the panels and for the figures to come; the map stays as it is."""
         window = self._window
+        chosen = map_word(window.page.style, window.session.document.colours)
         window.page = replace(window.page, style=word)
         window.wear()
-        if word in MAPS:
-            self.colour_map("")
+        if chosen is not None:
+            self.colour_map(chosen)
         self.show()
 
     # ------------------------------------------------------------------ colours
@@ -127,9 +126,10 @@ class Choices:
         self.show()
 
     def colour_map(self, word: str) -> None:
-        """One of the drawing's maps, or that of the style."""
+        """One of the drawing's maps; that of the style is not named."""
         now = self._window.session.document.colours
-        self._colour(Colours(word, (), now.reversed, now.bands))
+        is_own = word == map_word(self._window.page.style, Colours())
+        self._colour(Colours("" if is_own else word, (), now.reversed, now.bands))
 
     def reverse_colours(self, is_on: bool) -> None:
         self._colour(replace(self._window.session.document.colours, reversed=is_on))

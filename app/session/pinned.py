@@ -115,7 +115,7 @@ def pins_text(places: Sequence[PinnedPlace], surface: Surface, answers: Sequence
     answers: with the heads of their columns.  Numbers are written with all their digits.
     """
     head = ["pin", "name", "vertex", "x", "y", "z"]
-    head += [text for title, _ in answers for text in (title, f"{title}, share of the maximum")]
+    head += [text for title, _ in answers for text in (title, f"{title}, fraction of the maximum")]
     lines = ["\t".join(head)]
     for place in places:
         vertex = words_of(place.at)

@@ -98,6 +98,6 @@ def field_scatter(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares: 
         sizes = np.abs(x).max(), np.abs(y).max()
         if not min(sizes) > 0:
             which = "first" if sizes[0] == 0 else "second"
-            raise ParameterError(f"The {which} field is 0 throughout, so it has no shares of its maximum.")
+            raise ParameterError(f"The {which} field is 0 throughout, so it has no fractions of its maximum.")
         x, y = x / sizes[0], y / sizes[1]
     return FieldScatter(ids, x, y)

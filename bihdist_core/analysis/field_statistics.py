@@ -63,7 +63,7 @@ def field_statistics(
     f, ids, faces = _chosen(surface, field)
     share = np.asarray(shares, np.float64)
     if share.ndim != 1 or not ((share >= 0) & (share <= 1)).all():
-        raise ParameterError(f"Shares of the area are numbers from 0 to 1, not {shares!r}.")
+        raise ParameterError(f"Fractions of the area are numbers from 0 to 1, not {shares!r}.")
     mean = faces.mean()
     edges = _edges(bins, float(f.min()), float(f.max()))
     low, high, largest = int(f.argmin()), int(f.argmax()), int(np.abs(f).argmax())

@@ -54,7 +54,7 @@ def with_holes(surface: Surface, count: int, radius: float = 0.05, seed: int = 0
     if count < 1:
         raise ParameterError(f"The number of holes is a whole number from 1, not {count!r}.")
     if not 0 < radius <= 1:
-        raise ParameterError(f"The radius of holes is a share of the root of the area, from 0 to 1, not {radius!r}.")
+        raise ParameterError(f"The radius of holes is a fraction of the root of the area, from 0 to 1, not {radius!r}.")
     candidates = np.flatnonzero(surface.component_of_vertex >= 0)
     centres = np.random.default_rng(seed).choice(candidates, min(count, len(candidates)), replace=False)
     unit = float(np.sqrt(surface.face_areas.sum()))

@@ -26,7 +26,7 @@ class Weights:
                 f"not {self.exponent:g}."
             )
         if not 0 <= self.smoothness <= 1:
-            raise ParameterError(f"The smoothness of weights is a share from 0 to 1, not {self.smoothness:g}.")
+            raise ParameterError(f"The smoothness of weights is a fraction from 0 to 1, not {self.smoothness:g}.")
 
 
 INVERSE_DISTANCES = Weights()

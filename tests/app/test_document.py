@@ -48,7 +48,7 @@ def test_documents_hash_pickle_and_compare(document):
         (lambda d: replace(d, areas="round"), "no areas 'round'"),
         (lambda d: replace(d, camera="above"), "no view 'above'"),
         (lambda d: replace(d, isolines=-1), "steps between isolines"),
-        (lambda d: replace(d, height=float("nan")), "height of a relief"),
+        (lambda d: replace(d, height=float("nan")), "height of a height field"),
         (lambda d: move_source(d, 9, 3), "no panel 9"),
         (lambda d: d.point("here"), "no point 'here'"),
         (lambda d: d.mesh("B"), "no surface 'B'"),

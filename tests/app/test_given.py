@@ -74,7 +74,7 @@ def test_a_field_is_shown_once_whatever_the_number_of_sources():
         ("a - b", [1.0], "no name"),
         ("raw mine", [1.0], "no name"),
         ("mi\nne", [1.0], "printable"),
-        ("m" * 61, [1.0], "up to 60 letters"),
+        ("m" * 61, [1.0], "up to 60 characters"),
         ("biharmonic", [1.0], "is a distance"),
         ("diffusion(t=1)", [1.0], "is a distance"),
     ],

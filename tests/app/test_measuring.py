@@ -107,7 +107,7 @@ def test_another_mesh_has_no_pins_of_the_old_one():
         (lambda: replace(DOCUMENT, pins=(Pin("nowhere"),)), "no point 'nowhere'"),
         (lambda: replace(DOCUMENT, docks=("pins", "kitchen")), "no dock 'kitchen'"),
         (lambda: replace(DOCUMENT, profile=Profile(("source", "tip"))), "no point 'tip'"),
-        (lambda: Pin("a", "x" * 61), "up to 60 printable letters"),
+        (lambda: Pin("a", "x" * 61), "up to 60 printable characters"),
         (lambda: Pin("a", colour=10), "none is 10"),
         (lambda: Selection("a", ((3, 5), (6, 7))), "do not touch"),
         (lambda: Selection("a", ((3, 2),)), "go up"),

@@ -155,7 +155,7 @@ def test_bad_input_is_refused(rough, field):
     for bins in (0, 2.5, [1, 1], [3, 2, 1], [1]):
         with pytest.raises(ParameterError, match="bins"):
             field_statistics(rough, field, bins)
-    with pytest.raises(ParameterError, match="Shares of the area"):
+    with pytest.raises(ParameterError, match="Fractions of the area"):
         field_statistics(rough, field, shares=[1.5])
     with pytest.raises(ParameterError, match="each of 300 vertices"):
         field_statistics(rough, field[:-1])

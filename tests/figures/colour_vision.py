@@ -98,7 +98,7 @@ def draw(path: str) -> None:
         lightness.axhline(100, color="0.7", linewidth=0.8)  # white isolines
         lightness.set_ylim(0, 105)
         sizes.set_ylim(0, None)
-        sizes.set_xlabel("share of the maximum")
+        sizes.set_xlabel("fraction of the maximum")
     rows[1, 0].set_ylabel("lightness L*")
     rows[2, 0].set_ylabel("difference per\nwhole range")
     rows[1, -1].legend(fontsize=7, loc="lower right")

@@ -14,6 +14,13 @@ INSTEAD = {
     r"(?i)\b(ctrl|shift|alt)-(click|drag)": "keys are joined to gestures by a plus: Shift+click",
     r"\b(Ctrl|Shift|Alt)\+(Click|Drag)": "gestures are written small after keys: Ctrl+click",
     r"(?i)\b(double|right|middle|left)-click": "gestures are words of their own: right click",
+    r"(?i)\bshares? of (the|each|its|their|own) *(own )?max": "it is the fraction of the maximum",
+    r"(?i)\bshares?:|\bshared:": "ranges are called by what they do: own maximum, one for all, fraction of the maximum",
+    r"(?i)\bby chance\b": "it is random",
+    r"(?i)\bletters\b": "it is text, or characters",
+    r"(?i)\b(a|the|dashed) drops?\b": "it is a pin, or its marker",
+    r"(?i)\b(a|the) relief\b": "it is a height field",
+    r"Reset$|Reset the view": "the first view is Home",
 }
 """What is not said to users, and why."""
 

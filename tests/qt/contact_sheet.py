@@ -154,7 +154,7 @@ def _bars_and_menus(d: Driver) -> None:
         action.menu().popup(bar.mapToGlobal(bar.actionGeometry(action).bottomLeft()))
         d.shot(f"menu {action.text().strip('&')}")
         action.menu().hide()
-    for style in ("uniform", "lines", "paper"):
+    for style in ("lines", "dark", "paper"):
         d.window.choices.style(style)
         d.shot(f"style {style}")
 

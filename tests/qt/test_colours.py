@@ -1,6 +1,7 @@
 """Colours and ranges in the window: chosen in menus, undone, shown on the surface and the bar, and typed or taken."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -70,17 +71,38 @@ def test_a_map_is_chosen_shown_and_undone(shown):
     assert not shown.window.menus.colours.bands.isChecked()
 
 
-def test_a_style_that_is_a_map_takes_its_own_and_lines_have_none(shown):
+def ticked(s):
+    return [action.text() for action in s.window.menus.colours.actions() if action.isChecked()]
+
+
+def test_styles_and_maps_have_names_of_their_own_and_lines_have_no_map(shown):
+    menu = shown.window.menus.colours
+    names = [action.text() for action in menu.actions() if action.text()]
+    assert len(set(names)) == len(names)
     choose(shown, ("map", "safe"))
     choose(shown, "dark")
     assert shown.document.colours == Colours("safe")
-    choose(shown, "uniform")
+    assert ticked(shown) == ["Dark ground", "Safe"]
+    choose(shown, ("map", "paper"))
     assert shown.document.colours == Colours()
+    choose(shown, ("map", "uniform"))
     assert shown.panels[0].view.scene.style.stops == STYLES["uniform"].stops
     choose(shown, "lines")
-    menu = shown.window.menus.colours
     assert not any(action.isEnabled() for action in (menu.bands, menu.reversed))
     assert menu.isEnabled()
+    assert shown.window.tools["colours"].accessibleDescription() == "Lines only"
+    assert ticked(shown) == ["Lines only", "Uniform"]
+
+
+def test_the_style_that_is_a_map_of_another_is_shown_as_that_map(shown):
+    shown.window.page = replace(shown.window.page, style="uniform")
+    shown.window.wear()
+    shown.window.choices.show()
+    assert ticked(shown) == ["White ground", "Uniform"]
+    assert shown.window.tools["colours"].accessibleDescription() == "Uniform"
+    choose(shown, "dark")
+    assert (shown.window.page.style, shown.document.colours) == ("dark", Colours("uniform"))
+    assert ticked(shown) == ["Dark ground", "Uniform"]
 
 
 def test_bands_are_on_the_bar_where_the_isolines_are(shown):

@@ -93,7 +93,7 @@ def test_a_difference_is_made_changed_and_left_through_the_menu(head):
     choose(h, "Swap them")
     choose(h, "In units")
     assert str(h.shows) == "raw diffusion - commute-time"
-    choose(h, "Shares of the maximum")
+    choose(h, "Fractions of the maximum")
     choose(h, "Second: Commute-time", "height")
     assert h.shows.subtrahend == OwnField("height")
     choose(h, "Show the first alone")

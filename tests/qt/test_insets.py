@@ -298,11 +298,13 @@ def test_a_style_leaves_nothing_of_the_one_before(shown, chosen_in):
         return window.GetRenderers().GetNumberOfItems(), props.GetNumberOfItems()
 
     before, pictures = counted(), s.pictures()
-    for style in ("lines", "uniform", "paper"):
+    entries = {"uniform": [("map", "uniform")], "lines": ["lines"], "paper": ["paper", ("map", "paper")]}
+    for style, chosen in entries.items():
         if chosen_in == "recipe":
             s.window.show_document(s.document, Page(style=style))
         else:
-            next(each for each in s.window.menus.colours.actions() if each.data() == style).trigger()
+            for word in chosen:
+                next(each for each in s.window.menus.colours.actions() if each.data() == word).trigger()
         s.settle(0.1)
         assert panel.view.scene.style.stops == STYLES[style].stops
         assert counted() == before

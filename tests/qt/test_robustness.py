@@ -42,7 +42,7 @@ def test_noise_is_typed_and_each_distance_is_shown_before_and_after_with_its_num
         assert numbers.share_largest == pytest.approx(found.normalised_largest, rel=1e-9)
         assert numbers.mean == pytest.approx(np.abs(new - old).mean(), rel=1e-9)
         assert numbers.largest == pytest.approx(np.abs(new - old).max(), rel=1e-9)
-    assert dock.table.text().startswith("distance\tmean share")
+    assert dock.table.text().startswith("distance\tmean fraction")
     press(s, dock.along.buttons["normals"])
     check(s, Perturbation(noise=0.3, along="normals"))
     press(s, dock.another)

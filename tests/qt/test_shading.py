@@ -70,7 +70,7 @@ def test_the_key_w_shows_the_edges_in_new_panels_and_other_colours_too(opened):
     assert min(differ(s.pictures(), without)) > 0.5
     s.window.choices.add_panel()
     s.until(lambda: s.session.is_complete)
-    s.window.choices.style("uniform")
+    s.window.choices.colour_map("uniform")
     s.settle(0.1)
     wired = s.pictures()
     s.window.actions_by_word["wireframe"].trigger()

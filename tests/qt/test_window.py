@@ -270,15 +270,15 @@ def test_a_dropped_file_is_opened(screen, mesh_file):
 
 
 def test_samples_are_listed_with_their_pictures_and_open(screen):
-    from app.samples import sample_names
+    from app.samples import sample_names, sample_title
 
     s = screen()
     file = s.window.menuBar().actions()[0].menu()
     samples = next(action.menu() for action in file.actions() if action.text() == "Sam&ples")
     actions = {action.text(): action for action in samples.actions()}
-    assert list(actions) == [name.replace("_", " ").capitalize() for name in sample_names()]
+    assert list(actions) == [sample_title(name) for name in sample_names()]
     assert not any(action.icon().isNull() for action in actions.values())
-    actions["Genus3"].trigger()
+    actions["Genus 3"].trigger()
     s.until(lambda: s.session.is_complete)
     assert s.window.windowTitle().startswith("genus3.ply")
 
@@ -352,7 +352,7 @@ def test_letters_without_a_meaning_do_nothing(screen, mesh_file):
     assert done == []
     assert are_equal(before, seen(s))
     QTest.keyClick(s.panels[0].view, "r")
-    assert done == ["&Reset"]
+    assert done == ["Hom&e"]
 
 
 def test_long_words_do_not_make_the_window_wider(screen, mesh_file):

@@ -7,8 +7,8 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.looks import Colours, Stops
 from ...drawing.colour_maps import MAPS, backwards, colours_at
-from ...drawing.style import STYLES, map_of, style_of
-from ..look.canvas import STYLE_NAMES
+from ...drawing.style import map_of, style_of
+from ..look.canvas import map_word, offered_styles, style_name
 from ..look.look import LOOK
 
 WIDTH, HEIGHT, MARGIN = 64, 12, 12
@@ -32,15 +32,15 @@ class ColourMenu(QtWidgets.QMenu):
         self._strips: dict[QtWidgets.QAction, Stops] = {}
         self._head("Style")
         self._styles = QtWidgets.QActionGroup(self)
-        for word in STYLES:
-            action = self._entry(self._styles, STYLE_NAMES.get(word, word), word)
+        for word in offered_styles(""):
+            action = self._entry(self._styles, style_name(word), word)
             action.triggered.connect(lambda *_, word=word: window.choices.style(word))
         self.addSeparator()
-        self._head("Map")
+        self._head("Colour map")
         self._maps = QtWidgets.QActionGroup(self)
-        for word, text in [("", "That of the style"), *((word, each.name) for word, each in MAPS.items())]:
-            action = self._entry(self._maps, text, ("map", word))
-            action.setToolTip(MAPS[word].hint if word else "As the style has it")
+        for word, each in MAPS.items():
+            action = self._entry(self._maps, each.name, ("map", word))
+            action.setToolTip(each.hint)
             action.triggered.connect(lambda *_, word=word: window.choices.colour_map(word))
         self._own = self._entry(self._maps, "", ("map", None))
         self._file = self.addAction("From a file…", window.choices.ask_colours)
@@ -51,20 +51,22 @@ class ColourMenu(QtWidgets.QMenu):
 
     def show_choice(self, style: str, colours: Colours) -> None:
         """Tick what is chosen, in its colours."""
-        word = None if colours.stops else colours.map
-        for action in (*self._styles.actions(), *self._maps.actions()):
-            action.setChecked(action.data() in (style, ("map", word)))
+        chosen = (style_name(style), ("map", map_word(style, colours)))
+        for action in self._styles.actions():
+            action.setChecked(action.text() == chosen[0])
+        for action in self._maps.actions():
+            action.setChecked(action.data() == chosen[1])
         self._own.setVisible(bool(colours.stops))
         self._own.setText(colours.map.replace("&", "&&") or "Your own")
         for action in self._styles.actions():
-            each = STYLES[action.data()]
+            each = style_of(action.data(), colours)
             self._strips[action] = each.stops if each.coloured else ()
+        has_colours = style_of(style).coloured
+        ground = style if has_colours else "paper"
         for action in self._maps.actions():
             of = action.data()[1]
-            stops = map_of(colours) if of is None else map_of(Colours(of))
-            stops = stops or style_of(style).stops
+            stops = map_of(colours) if of is None else style_of(ground, Colours(of)).stops
             self._strips[action] = backwards(stops) if colours.reversed else stops
-        has_colours = style_of(style).coloured
         for action in (*self._maps.actions(), self._file, self.reversed, self.bands):
             action.setEnabled(has_colours)
         self.reversed.setChecked(colours.reversed)
@@ -118,11 +120,10 @@ def _paint_strip(painter: QtGui.QPainter, box: QtCore.QRectF, stops: Stops) -> N
 
 
 def colours_in_words(style: str, colours: Colours) -> str:
-    """For the button: "Paper", "Ember, bands"."""
-    name = STYLE_NAMES.get(style, style)
+    """For the button: "Paper", "Ember, bands", "Lines only"."""
     if not style_of(style).coloured:
-        return name
-    if colours.map or colours.stops:
-        name = colours.map if colours.stops else MAPS[colours.map].name
-        name = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
+        return style_name(style)
+    word = map_word(style, colours)
+    name = colours.map if word is None else MAPS[word].name
+    name = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
     return ", ".join([name, *["reversed"] * colours.reversed, *["bands"] * colours.bands])

@@ -15,6 +15,9 @@ from .isoline_menu import IsolineMenu
 
 THUMBNAIL = 56
 
+RANGE_NAMES = {"own": "Own", "shared": "One for all", "shares": "Fraction", "typed": "Typed"}
+"""For the button: how the entries of the menu begin."""
+
 
 class LargeIcons(QtWidgets.QProxyStyle):
     """For menus whose icons are pictures."""
@@ -54,9 +57,9 @@ class Menus:
             "Ran&ge",
             window.choices.range,
             [
-                ("own", "Own: each panel ends at its maximum"),
-                ("shared", "Shared: equal colours, equal values"),
-                ("shares", "Shares: each from 0 to 100 % of its maximum"),
+                ("own", "Own maximum: each panel ends at its own"),
+                ("shared", "One for all panels: equal colours, equal values"),
+                ("shares", "Fraction of the maximum: each from 0 to 100 %"),
             ],
         )
         self.range.addSeparator()

@@ -28,8 +28,8 @@ LINE, HEAD = 24.0, 18.0
 GAP = 10.0
 UNKNOWN = ("…", "…", "…", "…")
 NONE = ("–", "–", "–", "–")
-GROUPS, HEADS = ("share of maximum", "in units"), ("mean", "largest", "mean", "largest")
-SHORT_GROUPS = ("share", "in units")
+GROUPS, HEADS = ("fraction of maximum", "in units"), ("mean", "largest", "mean", "largest")
+SHORT_GROUPS = ("fraction", "in units")
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ class ChangeTable(QtWidgets.QWidget):
 
     def text(self) -> str:
         """With tabulators and all digits."""
-        lines = [("distance", "mean share", "largest share", "mean", "largest", "unit")]
+        lines = [("distance", "mean fraction", "largest fraction", "mean", "largest", "unit")]
         for name, each in self.numbers.items():
             cells = (each.share_mean, each.share_largest, each.mean, each.largest)
             lines.append((name, *map(repr, cells), each.unit))

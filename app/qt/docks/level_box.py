@@ -52,7 +52,7 @@ class LevelBox(QtWidgets.QWidget):
         for box, words, hint in ((self.low, "From", "least"), (self.high, "To", "greatest")):
             box.setPlaceholderText(hint)
             box.setAccessibleName(f"Region: {words.lower()}")
-            box.setToolTip("A value, or a share of the maximum such as 25 %")
+            box.setToolTip("A value, or a fraction of the maximum such as 25 %")
             box.textChanged.connect(self._type)
         self.more = FlatButton(self)
         self.more.setText("Save")

@@ -116,7 +116,7 @@ class ScatterDock(Instrument):
             button.symbol = words.lower()
             button.setToolTip(f"{words}: the field of this panel")
         self.shares = Segments({"Value": "value", "%": "shares"}, "Values")
-        self.shares.buttons["shares"].setToolTip("Values: shares of each maximum")
+        self.shares.buttons["shares"].setToolTip("Values: fractions of each maximum")
         self.shares.chosen.connect(self._choose_shares)
         self.brush = QtWidgets.QToolButton(checkable=True)
         put_icon(self.brush, "brush")

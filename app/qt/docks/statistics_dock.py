@@ -197,7 +197,7 @@ class StatisticsDock(Instrument):
         top, signed = scene.maximum, answer.is_signed
         colours = scene.style.bin_colours(found.bins, top, signed)
         self.histogram.show_bins(found.bins, found.areas, colours, answer.unit, signed)
-        self._unit.setText("share of the area")
+        self._unit.setText("fraction of the area")
         self.facts.show_facts(self._facts(found, answer))
         self.quantiles.show_facts(self._quantiles(found, answer))
 
@@ -241,7 +241,7 @@ class StatisticsDock(Instrument):
         return said, repr(float(value / top)) if exact else share(value / top, signed)
 
     def _say_bin(self, words: str) -> None:
-        self._unit.setText(words or "share of the area")
+        self._unit.setText(words or "fraction of the area")
 
     # ------------------------------------------------------------------ what is saved
     def figure(self) -> "HistogramFigure":

@@ -9,10 +9,9 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.document import MOST_PANELS
 from ...document.page import Recipe
-from ...drawing.style import STYLES
 from ...figures.export import Surfaces, figure_of
 from ...figures.layout import lay_out
-from ..look.canvas import STYLE_NAMES
+from ..look.canvas import offered_styles, style_name
 from .exports import Exports
 from .job_dialog import Choice, Count, FileKind, JobDialog, blamed_on, stem
 from .size_boxes import SizeBoxes, SizeNames
@@ -55,8 +54,8 @@ class LooksDialog(JobDialog):
         """Style and columns."""
         page = self._recipe.page
         self.style_box = Choice()
-        for word in STYLES:
-            self.style_box.addItem(STYLE_NAMES.get(word, word), word)
+        for word in offered_styles(page.style):
+            self.style_box.addItem(style_name(word), word)
         self.style_box.setCurrentIndex(max(self.style_box.findData(page.style), 0))
         self.columns = Count(0, MOST_PANELS, page.columns or 0, nothing="Automatic")
         self.row("St&yle", self.style_box, "The colours and lines of the drawing")
@@ -66,9 +65,11 @@ class LooksDialog(JobDialog):
         """Panels of different units share a bar of shares."""
         self._has_one_unit = has_one_unit
         if not has_one_unit:
-            self.shared.setText("&One colour bar, in shares of the maximum")
-            self.shared.setAccessibleName("One colour bar, in shares of the maximum")
-            self.shared.setToolTip("The panels have different units; the same colour means the same share everywhere")
+            self.shared.setText("&One colour bar, in fractions of the maximum")
+            self.shared.setAccessibleName("One colour bar, in fractions of the maximum")
+            self.shared.setToolTip(
+                "The panels have different units; the same colour means the same fraction everywhere"
+            )
 
     def chosen(self) -> Recipe:
         """The recipe as the dialog stands; ParameterError for a size that is none."""

@@ -15,7 +15,7 @@ from ...document.quantity_names import part_name as part_name
 from ...document.quantity_names import quantity_name as quantity_name
 from .parameters import tick
 
-RAW_WORDS = {False: "shares of the maximum", True: "in units"}
+RAW_WORDS = {False: "fractions of the maximum", True: "in units"}
 """How the two ways to subtract are called, by `Difference.raw`."""
 
 
@@ -135,7 +135,7 @@ def _fill_for_difference(
     _add(menu, "Swap them", f"Show {quantity_name(swapped)}", lambda: choose(swapped))
     menu.addSeparator()
     for raw, words in RAW_WORDS.items():
-        tip = "As they are, where both have the same units" if raw else "Each as a share of its own maximum"
+        tip = "As they are, where both have the same units" if raw else "Each as a fraction of its own maximum"
         other = Difference(shows.minuend, shows.subtrahend, raw)
         entry = f"{words[0].upper()}{words[1:]}"
         tick(_add(menu, entry, tip, lambda other=other: choose(other)), raw == shows.raw)
