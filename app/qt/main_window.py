@@ -253,6 +253,7 @@ class MainWindow(QtWidgets.QMainWindow):
     def answer_changed(self, panel: int) -> None:
         self.grid.show_answer(panel)
         self.gestures.sources.rate.note()
+        self.gestures.pairs.show_meant()
         self.docks.answer_changed(panel)
         self.waits.note(panel)
         self._say_what_is_inexact()

@@ -33,6 +33,7 @@ class PairGestures:
         self._grid.pair_clicked.connect(self._click)
         self._grid.pair_dragged.connect(self._drag)
         self._grid.pin_released.connect(self._arrive)
+        self._grid.activated.connect(self.show_meant)
         self._is_dragging = False
 
     @property
@@ -93,6 +94,12 @@ class PairGestures:
             if found is not None and (may_be_late or session.is_answered(panel.id)):
                 return panel.id, found
         return None
+
+    def show_meant(self, *_: object) -> None:
+        """Let the candidate stand out that Enter takes."""
+        found = self.candidate(may_be_late=True)
+        for panel in self._grid.panels:
+            panel.view.over.pairs.mean(found is not None and panel.id == found[0])
 
     def accept(self) -> None:
         """The best candidate is the partner."""

@@ -47,5 +47,4 @@ class TypedSource:
         opened = session.opened(document.point(name).surface) if name else session.opened()
         surface = None if opened is None else opened.surface
         known = source_at(sources[0], surface) if surface is not None and sources else None
-        if self._box.show_source(known, 0 if surface is None else len(surface.vertices)):
-            self._window.tool_bar.fit()
+        self._box.show_source(known, 0 if surface is None else len(surface.vertices))

@@ -112,3 +112,48 @@ def test_beside_values_the_buttons_that_are_meant_keep_their_words(screen, mesh_
     room = just_fits + bar.buttons["export"].width_with(FULL) - bar.buttons["export"].width_with(VALUES) + 2
     assert {name for name, detail in written(room).items() if detail == FULL} == {"export"}
     assert set(written(just_fits - 20).values()) == {ICONS}
+
+
+def test_what_has_no_room_in_the_tool_bar_is_in_the_menu_of_the_dots_at_every_width(screen, mesh_file):
+    from qtpy import QtWidgets
+
+    s = screen()
+    s.open(mesh_file(bumpy(100)))
+    bar, window = s.window.tool_bar, s.window
+    dots = bar.buttons["more"]
+
+    def check(width):
+        window.resize(width, 700)
+        s.settle(0.05)
+        seen = {name for name, button in bar.buttons.items() if button.isVisible()}
+        assert {"open", "export"} <= seen
+        assert (seen - {"more"}) | set(bar.left_out) == set(bar.buttons) - {"more"}  # nothing is lost
+        assert ("more" in seen) == bool(bar.left_out)
+        assert not seen & set(bar.left_out)
+        for widget in [bar.source_box, *(bar.buttons[name] for name in seen)]:
+            assert widget.geometry().right() < bar.width()
+        assert bar.findChild(QtWidgets.QToolButton, "qt_toolbar_ext_button").isHidden()  # Qt's own way
+        offered = [action for action in dots.menu().actions() if not action.isSeparator()]
+        assert len(offered) == len(bar.left_out)
+        return offered
+
+    for source in ("5", "12+40+7+55+60+61+62+63"):
+        window.source_box.setText(source)
+        window.source_box._choose()
+        s.until(lambda: s.session.is_complete)
+        for width in (1600, 1500, 1400, 1250, 1100, 900, 800, 700, 640):
+            check(width)
+    offered = check(700)
+    acts = window.actions_by_word
+    assert acts["preferences"] in offered
+    assert acts["dock pins"] in offered
+    assert window.menus.up.menuAction() in offered
+    # A value that becomes longer leaves room for all, too.
+    window.resize(bar._width_with(2, set()) + 1, 700)
+    s.settle(0.05)
+    bar.buttons["views"].show_value("Something long")
+    s.settle(0.05)
+    assert bar.buttons["preferences"].geometry().right() < bar.width()
+    next(action for action in check(700) if action is acts["dock pins"]).trigger()
+    s.settle(0.05)
+    assert s.document.docks == ("pins",)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.document.edits import duplicate_panel
 from app.document.file import read_recipe
 from app.document.pairing import half_pair
 from app.document.quantities import Prediction
@@ -111,6 +112,19 @@ def test_the_tool_shows_the_first_mesh_plain_and_the_second_for_each_distance(tw
     assert len(s.document.panels) == 4
 
 
+def test_the_panels_stand_in_one_row_where_there_is_room(two):
+    s = two
+    s.session.show(duplicate_panel(s.document, s.document.panels[-1].id))
+    complete(s)
+    for width, rows in ((1590, 1), (1000, 2)):
+        s.window.resize(width, 800)
+        s.settle(0.1)
+        tops = {panel.geometry().top() for panel in s.panels}
+        assert len(s.panels) == 4
+        assert len(tops) == rows
+        assert min(panel.width() for panel in s.panels) >= 280
+
+
 def test_a_click_predicts_by_every_distance_and_enter_accepts(two):
     s = two
     paired(s)
@@ -142,8 +156,20 @@ def test_the_active_panel_says_which_candidate_is_accepted_and_its_drop_can_be_c
     paired(s)
     click(s, 0, s.seen(6, 0)[-1])
     best = [int(np.argmin(s.answers[k].field)) for k in (1, 2)]
+
+    def meant():
+        return [panel.view.over.pairs.is_meant for panel in s.panels]
+
+    # The click has made the panel of the first mesh active, and the first that predicts is meant.
+    assert meant() == [False, True, False]
+    assert f"Enter takes\u00a0{best[0]}, by\u00a0biharmonic;" in dock_of(s).or_click.text()
+    label = s.panels[1].view.grab().toImage()
     s.window.grid.activate(s.panels[2].id)
     assert s.window.gestures.pairs.candidate()[1].vertex == best[1]
+    assert meant() == [False, False, True]
+    assert f"Enter takes\u00a0{best[1]}, by\u00a0geodesic;" in dock_of(s).or_click.text()
+    assert [row.second for row in dock_of(s).rows.values()][-1] == f"{best[1]} ?"
+    assert s.panels[1].view.grab().toImage() != label  # it no longer stands out
     view = s.panels[2].view
     tip = view.place_of(view.over.pairs.candidate.position)
     QtTest.QTest.mouseClick(view, LEFT, pos=QtCore.QPoint(round(tip.x()), round(tip.y()) - 15))

@@ -47,11 +47,8 @@ class SourceBox(TextBox):
         self.textEdited.connect(self.forgive)
         self.show_source(None, 0)
 
-    def show_source(self, source: Source | None, count: int) -> bool:
-        """The present source, None if there is none; count: of vertices, all ids being less.
-
-        Whether the box has become wider or narrower.
-        """
+    def show_source(self, source: Source | None, count: int) -> None:
+        """The present source, None if there is none; count: of vertices, all ids being less."""
         words = "" if source is None else words_of(source)
         self._source, self._count = source, count
         self.setEnabled(source is not None)
@@ -61,11 +58,7 @@ class SourceBox(TextBox):
         self.forgive()
         known = f"\nNow: {words if len(words) < 200 else words[:200] + '…'}" if len(words) > 10 else ""
         self.setToolTip(f"What distances start from: type {WHAT} and press Enter (G){known}")
-        width = WIDTH if isinstance(source, int | None) else WIDER
-        if width == self.maximumWidth():
-            return False
-        self.setFixedWidth(width)
-        return True
+        self.setFixedWidth(WIDTH if isinstance(source, int | None) else WIDER)
 
     def value(self) -> Source:
         """The source that is shown; -1 if there is none."""

@@ -1,4 +1,7 @@
-"""The tool bar: what one needs all the time, with the value that is chosen; where it is narrow words go first."""
+"""The tool bar: what one needs all the time, with the value that is chosen.
+
+Where it is narrow words go first, and then what has no room at all goes into the menu of a button, ⋯.
+"""
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -20,9 +23,9 @@ DOCKS = {
 }
 """Instruments with a button of their own, and its icon; the others are in the menu Tools."""
 
-LAST_TO_GO = (*reversed(DOCKS), "up", "views", "colours", "range", "isolines", "live", "tools", "redo", "undo")
-"""Where even the icons have no room: which buttons are left out, the first of these first; all are in the menus."""
-
+FIRST_TO_GO = ("preferences", "up", "dock robustness", "dock scatter", "dock pairs", "dock anchors", "dock profile")
+FIRST_TO_GO += ("dock pins", "views", "range", "colours", "isolines", "redo", "tools", "undo", "add panel", "live")
+"""Where even the icons have no room: which buttons go into the menu of ⋯, the first of these first."""
 
 LAST_IN_WORDS = ("export", "open", "live", "add panel", "isolines", "colours", "range", "views", "up")
 """Beside values that have room these keep their words as long as there is any, the last of these the shortest."""
@@ -40,7 +43,8 @@ class ToolBar(QtWidgets.QToolBar):
         self.buttons: dict[str, ToolButton] = {}
         self._shown_as: dict[str, QtWidgets.QAction] = {}
         self._lines: list[QtWidgets.QAction] = []
-        self._detail = FULL
+        self._acts: dict[str, QtWidgets.QAction] = {}  # of buttons without a menu
+        self._left_out: tuple[str, ...] = ()
         self._menu("open", "open", "Open", menus.open, "Open a mesh, a recent file or a sample (Ctrl+O)")
         self._line()
         self._button("undo", "undo", "", actions["undo"])
@@ -70,6 +74,8 @@ class ToolBar(QtWidgets.QToolBar):
         self.addWidget(gap)
         self._button("export", "export-figure", "Export", actions["figure"], is_meant=True)
         self._button("preferences", "settings", "", actions["preferences"])
+        self._rest = QtWidgets.QMenu(self)
+        self._menu("more", "more", "", self._rest, "More: what there is no room for")
         LOOK.changed.connect(self.fit)
         self.fit()
 
@@ -77,6 +83,11 @@ class ToolBar(QtWidgets.QToolBar):
         for name in ("tools", "isolines", "colours", "range", "views", "up"):
             # The action a button is put in by enables it whenever it is shown or hidden.
             self._shown_as[name].setEnabled(has_mesh)
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """The names of buttons that are in the menu of ⋯, as they stand in the bar."""
+        return self._left_out
 
     def fit(self) -> None:
         """Write as much as there is room for."""
@@ -86,7 +97,7 @@ class ToolBar(QtWidgets.QToolBar):
             if self._width_with(detail, set()) <= room:
                 break
         left_out: set[str] = set()
-        for name in LAST_TO_GO:
+        for name in FIRST_TO_GO:
             if self._width_with(detail, left_out) <= room:
                 break
             left_out.add(name)
@@ -100,12 +111,25 @@ class ToolBar(QtWidgets.QToolBar):
             in_words.add(name)
         for name, button in self.buttons.items():
             button.show_detail(FULL if name in in_words else detail)
-            self._shown_as[name].setVisible(name not in left_out)
+            self._shown_as[name].setVisible(name not in left_out and (name != "more" or bool(left_out)))
         self._shown_as["source label"].setVisible(detail != ICONS)
+        self._offer(tuple(name for name in self.buttons if name in left_out))
+
+    def _offer(self, names: tuple[str, ...]) -> None:
+        """Let the menu of ⋯ have what these buttons do."""
+        if names == self._left_out:
+            return
+        self._left_out = names
+        self._rest.clear()
+        for name in names:
+            if name == "preferences" and len(names) > 1:
+                self._rest.addSeparator()
+            self._rest.addAction(self._acts[name] if name in self._acts else self.buttons[name].menu().menuAction())
 
     def _width_with(self, detail: int, left_out: set[str]) -> int:
         spacing = 4
-        widths = [button.width_with(detail) for name, button in self.buttons.items() if name not in left_out]
+        gone = left_out if left_out else {"more"}
+        widths = [button.width_with(detail) for name, button in self.buttons.items() if name not in gone]
         widths += [13] * len(self._lines) + [self.source_box.width(), 24]
         if detail != ICONS:
             widths.append(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance("Source") + 8)
@@ -114,6 +138,12 @@ class ToolBar(QtWidgets.QToolBar):
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)
         self.fit()
+
+    def event(self, event: QtCore.QEvent) -> bool:
+        done = super().event(event)
+        if event.type() == QtCore.QEvent.Type.LayoutRequest:
+            self.fit()  # a value or the source has become wider or narrower
+        return done
 
     def minimumSizeHint(self) -> QtCore.QSize:
         return QtCore.QSize(1, self.height())
@@ -139,6 +169,7 @@ class ToolBar(QtWidgets.QToolBar):
         button.setAccessibleName(words or action.text().replace("&", ""))
 
         self._put(name, button)
+        self._acts[name] = action
 
         def follow() -> None:
             self._shown_as[name].setEnabled(action.isEnabled())

@@ -40,7 +40,12 @@ class ToolButton(BareButton):
         texts = self._texts(detail)
         metrics = QtGui.QFontMetrics(self._font)
         width = 2 * PADDING + SIDE + sum(GAP + metrics.horizontalAdvance(text) for text, _ in texts)
-        return width + (GAP - 2 + CHEVRON if self.menu() is not None else 0)
+        return width + (GAP - 2 + CHEVRON if self._has_arrow else 0)
+
+    @property
+    def _has_arrow(self) -> bool:
+        """Whether it is to be seen that there is a menu; three dots say so themselves."""
+        return self.menu() is not None and self._icon != "more"
 
     @property
     def _font(self) -> QtGui.QFont:
@@ -99,7 +104,7 @@ class ToolButton(BareButton):
             painter.setPen(QtGui.QColor(theme.quiet if is_quiet and is_on else colour))
             painter.drawText(QtCore.QPointF(x, baseline), text)
             x += metrics.horizontalAdvance(text)
-        if self.menu() is not None:
+        if self._has_arrow:
             side = CHEVRON
             chevron = pixmap("chevron", theme.quiet if is_on else theme.disabled, ratio, side)
             painter.drawPixmap(QtCore.QPointF(x + GAP - 2, middle - side / 2), chevron)

@@ -12,6 +12,7 @@ from ...document.instruments import Pair
 from ...document.mapping import shows_maps
 from ...document.pairing import add_pairs, half_pair, number_of, remove_pairs
 from ...document.predicting import predict, predicts, show_distances
+from ...document.quantity_names import kind_name
 from ...drawing.style import PINS, WAITING
 from ...session.paired import vertex_pairs
 from ...session.questions import vertex_at
@@ -53,6 +54,7 @@ class PairsDock(Instrument):
         self._head = _Columns()
         self.errors = MapErrors(window)
         self._lay_out()
+        window.grid.activated.connect(lambda *_: self._show_rows(self._document))
 
     def _lay_out(self) -> None:
         self._list = QtWidgets.QVBoxLayout()
@@ -147,8 +149,11 @@ class PairsDock(Instrument):
         self._head.setVisible(bool(document.pairs))
         self._waiting.setVisible(half is not None and is_on)
         self.accept.setVisible(found is not None)
-        enter = "Enter, or click another\u00a0vertex on" if found is not None else "Click its partner on"
-        self.or_click.setText(f"{enter}\u00a0{other}")
+        said = f"Click its partner on\u00a0{other}"
+        if found is not None:
+            by = kind_name(document.panel(found[0]).shows.spec.kind).lower()
+            said = f"Enter takes\u00a0{found[1].vertex}, by\u00a0{by}; or click another\u00a0vertex on\u00a0{other}"
+        self.or_click.setText(said)
         has_maps = shows_maps(document)  # the section of errors leads back to predictions
         self.hint.setVisible(is_alone or (not is_on and not has_maps) or (is_on and half is None))
         self.hint.setText(ALONE if is_alone else NO_PANEL if not is_on else NEXT if document.pairs else HINT)

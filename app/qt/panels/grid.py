@@ -11,6 +11,8 @@ from ...document.camera import Camera
 from ...document.changing import COLUMNS, changed_mesh
 from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
+from ...document.mapping import shows_maps
+from ...document.predicting import predicts
 from ...drawing.board import Board
 from ...drawing.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
@@ -25,7 +27,7 @@ from .pointing import Pointing
 from .shades import Shades
 
 SIDE_BY_SIDE = 3
-"""Panels in a row at most; more stand in rows as even as can be."""
+"""Panels in a row at most, but for those of two meshes that correspond; more stand in rows as even as can be."""
 
 LEAST_WIDTH, LEAST_HEIGHT = 280, 220
 """Of a panel, in logical pixels; where there is less room panels stand below each other, and the grid is scrolled."""
@@ -88,7 +90,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._spare: list[DistancePanel] = []
         self._style = PAPER
         self._is_closed = False
-        self._are_in_rows = False
+        self._are_in_rows = self._correspond = False
         self.pointing = Pointing()
         self.marks = GridMarks(session, lambda: self._panels, self.moving)
         LOOK.changed.connect(self.update)
@@ -127,7 +129,7 @@ class PanelGrid(QtWidgets.QWidget):
         room = self.parentWidget().size() if self.parentWidget() is not None else self.size()
         least = LEAST_IN_ROW if self._are_in_rows else LEAST_WIDTH
         fitting = max(1, (room.width() + LINE) // (round(least * LOOK.scale) + LINE))
-        rows = -(-count // min(SIDE_BY_SIDE, fitting))
+        rows = -(-count // min(count if self._correspond else SIDE_BY_SIDE, fitting))
         columns = -(-count // rows)
         if self._are_in_rows and fitting >= COLUMNS:
             rows, columns = -(-count // COLUMNS), COLUMNS
@@ -145,6 +147,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Make, leave out and put in order the panels, and let their heads say what they show."""
         wanted = {panel.id: panel for panel in document.panels}
         self._are_in_rows = changed_mesh(document) is not None
+        self._correspond = predicts(document) or shows_maps(document)
         for id in self._panels.keys() - wanted.keys():
             gone = self._panels.pop(id)
             gone.hide()

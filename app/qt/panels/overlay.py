@@ -87,14 +87,19 @@ def label_place(at: QtCore.QPointF, value: str, share: str, view: QtCore.QRectF)
     return place
 
 
-def paint_label(painter: QtGui.QPainter, place: QtCore.QRectF, value: str, share: str) -> None:
-    """A value and its share of the maximum."""
+def paint_label(
+    painter: QtGui.QPainter, place: QtCore.QRectF, value: str, share: str, is_meant: bool = False
+) -> None:
+    """A value and its share of the maximum; is_meant: it is the one of several that a key takes."""
     theme = LOOK.theme
+    ground, plain, quiet = theme.label, theme.label_text, theme.label_quiet
+    if is_meant:
+        ground, plain, quiet = theme.fill, theme.on_fill, theme.on_fill
     painter.setPen(QtCore.Qt.PenStyle.NoPen)
-    painter.setBrush(QtGui.QColor(theme.label))
+    painter.setBrush(QtGui.QColor(ground))
     painter.drawRoundedRect(place, 4, 4)
     x = place.left() + LABEL_PADDING
-    for text, bold, colour in ((value, True, theme.label_text), (share, False, theme.label_quiet)):
+    for text, bold, colour in ((value, True, plain), (share, False, quiet)):
         painter.setFont(LOOK.font(12, bold))
         metrics = painter.fontMetrics()
         painter.setPen(QtGui.QColor(colour))

@@ -35,12 +35,13 @@ class CandidateMark:
 
 
 class PairMarks:
-    """view: that they lie over.  The candidate is on top."""
+    """view: that they lie over.  The candidate is on top; is_meant: it is the one that Enter takes."""
 
     def __init__(self, view: View) -> None:
         self._view = view
         self._marks: tuple[PinMark, ...] = ()
         self.candidate: CandidateMark | None = None
+        self.is_meant = False
         self.truth: tuple[np.ndarray, ...] = ()
         self._hidden: frozenset[int] | None = None  # what the surface is before; None until it is looked
 
@@ -50,6 +51,12 @@ class PairMarks:
         """Put drops at these places, and crosses at positions (3,)."""
         if marks or candidate or truth or self._marks or self.candidate or self.truth:
             self._marks, self.candidate, self.truth, self._hidden = marks, candidate, truth, None
+            self._view.update()
+
+    def mean(self, is_meant: bool) -> None:
+        """Whether its candidate is the one that Enter takes."""
+        if is_meant != self.is_meant:
+            self.is_meant = is_meant
             self._view.update()
 
     def see(self) -> None:
@@ -106,7 +113,7 @@ class PairMarks:
             paint_candidate(painter, at, candidate.number)
             others = [drop_at(tip).boundingRect() for _, tip in seen.values()]
             box = label_box(at, candidate, QtCore.QRectF(self._view.rect()), others)
-            overlay.paint_label(painter, box, candidate.value, candidate.share)
+            overlay.paint_label(painter, box, candidate.value, candidate.share, self.is_meant)
 
     def names(self) -> Sequence[str]:
         """What has to be said of marks that are not numbered alone."""
