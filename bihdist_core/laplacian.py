@@ -18,10 +18,11 @@ from .errors import ParameterError, SolverError
 from .flat_faces import FlatFaces
 from .once import once
 from .operators import AREAS, stiffness, vertex_areas
-from .progress import Progress, part
+from .progress import Progress, part, turn
+from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
 from .solver.factor import Factor, ReceivePiece
-from .solver.spectrum import Spectrum, smallest_eigenpairs
+from .solver.spectrum import Spectrum, is_long, smallest_eigenpairs
 from .surface import Surface
 
 
@@ -129,7 +130,7 @@ class Component:
     # ------------------------------------------------------------------ the factor
     def tree(self, progress: Progress | None = None) -> EliminationTree:
         """The elimination order, which serves every matrix with the pattern of the stiffness matrix."""
-        with self._factor_lock:
+        with turn(self._factor_lock, progress, "waiting for the factor"):
             if self._tree is None:
                 self._tree = EliminationTree(self.stiffness, self.surface.vertices, progress=progress)
             return self._tree
@@ -140,7 +141,7 @@ class Component:
         The pinned vertex stays in the matrix as an equation of its own, x_p = 0, and gets no area: then the
         entries of G and G A G elsewhere are the ones wanted.
         """
-        with self._factor_lock:
+        with turn(self._factor_lock, progress, "waiting for the factor"):
             if self._factor is None or (diagonals and not self._factor_has_diagonals):
                 tree = self.tree(part(progress, 0, 0.4))
                 areas = self.areas.copy()
@@ -158,10 +159,7 @@ class Component:
 
     def solve(self, b: np.ndarray, progress: Progress | None = None) -> np.ndarray:
         """G b; b (m,) or (m, k)."""
-        x = self.factor(progress).solve(b)
-        # The pinned vertex' equation is one of its own: x_p = b_p.
-        x[self.pin] = 0
-        return x
+        return _solved(self.factor(progress), self.pin, b)
 
     def centred(self, x: np.ndarray) -> np.ndarray:
         """x (m,) or (m, k) less its mean by area."""
@@ -176,7 +174,7 @@ class Component:
 
     def biharmonic_diagonal(self, progress: Progress | None = None) -> np.ndarray:
         """(m,) C_jj; unit length squared."""
-        with self._factor_lock:
+        with turn(self._factor_lock, progress, "waiting for the factor"):
             self.factor(progress, diagonals=True)
             return self._biharmonic_diagonal
 
@@ -221,18 +219,43 @@ class Component:
     def spectrum(self, count: int, progress: Progress | None = None) -> Spectrum:
         """At least the first `count` eigenpairs (of at most `most_eigenpairs`); grown and kept."""
         count = min(count, self.most_eigenpairs)
-        with self._spectrum_lock:
+        with turn(self._spectrum_lock, progress, "waiting for eigenpairs"):
             have = self._spectrum
             if have is not None and len(have.eigenvalues) >= count:
                 return have
-            self.factor(part(progress, 0, 0.1))
+            work = self.factor(part(progress, 0, 0.1)), self.pin, self.stiffness, self.areas, count, have
+            report = part(progress, 0.1, 1)
             try:
-                self._spectrum = smallest_eigenpairs(
-                    self.stiffness, self.areas, self.solve, count, start=have, progress=part(progress, 0.1, 1)
-                )
+                if is_long(len(self.areas), count):
+                    self._spectrum = aside(_spectrum, *work, progress=report)
+                else:
+                    self._spectrum = _spectrum(*work, progress=report)
             except SolverError as error:
                 raise SolverError(f"{self.surface.name}: {error}") from None
             return self._spectrum
+
+
+def _spectrum(
+    factor: Factor,
+    pin: int,
+    stiffness: sp.csr_matrix,
+    areas: np.ndarray,
+    count: int,
+    start: Spectrum | None,
+    progress: Progress,
+) -> Spectrum:
+    """The first `count` eigenpairs of a component, by the factor of its pinned stiffness matrix."""
+    return smallest_eigenpairs(
+        stiffness, areas, lambda b: _solved(factor, pin, b), count, start=start, progress=progress
+    )
+
+
+def _solved(factor: Factor, pin: int, b: np.ndarray) -> np.ndarray:
+    """G b by the factor of the pinned matrix."""
+    x = factor.solve(b)
+    # The pinned vertex' equation is one of its own: x_p = b_p.
+    x[pin] = 0
+    return x
 
 
 def eigenpairs(laplacian: "Laplacian | Surface", count: int, progress: Progress | None = None) -> Spectrum:

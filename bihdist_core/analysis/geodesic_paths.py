@@ -17,11 +17,11 @@ from queue import Empty
 
 import numpy as np
 
-from ..distances.child_process import ChildProcess, mesh_message
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..distances.geodesic import EXACT_UP_TO
 from ..errors import ParameterError, SolverError
-from ..progress import Progress, part, silent
+from ..progress import REPORT_EVERY, Progress, part, silent, turn
+from ..solver.child_process import ChildProcess, mesh_message
 from ..sources.source import Place
 from ..sources.splitting import Split
 from ..surface import Surface
@@ -40,8 +40,6 @@ KINDS = {"exact": 1, "straightened": 2}
 """Of requests to the process."""
 LEAST_LIMIT = 30.0
 """Seconds after which a path is given up, to which some are added that grow with the mesh: ten times what it takes."""
-REPORT_EVERY = 0.1
-"""Seconds between two progress reports, hence until a cancellation acts."""
 
 
 class GeodesicPaths:
@@ -162,23 +160,20 @@ class GeodesicPaths:
         """(k, 3) the points of a path between two vertices."""
         # pygeodesic has absolute tolerances, so it gets edges near length 1; a power of two changes no digit.
         unit = 2.0 ** np.round(np.log2(surface.mean_edge_length or 1.0))
-        while not self._lock.acquire(timeout=REPORT_EVERY):
-            report(0.0, "path, waiting for another")
-        try:
-            if self._child is None:
-                self._child = ChildProcess(CHILD, b"")
-            if self._sent is not surface:
-                self._answer(_words(0) + mesh_message(surface.vertices / unit, surface.faces), report)
-                self._sent = surface
-            return np.frombuffer(self._answer(_words(kind, start, stop), report)).reshape(-1, 3) * unit
-        except BaseException:
-            # Also KeyboardInterrupt: a process whose answer nobody reads would answer the next question wrongly.
-            self.close()
-            raise
-        finally:
-            self._lock.release()
+        with turn(self._lock, report, "path, waiting for another"):
+            try:
+                if self._child is None:
+                    self._child = ChildProcess(CHILD, b"")
+                if self._sent is not surface:
+                    self._answer(_words(0) + mesh_message(surface.vertices / unit, surface.faces), report)
+                    self._sent = surface
+                return np.frombuffer(self._answer(_words(kind, start, stop), report)).reshape(-1, 3) * unit
+            except BaseException:
+                # Also KeyboardInterrupt: a process whose answer nobody reads would answer the next question wrongly.
+                self.close()
+                raise
 
-    def _answer(self, request: bytes, report: Progress) -> bytes:
+    def _answer(self, request: bytes, report: Progress) -> bytearray:
         child = self._child
         if child is None:
             raise SolverError("The process that computes paths has ended.")

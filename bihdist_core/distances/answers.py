@@ -5,24 +5,21 @@ computed, how accurate it is, and what is said where it cannot be done.
 """
 
 import threading
-from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..errors import BihdistError, Cancelled, ParameterError, VertexError
 from ..laplacian import Laplacian
-from ..progress import Progress, part, silent
+from ..progress import Progress, part, silent, turn
 from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
 from .accuracy import Certificate
 from .difference import PERCENTAGE_POINTS, check_units, difference, scale_of
 from .distance import ELSEWHERE, Distance
 from .kinds import Spec
-
-REPORT_EVERY = 0.1
-"""Seconds between two reports while another thread builds the same distance, hence until a cancellation acts."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -278,14 +275,8 @@ class Distances:
             spared = {*wanted, *last.values()}
             self._known = {spec: distance for spec, distance in self._known.items() if spec in spared}
 
-    @contextmanager
-    def _turn(self, spec: Spec, progress: Progress | None) -> Iterator[None]:
+    def _turn(self, spec: Spec, progress: Progress | None) -> AbstractContextManager[None]:
         """Nobody else builds or prepares this distance meanwhile."""
         with self._lock:
-            turn = self._turns.setdefault(spec, threading.Lock())
-        while not turn.acquire(timeout=REPORT_EVERY):
-            (progress or silent)(0.0, f"waiting for {spec}")
-        try:
-            yield
-        finally:
-            turn.release()
+            lock = self._turns.setdefault(spec, threading.Lock())
+        return turn(lock, progress, f"waiting for {spec}")

@@ -18,15 +18,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ParameterError, SolverError
-from ..progress import Progress, silent
+from ..progress import REPORT_EVERY, Progress, silent
+from ..solver.child_process import ChildProcess, mesh_message
 from ..surface import Surface
-from .child_process import ChildProcess, mesh_message
 
 CHILD = Path(__file__).with_name("_exact_geodesic_child.py")
 UNREACHED = 1e50
 """pygeodesic gives vertices it did not reach a huge finite distance."""
-REPORT_EVERY = 0.1
-"""Seconds between two progress reports, hence until a cancellation acts."""
 
 
 class ExactGeodesic:

@@ -45,11 +45,11 @@ def largest_eigenpairs(
     `count` must be well below n.  progress is called before and after each use of `apply`.
     """
     n = len(weights)
-    width = int(np.clip(count // PAIRS_PER_COLUMN, *WIDTHS))
+    width = _width(count)
     space = _Space(weights, int(np.clip(MEMORY / (8 * n), count + 6 * width, 4 * count + 16 * width)), *known)
     random = np.random.default_rng(0)
     space.inject(random.standard_normal((n, width)))
-    families, applied, check, expected = 1, 0, 1.5 * count + width, 3.5 * count + 8 * width
+    families, applied, check, expected = 1, 0, 1.5 * count + width, usual_columns(count)
     while True:
         share = min(0.98, applied / expected)
         progress(share, "eigenpairs: solving")
@@ -80,6 +80,16 @@ def largest_eigenpairs(
     # This makes them T X M^-1 without applying T: smoother than X, and to be had for nothing.
     subtract(vectors, space.block, -missed)
     return vectors
+
+
+def usual_columns(count: int) -> float:
+    """How many columns a basis usually has that holds `count` pairs."""
+    return 3.5 * count + 8 * _width(count)
+
+
+def _width(count: int) -> int:
+    """Columns of a block."""
+    return int(np.clip(count // PAIRS_PER_COLUMN, *WIDTHS))
 
 
 class _Space:

@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from ..errors import ParameterError, SolverError
 from ..progress import Progress, part, silent
 from .blas import one_blas_thread
-from .krylov import largest_eigenpairs
+from .krylov import largest_eigenpairs, usual_columns
 from .tall import centre, gram, multiply, over_rows, sparse_rows
 
 Solve = Callable[[np.ndarray], np.ndarray]
@@ -23,6 +23,9 @@ Solve = Callable[[np.ndarray], np.ndarray]
 ROUNDING = 10
 """Allowance, times root n, for residuals that rounding alone makes: in a regular mesh the roundings of all rows are
 alike, and the solve leaves their sum in the pinned row."""
+
+LARGE, LARGE_PRODUCT = 1000, 2.5e9
+"""Rows of a dense matrix whose eigenpairs take some 0.3 s, and multiplications that take as long."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +105,17 @@ def smallest_eigenpairs(
 def dense_is_faster(n: int, count: int) -> bool:
     """Whether all of T, as a dense matrix of n rows, costs less than a block method for `count` pairs; measured."""
     return n <= max(400, min(8 * count, 1500), 3 * count)
+
+
+def is_long(n: int, count: int) -> bool:
+    """Whether `count` eigenpairs of n rows take steps of half a second and more, in which nobody can be asked to stop.
+
+    These are eigenproblems of dense matrices, and products of bases (see `krylov`).
+    """
+    if dense_is_faster(n, count):
+        return n > LARGE
+    columns = usual_columns(count)
+    return columns > LARGE or n * columns * count > LARGE_PRODUCT
 
 
 def _check(stiffness: sp.csr_matrix, areas: np.ndarray, count: int, tolerance: float) -> None:

@@ -38,6 +38,11 @@ def without_workers() -> Iterator[None]:
         _alone.reset(before)
 
 
+def is_alone() -> bool:
+    """Whether that is so."""
+    return _alone.get()
+
+
 @cache
 def _pool() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(WORKERS, thread_name_prefix="bihdist")

@@ -10,11 +10,15 @@ import subprocess
 import sys
 import threading
 import weakref
+from collections.abc import Callable
 from pathlib import Path
 from queue import SimpleQueue
 from typing import cast
 
 import numpy as np
+
+ANSWER, WRONG, REPORT = 0, 1, 2
+"""What a process sends: an answer, what is wrong instead of one, and before either any number of reports."""
 
 
 def mesh_message(vertices: np.ndarray, faces: np.ndarray) -> bytes:
@@ -27,8 +31,9 @@ class ChildProcess:
     """A script in a process of its own, and the pipes to and from it.
 
     The script is started with the parent's import path as arguments, reads `first` and then requests, and answers each
-    with two int64, 0 (or 1 where something is wrong) and a number of bytes, and as many bytes: the answer, or a text in
-    UTF-8 that says what is wrong.  Nobody asks before the last answer has come; the process ends with this object.
+    with two int64, `ANSWER` (or `WRONG`) and a number of bytes, and as many bytes: the answer, or a text in UTF-8 that
+    says what is wrong; a `REPORT` before it is no answer.  Nobody asks before the last answer has come; the process
+    ends with this object.
     """
 
     def __init__(self, script: Path, first: bytes) -> None:
@@ -49,32 +54,46 @@ class ChildProcess:
         self._readers: list[threading.Thread] = []
         self.end = weakref.finalize(self, _end, self.process, self._readers)
 
-    def ask(self, request: bytes) -> "SimpleQueue[bytes | str]":
-        """A queue that will hold the answer, or a text that says why there is none."""
-        answers: SimpleQueue[bytes | str] = SimpleQueue()
+    def ask(
+        self, request: bytes, report: Callable[[bytearray], object] = lambda told: None
+    ) -> "SimpleQueue[bytearray | str]":
+        """A queue that will hold the answer, or a text that says why there is none.
+
+        report: takes each report, on a thread of its own.
+        """
+        answers: SimpleQueue[bytearray | str] = SimpleQueue()
         message, self._unsent = self._unsent + request, b""
         # A thread per request, as pipes cannot be waited for with a time limit on Windows; a daemon, as it must not
         # keep the interpreter alive.  It holds the process, not this object, which may be collected meanwhile.
-        reader = threading.Thread(target=_converse, args=(self.process, message, answers), daemon=True)
+        reader = threading.Thread(target=_converse, args=(self.process, message, answers, report), daemon=True)
         self._readers[:] = [reader]
         reader.start()
         return answers
 
 
-def _converse(process: subprocess.Popen, message: bytes, answers: "SimpleQueue[bytes | str]") -> None:
+def _converse(
+    process: subprocess.Popen,
+    message: bytes,
+    answers: "SimpleQueue[bytearray | str]",
+    report: Callable[[bytearray], object],
+) -> None:
     requests, replies = cast(io.FileIO, process.stdin), cast(io.FileIO, process.stdout)
     try:
         rest = memoryview(message)
         while len(rest):
             rest = rest[requests.write(rest) :]
-        status, count = (int.from_bytes(_read(replies, 8), sys.byteorder) for _ in range(2))
-        content = _read(replies, count)
-        answers.put(content.decode() if status else content)
+        while True:
+            status, count = (int.from_bytes(_read(replies, 8), sys.byteorder) for _ in range(2))
+            content = _read(replies, count)
+            if status != REPORT:
+                break
+            report(content)
+        answers.put(content.decode() if status == WRONG else content)
     except (OSError, ValueError, EOFError):
         answers.put("the process that computes it died")
 
 
-def _read(pipe: io.FileIO, count: int) -> bytes:
+def _read(pipe: io.FileIO, count: int) -> bytearray:
     content = bytearray(count)
     rest = memoryview(content)
     while len(rest):
@@ -82,7 +101,7 @@ def _read(pipe: io.FileIO, count: int) -> bytes:
         if not got:
             raise EOFError
         rest = rest[got:]
-    return bytes(content)
+    return content
 
 
 def _end(process: subprocess.Popen, readers: list[threading.Thread]) -> None:
