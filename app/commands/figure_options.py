@@ -62,7 +62,8 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         "--view",
         metavar="NAME",
         action="append",
-        help="home, front, back, left, right, top, bottom, source; repeat",
+        help="home and high, each also with -right, -back or -left, front, back, left, right, top, bottom, source, or "
+        "auto, the one of the first eight that shows most of the shape (default); repeat",
     )
     parser.add_argument("--two-views", action="store_true", help="front and back, side by side")
     parser.add_argument(

@@ -11,7 +11,7 @@ class Beside:
     """surface: its name in the document.  camera, up: as those that the document has of its first surface."""
 
     surface: str
-    camera: View = "home"
+    camera: View = "auto"
     up: str = "auto"
 
     def __post_init__(self) -> None:

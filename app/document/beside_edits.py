@@ -6,7 +6,7 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 
 from .beside import Beside
-from .camera import View
+from .camera import View, view_alike
 from .document import Document, MeshFile, Panel, Point, free_names
 from .edits import MOST_ADDED, add_panel, put_point
 from .instruments import ALONG_ALL_PINS
@@ -33,7 +33,7 @@ def open_beside(document: Document, mesh: MeshFile) -> Document:
         raise ParameterError(f"There are {len(document.panels)} panels already; remove one first.")
     name = _free_letter(document)
     document = replace(document, surfaces=(*document.surfaces, replace(mesh, name=name)))
-    document = replace(document, beside=(*document.beside, Beside(name, _view_alike(document.camera))))
+    document = replace(document, beside=(*document.beside, Beside(name, view_alike(document.camera))))
     shown = list(dict.fromkeys(panel.shows for panel in document.panels if not own_fields(panel.shows)))
     points: dict[str, str] = {}
     for shows in (shown or [DistanceFrom(Spec.of("biharmonic"))])[:room]:
@@ -85,8 +85,7 @@ def see(document: Document, view: View, surface: str | None = None) -> Document:
 def stand_beside(document: Document, up: str, surface: str) -> Document:
     """Another way up of a surface that stands beside the first; a camera of one's own would now be askew."""
     before = _beside_of(document, surface)
-    camera = before.camera if isinstance(before.camera, str) else "home"
-    return document if up == before.up else _with_beside(document, Beside(surface, camera, up))
+    return document if up == before.up else _with_beside(document, Beside(surface, view_alike(before.camera), up))
 
 
 def renamed(shows: Quantity, points: dict[str, str]) -> Quantity:
@@ -113,11 +112,6 @@ def _beside_of(document: Document, surface: str) -> Beside:
 def _with_beside(document: Document, beside: Beside) -> Document:
     others = tuple(each for each in document.beside if each.surface != beside.surface)
     return replace(document, beside=(*others, beside))
-
-
-def _view_alike(view: View) -> View:
-    """Of another shape: the same standard view."""
-    return view if isinstance(view, str) and view not in ("source", "relief") else "home"
 
 
 def _free_letter(document: Document) -> str:

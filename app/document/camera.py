@@ -3,10 +3,14 @@
 import math
 from dataclasses import dataclass
 
+from bihdist_core.analysis.view_directions import FIRST_VIEWS
 from bihdist_core.errors import ParameterError
 
-VIEWS = ("home", "front", "back", "left", "right", "top", "bottom", "source", "relief")
-"""Standard views; `source` looks at the first source from outside, `relief` is for height fields over x and y."""
+VIEWS = ("auto", *FIRST_VIEWS, "front", "back", "left", "right", "top", "bottom", "source", "relief")
+"""Standard views; `auto` is that of FIRST_VIEWS which shows most of the shape, as long as it is to be chosen.
+
+`source` looks at the first source from outside, `relief` is for height fields over x and y.
+"""
 
 LARGEST = 1e100
 """No number of a camera is larger, and no direction shorter than one over this: then nothing overflows."""
@@ -52,6 +56,12 @@ def checked_view(view: View) -> View:
     if isinstance(view, str) and view not in VIEWS:
         raise ParameterError(f"There is no view {view!r}; choose one of {', '.join(VIEWS)}.")
     return view
+
+
+def view_alike(view: View) -> View:
+    """Of another shape, or another way up: the same standard view, but for those that depend on the shape."""
+    is_of_all = isinstance(view, str) and view not in (*FIRST_VIEWS, "source", "relief")
+    return view if is_of_all else "auto"
 
 
 def _cross(a: tuple[float, ...], b: tuple[float, ...]) -> Vector:

@@ -76,7 +76,7 @@ class MeshFile:
 class Point:
     """A named source: a vertex, a place in a face, a set, a boundary loop or a curve (`bihdist_core.sources`).
 
-    None, for the highest vertex of the largest component, becomes that vertex once the surface is there.
+    None, for a vertex of the largest component that is seen, becomes that vertex once the surface is there.
     image_of: a point on the surface that this one is made from, whose place this always has.
     """
 
@@ -200,7 +200,7 @@ class Document:
     areas: str = "voronoi"
     isolines: Isolines = TWENTY_STEPS
     range: str = "own"
-    camera: View = "home"
+    camera: View = "auto"
     zooms: tuple[Zoom, ...] = ()
     anchors: tuple[Anchor, ...] = ()
     weights: Weights = INVERSE_DISTANCES

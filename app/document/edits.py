@@ -7,6 +7,7 @@ from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
+from .camera import view_alike
 from .changing import without_changed
 from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
 from .instruments import ALONG_ALL_PINS
@@ -20,7 +21,7 @@ MOST_ADDED = 6
 
 
 def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> Document:
-    """Another mesh under the same name; seen from home, its own way up, and its points are where the first source is.
+    """Another mesh under the same name; its own view and way up, and its points are where the first source is.
 
     What was tied to vertices of the old one (insets, anchors, colour bars with an end of their own, fields of the
     user's own with the panels that show them) is left out; one panel there always is.
@@ -51,15 +52,14 @@ def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> 
         regions=(),
         zooms=(),
         height=0.0,
-        camera="home",
+        camera="auto",
         up="auto",
     )
 
 
 def stand(document: Document, up: str) -> Document:
-    """Another way up; a camera of one's own would now be askew, and sees the shape from home instead."""
-    camera = document.camera if isinstance(document.camera, str) else "home"
-    return document if up == document.up else replace(document, up=up, camera=camera)
+    """Another way up; what shows the shape is chosen anew, also for a camera of one's own, which would now be askew."""
+    return document if up == document.up else replace(document, up=up, camera=view_alike(document.camera))
 
 
 def put_point(document: Document, name: str, at: Source | None, surface: str = "A") -> Document:

@@ -161,7 +161,7 @@ def _views(recipe: Recipe) -> Said:
     if len(cameras) > 1 or (cameras and views[-1] is not cameras[0]):
         raise Unsaid("There are several cameras.")
     names = [view for view in views if isinstance(view, str)]
-    if names == ["home"] and not cameras:
+    if names == ["auto"] and not cameras:
         return NOTHING
     options: list[tuple[str, str | None]] = [("--view", name) for name in names]
     arguments: dict[str, Any] = {"views": names[0] if len(views) == 1 else names} if names else {}

@@ -8,7 +8,9 @@ from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from bihdist_core import Surface
-from bihdist_core.analysis.upright import axis_of
+from bihdist_core.analysis.first_view import is_flat
+from bihdist_core.analysis.upright import axes_of
+from bihdist_core.analysis.view_directions import FIRST_VIEWS
 from bihdist_core.surface import connected
 
 from ..document.camera import Camera, Vector, checked_view
@@ -16,7 +18,7 @@ from ..document.camera import Camera, Vector, checked_view
 VIEW_ANGLE = 25.0
 
 DIRECTIONS = {
-    "home": ((0.45, 0.25, 1.0), (0, 1, 0)),
+    **{name: (direction, (0, 1, 0)) for name, direction in FIRST_VIEWS.items()},
     "front": ((0, 0, 1), (0, 1, 0)),
     "back": ((0, 0, -1), (0, 1, 0)),
     "left": ((-1, 0, 0), (0, 1, 0)),
@@ -26,9 +28,6 @@ DIRECTIONS = {
     "relief": ((-0.35, -1.0, 0.75), (0, 0, 1)),
 }
 """Of the standard views where y is up: from the shape to the camera, and which way is up."""
-
-FRONTS = {"y": "z", "-y": "z", "x": "z", "-x": "z", "z": "-y", "-z": "y"}
-"""Where the front is, by which way is up: what a quarter turn of the usual shape makes of its front."""
 
 NEIGHBOURHOOD = 0.08
 """The share of the shape's diagonal over which the direction outwards is averaged."""
@@ -153,7 +152,7 @@ def standard_camera(
     """The camera that sees points (n, 3) from a standard view so that they just fill a panel of this aspect.
 
     up: which axis is up.  outwards: (3,) at the source, see `outwards_at`, for the view from there; without one it is
-    that from home.
+    that from home, as is a view that is to be chosen.
     """
     direction, upright = directions(view, up, outwards)
     if view == "home" and is_flat(points) and up[-1] != "z":
@@ -166,13 +165,13 @@ def directions(view: str, up: str = "y", outwards: np.ndarray | None = None) -> 
     checked_view(view)
     if view == "relief":
         return np.array(DIRECTIONS[view][0], float), np.array(DIRECTIONS[view][1], float)
-    upright, front = axis_of(up), axis_of(FRONTS[up])
-    turn = np.stack([np.cross(upright, front), upright, front], axis=1)
+    turn = axes_of(up)
+    _, upright, front = turn.T
     if view == "source" and outwards is not None:
         # From above or below, what is at the back is up, as in the views from there.
         is_steep = abs(float(outwards @ upright)) > np.cos(np.radians(5.0))
         return outwards, np.sign(outwards @ upright) * -front if is_steep else upright
-    direction, above = DIRECTIONS["home" if view == "source" else view]
+    direction, above = DIRECTIONS["home" if view in ("auto", "source") else view]
     return turn @ np.array(direction, float), turn @ np.array(above, float)
 
 
@@ -202,11 +201,6 @@ def outwards_at(surface: Surface, vertex: int) -> np.ndarray | None:
 def _area_normals(corners: np.ndarray) -> np.ndarray:
     """(m, 3) normals of faces (m, 3, 3), twice as long as the faces are large."""
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-
-
-def is_flat(points: np.ndarray) -> bool:
-    """Whether points (n, 3) lie in a plane of constant z."""
-    return bool(np.ptp(points[:, 2]) <= 1e-6 * np.ptp(points, axis=0).max())
 
 
 class SeenNow:

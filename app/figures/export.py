@@ -211,6 +211,8 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
     heading, hint = plain_heading(document, panel, opened, answer) or (heading, hint)
     through = passed(document, panel.surface, opened, answer)
     up = document.up_of(panel.surface)
+    up = up if up != "auto" else opened.up
+    views = recipe.page.views or (document.camera_of(panel.surface),)
     return FigurePanel(
         surface,
         answer.field,
@@ -222,7 +224,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         failure=answer.failure,
         isolines=NO_LINES if answer.is_rough else document.isolines.scaled(answer.scale),
         through=tuple(point.value for point in through),
-        views=recipe.page.views or (document.camera_of(panel.surface),),
+        views=tuple(opened.view_of(view, up) for view in views),
         marks=(
             *_extremum_marks(document, panel, surface, answer),
             *_dots(through, answer),
@@ -237,7 +239,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         signed=answer.is_signed,
         largest=answer.largest_words,
         shading=document.shading,
-        up=up if up != "auto" else opened.up,
+        up=up,
         source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.projection == "orthographic",
         axes=document.axes,

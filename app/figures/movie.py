@@ -193,10 +193,12 @@ def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
     seen = fields.documents[:1] if movie.turn else fields.documents[:: max(len(fields.documents) // PLACES, 1)]
     starts = {}
     for name in dict.fromkeys(panel.surface for panel in document.panels):
-        surface = fields.surfaces[name].surface
+        opened = fields.surfaces[name]
+        surface = opened.surface
         sources = [vertex_at(at, surface) for each in seen for at in _sources_on(each, name)]
         view = movie.recipe.page.views[0] if movie.recipe.page.views else document.camera_of(name)
         up = document.up_of(name)
+        view = opened.view_of(view, up)
         starts[name] = start_and_axis(view, surface, movie.turn, document.height, sources, up, document.projection)
     first, _ = starts[document.panels[0].surface]
     size = fitted_size(fields.figure(0, {name: camera for name, (camera, _) in starts.items()}), first.extent)

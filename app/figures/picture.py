@@ -106,7 +106,7 @@ def figure(
     bands: bool = False,
     range: str | float | Sequence[float | None] = "own",
     shared_range: bool = False,
-    views: View | Sequence[View] = "home",
+    views: View | Sequence[View] = "auto",
     up: str = "auto",
     projection: str = "perspective",
     axes: bool = False,
@@ -200,7 +200,7 @@ def figure(
         axes=axes,
         extrema=extrema,
         shading=shaded(AS_IT_IS, shading, crease, wireframe),
-        camera=chosen[0] if chosen else "home",
+        camera=chosen[0] if chosen else "auto",
     )
     if len(pins):
         document = add_pins(document, [checked_source(at) for at in pins])
@@ -282,7 +282,7 @@ def _views(views: View | Sequence[View], camera: Sequence[float] | None) -> tupl
         raise ParameterError(f"A camera is eleven numbers (position, focal point, up, extent), not {len(numbers)}.")
     x = tuple(numbers)
     given = Camera((x[0], x[1], x[2]), (x[3], x[4], x[5]), (x[6], x[7], x[8]), (x[9], x[10]))
-    return (given,) if views == "home" else (*chosen, given)  # a list with "home" asks for both
+    return (given,) if views == "auto" else (*chosen, given)  # a list with "auto" asks for both
 
 
 def _zoom(zoom: int | tuple[int, float] | tuple[int, float, int]) -> Zoom:

@@ -8,10 +8,12 @@ from vtkmodules.vtkCommonCore import mutable
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 
 from bihdist_core import Surface
+from bihdist_core.analysis.first_view import is_flat
+from bihdist_core.analysis.view_directions import FIRST_VIEWS
 
 from ..document.camera import Camera, View
 from ..document.looks import Shading
-from ..drawing.camera import VIEW_ANGLE, Projection, directions, is_flat, outwards_at, standard_camera, turned
+from ..drawing.camera import VIEW_ANGLE, Projection, directions, outwards_at, standard_camera, turned
 from ..drawing.drawable import drawable
 from ..drawing.relief import rise
 from .description import Figure
@@ -63,7 +65,7 @@ def start_and_axis(
     camera = standard_camera(points, 1.0, name, None, up, outwards, is_parallel)
     if turn:
         camera = _about(camera, axis, points)
-    if view == "home" and sources and not is_flat(points):
+    if view in FIRST_VIEWS and sources and not is_flat(points):
         camera = turned(camera, _facing(camera, axis, surface, sources), axis)
     return replace(camera, extent=_swept(camera, axis, points, turn, is_parallel)), axis
 

@@ -332,7 +332,7 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.session.surface is not None and self.grid.active >= 0:
             do(self.grid.panel(self.grid.active).view)
 
-    def reset_view(self, view: CameraView = "home") -> None:
+    def reset_view(self, view: CameraView = "auto") -> None:
         """See the surface from a standard view, or from where a camera is."""
         if self.session.surface is not None:
             self.views.see(view)

@@ -63,7 +63,7 @@ class Views:
                 eye.look(camera)
                 self.rest_soon()
             if up != old_up and isinstance(camera, Camera) and camera == old_camera:
-                self._see("home", eye)  # undone and done again it would be askew
+                self._see("auto", eye)  # undone and done again it would be askew
 
     def moved(self, view: View, surface: str) -> None:
         """The camera of a surface sees this now."""
@@ -97,7 +97,7 @@ class Views:
         grid.redraw()
 
     def _see(self, view: View, eye: "Eye") -> None:
-        eye.look(view)
+        view = eye.look(view)
         # From where the source is now; the view does not follow it about.
         self.moved(eye.seen if view == "source" else view, eye.surface)
 

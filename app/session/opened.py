@@ -19,6 +19,7 @@ from bihdist_core import (
     VertexError,
     read_surface,
 )
+from bihdist_core.analysis.first_view import FirstLook, first_look
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.perturbation import perturbed
@@ -28,6 +29,7 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
+from ..document.camera import View
 from ..document.document import Document, MeshFile, starting_points
 from ..document.edits import put_point
 from ..document.file import checksum
@@ -79,6 +81,7 @@ class Opened:
         self.surface = surface
         self.prepared: Any = None
         self._given = given or Given()
+        self._looks: dict[str, FirstLook] = {}
         self._distances: dict[str, Distances] = {}
         self._interpolants: dict[tuple[str, Spec], ShepardInterpolant] = {}
         self._last: dict[Question, Answer] = {}
@@ -102,6 +105,17 @@ class Opened:
         if self.origin is not None:
             return self.origin.up
         return guess_up(self.surface, os.path.splitext(self.mesh.path and mesh_path(self.mesh.path))[1])
+
+    def first_look(self, up: str) -> FirstLook:
+        """From where it is seen first with an axis up, and where a field starts; what is made from it is seen alike."""
+        if up not in self._looks:
+            look = first_look(self.surface, up)
+            self._looks[up] = look if self.origin is None else replace(look, view=self.origin.first_look(up).view)
+        return self._looks[up]
+
+    def view_of(self, view: View, up: str) -> View:
+        """The view, or that which "auto" stands for with an axis up."""
+        return self.first_look(up).view if view == "auto" else view
 
     def distances(self, areas: str) -> Distances:
         """All distances on it with these vertex areas, each built once for whoever asks."""
@@ -205,7 +219,7 @@ class Opened:
     def settled(self, document: Document) -> Document:
         """The document with this surface's checksum, and its points on it.
 
-        Which way is up is that of the first surface, where it was left to be guessed.
+        Which way is up, and from where it is seen, are those of the first surface, where they were left to be chosen.
 
         VertexError or ParameterError for a point or an inset that is nowhere, and for a field that has not a value for
         each vertex.
@@ -213,8 +227,9 @@ class Opened:
         mine = {mesh.name for mesh in document.surfaces if is_same(mesh, self.mesh)}
         if mine and self.origin is None:
             self.surface.check_vertices([zoom.vertex for zoom in document.zooms])
-        if document.up == "auto" and document.surfaces and document.surfaces[0].name in mine:
-            document = replace(document, up=self.up)
+        if document.surfaces and document.surfaces[0].name in mine:
+            up = self._up_in(document, document.surfaces[0].name)
+            document = replace(document, up=up, camera=self.view_of(document.camera, up))
         for field in document.fields:
             count = len(self._given.field(field.sha256, field.name)) if field.surface in mine else 0
             if field.surface in mine and count != len(self.surface.vertices):
@@ -222,7 +237,11 @@ class Opened:
                     f"The field {field.name!r} has {count} values, and {self.surface.name} has "
                     f"{len(self.surface.vertices)} vertices."
                 )
-        beside = (replace(b, up=self.up) if b.surface in mine and b.up == "auto" else b for b in document.beside)
+        beside = []
+        for each in document.beside:
+            up = self.up if each.up == "auto" else each.up
+            is_mine = each.surface in mine
+            beside.append(replace(each, up=up, camera=self.view_of(each.camera, up)) if is_mine else each)
         document = replace(document, beside=tuple(beside))
         found, change = self.mesh.sha256, self.mesh.change
         meshes = (replace(m, sha256=found, change=change) if m.name in mine else m for m in document.surfaces)
@@ -233,8 +252,11 @@ class Opened:
                 points.append(replace(point, at=self._image(original)) if original is not None else point)
                 continue
             up = self._up_in(document, point.surface)
-            source = source_at(point.at, self.surface, up) if point.surface in mine else None
-            points.append(replace(point, at=source) if point.at is None else point)
+            if point.surface in mine and point.at is None:
+                point = replace(point, at=self.first_look(up).source)
+            elif point.surface in mine:
+                source_at(point.at, self.surface)
+            points.append(point)
         return replace(document, surfaces=tuple(meshes), points=tuple(points))
 
     def _image(self, at: Source) -> Source:

@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from bihdist_core import Surface
-from bihdist_core.analysis.upright import axis_of
+from bihdist_core.analysis.first_view import first_look
 from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.pieces import Pieces, pieces_of
@@ -320,6 +320,5 @@ def vertex_at(at: Source | None, surface: Surface) -> int:
 
 
 def first_source(surface: Surface, up: str = "y") -> int:
-    """Where to start: the highest vertex of the largest component."""
-    ids = np.flatnonzero(surface.component_of_vertex == 0)
-    return int(ids[(surface.vertices[ids] @ axis_of(up)).argmax()])
+    """Where to start with an axis up: a vertex of the largest component that is seen, see `first_look`."""
+    return first_look(surface, up).source

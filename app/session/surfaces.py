@@ -136,6 +136,7 @@ class Surfaces:
             report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
             opened.prepared = self._prepare(opened.surface)
             opened.up = self._known_up(opened.mesh.sha256) or opened.up
+            opened.first_look(opened.up)
             # Told by the view, for whose thread going over all faces would take too long.
             _ = opened.surface.remarks, opened.surface.nonmanifold_edge_count
             found.append(opened)

@@ -15,8 +15,8 @@ DIRECTIONS = ("y", "z", "x", "-y", "-z", "-x")
 SAMPLES = 8_000
 """Places on the faces that stand for the whole."""
 
-LOW = 0.03
-"""The share of the height that counts as the lowest parts."""
+LOW = (0.03, 0.1)
+"""Shares of the height that count as the lowest parts: what hangs lower than the feet spoils the first alone."""
 
 STANDS, BALANCED, UNLIKE, LOW_WEIGHT, OPEN_BELOW = 5.0, 1.5, 2.0, 3.5, 2.0
 """Of what is added up.  Found by logistic regression over 30 meshes, and rounded.
@@ -24,11 +24,11 @@ STANDS, BALANCED, UNLIKE, LOW_WEIGHT, OPEN_BELOW = 5.0, 1.5, 2.0, 3.5, 2.0
 Of each mesh, judged by weights found from the others and without its format, 24 of 30 were right.
 """
 
-SELDOM = 3.5
+SELDOM = 4.0
 """What directions other than y and z have to be better by, since files hardly ever have them."""
 
-AFTER_Y = {".obj": 1.0, ".off": 1.0, ".stl": -0.5}
-"""What z has to be better by than y, by the file's extension."""
+AFTER_Y = {".obj": 2.5, ".off": 1.0, ".stl": -0.5}
+"""What z has to be better by than y, by the file's extension: programs that write OBJ have y up."""
 
 AFTER_Y_ELSEWHERE = 0.5
 
@@ -39,7 +39,10 @@ SYMMETRIC = 0.02
 """Misfits of a mirror image that are all below this share of the diagonal say little."""
 
 FACING, LYING = 0.6, 0.3
-"""A sheet most of whose area faces one way, and is so thin, is a landscape."""
+"""A sheet most of whose area faces one way, and is so thin, is a landscape; a plate, which has two sides, is none."""
+
+FRONTS = {"y": "z", "-y": "z", "x": "z", "-x": "z", "z": "-y", "-z": "y"}
+"""Where the front is, by which way is up: what a quarter turn of the usual shape makes of its front."""
 
 
 def guess_up(surface: Surface, extension: str = "") -> str:
@@ -53,7 +56,7 @@ def guess_up(surface: Surface, extension: str = "") -> str:
     extents = np.ptp(points, axis=0)
     landscape = _landscape(surface, extents)
     if extents.min() <= 1e-6 * extents.max():
-        return landscape if landscape and landscape != "z" else "y"
+        return landscape if landscape and landscape[-1] != "z" else "y"
     if landscape:
         return landscape
     scores = _scores(surface, points, extents)
@@ -69,18 +72,33 @@ def axis_of(up: str) -> np.ndarray:
     return axis
 
 
+def axes_of(up: str) -> np.ndarray:
+    """(3, 3) the unit vectors, as columns, to the right, up and to the front, where this direction is up."""
+    upright, front = axis_of(up), axis_of(FRONTS[up])
+    return np.stack([np.cross(upright, front), upright, front], axis=1)
+
+
+def scattered(surface: Surface, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """(count, 3) places on the faces, as many for equal areas, and (count,) their faces."""
+    random, upto = np.random.default_rng(0), np.cumsum(surface.face_areas)
+    faces = np.searchsorted(upto, (np.arange(count) + 0.5) / count * upto[-1])
+    faces = np.minimum(faces, len(upto) - 1)
+    weights = random.dirichlet(np.ones(3), count)
+    return np.einsum("ij,ijk->ik", weights, surface.vertices[surface.faces[faces]]), faces
+
+
 def _landscape(surface: Surface, extents: np.ndarray) -> str:
-    """The axis that a thin sheet lies across; "" if it is none."""
+    """The direction to which a thin sheet turns its outside; "" if it is none."""
     _, b, c = surface.sides()
-    facing = np.abs(np.cross(b, c, axis=0).sum(axis=1)) / 2 / max(float(surface.face_areas.sum()), 1e-300)
-    k = int(facing.argmax())
+    facing = np.cross(b, c, axis=0).sum(axis=1) / 2 / max(float(surface.face_areas.sum()), 1e-300)
+    k = int(np.abs(facing).argmax())
     is_thin = extents[k] <= LYING * np.delete(extents, k).min()
-    return "xyz"[k] if facing[k] >= FACING and is_thin else ""
+    return "-" * bool(facing[k] < 0) + "xyz"[k] if abs(facing[k]) >= FACING and is_thin else ""
 
 
 def _scores(surface: Surface, points: np.ndarray, extents: np.ndarray) -> dict[str, float]:
     """For each direction how much speaks for it."""
-    samples, diagonal = _samples(surface), float(np.linalg.norm(extents))
+    (samples, _), diagonal = scattered(surface, SAMPLES), float(np.linalg.norm(extents))
     centre, lowest = samples.mean(axis=0), points.min(axis=0)
     misfits = _mirror_misfits(samples, centre) / diagonal
     unlike = misfits / max(float(misfits.max()), SYMMETRIC)
@@ -96,27 +114,18 @@ def _scores(surface: Surface, points: np.ndarray, extents: np.ndarray) -> dict[s
             return 1 - height if is_down else height
 
         height = (points[:, k] - lowest[k]) / extents[k]
-        feet = points[(1 - height if is_down else height) <= LOW][:, across]
-        ground, margin = _ground(feet, centre[across])
         outline = float(np.prod(extents[across]))
-        stands = np.sqrt(ground / outline) if extents[across].min() >= THIN * extents[k] else 0.0
+        lowest_parts = [points[(1 - height if is_down else height) <= low][:, across] for low in LOW]
+        ground, margin = np.array([_ground(feet, centre[across]) for feet in lowest_parts]).T
+        stands = np.sqrt(ground / outline).mean() if extents[across].min() >= THIN * extents[k] else 0.0
         scores[name] = float(
             STANDS * stands
-            + BALANCED * np.clip(margin / np.sqrt(outline), -0.3, 0.3)
+            + BALANCED * np.clip(margin / np.sqrt(outline), -0.3, 0.3).mean()
             + UNLIKE * unlike[k]
             + LOW_WEIGHT * (0.5 - up(heights[k]))
             + OPEN_BELOW * rim_share * (0.5 - up(rim_heights[k]))
         )
     return scores
-
-
-def _samples(surface: Surface) -> np.ndarray:
-    """(SAMPLES, 3) places on the faces, as many for equal areas."""
-    random, upto = np.random.default_rng(0), np.cumsum(surface.face_areas)
-    faces = np.searchsorted(upto, (np.arange(SAMPLES) + 0.5) / SAMPLES * upto[-1])
-    weights = random.dirichlet(np.ones(3), SAMPLES)
-    corners = surface.vertices[surface.faces[np.minimum(faces, len(upto) - 1)]]
-    return np.einsum("ij,ijk->ik", weights, corners)
 
 
 def _mirror_misfits(samples: np.ndarray, centre: np.ndarray) -> np.ndarray:

@@ -61,7 +61,7 @@ def test_a_panel_starts_from_a_point_of_its_own_surface_whatever_is_chosen():
 
 def test_cameras_are_kept_in_files_and_are_no_steps(tmp_path):
     document = stand_beside(see(open_beside(FIRST, SECOND), OTHER, "B"), "z", "B")
-    assert (document.camera_of("A"), document.up_of("B")) == ("home", "z")
+    assert (document.camera_of("A"), document.up_of("B")) == ("auto", "z")
     document = see(document, OTHER, "B")
     path = tmp_path / "r.json"
     path.write_text(recipe_text(Recipe(document), "1"))

@@ -148,9 +148,9 @@ def test_the_camera_is_no_step_and_undo_leaves_it(document):
 def test_undo_to_another_mesh_sees_it_as_it_was_seen_last(document):
     history = History(replace(document, camera=FRONT))
     history.change(open_mesh(history.present, MeshFile("A", "b.off")))
-    assert history.present.camera == "home"
+    assert history.present.camera == "auto"
     assert history.undo().camera == FRONT
-    assert history.redo().camera == "home"
+    assert history.redo().camera == "auto"
 
 
 def test_only_so_many_steps_are_kept():

@@ -108,8 +108,8 @@ def shown(recipe):
 
 
 def usual(path, **changes):
-    # A picture's document says which way is up.
-    return replace(comparison(path, (BIHARMONIC,), (5,)), **{"up": "y", **changes})
+    # A picture's document says which way is up, and from where it is seen.
+    return replace(comparison(path, (BIHARMONIC,), (5,)), **{"up": "y", "camera": "home", **changes})
 
 
 EXAMPLES = {
@@ -246,7 +246,7 @@ def test_a_mesh_is_named_wherever_the_line_is_run(mesh, monkeypatch, tmp_path):
 def test_a_relief_is_said(tmp_path):
     path = tmp_path / "flat.off"
     path.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 3\n3 0 3 2\n")
-    recipe = Recipe(replace(comparison(str(path), (BIHARMONIC,), (0,)), height=0.1 + 0.2, up="y"))
+    recipe = Recipe(replace(comparison(str(path), (BIHARMONIC,), (0,)), height=0.1 + 0.2, up="y", camera="home"))
     assert shown(read_again(one_line.command_line(recipe, "r.png"))) == shown(recipe)
     assert shown(run_again(one_line.python_line(recipe, "r.png"))) == shown(recipe)
 

@@ -20,7 +20,7 @@ from app.document.form import view_data
 from app.document.looks import UPS
 from app.document.page import Recipe
 from app.drawing.axes import BEYOND, arms, middle
-from app.drawing.camera import FRONTS, Projection, directions, frame, outwards_at, standard_camera
+from app.drawing.camera import Projection, directions, frame, outwards_at, standard_camera
 from app.drawing.drawable import drawable
 from app.drawing.style import PAPER
 from app.figures.draw import Figure, FigurePanel, draw_figure
@@ -33,23 +33,17 @@ from app.paper import reproduce
 from app.samples import mesh_path
 from app.session.questions import first_source
 from bihdist_core import ParameterError, Surface
-from bihdist_core.analysis.upright import axis_of
+from bihdist_core.analysis.upright import axes_of, axis_of
 from tests.shapes import bumpy, grid, sphere
 
 AXES = [up for up in UPS if up != "auto"]
 SEEN = [view for view in VIEWS if view not in ("relief", "source")]
 
 
-def turned_to(up):
-    """(3, 3) the rotation that takes y to this axis, and the front with it."""
-    upright, front = axis_of(up), axis_of(FRONTS[up])
-    return np.stack([np.cross(upright, front), upright, front], 1)
-
-
 # ---------------------------------------------------------------------- which way is up
 @pytest.mark.parametrize("up", AXES)
 def test_standard_views_see_of_a_turned_shape_what_they_see_of_it_where_y_is_up(up):
-    surface, rotation = bumpy(200), turned_to(up)
+    surface, rotation = bumpy(200), axes_of(up)
     assert np.isclose(np.linalg.det(rotation), 1)
     for view in SEEN:
         usual = standard_camera(surface.vertices, 1.3, view)
@@ -71,7 +65,8 @@ def test_another_way_up_leaves_standard_views_and_ends_others():
     document = replace(comparison("hand"), up="y", camera="left")
     assert stand(document, "z").camera == "left"
     free = replace(document, camera=Camera((0.0, 0, 5), (0.0, 0, 0), (0.0, 1, 0), (0.2, 0.2)))
-    assert stand(free, "z") == replace(free, up="z", camera="home")
+    assert stand(free, "z") == replace(free, up="z", camera="auto")
+    assert stand(replace(document, camera="high-left"), "z") == replace(document, up="z", camera="auto")
     assert stand(free, "y") is free
 
 
@@ -275,7 +270,7 @@ def test_a_camera_of_a_recipe_is_left_for_another_way_up(scan, tmp_path):
         return chosen_recipe(parser.parse_args(["--recipe", str(recipe), "-o", "x.png", *words])).document
 
     assert chosen().camera == CAMERA
-    assert (chosen("--up", "z").camera, chosen("--up", "z").up) == ("home", "z")
+    assert (chosen("--up", "z").camera, chosen("--up", "z").up) == ("auto", "z")
     assert chosen("--up", "z", "--camera", camera_text(CAMERA)).camera == CAMERA
 
 

@@ -78,13 +78,15 @@ class Eye(QtCore.QObject):
         opened, height = self._opened, self._session.document.height
         return rise(opened.prepared.bounds, height) if height and opened and opened.prepared.is_flat else 0.0
 
-    def look(self, view: View) -> None:
-        """See the surface from a standard view, fitted closely, or as a camera saw it."""
+    def look(self, view: View) -> View:
+        """See the surface from a standard view, fitted closely, or as a camera saw it; the view that was chosen."""
         if self._opened is None:
-            return
+            return view
         self._fitted = self._size
         document = self._session.document
         is_parallel = document.projection == "orthographic"
+        axis = document.up_of(self.surface)
+        view = chosen = self._opened.view_of(view, axis)
         if not isinstance(view, Camera):
             points, up = self._opened.prepared.points, self.rise
             if up:
@@ -93,11 +95,11 @@ class Eye(QtCore.QObject):
                 points = np.concatenate([points - down, points + np.array([0, 0, up])])
             name = "relief" if up and view == "home" else view
             outwards = self._source_seen() if name == "source" else None
-            axis = document.up_of(self.surface)
             view = standard_camera(points, self.aspect, name, None, axis, outwards, is_parallel)
         show_camera(self.camera, view, self.aspect, None, is_parallel)
         self.known = self.seen
         self.placed.emit()
+        return chosen
 
     def look_again(self) -> None:
         """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""

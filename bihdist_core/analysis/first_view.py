@@ -1,0 +1,181 @@
+"""From where a surface is seen first, and where its first field starts: on its outside, and seen from there."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..surface import Surface
+from .upright import axes_of, scattered
+from .view_directions import FIRST_VIEWS
+
+PREFERRED = {"home": 1.5, "high": 1.15}
+"""How many times as much others have to show."""
+
+SAMPLES = 20_000
+"""Places on the faces that stand for the whole."""
+
+CELLS = 64
+"""Of a picture, along each side: some five places fall into each cell that the shape covers."""
+
+INSIDE = 0.3
+"""What the inside counts, as a share of the outside."""
+
+SLOPE = 0.2
+"""The tangent of half the angle that the shape fills."""
+
+WELL_SEEN = 0.3
+"""The least cosine of the angle between the normal of what is well seen and the way to the camera."""
+
+EQUAL = 1e-6
+"""Heights that differ by less than this share of the component's are equal."""
+
+MOST_TRIED = 200
+"""Vertices, from the top down, of which one is looked for that nothing hides."""
+
+
+@dataclass(frozen=True)
+class FirstLook:
+    """view: a name among FIRST_VIEWS; source: a vertex."""
+
+    view: str
+    source: int
+
+
+def first_look(surface: Surface, up: str = "y") -> FirstLook:
+    """The view that shows most of the outside and little of the inside, and a source that is seen in it.
+
+    up: which axis is.  Normals by the order of the corners tell the outside; where most of what is seen from all sides
+    is inside, they point inwards.  Home is left only for what shows half as much again.
+
+    The source is the highest vertex of the component with the largest area, if it is seen; otherwise the highest of
+    those that are well seen.  Of equally high ones it is the first, or if that faces away, the one that faces the
+    camera most.
+    """
+    areas = surface.face_areas
+    of_face = surface.component_of_vertex[surface.faces[:, 0]]
+    ids = np.flatnonzero(surface.component_of_vertex == np.bincount(of_face, areas).argmax())
+    heights = surface.vertices[ids] @ axes_of(up)[:, 1]
+    highest = int(ids[heights.argmax()])
+    if not areas.sum() > 0 or is_flat(surface.vertices[surface.component_of_vertex >= 0]):
+        return FirstLook("home", highest)
+    places, faces = scattered(surface, SAMPLES)
+    sights = [_Sight(surface, places, faces, axes_of(up), direction) for direction in FIRST_VIEWS.values()]
+    outside, inside = np.array([sight.areas for sight in sights]).T
+    outwards = 1.0
+    if inside.sum() > outside.sum():
+        outside, inside, outwards = inside, outside, -1.0
+    # Of a sheet with one side about half of what is seen is inside, from wherever.
+    shown = (outside + INSIDE * inside) * [PREFERRED.get(name, 1.0) for name in FIRST_VIEWS]
+    best = int(shown.argmax())
+    return FirstLook(list(FIRST_VIEWS)[best], sights[best].source_among(ids, heights, outwards))
+
+
+def is_flat(points: np.ndarray) -> bool:
+    """Whether points (n, 3) lie in a plane of constant z."""
+    return bool(np.ptp(points[:, 2]) <= 1e-6 * np.ptp(points, axis=0).max())
+
+
+class _Sight:
+    """What a camera that has all of a surface in a square picture sees of it.
+
+    places (k, 3): on faces (k,).  axes: see `axes_of`; direction: one of FIRST_VIEWS.
+    """
+
+    def __init__(
+        self,
+        surface: Surface,
+        places: np.ndarray,
+        faces: np.ndarray,
+        axes: np.ndarray,
+        direction: tuple[float, float, float],
+    ) -> None:
+        self._surface = surface
+        back = axes @ np.array(direction)
+        back /= np.linalg.norm(back)
+        right = np.cross(axes[:, 1], back)
+        right /= np.linalg.norm(right)
+        self._frame = np.stack([right, np.cross(back, right), back], axis=1)
+        middle = (places.min(axis=0) + places.max(axis=0)) / 2
+        local = (places - middle) @ self._frame
+        distance = float((np.abs(local[:, :2]).max(axis=1) / SLOPE + local[:, 2]).max())
+        self._eye = middle + distance * back
+        x, y, depth = self._seen(places)
+        cells = _cells(x, y)
+        order = np.lexsort((depth, cells))
+        nearest = order[np.append(True, np.diff(cells[order]) > 0)]
+        self._nearest = np.full(CELLS * CELLS, np.inf)
+        self._nearest[cells[nearest]] = depth[nearest]
+        is_outside = _facing(surface, faces[nearest], self._eye) > 0
+        cell = (2 * SLOPE * distance / CELLS) ** 2
+        self.areas = cell * is_outside.sum(), cell * (~is_outside).sum()  # that are seen, of the outside and the inside
+
+    def source_among(self, ids: np.ndarray, heights: np.ndarray, outwards: float) -> int:
+        """Of vertices (k,) with heights (k,) the one to start from; outwards: -1 where normals point inwards."""
+        first, level = int(heights.argmax()), EQUAL * float(np.ptp(heights))
+        as_high = np.flatnonzero(heights >= heights[first] - level)
+        facing = outwards * self._vertices_facing(ids[as_high])
+        if facing[np.searchsorted(as_high, first)] < 0:
+            first = int(as_high[facing.argmax()])
+        if self._is_seen(int(ids[first]), outwards):
+            return int(ids[first])
+        some = self._may_be_seen(ids)
+        others, heights = ids[some], heights[some]
+        well = outwards * self._vertices_facing(others) >= WELL_SEEN
+        others = others[well][np.argsort(-heights[well], kind="stable")][:MOST_TRIED]
+        return next((int(vertex) for vertex in others if self._is_seen(int(vertex), outwards)), int(ids[first]))
+
+    def _seen(self, points: np.ndarray) -> np.ndarray:
+        """(3, k) where points (k, 3) are in the picture, -SLOPE to SLOPE, and how far away."""
+        right, up, back = ((points - self._eye) @ self._frame).T
+        return np.stack([right / -back, up / -back, -back])
+
+    def _vertices_facing(self, ids: np.ndarray) -> np.ndarray:
+        """(k,) the cosine of the angle between the normal of vertices (k,) and the way to the camera."""
+        vertices, faces = self._surface.vertices, self._surface.faces
+        is_asked = np.zeros(len(vertices), bool)
+        is_asked[ids] = True
+        faces = faces[is_asked[faces].any(axis=1)]
+        a, b, c = vertices[faces].transpose(1, 0, 2)
+        normals = [
+            np.bincount(faces.ravel(), np.repeat(each, 3), len(vertices))[ids] for each in np.cross(b - a, c - a).T
+        ]
+        way = (self._eye - vertices[ids]).T
+        lengths = np.linalg.norm(normals, axis=0) * np.linalg.norm(way, axis=0)
+        return (normals * way).sum(axis=0) / np.maximum(lengths, 1e-300)
+
+    def _may_be_seen(self, ids: np.ndarray) -> np.ndarray:
+        """(k,) which vertices (k,) are no more than a few cells behind what is seen there."""
+        x, y, depth = self._seen(self._surface.vertices[ids])
+        return depth <= self._nearest[_cells(x, y)] + 6 * SLOPE * depth / CELLS
+
+    def _is_seen(self, vertex: int, outwards: float) -> bool:
+        """Whether no face is before a vertex, and one at it turns its outside to the camera."""
+        vertices, faces = self._surface.vertices, self._surface.faces
+        # Of all faces only those are looked at through which an upright plane through the eye and the vertex goes.
+        across = np.cross(self._frame[:, 1], vertices[vertex] - self._eye)
+        aside = (vertices @ across < vertices[vertex] @ across)[faces].sum(axis=1)
+        at = np.flatnonzero((faces == vertex).any(axis=1))
+        if not (outwards * _facing(self._surface, at, self._eye) > 0).any():
+            return False
+        some = faces[(aside > 0) & (aside < 3)]
+        some = some[(some != vertex).all(axis=1)]
+        x, y, depth = self._seen(vertices[vertex][None])[:, 0]
+        u, v, depths = self._seen(vertices[some.ravel()]).reshape(3, -1, 3) - [[[x]], [[y]], [[0.0]]]
+        weights = np.stack([u[:, k - 2] * v[:, k - 1] - u[:, k - 1] * v[:, k - 2] for k in range(3)], axis=1)
+        total = weights.sum(axis=1)
+        is_around = ((weights >= 0).all(axis=1) | (weights <= 0).all(axis=1)) & (total != 0)
+        # The reciprocal of the depth is linear in the picture.
+        there = total[is_around] / (weights[is_around] / depths[is_around]).sum(axis=1)
+        return bool((there >= depth * (1 - 1e-6)).all())
+
+
+def _cells(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """(k,) the cell of the picture that places are seen in."""
+    column, row = (np.clip((along / SLOPE + 1) / 2 * CELLS, 0, CELLS - 1) for along in (x, y))
+    return CELLS * row.astype(np.int64) + column.astype(np.int64)
+
+
+def _facing(surface: Surface, faces: np.ndarray, eye: np.ndarray) -> np.ndarray:
+    """(k,) positive where faces (k,) turn to a camera the side from which their corners go round to the left."""
+    a, b, c = surface.vertices[surface.faces[faces]].transpose(1, 0, 2)
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), eye - a)
