@@ -21,7 +21,8 @@ class Surface:
     """A triangle mesh: `vertices` (n, 3) float64 and `faces` (m, 3) int64 vertex ids, both read-only copies.
 
     Vertex ids are the caller's and never change.  Faces that name a vertex twice and repeated faces (same three
-    vertices) are dropped; `repairs` says so in words, after whatever a file reader already did.
+    vertices) are dropped; `repairs` says so in words, after whatever a file reader already did.  facts: sentences on
+    how a file was read that are no repairs, such as polygons that were divided into triangles.
 
     Raises MeshError for wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
     """
@@ -30,6 +31,7 @@ class Surface:
     faces: np.ndarray
     name: str = "surface"
     repairs: Sequence[str] = field(default=())
+    facts: Sequence[str] = field(default=())
 
     def __post_init__(self) -> None:
         vertices = _checked_vertices(self.vertices, self.name)
@@ -37,6 +39,7 @@ class Surface:
         vertices.flags.writeable = faces.flags.writeable = False
         for key, value in [("vertices", vertices), ("faces", faces), ("repairs", (*self.repairs, *dropped))]:
             object.__setattr__(self, key, value)
+        object.__setattr__(self, "facts", tuple(self.facts))
 
     def __setstate__(self, state: dict) -> None:
         self.__dict__.update(state)
@@ -226,14 +229,6 @@ class Surface:
         proper = np.zeros(len(self.vertices), bool)
         proper[np.delete(self.faces, self.flat_faces, axis=0)] = True
         return proper
-
-    @property
-    def remarks(self) -> tuple[str, ...]:
-        """What a user should know: the repairs, and how many faces are flat."""
-        count = len(self.flat_faces)
-        noun = "face" if count == 1 else "faces"
-        flat = f"{count} {noun} of (nearly) no area held in shape as if {FLAT:g} of the longest side high"
-        return (*self.repairs, *([flat] if count else []))
 
     @cached_property
     def mean_edge_length(self) -> float:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from bihdist_core.analysis.parcels import ParcelSums, labelled, parcel_sums
+from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.errors import BihdistError
 from bihdist_core.solver.blas import one_blas_thread
@@ -158,7 +159,7 @@ def _numbers(facts: dict[str, Any]) -> dict[str, np.ndarray]:
 
 
 def _said_of(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
-    surface = mesh.surface
+    surface, notes = mesh.surface, surface_notes(mesh.surface)
     own, others = task.read(work)
     scaled: dict[str, Any] = {}
     if task.wanted.normalise and work in WORK:
@@ -174,7 +175,8 @@ def _said_of(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
         "components": surface.component_count,
         "area": float(surface.face_areas.sum()),
         **scaled,
-        "repairs": list(surface.remarks),
+        "repairs": list(notes.repairs),
+        "warnings": list(notes.warnings),
         "areas": task.wanted.areas,
         "version": task.version,
     }

@@ -32,8 +32,10 @@ def run(options: argparse.Namespace) -> int:
 
 def _facts(mesh: str, options: argparse.Namespace) -> dict[str, Any]:
     from bihdist_core import read_surface
+    from bihdist_core.analysis.surface_notes import surface_notes
 
     s = read_surface(found_mesh(mesh))
+    notes = surface_notes(s)
     facts: dict[str, Any] = {
         "mesh": s.name,
         "vertices": len(s.vertices),
@@ -47,7 +49,9 @@ def _facts(mesh: str, options: argparse.Namespace) -> dict[str, Any]:
         "flat faces": len(s.flat_faces),
         "mean edge length": s.mean_edge_length,
         "area": float(s.face_areas.sum()),
-        "repairs": list(s.remarks),
+        "facts": list(notes.facts),
+        "repairs": list(notes.repairs),
+        "warnings": list(notes.warnings),
     }
     if options.accuracy:
         facts |= dict(_accuracies(s, options.areas or AREAS[0]))
@@ -60,7 +64,7 @@ def _print(facts: dict[str, Any], several: bool) -> None:
         "genus": "not defined (not manifold or not orientable)" if facts["genus"] is None else facts["genus"],
         "mean edge length": f"{facts['mean edge length']:.6g}",
         "area": f"{facts['area']:.6g}",
-        "repairs": "; ".join(facts["repairs"]) or "none",
+        **{name: "; ".join(facts[name]) or "none" for name in ("facts", "repairs", "warnings")},
     }
     if not several:
         del shown["mesh"]

@@ -78,8 +78,11 @@ def warn(text: str) -> None:
 
 
 def tell_repairs(surface: "Surface") -> None:
-    """Say on standard error what was done to a mesh."""
-    for text in surface.remarks:
+    """Say on standard error what was done to a mesh, and what is to be minded about it."""
+    from bihdist_core.analysis.surface_notes import surface_notes
+
+    notes = surface_notes(surface)
+    for text in (*notes.repairs, *notes.warnings):
         print(f"{surface.name}: {text}", file=sys.stderr)
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from bihdist_core import Surface
+from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress, part
 
@@ -138,7 +139,7 @@ class Surfaces:
             opened.up = self._known_up(opened.mesh.sha256) or opened.up
             opened.first_look(opened.up)
             # Told by the view, for whose thread going over all faces would take too long.
-            _ = opened.surface.remarks, opened.surface.nonmanifold_edge_count
+            surface_notes(opened.surface)
             found.append(opened)
         if opening.ahead is not None:
             opening.ahead(found, part(report, 0.5, 1))

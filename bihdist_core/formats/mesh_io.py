@@ -37,8 +37,8 @@ MESH_FORMATS = tuple(_READERS)
 def read_surface(path: str | os.PathLike[str]) -> Surface:
     """The surface in a mesh file; the extension, in any case, names the format.
 
-    Polygons are divided into triangles, what cannot be part of a surface is left out, and in STL files coincident
-    vertices are merged; `Surface.repairs` says each in words with counts.
+    Polygons are divided into triangles, and in STL files coincident vertices are merged, which `Surface.facts` says;
+    what cannot be part of a surface is left out, which `Surface.repairs` says, both in words with counts.
 
     Raises MeshError, one sentence with the file, the place and the value, for a file that is missing, unreadable,
     truncated, damaged or of another kind, and for a mesh without faces.
@@ -53,8 +53,9 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
             if not len(polygons.sizes):
                 held = counted(len(polygons.vertices), "vertex", "vertices")
                 raise MeshError(f"{name} has {held} but no faces; a surface needs at least one triangle.")
-            faces, said = triangulated(polygons)
-        return Surface(polygons.vertices, faces, name=name, repairs=[*polygons.repairs, *said])
+            faces, left_out, divided = triangulated(polygons)
+        repairs, facts = [*polygons.repairs, *left_out], [*polygons.facts, *divided]
+        return Surface(polygons.vertices, faces, name=name, repairs=repairs, facts=facts)
     except MemoryError:
         raise MeshError(f"{name} is too large for the memory of this computer.") from None
 

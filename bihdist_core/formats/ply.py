@@ -71,7 +71,7 @@ def _from_strips(vertices: np.ndarray, values: np.ndarray, name: str) -> Polygon
     ids = checked_corners(values[whole != -1], sizes, len(vertices), lambda k: f"{name}: strip {k}")
     faces = strip_triangles(sizes, ids)
     said = f"{counted(int((sizes > 0).sum()), 'triangle strip')} divided into {counted(len(faces), 'triangle')}"
-    return Polygons(vertices, np.full(len(faces), 3), faces.ravel(), (said,))
+    return Polygons(vertices, np.full(len(faces), 3), faces.ravel(), facts=(said,))
 
 
 def _header(raw: bytes, name: str) -> tuple[str | None, list[_Element], int]:

@@ -15,18 +15,19 @@ EAR_CLIPPING_LIMIT = 512
 class Polygons:
     """What a file says: `vertices` (n, 3), `sizes` (p,) corners of each polygon, `corners` (sum of sizes,) vertex ids.
 
-    `repairs` tells in words what reading has already changed or left out.
+    `repairs` tells in words what reading has already changed or left out, `facts` how else the file was taken.
     """
 
     vertices: np.ndarray
     sizes: np.ndarray
     corners: np.ndarray
     repairs: tuple[str, ...] = ()
+    facts: tuple[str, ...] = ()
 
 
 def counted(count: int, one: str, many: str = "") -> str:
     """'1 face', '2 faces'."""
-    return f"{count} {one if count == 1 else many or one + 's'}"
+    return f"{count:,} {one if count == 1 else many or one + 's'}"
 
 
 def runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
@@ -65,19 +66,19 @@ def strip_triangles(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
     return corners[np.stack([first, first + 1 + odd, first + 2 - odd], axis=1)]
 
 
-def triangulated(polygons: Polygons) -> tuple[np.ndarray, list[str]]:
-    """(m, 3) triangles in the order of the polygons, and what was done in words.
+def triangulated(polygons: Polygons) -> tuple[np.ndarray, list[str], list[str]]:
+    """(m, 3) triangles in the order of the polygons; in words what was left out, and what was divided.
 
     A fan about the first corner where that covers the polygon, else about another corner, else by clipping ears;
     a polygon that no cut divides cleanly (self-intersecting, all corners in line) stays a fan.
     """
-    sizes, corners, said = polygons.sizes, polygons.corners, []
+    sizes, corners, left_out = polygons.sizes, polygons.corners, []
     small = sizes < 3
     if small.any():
-        said.append(f"{counted(int(small.sum()), 'face')} with fewer than 3 corners ignored")
+        left_out.append(f"{counted(int(small.sum()), 'face')} with fewer than 3 corners ignored")
         corners, sizes = corners[np.repeat(~small, sizes)], sizes[~small]
     if (sizes == 3).all():
-        return corners.reshape(-1, 3), said
+        return corners.reshape(-1, 3), left_out, []
     starts, first = np.cumsum(sizes) - sizes, np.cumsum(sizes - 2) - (sizes - 2)
     faces = np.empty((int((sizes - 2).sum()), 3), np.int64)
     for size in np.unique(sizes):
@@ -89,8 +90,9 @@ def triangulated(polygons: Polygons) -> tuple[np.ndarray, list[str]]:
         ).reshape(local.shape)
     split = sizes > 3
     made = int((sizes[split] - 2).sum())
-    said.append(f"{counted(int(split.sum()), 'polygon')} split into {counted(made, 'triangle')}")
-    return faces, said
+    words = "quad" if (sizes[split] == 4).all() else "polygon"
+    said = f"{counted(int(split.sum()), words)} divided into {counted(made, 'triangle')}"
+    return faces, left_out, [said]
 
 
 def _fan(start: int, size: int) -> np.ndarray:

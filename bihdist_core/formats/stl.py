@@ -34,7 +34,7 @@ def read_stl(raw: bytes, name: str) -> Polygons:
         f"{counted(len(corners), 'triangle corner')} at {counted(len(vertices), 'place')} merged into one vertex each, "
         "numbered in the order of the file"
     )
-    return Polygons(vertices, np.full(len(corners) // 3, 3), ids, (said,))
+    return Polygons(vertices, np.full(len(corners) // 3, 3), ids, facts=(said,))
 
 
 def merged(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -57,17 +57,17 @@ def polygons_of_cells(points: np.ndarray, cells: Mapping[str, Cells], name: str)
     """Polygons, then the triangles of strips; all other kinds of cells are counted and left out."""
     sizes, corners = cells.get("POLYGONS", NO_CELLS)
     ids = checked_corners(corners, sizes, len(points), lambda k: f"{name}: polygon {k}")
-    said = []
+    left_out, divided = [], []
     strip_sizes, strip_corners = cells.get("TRIANGLE_STRIPS", NO_CELLS)
     if len(strip_sizes):
         strip_ids = checked_corners(strip_corners, strip_sizes, len(points), lambda k: f"{name}: triangle strip {k}")
         faces = strip_triangles(strip_sizes, strip_ids)
         sizes, ids = np.append(sizes, np.full(len(faces), 3)), np.append(ids, faces)
-        said.append(f"{counted(len(strip_sizes), 'triangle strip')} divided into {counted(len(faces), 'triangle')}")
+        divided.append(f"{counted(len(strip_sizes), 'triangle strip')} divided into {counted(len(faces), 'triangle')}")
     ignored = sum(len(cells[kind][0]) for kind in cells if kind not in ("POLYGONS", "TRIANGLE_STRIPS"))
     if ignored:
-        said.append(f"{counted(ignored, 'cell')} other than polygons ignored")
-    return Polygons(points, sizes, ids, tuple(said))
+        left_out.append(f"{counted(ignored, 'cell')} other than polygons ignored")
+    return Polygons(points, sizes, ids, tuple(left_out), tuple(divided))
 
 
 @dataclass

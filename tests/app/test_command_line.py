@@ -35,7 +35,8 @@ def mesh(mesh_file):
 def refused(capsys, *arguments):
     """The sentence a refused command prints."""
     assert main([str(a) for a in arguments]) == 2
-    said = capsys.readouterr().err
+    *notes, said = capsys.readouterr().err.splitlines(keepends=True)
+    assert not any(note.startswith("bihdist: ") for note in notes)
     assert said.startswith("bihdist: ")
     assert "Traceback" not in said
     return said
@@ -253,7 +254,8 @@ def test_info_counts_what_is_there(mesh_file, capsys):
     assert facts["boundary loops"] == "0"
     assert facts["genus"] == "0"
     assert facts["vertices without a face"] == "1"
-    assert facts["repairs"] == "none"
+    assert (facts["facts"], facts["repairs"]) == ("1 vertex without a face", "none")
+    assert facts["warnings"] == "2 components, with no distance from one to another (grey, NaN)"
 
 
 def test_samples_open_by_name(capsys):

@@ -38,7 +38,7 @@ def test_ids_coordinates_and_faces_are_the_files(put, name):
 def test_ply_polygons_of_different_size_and_other_properties(put, form, with_colour):
     surface = read_surface(put("a.ply", ply(form, QUAD_AND_TRIANGLE, with_colour=with_colour)))
     assert_same(surface)
-    assert surface.repairs == ("1 polygon split into 2 triangles",)
+    assert (surface.repairs, surface.facts) == ((), ("1 quad divided into 2 triangles",))
     smaller_first = read_surface(put("b.ply", ply(form, QUAD_AND_TRIANGLE[::-1], with_colour=with_colour)))
     assert_same(smaller_first, faces=FACES[[2, 0, 1]])
 
@@ -71,7 +71,7 @@ def test_stl_merges_corners_at_one_place(put, content):
     # Numbered as they first appear: here that is their order in VERTICES.  Binary STL holds single precision.
     assert_same(surface, VERTICES.astype(np.float32) if isinstance(content, bytes) else VERTICES)
     said = "9 triangle corners at 5 places merged into one vertex each, numbered in the order of the file"
-    assert surface.repairs == (said,)
+    assert (surface.repairs, surface.facts) == ((), (said,))
 
 
 def test_stl_takes_both_zeros_for_one_place(put):
@@ -147,5 +147,6 @@ def test_sample_meshes_have_the_counts_of_their_table():
             name
         )
         if name == "suzanne.obj":
-            assert surface.repairs == ("468 polygons split into 936 triangles", "1 face that repeated another dropped")
+            assert surface.facts == ("468 quads divided into 936 triangles",)
+            assert surface.repairs == ("1 face that repeated another dropped",)
         assert surface.unreferenced_count == (1113 if name == "bunny_raw.obj" else 0)

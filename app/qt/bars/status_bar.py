@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import Surface
+from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.distances.answers import Answer
 
 from ...document.page import Recipe
@@ -32,7 +33,8 @@ class StatusBar(QtWidgets.QStatusBar):
         super().__init__(parent)
         self.setSizeGripEnabled(False)
         self.counts = Words("quiet")
-        self.repairs, self.accuracy = Chip("repair"), Chip("panel not exact", "panels not exact")
+        self.notes = Chip(("warning", "warnings"), ("repair", "repairs"), ("fact", "facts"))
+        self.accuracy = Chip(("panel not exact", "panels not exact"))
         self.message = Words("quiet")
         self.progress = Words("quiet", is_meant=True)
         self.vertex, self.place = Words("text", is_right=True), Words("text", is_right=True)
@@ -40,7 +42,7 @@ class StatusBar(QtWidgets.QStatusBar):
         layout = QtWidgets.QHBoxLayout(row)
         layout.setContentsMargins(12, 0, 12, 0)
         layout.setSpacing(12)
-        for widget in (self.counts, self.repairs, self.accuracy):
+        for widget in (self.counts, self.notes, self.accuracy):
             layout.addWidget(widget)
         layout.addWidget(self.message, 1)
         for widget in (self.progress, *(() if exports is None else (exports,)), self.vertex, self.place):
@@ -57,28 +59,31 @@ class StatusBar(QtWidgets.QStatusBar):
 
     # ------------------------------------------------------------------ what is said
     def show_surface(self, surface: Surface | None, more: Sequence[str] = (), beside: Sequence[Surface] = ()) -> None:
-        """Its counts and its repairs, and those of surfaces beside it; more: what else is to be known."""
+        """Its counts and its notes, and those of surfaces beside it; more: other facts."""
         if surface is None:
             self._vertices, self._faces = "No mesh", ""
-            self.repairs.show_list([])
+            self.notes.show_lists()
         else:
             self._vertices, self._faces = f"{len(surface.vertices):,} vertices", f"{len(surface.faces):,} faces"
-            said, count = [*remarks(surface), *more], len(surface.remarks)
+            lettered = [("", surface)]
             if beside:
                 lettered = list(zip("ABCDEFGH", (surface, *beside), strict=False))
                 self._vertices = "   ".join(f"{k}  {len(each.vertices):,} vertices" for k, each in lettered)
                 self._faces = ""
-                said = [f"{k}: {text}" for k, each in lettered for text in remarks(each)] + list(more)
-                count = sum(len(each.remarks) for _, each in lettered)
-            self.repairs.show_list(said, count)
-        self.accuracy.show_list([])
+            notes = [(f"{letter}: " if letter else "", surface_notes(each)) for letter, each in lettered]
+            self.notes.show_lists(
+                [mark + text for mark, each in notes for text in each.warnings],
+                [mark + text for mark, each in notes for text in each.repairs],
+                [*(mark + text for mark, each in notes for text in each.facts), *more],
+            )
+        self.accuracy.show_lists()
         self.show_place(None, None)
         self._fit()
 
     def show_inexact(self, answers: Sequence[Answer]) -> None:
         """Which of the panels' answers are not exact, and by how much."""
         poor = dict.fromkeys(f"{a.label}: only {a.accuracy.text}" for a in answers if a.accuracy.is_poor)
-        self.accuracy.show_list(list(poor), len(poor))
+        self.accuracy.show_lists(list(poor))
 
     def show_place(self, vertex: int | None, position: Sequence[float] | None, letter: str = "") -> None:
         """letter: of the surface, where there are two."""
@@ -179,22 +184,22 @@ class Words(QtWidgets.QWidget):
 
 
 class Chip(QtWidgets.QToolButton):
-    """ "2 repairs": a click lists them; hidden while there are none."""
+    """ "2 warnings, 1 repair": a click lists them; hidden while there are none."""
 
-    def __init__(self, one: str, many: str = "") -> None:
+    def __init__(self, *kinds: tuple[str, str]) -> None:
+        """kinds: what one and several sentences of a kind are called; those of the first are warnings."""
         super().__init__()
-        self._one, self._many = one, many or f"{one}s"
-        self._sentences: list[str] = []
-        self._count = 0
+        self._kinds = kinds
+        self._lists: list[list[str]] = [[] for _ in kinds]
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
         self.setCursor(QtCore.Qt.CursorShape.PointingHandCursor)
         self.clicked.connect(self._list)
         self.hide()
 
-    def show_list(self, sentences: list[str], count: int = 0) -> None:
-        """count: of those that are meant as warnings; the others are told with them, or quietly."""
-        self._sentences, self._count = sentences, count
-        self.setVisible(bool(sentences))
+    def show_lists(self, *lists: list[str]) -> None:
+        """Sentences of each kind; of those at the end that are left out there are none."""
+        self._lists = [*lists, *([] for _ in self._kinds[len(lists) :])]
+        self.setVisible(any(lists))
         self.setAccessibleName(self.words)
         self.setToolTip(f"{self.words}: click for the list")
         self.updateGeometry()
@@ -202,13 +207,12 @@ class Chip(QtWidgets.QToolButton):
 
     @property
     def sentences(self) -> list[str]:
-        return list(self._sentences)
+        return [sentence for some in self._lists for sentence in some]
 
     @property
     def words(self) -> str:
-        if not self._count:
-            return f"{len(self._sentences)} note{'' if len(self._sentences) == 1 else 's'}"
-        return f"{self._count} {self._one if self._count == 1 else self._many}"
+        counted = zip(self._lists, self._kinds, strict=True)
+        return ", ".join(f"{len(some):,} {one if len(some) == 1 else many}" for some, (one, many) in counted if some)
 
     def sizeHint(self) -> QtCore.QSize:
         return QtCore.QSize(QtGui.QFontMetrics(LOOK.font(12)).horizontalAdvance(self.words) + 42, 20)
@@ -219,13 +223,17 @@ class Chip(QtWidgets.QToolButton):
     def _list(self) -> None:
         menu = QtWidgets.QMenu(self)
         metrics = QtGui.QFontMetrics(LOOK.font())
-        for sentence in self._sentences[:LISTED]:
-            shown = metrics.elidedText(sentence, QtCore.Qt.TextElideMode.ElideRight, 560)
-            menu.addAction(shown).setToolTip(sentence)
-        if len(self._sentences) > LISTED:
-            menu.addAction(f"and {len(self._sentences) - LISTED:,} more").setEnabled(False)
+        has_heads = len(self._kinds) > 1
+        for some, (_, many) in zip(self._lists, self._kinds, strict=True):
+            if some and has_heads:
+                menu.addAction(many.capitalize()).setEnabled(False)
+            for sentence in some[:LISTED]:
+                shown = metrics.elidedText(sentence, QtCore.Qt.TextElideMode.ElideRight, 560)
+                menu.addAction(shown).setToolTip(sentence)
+            if len(some) > LISTED:
+                menu.addAction(f"and {len(some) - LISTED:,} more").setEnabled(False)
         menu.addSeparator()
-        copy: Callable[[], None] = lambda: QtWidgets.QApplication.clipboard().setText("\n".join(self._sentences))  # noqa: E731
+        copy: Callable[[], None] = lambda: QtWidgets.QApplication.clipboard().setText("\n".join(self.sentences))  # noqa: E731
         menu.addAction("Copy", copy)
         menu.setToolTipsVisible(True)
         menu.aboutToHide.connect(menu.deleteLater)
@@ -234,7 +242,7 @@ class Chip(QtWidgets.QToolButton):
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         theme, painter = LOOK.theme, QtGui.QPainter(self)
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        is_warning = self._count > 0
+        is_warning = bool(self._lists[0])
         box = QtCore.QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
         painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 2) if self.hasFocus() else QtCore.Qt.PenStyle.NoPen)
         painter.setBrush(QtGui.QColor(theme.warning_ground if is_warning else theme.hover))
@@ -257,15 +265,3 @@ def unseen(recipe: Recipe, style: Style) -> list[str]:
     }
     words = [word for word, part in parts.items() if part]
     return [f"in figures only: {', '.join(words)}"] if words else []
-
-
-def remarks(surface: Surface) -> list[str]:
-    """What is remarkable about a surface: what was repaired, what is unusual, what has no colour."""
-    words = list(surface.remarks)
-    if surface.nonmanifold_edge_count:
-        words.append(f"{surface.nonmanifold_edge_count:,} edges with more than two faces")
-    if surface.component_count > 1:
-        words.append(f"{surface.component_count} components (grey: not connected to the source)")
-    if surface.unreferenced_count:
-        words.append(f"{surface.unreferenced_count:,} vertices without a face")
-    return words

@@ -218,17 +218,20 @@ class RegionsDock(Instrument):
     def _fill_menu(self) -> None:
         menu = self.save_button.menu()
         menu.clear()
-        for _, panel in self._shown:
-            menu.addSection(quantity_name(panel.shows))
+        for place, panel in self._shown:
+            # A menu of its own for each distance, where there are several.
+            name = f"Panel {place + 1}: {quantity_name(panel.shows)}"
+            inner = menu.addMenu(name) if len(self._shown) > 1 else menu
             for way in WAYS:
-                action = menu.addAction(TITLES[way], partial(self._save, panel.id, way))
+                action = inner.addAction(TITLES[way], partial(self._save, panel.id, way))
                 action.setEnabled(self._findings.is_divided(panel.id))
         if menu.isEmpty():
             menu.addAction("No panel shows regions").setEnabled(False)
 
     def _save(self, panel: int, way: str) -> None:
         name = f"{self.window_.session.surface.name}-{way}"
-        save(self.window_, TITLES[way].removesuffix("…"), name, FORMATS[way], partial(self.write, panel, way))
+        title = f"{TITLES[way].removesuffix('…')}, by {quantity_name(self.window_.session.document.panel(panel).shows)}"
+        save(self.window_, title, name, FORMATS[way], partial(self.write, panel, way))
 
     def save_to(self, panel: int, way: str, path: str) -> bool:
         """Write the regions of a panel, one of WAYS; whether that could be done."""
