@@ -144,6 +144,7 @@ class Answering:
             lambda request, lane: self._work(id, request, lane),
             self._reporter(id),
             lambda request, error: self._deliver(id, request, failed(str(request.question), error)),
+            leaves=True,
         )
 
     def _work(self, id: int, request: _Request, lane: Lane[_Request]) -> None:

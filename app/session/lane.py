@@ -25,6 +25,9 @@ class Lane(Generic[Request]):
     Work that takes long calls `lane.progress(is_wanted)` for its progress callback: it forwards reports to
     `report(fraction, text)` and raises Cancelled as soon as `is_wanted(latest request)` is false.  Exceptions other
     than Cancelled go to `failed(request, exception)`.  `report` and `failed` are called on the lane's thread.
+
+    leaves: whether the next request is worked on at once, on a fresh thread, when work is no longer wanted; what was
+    given up ends on the old thread when it asks next, and is not heard of any more.  Then two may work at a time.
     """
 
     def __init__(
@@ -33,35 +36,57 @@ class Lane(Generic[Request]):
         work: Callable[[Request, "Lane[Request]"], None],
         report: Callable[[float | None, str], None],
         failed: Callable[[Request, Exception], None],
+        leaves: bool = False,
     ) -> None:
+        self._name, self._leaves = name, leaves
         self._work, self._report, self._failed = work, report, failed
         self._changed = threading.Condition()
         self._latest: Request | None = None
         self._serial = self._taken = 0
-        self._closed = False
-        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
-        self._thread.start()
+        self._closed = self._is_working = False
+        self._is_wanted: Callable[[Request], bool] | None = None  # of what goes on, as it asked last
+        self._threads: list[threading.Thread] = []
+        self._start()
 
     def submit(self, request: Request | None) -> None:
         """Make this the latest request; None cancels what is going on."""
         with self._changed:
             self._latest = request
             self._serial += 1
-            self._changed.notify()
+            if self._leaves and self._is_working and not self._closed and not self._goes_on_for(request):
+                self._start()
+            self._changed.notify_all()
+
+    def _goes_on_for(self, request: Request | None) -> bool:
+        return request is not None and (self._is_wanted is None or self._is_wanted(request))
+
+    def _start(self) -> None:
+        """Let a fresh thread do what is wanted from now on."""
+        self._is_working = False
+        self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
+        self._threads = [*(thread for thread in self._threads if thread.is_alive()), self._thread]
+        self._thread.start()
 
     def progress(self, is_wanted: Callable[[Request], bool], quiet: float = QUIET_SECONDS) -> Progress:
         """A progress callback for the work on this lane (see the class), silent for the first `quiet` seconds."""
         last = time.monotonic() + quiet - 1 / REPORTS_PER_SECOND
+        mine = threading.current_thread()
+        with self._changed:
+            if self._thread is mine:
+                self._is_wanted = self._is_wanted or is_wanted
 
         def report(fraction: float, text: str) -> None:
             nonlocal last
-            latest = self._latest
-            if self._closed or latest is None or not is_wanted(latest):
-                raise Cancelled("A newer request came.")
-            now = time.monotonic()
-            if now - last >= 1 / REPORTS_PER_SECOND:
-                last = now
-                self._report(fraction, text)
+            # Nobody gives the work up between the question and the report.
+            with self._changed:
+                latest = self._latest
+                if self._closed or self._thread is not mine or latest is None or not is_wanted(latest):
+                    raise Cancelled("A newer request came.")
+                self._is_wanted = is_wanted
+                now = time.monotonic()
+                if now - last >= 1 / REPORTS_PER_SECOND:
+                    last = now
+                    self._report(fraction, text)
 
         return report
 
@@ -69,29 +94,43 @@ class Lane(Generic[Request]):
         """Stop the work and, soon, the thread."""
         with self._changed:
             self._closed = True
-            self._changed.notify()
+            self._changed.notify_all()
 
     def close(self, timeout: float = 5.0) -> None:
         """The same, and wait for it."""
         self.end()
-        self._thread.join(timeout)
+        until = time.monotonic() + timeout
+        for thread in self._threads:
+            thread.join(max(until - time.monotonic(), 0))
 
     def _run(self) -> None:
         # Elsewhere Python cannot do this for a single thread.
         if sys.platform == "linux":
             os.nice(NICE)
+        mine = threading.current_thread()
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._closed or self._taken < self._serial)
                 if self._closed:
                     return
                 self._taken, request = self._serial, self._latest
-            if request is not None:
-                try:
-                    self._work(request, self)
-                except Cancelled:
-                    pass
-                except Exception as error:
+                self._is_working, self._is_wanted = request is not None, None
+            error = None if request is None else self._error_of(request)
+            with self._changed:
+                if self._thread is not mine:
+                    return
+                self._is_working = False
+                if error is not None and request is not None:
                     self._failed(request, error)
-            # Another request may be waiting already; then its reports follow at once.
-            self._report(None, "")
+                # Another request may be waiting already; then its reports follow at once.
+                self._report(None, "")
+
+    def _error_of(self, request: Request) -> Exception | None:
+        """Do the work; what went wrong."""
+        try:
+            self._work(request, self)
+        except Cancelled:
+            return None
+        except Exception as error:
+            return error
+        return None

@@ -73,7 +73,7 @@ class Surfaces:
         self.on_their_way: Opening | None = None
         self.progress: tuple[float, str] | None = None
         self.tried = False  # whether surfaces have been asked for
-        self._lane: Lane[Opening] = Lane("load", self._load, self._report, self._failed)
+        self._lane: Lane[Opening] = Lane("load", self._load, self._report, self._failed, leaves=True)
 
     def __iter__(self) -> Iterator[Opened]:
         return iter(self._opened)

@@ -1,7 +1,7 @@
 """Exact geodesic distance on a mesh (Mitchell, Mount, Papadimitriou 1987; the program is pygeodesic's).
 
 pygeodesic holds the interpreter lock for seconds to minutes and can crash, so it runs in a process of its own,
-which can be killed (see `child_process`).
+which can be killed (see `solver.child_process`).
 """
 
 import importlib.util

@@ -11,6 +11,7 @@ import pytest
 from app.document.document import MeshFile
 from app.document.edits import add_panel
 from app.document.quantities import DistanceFrom
+from app.session import opened
 from app.session.kept import KeptAnswers
 from app.session.questions import DistanceQuestion
 from bihdist_core import BiharmonicDistance, Cancelled
@@ -116,8 +117,8 @@ def test_progress_is_told_and_cancel_stops_within_a_second(slow_desk):
     begun = time.monotonic()
     d.session.cancel()
     d.until(lambda: not d.session.progress)
+    d.until(lambda: slow.cancelled == 1)
     assert time.monotonic() - begun < 1
-    assert slow.cancelled == 1
     # The next click asks again.
     d.click(8)
     slow.allowed.release()
@@ -156,6 +157,63 @@ def test_an_answer_that_comes_late_is_dropped(desk, mesh_file):
     d.complete()
     assert d.sources_shown == [3]
     assert d.view.told.count("answer 0") == 2  # for 1 and 3
+
+
+# ---------------------------------------------------------------------- what asks nobody
+@dataclass(frozen=True)
+class DeafSpec(Spec):
+    """A distance whose making asks nobody whether to go on, as somebody else's may."""
+
+    slow: Slow = None
+
+    def build(self, laplacian, progress=None):
+        self.slow.started.release()
+        assert self.slow.allowed.acquire(timeout=60)
+        return BiharmonicDistance(laplacian)
+
+
+@pytest.fixture
+def deaf_desk(desk, mesh_file):
+    slow = Slow()
+    d = desk([BIHARMONIC, DeafSpec("biharmonic", slow=slow)])
+    d.show(mesh_file(bumpy(200)), 0)
+    d.until(lambda: slow.started.acquire(blocking=False))
+    yield d
+    slow.allowed.release(10)
+
+
+@pytest.mark.parametrize("stop", [lambda d: d.session.cancel(1), lambda d: d.session.cancel(), lambda d: None])
+def test_nobody_waits_behind_what_was_given_up_and_asks_nobody(deaf_desk, stop):
+    d = deaf_desk
+    stop(d)
+    d.until(lambda: 1 not in d.session.progress)
+    d.choose(1, COMMUTE)
+    d.complete()
+    assert [answer.label for answer in d.answers] == ["biharmonic, exact", "commute-time, exact"]
+
+
+def test_a_file_whose_reading_asks_nobody_does_not_hold_up_the_next(desk, mesh_file, monkeypatch):
+    d = desk([BIHARMONIC])
+    begun, gate, read = threading.Event(), threading.Event(), opened.read_surface
+
+    def held(path):
+        if "long" in path:
+            begun.set()
+            assert gate.wait(60)
+        return read(path)
+
+    monkeypatch.setattr(opened, "read_surface", held)
+    d.opened(mesh_file(bumpy(60)))
+    d.session.open(mesh_file(bumpy(80), "long.off"))
+    assert begun.wait(60)
+    d.until(lambda: "load" in d.session.progress)
+    d.session.cancel()
+    d.until(lambda: "load" not in d.session.progress)
+    d.session.open(mesh_file(bumpy(100), "next.off"))
+    d.until(lambda: len(d.session.surface.vertices) == 100)
+    gate.set()
+    d.complete()
+    assert len(d.session.surface.vertices) == 100
 
 
 def test_an_error_nobody_foresaw_is_told(desk, mesh_file, monkeypatch):
