@@ -257,7 +257,13 @@ TURNS = (
     Act("nearer", "Nearer", _zoom(1.2), ("+", "="), of_view=True, needs_mesh=True),
     Act("farther", "Farther", _zoom(1 / 1.2), ("-",), of_view=True, needs_mesh=True),
     _of_view("remove anchor", "Remove the chosen anchor or pair", lambda w: w.gestures.remove_chosen(), "Delete"),
-    _of_view("accept pair", "Accept the predicted partner", lambda w: w.gestures.pairs.accept(), "Return", "Enter"),
+    _of_view(
+        "accept pair",
+        "Accept the predicted partner",
+        lambda w: w.guide.go_on() or w.gestures.pairs.accept(),
+        "Return",
+        "Enter",
+    ),
 )
 PANELS = (
     Act(

@@ -307,11 +307,13 @@ class MainWindow(QtWidgets.QMainWindow):
 
     # ------------------------------------------------------------------ what the user chooses
     def cancel(self) -> None:
-        """Esc: out of a box, the tour, the live source or the full screen; otherwise stop what is being computed."""
+        """Esc: out of the tour, a box, the live source or the full screen; otherwise stop what is being computed."""
+        if self.guide.end_tour():
+            return
         if self.source_box.hasFocus():
             self.source_box.give_up()
             self.leave_boxes()
-        elif self.guide.end_tour() or (self.docks is not None and self.docks.put_down()):
+        elif self.docks is not None and self.docks.put_down():
             return
         elif self.gestures is not None and self.gestures.sources.is_drawing:
             self.actions_by_word["draw source"].trigger()

@@ -63,12 +63,23 @@ class Guide:
         """The tour, if it has been started."""
         return self._tour
 
+    @property
+    def is_touring(self) -> bool:
+        return self._tour is not None and self._tour.is_on
+
     def end_tour(self) -> bool:
         """Whether there was one."""
-        if self._tour is None or not self._tour.is_on:
-            return False
-        self._tour.end()
-        return True
+        is_on = self.is_touring
+        if is_on:
+            self._tour.end()
+        return is_on
+
+    def go_on(self) -> bool:
+        """The next step of the tour; whether there is one."""
+        is_on = self.is_touring
+        if is_on:
+            self._tour.go(self._tour.at + 1)
+        return is_on
 
     def show_about(self) -> None:
         tell(self._window, f"Biharmonic distance {version()}", ABOUT)

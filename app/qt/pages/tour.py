@@ -1,4 +1,7 @@
-"""The tour: a card beside one part of the window after the other, while the user can try what it says."""
+"""The tour: a card about one part of the window after the other, while the user can try what it says.
+
+It stays in its place, so that whoever clicks twice does not click what lies under it.
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -77,13 +80,14 @@ class Tour(QtCore.QObject):
     def __init__(self, window: QtWidgets.QWidget, steps: Sequence[Step]) -> None:
         super().__init__(window)
         self.window, self.steps, self.at = window, list(steps), 0
-        self.card, self.outline = Card(window), Outline(window)
+        self.card, self.outline = Card(window, self.steps), Outline(window)
+        # What the second click of two meets where the card was: nothing.
+        self._shield = QtWidgets.QWidget(window, visible=False)
+        self._shield_gone = QtCore.QTimer(self, singleShot=True)
+        self._shield_gone.timeout.connect(self._shield.hide)
         self.card.back.clicked.connect(lambda: self.go(self.at - 1))
         self.card.next.clicked.connect(lambda: self.go(self.at + 1))
         self.card.close_button.clicked.connect(self.end)
-        self._escape = QtWidgets.QShortcut(QtGui.QKeySequence(QtCore.Qt.Key.Key_Escape), window, enabled=False)
-        self._escape.activated.connect(self.end)
-        self._escape.activatedAmbiguously.connect(self.end)
         # Panels come and go and docks move them: watching the window alone would not do.
         self._again = QtCore.QTimer(self, interval=LOOK_AGAIN_MS)
         self._again.timeout.connect(self.place)
@@ -96,7 +100,6 @@ class Tour(QtCore.QObject):
     def start(self) -> None:
         """From the first step, also when it is on already."""
         self.window.installEventFilter(self)
-        self._escape.setEnabled(True)
         self._again.start()
         self.go(0)
         self.card.next.setFocus(QtCore.Qt.FocusReason.OtherFocusReason)
@@ -107,7 +110,8 @@ class Tour(QtCore.QObject):
             self.end()
             return
         self.at = max(step, 0)
-        self.card.show_step(self.steps[self.at], self.at, len(self.steps))
+        self.card.show_step(self.at)
+        self.card.fit()
         self.card.show()
         self.place()
 
@@ -115,22 +119,26 @@ class Tour(QtCore.QObject):
         if not self.is_on:
             return
         self._again.stop()
-        self._escape.setEnabled(False)
         self.window.removeEventFilter(self)
+        self._shield.setGeometry(self.card.geometry())
+        self._shield.show()
+        self._shield.raise_()
+        self._shield_gone.start(QtWidgets.QApplication.doubleClickInterval())
         self.card.hide()
         self.outline.hide()
         self.ended.emit()
 
     def place(self) -> None:
-        """Put the card and the outline to where the step's widget is now."""
-        target = self.steps[self.at].where()
-        room = room_of(self.window)
-        about = rectangle_in(target, self.window) if target is not None else None
+        """Put the outline round the step's widget as it is now, and the card to where it hides the part of no step."""
+        targets = [step.where() for step in self.steps]
+        parts = [None if target is None else rectangle_in(target, self.window) for target in targets]
+        about = parts[self.at]
         self.outline.setVisible(about is not None)
         if about is not None:
             self.outline.setGeometry(about.adjusted(-OUTLINE, -OUTLINE, OUTLINE, OUTLINE) & self.window.rect())
             self.outline.raise_()
-        self.card.move(beside(about, self.card.size(), room))
+        seen = [part for part in parts if part is not None]
+        self.card.move(place_beside(seen, self.card.size(), room_of(self.window)))
         self.card.raise_()
 
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
@@ -162,24 +170,35 @@ def rectangle_in(target: QtWidgets.QWidget, window: QtWidgets.QWidget) -> QtCore
     return QtCore.QRect(target.mapTo(window, QtCore.QPoint(0, 0)), target.size()) & window.rect()
 
 
-def beside(about: QtCore.QRect | None, card: QtCore.QSize, room: QtCore.QRect) -> QtCore.QPoint:
-    """The card's corner: below, right of, left of or above what it is about, the first where it has room.
+def place_beside(parts: Sequence[QtCore.QRect], card: QtCore.QSize, room: QtCore.QRect) -> QtCore.QPoint:
+    """The card's corner: below, right of, left of or above one of the parts, the first place that is clear of all.
 
-    Without room on any side it lies in the lower right corner of that; without anything it is about, in the middle.
+    Where there is none, in the largest part, at its lower right if that is clear of the others; without parts in the
+    middle.
     """
-    if about is None:
+    if not parts:
         return room.center() - QtCore.QPoint(card.width() // 2, card.height() // 2)
-    level = about.center().x() - card.width() // 2
-    right_corner = about.bottomRight() - QtCore.QPoint(card.width() + GAP, card.height() + GAP)
-    places = [
-        QtCore.QPoint(level, about.bottom() + GAP),
-        QtCore.QPoint(about.right() + GAP, about.top()),
-        QtCore.QPoint(about.left() - GAP - card.width(), about.top()),
-        QtCore.QPoint(level, about.top() - GAP - card.height()),
+    largest = max(parts, key=lambda part: part.width() * part.height())
+    others = [part for part in parts if part != largest]
+    within = largest.bottomRight() - QtCore.QPoint(card.width() + GAP, card.height() + GAP)
+    beside = [corner for part in parts for corner in _corners(part, card)]
+    for corners, kept_clear in ((beside, parts), ([within, *beside], others)):
+        for corner in corners:
+            place = QtCore.QRect(_into(room, corner, card), card)
+            if not any(place.intersects(part) for part in kept_clear):
+                return place.topLeft()
+    return _into(room, within, card)
+
+
+def _corners(part: QtCore.QRect, card: QtCore.QSize) -> list[QtCore.QPoint]:
+    """Of the card below, right of, left of and above a part."""
+    level = part.center().x() - card.width() // 2
+    return [
+        QtCore.QPoint(level, part.bottom() + GAP),
+        QtCore.QPoint(part.right() + GAP, part.top() + GAP),
+        QtCore.QPoint(part.left() - GAP - card.width(), part.top() + GAP),
+        QtCore.QPoint(level, part.top() - GAP - card.height()),
     ]
-    inside = [QtCore.QRect(_into(room, place, card), card) for place in places]
-    clear = [place.topLeft() for place in inside if not place.intersects(about)]
-    return clear[0] if clear else _into(room, right_corner, card)
 
 
 def _into(room: QtCore.QRect, corner: QtCore.QPoint, card: QtCore.QSize) -> QtCore.QPoint:
@@ -193,14 +212,19 @@ def _into(room: QtCore.QRect, corner: QtCore.QPoint, card: QtCore.QSize) -> QtCo
 class Card(QtWidgets.QWidget):
     """One step: its title and text, the way on, back and out."""
 
-    def __init__(self, window: QtWidgets.QWidget) -> None:
+    def __init__(self, window: QtWidgets.QWidget, steps: Sequence[Step]) -> None:
         super().__init__(window, visible=False)
+        self._steps = steps
         self.title, self.text, self.count = QtWidgets.QLabel(), QtWidgets.QLabel(wordWrap=True), QtWidgets.QLabel()
         self.text.setProperty("quiet", True)
         self.count.setProperty("quiet", True)
         self.close_button = QtWidgets.QToolButton(toolTip="End the tour (Esc)", accessibleName="End the tour")
         put_icon(self.close_button, "close", colour_of="quiet")
         self.back, self.next = QtWidgets.QPushButton("Back"), QtWidgets.QPushButton("Next", objectName="fill")
+        for button in (self.back, self.next):
+            button.setAutoDefault(True)  # Enter presses it
+        for other in (self.back, self.close_button):
+            other.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)  # a click leaves the keys to the way on
         top, bottom = QtWidgets.QHBoxLayout(), QtWidgets.QHBoxLayout(spacing=8)
         top.addWidget(self.title, 1)
         top.addWidget(self.close_button)
@@ -217,23 +241,30 @@ class Card(QtWidgets.QWidget):
         lines.addLayout(top)
         lines.addLayout(words)
         lines.addSpacing(12)
+        lines.addStretch(1)
         lines.addLayout(bottom)
 
-    def show_step(self, step: Step, at: int, count: int) -> None:
+    def show_step(self, at: int) -> None:
+        """By its place, from 0."""
+        step, count = self._steps[at], len(self._steps)
         self.title.setText(step.title)
         self.text.setText(step.text)
         self.count.setText(f"{at + 1} of {count}")
         self.back.setEnabled(at > 0)
         self.next.setText("Done" if at == count - 1 else "Next")
         self.setAccessibleName(f"{step.title}. {step.text}")
-        self.fit()
 
     def fit(self) -> None:
-        """As wide as cards are, as high as its text needs."""
+        """As wide as cards are, as high as the longest text needs, so that the buttons stay where they are."""
         self.title.setFont(LOOK.font(bold=True))
         self.setFixedWidth(round(WIDE * LOOK.scale))
-        self.layout().activate()
-        self.resize(self.width(), self.layout().totalHeightForWidth(self.width()))
+        shown, heights = self.text.text(), []
+        for step in self._steps:
+            self.text.setText(step.text)
+            self.layout().activate()
+            heights.append(self.layout().totalHeightForWidth(self.width()))
+        self.text.setText(shown)
+        self.resize(self.width(), max(heights))
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         painter = QtGui.QPainter(self)
