@@ -54,7 +54,7 @@ class Gestures:
         grid.dragged.connect(self._drag)
         grid.released.connect(self._release)
         grid.hovered.connect(self._hover)
-        grid.live_key_up.connect(self._live_key_up)
+        window.held_keys.live_key_up.connect(self._live_key_up)
         grid.menu_wanted.connect(self._open_menu)
 
     def begin(self) -> None:

@@ -28,6 +28,7 @@ from .files.exports import ExportChip, Exports
 from .files.field_files import FieldFiles
 from .files.files import Files
 from .files.session_actions import SessionFile
+from .held_keys import HeldKeys
 from .look.look import LOOK
 from .pages.guide import Guide
 from .pages.messages import Notice, tell
@@ -72,6 +73,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid: Any = None  # a PanelGrid, once what draws has been imported
         self.gestures: Any = None  # what the mouse means in it
         self.docks: Any = None  # the instruments
+        self.held_keys: Any = None
         self._start_page: Any = None
         self._waiting: list[Callable[[], None]] = []
         self.quiet = False
@@ -120,6 +122,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.keys = self.actions_by_word.key_of_view
         self.grid.wheel_factor = -1.0 if self.preferences.wheel_reversed else 1.0
         self.grid.eye.is_turntable = self.preferences.turntable
+        self.held_keys = HeldKeys(self)
         self.gestures = Gestures(self)
         self.docks = Docks(self)
         self.grid.chosen.connect(self.gestures.choose)

@@ -129,6 +129,38 @@ def test_with_the_key_held_a_drag_paints_a_selection_and_not_the_view(opened):
     assert s.source == 5
 
 
+def test_the_key_for_the_brush_is_heard_wherever_the_focus_is_but_in_text(opened):
+    from qtpy import QtCore, QtWidgets
+    from qtpy.QtTest import QTest
+
+    s, key = opened, QtCore.Qt.Key.Key_B
+    pointers = [panel.view.pointer for panel in s.panels]
+    s.window.docks.toggle("anchors")
+    dock = s.window.docks._docks["anchors"]
+    spin = dock.content.findChild(QtWidgets.QSpinBox)
+    for keys in (s.panels[0].view, s.window.tools["open"], s.panels[1].head.name, spin):
+        keys.setFocus()
+        assert s.window.focusWidget() is keys
+        QTest.keyPress(s.window.windowHandle(), key)
+        assert all(pointer.brush is not None for pointer in pointers)
+        s.panels[0].view.setFocus()  # as by the click that begins a stroke
+        assert all(pointer.brush is not None for pointer in pointers)
+        QTest.keyRelease(s.window.windowHandle(), key)
+        assert all(pointer.brush is None for pointer in pointers)
+    s.window.source_box.setFocus()
+    QTest.keyPress(s.window.windowHandle(), key)
+    assert pointers[0].brush is None
+    QTest.keyRelease(s.window.windowHandle(), key)
+    dock.setFloating(True)
+    s.settle(0.1)
+    spin.setFocus()
+    QTest.keyPress(dock.windowHandle(), key)
+    assert pointers[0].brush is not None
+    QTest.keyRelease(dock.windowHandle(), key)
+    assert pointers[0].brush is None
+    dock.setFloating(False)
+
+
 def test_selections_are_renamed_coloured_saved_deleted_and_kept(opened, tmp_path):
     from qtpy import QtCore, QtTest, QtWidgets
 

@@ -60,7 +60,7 @@ class Brushing(QtCore.QObject):
         self._making.answered.connect(self._ready)
         self._grid.brushed.connect(self._touch)
         self._grid.brush_lifted.connect(self._lift)
-        self._grid.brush_held.connect(self._hold)
+        window.held_keys.brush_held.connect(self._hold)
 
     # ------------------------------------------------------------------ what is shown
     def show(self, document: Document) -> None:

@@ -213,6 +213,7 @@ class Docks:
             # Its outline is for keys.
             button.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
         dock.wants_closed.connect(self.close)
+        dock.topLevelChanged.connect(lambda floats: floats and self._window.held_keys.watch(dock))
         dock.hide()
         self._docks[word] = dock
         return dock

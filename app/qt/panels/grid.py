@@ -32,9 +32,6 @@ SIDE_BY_SIDE = 3
 LEAST_WIDTH, LEAST_HEIGHT = 280, 220
 """Of a panel, in logical pixels; where there is less room panels stand below each other, and the grid is scrolled."""
 
-BRUSH_KEY, LIVE_KEY = QtCore.Qt.Key.Key_B, QtCore.Qt.Key.Key_L
-"""Held, a drag paints a selection."""
-
 LEAST_IN_ROW = 180
 """The same width where panels that belong together stand in a row: before, after, difference."""
 
@@ -68,8 +65,6 @@ class PanelGrid(QtWidgets.QWidget):
     activated = QtCore.Signal(int)
     brushed = QtCore.Signal(object, float)  # a `Met`, and how long a pixel is there
     brush_lifted = QtCore.Signal()
-    brush_held = QtCore.Signal(bool)  # the key for it, down or up
-    live_key_up = QtCore.Signal()
 
     def __init__(self, session: Session, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -344,15 +339,7 @@ class PanelGrid(QtWidgets.QWidget):
             for id, panel in self._panels.items():
                 if panel.view is watched:
                     self.activate(id)
-        kinds = QtCore.QEvent.Type
-        if event.type() in (kinds.KeyPress, kinds.KeyRelease) and event.key() == BRUSH_KEY:
-            if not event.isAutoRepeat() and not event.modifiers():
-                self.brush_held.emit(event.type() == kinds.KeyPress)
-        elif event.type() == kinds.FocusOut:
-            self.brush_held.emit(False)
-        elif event.type() == kinds.KeyRelease and event.key() == LIVE_KEY and not event.isAutoRepeat():
-            self.live_key_up.emit()
-        if event.type() == kinds.KeyPress and self.keys(event):
+        if event.type() == QtCore.QEvent.Type.KeyPress and self.keys(event):
             return True
         return super().eventFilter(watched, event)
 

@@ -1,0 +1,45 @@
+"""Keys that mean something as long as they are held, whichever widget has the focus.  `window` is the main window."""
+
+from qtpy import QtCore, QtWidgets
+
+BRUSH, LIVE = QtCore.Qt.Key.Key_B, QtCore.Qt.Key.Key_L
+"""Held, a drag paints a selection; held, the source follows the pointer."""
+
+TEXTS = (QtWidgets.QLineEdit, QtWidgets.QTextEdit, QtWidgets.QPlainTextEdit)
+"""What letters are typed into."""
+
+
+class HeldKeys(QtCore.QObject):
+    """Looks at the keys before any widget of the window gets them."""
+
+    brush_held = QtCore.Signal(bool)  # its key is down, or up again
+    live_key_up = QtCore.Signal()
+
+    def __init__(self, window: QtWidgets.QWidget) -> None:
+        super().__init__(window)
+        self._widgets: dict[QtCore.QObject, QtWidgets.QWidget] = {}  # by what Qt calls their windows
+        self.watch(window)
+
+    def watch(self, widget: QtWidgets.QWidget) -> None:
+        """The keys of a window, or of a dock that floats over it."""
+        widget.winId()  # from now on it has one
+        self._widgets[widget.windowHandle()] = widget
+        widget.windowHandle().installEventFilter(self)
+
+    def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
+        kinds = QtCore.QEvent.Type
+        if event.type() == kinds.FocusOut:
+            self.brush_held.emit(False)
+        if event.type() not in (kinds.KeyPress, kinds.KeyRelease) or event.key() not in (BRUSH, LIVE):
+            return False
+        is_down, is_live = event.type() == kinds.KeyPress, event.key() == LIVE
+        is_text = isinstance(self._widgets[watched].focusWidget(), TEXTS)
+        if is_live:
+            if not (is_down or is_text or event.isAutoRepeat()):
+                self.live_key_up.emit()
+            return False
+        if is_down and (is_text or event.modifiers()):
+            return False
+        if not event.isAutoRepeat():
+            self.brush_held.emit(is_down)
+        return is_down
