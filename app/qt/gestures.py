@@ -153,7 +153,8 @@ class Gestures:
         before, last, last_in = self.hovered, self._met, self._met_in
         self._met, self._met_in = met, panel
         vertex = self.hovered
-        if window.session.surface is None or (vertex is None and before is None):
+        is_beside = vertex is None and before is None and not self._grid.pointing.is_on
+        if window.session.surface is None or is_beside:
             return
         if not self._grid.has(panel):  # it has gone from under the pointer
             self._met = None

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from bihdist_core.applications.changes import Perturbation
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -181,7 +182,7 @@ def test_a_held_key_lets_the_source_follow_and_a_tap_switches_that_on(opened):
     s.until(live.isChecked)
     key.mouseMove(view, s.point_of(s.panels[0], target))
     s.until(lambda: s.source == target)
-    key.keyRelease(view, "l")
+    key.keyRelease(s.window.windowHandle(), "l")
     assert not live.isChecked()
     s.until(lambda: s.session.is_complete)
     assert s.source == target
@@ -226,6 +227,7 @@ def test_the_menu_of_a_place_offers_what_can_be_done_there(opened):
         "Pin here",
         "Isoline through here",
         "Save isolines…",
+        "Save field…",
         "Centre the view here",
         "Zoom to it",
         f"Copy vertex id {target}",
@@ -294,3 +296,34 @@ def test_views_before_and_after_are_offered_where_there_are_some(opened):
     assert (before.isEnabled(), after.isEnabled()) == (False, True)
     after.trigger()
     assert (before.isEnabled(), after.isEnabled()) == (True, False)
+
+
+def rings(s):
+    return [panel.view.over.pointed is not None for panel in s.panels]
+
+
+def test_the_ring_goes_with_the_pointer_also_if_it_came_by_a_menu(opened):
+    from qtpy import QtCore, QtTest
+
+    s, view = opened, opened.panels[0].view
+    QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.RightButton, pos=s.point_of(s.panels[0], front(s)))
+    assert all(rings(s))
+    s.application.activePopupWidget().close()
+    s.application.sendEvent(view, QtCore.QEvent(QtCore.QEvent.Type.Leave))
+    assert not any(rings(s))
+    assert not s.window.status.vertex.text
+
+
+def test_the_ring_goes_from_all_meshes_where_one_of_them_is_made_anew(opened):
+    from qtpy import QtCore
+
+    s = opened
+    s.session.change_mesh(Perturbation(noise=0.1))
+    s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
+    s.settle()
+    s.hover(s.point_of(s.panels[0], s.seen(1)[0]))
+    assert any(rings(s))
+    s.session.change_mesh(Perturbation(noise=0.2))
+    s.until(lambda: s.session.is_complete and not s.session.is_opening)
+    s.application.sendEvent(s.panels[0].view, QtCore.QEvent(QtCore.QEvent.Type.Leave))
+    assert not any(rings(s))

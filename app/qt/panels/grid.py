@@ -238,7 +238,7 @@ class PanelGrid(QtWidgets.QWidget):
                 panel.show_surface(opened)
                 panel.head.show_letter(panel.head.letter, opened.surface.name)
         self.marks.begin_surfaces()
-        self.pointing.forget()
+        self.pointing.leave()
         self.show_shading()
 
     def show_shading(self) -> None:

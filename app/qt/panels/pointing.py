@@ -19,9 +19,10 @@ class Pointing:
         """These are shown from now on."""
         self._panels = panels
 
-    def forget(self) -> None:
-        """Another surface is there."""
-        self._at = None
+    @property
+    def is_on(self) -> bool:
+        """Whether any panel shows a ring."""
+        return self._at is not None
 
     def leave(self) -> None:
         """Nothing is pointed at."""
