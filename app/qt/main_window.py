@@ -269,7 +269,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.announce_soon()
 
     def _say_what_is_inexact(self) -> None:
-        self.status.show_inexact([shown.answer for shown in self.session.shown.values()])
+        self.status.show_inexact([shown.answer for shown in self.session.shown.values() if not shown.is_preview])
 
     def _offer_steps(self) -> None:
         self.actions_by_word["undo"].setEnabled(self.session.can_undo)

@@ -115,14 +115,12 @@ def change_of(question: ChangeQuestion, opened: "Opened", progress: Progress | N
         raise
     except (BihdistError, MemoryError) as error:
         return failed(str(question), error)
-    shares = [answer.accuracy.share for answer in (before, after)]
     name = after.label.partition(",")[0]
-    certificate = Certificate() if None in shares else Certificate.of(sum(share for share in shares if share))
     return Answer(
         label=f"change of {after.label}",
         unit=PERCENTAGE_POINTS,
         field=field,
-        certificate=certificate,
+        certificate=Certificate.of_difference(before.accuracy, after.accuracy),
         is_signed=True,
         signs=(f"{name} is farther after", f"{name} is nearer after"),
         is_rough=crosses_itself(field, opened.surface.faces),

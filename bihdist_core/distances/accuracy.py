@@ -30,8 +30,8 @@ Adjoint = Callable[[np.ndarray], np.ndarray]
 Effect = Callable[[int], np.ndarray]
 Squares = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
-WARN, REFUSE = 1e-6, 1e-3
-"""A distance that may be further off than these, as shares of its maximum, is warned of, or not shown."""
+POOR = 1e-3
+"""What may be further off than this, as a share of its maximum, is warned of; what need not be is not given."""
 
 EPS = float(np.finfo(float).eps)
 ROUNDINGS = 8
@@ -57,11 +57,21 @@ class Certificate:
     share: float | None = None
 
     @classmethod
-    def of(cls, accuracy: float | None) -> "Certificate":
-        """Of a share of the maximum."""
-        if accuracy is None:
-            return cls()
-        return cls(f"accurate to {rounded_up(accuracy)} of the maximum", accuracy > WARN, accuracy)
+    def of(cls, accuracy: float, text: str = "") -> "Certificate":
+        """Of a share of the maximum; text: for more to be said than that."""
+        return cls(text or accurate_to(accuracy), accuracy > POOR, accuracy)
+
+    @classmethod
+    def of_difference(cls, one: "Certificate", other: "Certificate") -> "Certificate":
+        """Of the difference of two fields in shares of their maxima; empty where one is not known."""
+        if one.share is not None and other.share is not None:
+            off = one.share + other.share
+            return cls.of(off, f"accurate to {rounded_up(off)} of both maxima")
+        return next((each for each in (one, other) if each.is_poor), cls())
+
+
+def accurate_to(share: float) -> str:
+    return f"accurate to {rounded_up(share)} of the maximum"
 
 
 def rounded_up(share: float) -> str:

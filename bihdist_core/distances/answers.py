@@ -104,8 +104,7 @@ def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Ans
     unit = (minuend.unit or subtrahend.unit) if raw else PERCENTAGE_POINTS
     certificate = None
     if minuend.certificate is not None and subtrahend.certificate is not None:
-        shares = [c.share for c in (minuend.certificate, subtrahend.certificate)]
-        certificate = Certificate() if None in shares else Certificate.of(sum(share for share in shares if share))
+        certificate = Certificate.of_difference(minuend.certificate, subtrahend.certificate)
     return Answer(
         label=label,
         unit=unit,

@@ -1,6 +1,6 @@
 """The diffusion distance (paper, Eq. 1, with its normalised time t <- t / (2 lambda_1))."""
 
-import math
+from bisect import bisect_left
 
 import numpy as np
 
@@ -9,22 +9,27 @@ from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
 from ..solver.spectrum import Spectrum
 from ..surface import Surface
-from .accuracy import SPARE
 from .spectral import SpectralDistance, checked_number
+from .tails import Cloud, biharmonic_squares, missing, tail_lengths
 
 FIRST_BATCH = 16
 LONGEST = 700.0
 """From here on the first weight, exp(-t), is no number any more."""
+TOLERANCE, COARSEST = 1e-7, 1e-4
+"""Of the maximum: how exact distances are if nothing else is asked for, and if that takes too many eigenpairs."""
 MOST_PAIRS = 3000
 """More eigenpairs than this are not computed: at 100,000 vertices they fill 2.4 GB."""
+STEP = 1.02
+"""By what share of the largest eigenvalue at a time it is tried how many more would do."""
 
 
 class DiffusionDistance(SpectralDistance):
     """d(i, j)^2 = sum_k exp(-t lambda_k / lambda_1) (phi_k(i) - phi_k(j))^2; unit 1 / length.
 
-    The sum takes every eigenpair whose weight exceeds `tolerance` times the first weight; `bound` tells what the
-    rest can add.  lambda_1 is that of the component.  Raises ParameterError if t or the tolerance is not positive,
-    or if they need more than `MOST_PAIRS` eigenpairs.
+    tolerance: how far any distance may be off because eigenpairs are left out, as a share of the maximum of the field
+    it stands in; the sum takes as many as are proven to be enough.  None means `TOLERANCE`, or where that takes more
+    than `MOST_PAIRS` eigenpairs what these give, down to `COARSEST`.  lambda_1 is that of the component.  Raises
+    ParameterError if t or the tolerance is not positive, or if they need more than `MOST_PAIRS` eigenpairs.
     """
 
     length_power = -1.0
@@ -33,60 +38,70 @@ class DiffusionDistance(SpectralDistance):
         self,
         laplacian: Laplacian | Surface,
         t: float = 1.0,
-        tolerance: float = 1e-8,
+        tolerance: float | None = None,
         progress: Progress | None = None,
     ) -> None:
         if not 0 < checked_number(t, "The diffusion time t") <= LONGEST:
             raise ParameterError(f"The diffusion time t is {t:g}; it must be positive, and at most {LONGEST:g}.")
-        if not 0 < checked_number(tolerance, "The tolerance") < 1:
+        if tolerance is not None and not 0 < checked_number(tolerance, "The tolerance") < 1:
             raise ParameterError(f"The tolerance is {tolerance:g}; it must lie between 0 and 1.")
         super().__init__(laplacian)
-        self.t, self.tolerance = float(t), float(tolerance)
+        self.t, self.tolerance = float(t), TOLERANCE if tolerance is None else float(tolerance)
+        self._coarsest = COARSEST if tolerance is None else self.tolerance
         self.label = f"diffusion, t = {t:g}"
-        self._omitted: dict[int, float] = {}
+        self._used: dict[int, tuple[Spectrum, np.ndarray]] = {}
         self.prepare(self.laplacian.components[0], progress)
 
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
-        spectrum = component.spectrum(FIRST_BATCH, part(progress, 0, 0.3))
-        first = spectrum.eigenvalues[0]
-        last = float(first) * (1 - math.log(self.tolerance) / self.t)
-        most = component.most_eigenpairs
-        while spectrum.eigenvalues[-1] < last and len(spectrum.eigenvalues) < most:
-            have = len(spectrum.eigenvalues)
-            # Weyl's law, lambda_k ~ 4 pi k / area, with the constant of the last pair known.
-            needed = 1.1 * have * last / spectrum.eigenvalues[-1] + 4
-            if min(needed, most) > MOST_PAIRS:
-                raise ParameterError(
-                    f"Diffusion with t = {self.t:g} to a tolerance of {self.tolerance:g} needs about {needed:.3g} "
-                    f"eigenpairs here; at most {MOST_PAIRS} are computed. Choose a larger t or tolerance."
-                )
-            spectrum = component.spectrum(int(min(needed, most)), part(progress, 0.3, 1))
-        weights = np.exp(-self.t * spectrum.eigenvalues / first)
-        count = int(np.searchsorted(spectrum.eigenvalues, last))
-        self._omitted[component.index] = float(weights[count]) if count < len(weights) else 0.0
-        return spectrum, weights[:count]
+        if component.index not in self._used:
+            # With the diagonal of C, which tells what is left out.
+            component.factor(part(progress, 0, 0.1), diagonals=True)
+            spectrum, count = self._enough(component, part(progress, 0.1, 1))
+            self._used[component.index] = spectrum, self._roots(spectrum.eigenvalues)[:count] ** 2
+        return self._used[component.index]
+
+    def _enough(self, component: Component, progress: Progress) -> tuple[Spectrum, int]:
+        """Eigenpairs, and how many of them are proven to be enough; at least the first batch, which is there anyway."""
+        most, least = component.most_eigenpairs, FIRST_BATCH - 1
+        done = 0.2
+        spectrum = component.spectrum(FIRST_BATCH, part(progress, 0, done))
+        if most <= FIRST_BATCH:
+            return spectrum, most
+        cloud = Cloud(component, spectrum.eigenvectors[:, :least] * self._roots(spectrum.eigenvalues)[:least])
+        # Where numbers end, the estimate of the accuracy says so.
+        with np.errstate(all="ignore"):
+            while True:
+                have = len(spectrum.eigenvalues)
+                trial = _Trial(component, spectrum, cloud, self.t)
+                count = least + bisect_left(range(least, have), True, key=lambda k: trial.share(k) <= self.tolerance)
+                if count < have or have == most:
+                    return spectrum, count
+                needed, at_worst = (min(trial.needed(each), most) for each in (self.tolerance, self._coarsest))
+                # From the first few it can only be guessed.
+                if at_worst > (MOST_PAIRS if have >= MOST_PAIRS else 1.5 * MOST_PAIRS):
+                    raise ParameterError(
+                        f"Diffusion with t = {self.t:g} to a tolerance of {self._coarsest:g} needs about "
+                        f"{at_worst:.3g} eigenpairs here; at most {MOST_PAIRS} are computed. Choose a larger t or "
+                        "tolerance."
+                    )
+                if have >= MOST_PAIRS:
+                    return spectrum, have - 1
+                # Few meshes need a third batch.
+                before, done = done, 0.1 * done + 0.9
+                spectrum = component.spectrum(int(min(needed, MOST_PAIRS)), part(progress, before, done))
+
+    def _roots(self, eigenvalues: np.ndarray) -> np.ndarray:
+        """(k,) of the weights."""
+        return np.exp(-self.t / 2 * (eigenvalues / eigenvalues[0]))
 
     def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
         # The weights depend on the first eigenvalue too.
         return 2 * self.t * eigenvalues / eigenvalues[0]
 
-    def _missing(self, component: Component, source: int, squares: np.ndarray, changes: np.ndarray) -> np.ndarray:
-        """The terms that are known without being used, and an estimate of the others.
-
-        By Weyl's law, lambda_k ~ 4 pi k / area, and (phi_k(x) - phi_k(y))^2 ~ min(2, lambda_k r^2 / 2) / area, in the
-        mean: at a tip it can be several times as much.
-        """
-        spectrum, count = component.spectrum(1), squares.shape[1]
-        values = spectrum.eigenvalues
-        if count == component.most_eigenpairs:
-            return np.zeros(len(squares))
-        weights = np.exp(-self.t * values / values[0])
-        others = spectrum.eigenvectors[:, count:]
-        known = (others - others[source]) ** 2 @ weights[count:]
-        step = values[0] / self.t
-        far = weights[-1] * step / (2 * np.pi)
-        near = weights[-1] * step * (values[-1] + step) * component.areas.sum() / (4 * np.pi * (weights @ values))
-        return 2 * SPARE * known + SPARE**2 * np.minimum(far, near * squares.sum(axis=1))
+    def _left_out(self, component: Component, next_value: float, tails: np.ndarray) -> np.ndarray:
+        if next_value == np.inf:
+            return np.zeros(len(tails))
+        return _largest(self.t, next_value, component.spectrum(1).eigenvalues[0]) * tails
 
     def pair_count(self, vertex: int) -> int:
         """How many eigenpairs the sum has on the component of a vertex."""
@@ -95,21 +110,50 @@ class DiffusionDistance(SpectralDistance):
     def bound(self, vertex: int) -> np.ndarray:
         """(n,) a proven bound on the error of `from_source(vertex)`, from leaving eigenpairs out.
 
-        With w the first omitted weight, at most w (1/A_x + 1/A_y - sum_{k <= K} (phi_k(x) - phi_k(y))^2) is left out
-        of d^2 (the constant mode's difference is 0), so the error of d is at most min(sqrt(tail), tail / d).
+        With s_x^2 = C_xx - sum_{k <= K} phi_k(x)^2 / lambda_k^2, C centred, and m the largest w lambda^2 there is from
+        the first omitted eigenvalue on, at most tail = m (s_x + s_y)^2 is left out of d^2.  So d is too small by at
+        most sqrt(d^2 + tail) - d, which is no more than sqrt(tail) and tail / 2 d.
         """
         component = self.laplacian.component_of(vertex)
-        points = self.points(component)
-        source = component.local(np.array([vertex]))[0]
-        count = points.shape[1]
-        vectors = component.spectrum(count).eigenvectors[:, :count]
-        known = np.einsum("ij,ij->i", vectors - vectors[source], vectors - vectors[source])
-        field = self.from_source(vertex)[component.vertices]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            tail = self._omitted[component.index] * (1 / component.areas + 1 / component.areas[source] - known)
-            tail = np.maximum(tail, 0)
-            error = np.fmin(np.sqrt(tail), tail / field)
-        error[source] = 0
+        self.prepare(component)
+        lengths = self._left_out(component, self._next(component), self._tails(component))
+        lengths = lengths + lengths[component.local(np.array([vertex]))]
         bound = np.full(len(self.surface.vertices), np.nan)
-        bound[component.vertices] = error
+        bound[component.vertices] = missing(lengths, self.from_source(vertex)[component.vertices])
+        bound[vertex] = 0
         return bound
+
+
+class _Trial:
+    """What leaving out all but some eigenpairs can do; cloud: of the first, by which vertices are told apart."""
+
+    def __init__(self, component: Component, spectrum: Spectrum, cloud: Cloud, t: float) -> None:
+        self._squares = biharmonic_squares(component)
+        self._spectrum, self._cloud, self._t = spectrum, cloud, t
+
+    def _tails(self, count: int) -> np.ndarray:
+        vectors, values = self._spectrum.eigenvectors[:, :count], self._spectrum.eigenvalues[:count]
+        return tail_lengths(self._squares, vectors, 1 / values)
+
+    def _share(self, tails: np.ndarray, next_value: float) -> float:
+        return self._cloud.worst(_largest(self._t, next_value, self._spectrum.eigenvalues[0]) * tails)
+
+    def share(self, count: int) -> float:
+        """The share of a field's maximum that its distances may be off if so many eigenpairs are used."""
+        return self._share(self._tails(count), self._spectrum.eigenvalues[count])
+
+    def needed(self, tolerance: float) -> float:
+        """About how many eigenpairs bring that below a tolerance."""
+        have, last = len(self._spectrum.eigenvalues), self._spectrum.eigenvalues[-1]
+        tails = self._tails(have - 1)
+        # By Weyl's law, lambda_k ~ 4 pi k / area, so that tails fall like lambda^(-1/2).
+        steps = bisect_left(
+            range(2000), True, key=lambda k: self._share(tails * STEP ** (-k / 2), last * STEP**k) <= tolerance
+        )
+        return 1.05 * have * STEP**steps + 4 if steps else have
+
+
+def _largest(t: float, eigenvalue: float, first: float) -> float:
+    """The largest sqrt(weight) lambda of any lambda that is at least an eigenvalue."""
+    exponent = max(t * (eigenvalue / first), 2)
+    return float(first / t * exponent * np.exp(-exponent / 2))

@@ -13,7 +13,7 @@ from ..sources.pieces import Pieces, pieces_of, points_on
 from ..sources.source import BoundaryLoop, Curve, Place, Source, SourceSet, checked_source
 from ..sources.words import short_words_of
 from ..surface import Surface
-from .accuracy import REFUSE, Certificate, rounded_up
+from .accuracy import POOR, Certificate, accurate_to, rounded_up
 from .in_faces import blocks, squares_from
 from .place_pairs import Pair, are_of_places, are_same, has_places, squares_of_pairs
 
@@ -68,7 +68,11 @@ class Distance(ABC):
         It holds for the components that were asked about (the largest, if none was) and is made when first wanted,
         in less than a tenth of the time the distance took to construct.  None for geodesic distances.
         """
-        return self._accuracy_of(sorted(self._asked) or [0])
+        return self._accuracy_of(self._those(None))
+
+    def _those(self, components: Sequence[int] | None) -> Sequence[int]:
+        """Numbers of components: these, or those that were asked about, or else the largest."""
+        return (sorted(self._asked) or [0]) if components is None else components
 
     def _accuracy_of(self, components: Sequence[int]) -> float | None:
         known = [self._accuracy_on(self.laplacian.components[index]) for index in components]
@@ -79,14 +83,20 @@ class Distance(ABC):
 
         SolverError if it is worse than a thousandth: then answers there should not be used.
         """
-        components = (sorted(self._asked) or [0]) if components is None else components
+        components = self._those(components)
         accuracy = self._accuracy_of(components)
-        if accuracy is not None and accuracy > REFUSE:
+        if accuracy is None:
+            return Certificate()
+        if accuracy > POOR:
             off = "by any amount" if accuracy == np.inf else f"by {rounded_up(accuracy)} of its maximum"
             raise SolverError(
                 f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy(components)}"
             )
-        return Certificate.of(accuracy)
+        return Certificate.of(accuracy, self._said_of(accuracy, components))
+
+    def _said_of(self, accuracy: float, components: Sequence[int]) -> str:
+        """The accuracy in words, with what it is the accuracy of where that is not the distance itself."""
+        return accurate_to(accuracy)
 
     def is_judged(self, component: int) -> bool:
         """Whether the accuracy on a component is known, so that its certificate costs nothing."""

@@ -18,6 +18,7 @@ from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress, part, silent
 from ..surface import Surface
 from .spectral import checked_count, checked_number
+from .tails import biharmonic_squares, tail_lengths
 
 FIRST = 50
 """Eigenpairs that are tried first for a tolerance, and twice as many then."""
@@ -107,7 +108,8 @@ def _embedding(laplacian: Laplacian, count: int, progress: Progress | None) -> E
         mine = _coordinates(component, min(count, component.most_eigenpairs), step)
         padded = np.zeros((len(mine), count))
         padded[:, : mine.shape[1]] = mine
-        points[component.vertices], tails[component.vertices] = padded, _tails(component, mine)
+        points[component.vertices] = padded
+        tails[component.vertices] = tail_lengths(biharmonic_squares(component), mine)
     return Embedding(points, tails, surface.component_of_vertex)
 
 
@@ -122,22 +124,6 @@ def _coordinates(component: Component, count: int, progress: Progress | None) ->
         found[:, some] = component.centred(component.solve(component.areas[:, None] * vectors[:, some]))
         (progress or silent)(0.8 + 0.2 * min(start + SOLVED, count) / count, "coordinates")
     return found
-
-
-def _tails(component: Component, points: np.ndarray) -> np.ndarray:
-    """(m,) the lengths of what is left."""
-    squares = _diagonal(component) - np.einsum("ij,ij->i", points, points)
-    # What rounding leaves of a difference counts as a tail.
-    return np.sqrt(np.maximum(squares, 0))
-
-
-def _diagonal(component: Component) -> np.ndarray:
-    """(m,) the squared lengths of all coordinates, around the mean of all points.
-
-    The mean of the squared distances from a point is its own squared length plus the mean of those of all.
-    """
-    squares = component.biharmonic_eccentricity**2
-    return squares - float(component.areas @ squares / component.areas.sum()) / 2
 
 
 def _fewest(found: Embedding, tolerance: float) -> Embedding:

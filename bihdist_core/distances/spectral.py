@@ -7,12 +7,13 @@ import numpy as np
 
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
-from ..progress import Progress
+from ..progress import Progress, part
 from ..solver.spectrum import Spectrum
 from ..solver.tall import point_distances
 from ..surface import Surface
-from .accuracy import SPARE, Perturbation, change_of_root
+from .accuracy import SPARE, Perturbation, rounded_up
 from .distance import Distance
+from .tails import Cloud, biharmonic_squares, commute_time_squares, tail_lengths
 
 CLEAR = 1e-3
 """Eigenvalues this far apart, as a share of themselves, are clearly two."""
@@ -29,18 +30,22 @@ class SpectralDistance(Distance):
 
     @abstractmethod
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
-        """Eigenpairs of a component and the weights (k,) of those that are used, which are the first."""
+        """Eigenpairs of a component, one more than are used if there is one, and the weights (k,) of those used."""
 
     @abstractmethod
     def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
         """(k,) by what share a weight changes at most, over the share by which the eigenvalues change."""
 
     @abstractmethod
-    def _missing(self, component: Component, source: int, squares: np.ndarray, changes: np.ndarray) -> np.ndarray:
-        """(m,) what eigenpairs left out can do to the squared distances from a vertex.
+    def _left_out(self, component: Component, next_value: float, tails: np.ndarray) -> np.ndarray:
+        """(m,) bounds on the lengths of the coordinates that the sum should have beside those used.
 
-        squares (m, k): the terms of their sums; changes (k,): the share by which each eigenpair may be wrong.
+        next_value: the first eigenvalue not used, or less; tails (m,): the lengths of what is left of 1 / lambda^2.
         """
+
+    def _is_cut(self) -> bool:
+        """Whether weights end at once, so that it matters which eigenpairs are the first."""
+        return False
 
     def points(self, component: Component, progress: Progress | None = None) -> np.ndarray:
         """(m, k) the points that stand for a component's vertices."""
@@ -67,8 +72,50 @@ class SpectralDistance(Distance):
         return np.linalg.norm(points[i] - points[j], axis=1)
 
     def _estimated_accuracy(self, component: Component) -> float:
+        left_out = self._left_out(component, self._next(component), self._tails(component))
+        return Cloud(component, self.points(component)).worst(left_out, self._errors(component))
+
+    def _next(self, component: Component) -> float:
+        """The first eigenvalue not used, less what it may be wrong by; infinite if there is none."""
+        spectrum, weights = self._weighted(component, None)
+        if len(weights) == component.most_eigenpairs:
+            return np.inf
+        return float(spectrum.eigenvalues[len(weights)] * (1 - spectrum.residuals[len(weights)]))
+
+    def _tails(self, component: Component) -> np.ndarray:
+        """(m,) bounds on the lengths of all phi_k / lambda_k not used."""
         spectrum, weights = self._weighted(component, None)
         count = len(weights)
+        if count == component.most_eigenpairs:
+            return np.zeros(len(component.areas))
+        vectors, values = spectrum.eigenvectors[:, :count], spectrum.eigenvalues[:count]
+        # Residuals are orthogonal to what is used, so that they take from the tails in proportion to these.
+        slack = 2 * np.abs(vectors) @ (spectrum.residuals[:count] / values)
+        return tail_lengths(biharmonic_squares(component), vectors, 1 / values) + slack
+
+    def _errors(self, component: Component) -> np.ndarray:
+        """(m,) lengths: for what is wrong with the eigenpairs used, distances are off by at most the sum of two.
+
+        The coordinates are g(Delta) delta_x, with g^2 the weights; those computed are Q g(Lambda) Q^T delta_x.  With R
+        = Delta Q - Q Lambda, which is orthogonal to Q, the difference is, to first order in R,
+        - g(Delta) (1 - Q Q^T) delta_x, which is left out and not counted here;
+        - in the complement, sum_k phi_k(x) g[lambda_k, Delta] r_k, where the divided differences of g are at most
+          g_k min(1 / gap, the steepness of g);
+        - within Q, the values of g[lambda_k, Delta] r_k at x, each at most its Laplacian's norm times the tail at x.
+        """
+        spectrum, weights = self._weighted(component, None)
+        count, root = len(weights), np.sqrt(weights)
+        values, vectors = spectrum.eigenvalues[:count], spectrum.eigenvectors[:, :count]
+        change, missed = self._inaccuracies(component, spectrum, count)
+        next_value, tails = self._next(component), self._tails(component)
+        turned = missed * values / np.maximum(next_value - values, 1e-300)
+        turned = np.minimum(turned, 1 if self._is_cut() else missed * self._slopes(values) / 2)
+        errors = np.abs(vectors) @ (root * turned)
+        errors += tails * np.linalg.norm(root * values * (missed + turned))
+        return errors + np.sqrt(vectors**2 @ (weights * (self._slopes(values) * change / 2) ** 2))
+
+    def _inaccuracies(self, component: Component, spectrum: Spectrum, count: int) -> tuple[float, np.ndarray]:
+        """By what share rounding and flat faces change the eigenvalues, and the residuals (count,) with that."""
         values, residuals = spectrum.eigenvalues[:count], spectrum.residuals[:count]
         perturbation = Perturbation(component)
         few = np.unique([0, count // 2, count - 1])
@@ -77,15 +124,8 @@ class SpectralDistance(Distance):
         # Beside flat faces residuals are large by rounding, and stiff: G makes little of them.
         again = component.centred(component.solve(component.areas[:, None] * some)) * values[few]
         missed = np.sqrt(component.areas @ (again - some) ** 2)
-        residuals = residuals * min(1.0, float((missed / np.maximum(residuals[few], 1e-300)).max()))
-        points = self.points(component)
-        source = int(perturbation.flattest[0])
-        squares = (points - points[source]) ** 2
-        fields = squares.sum(axis=1)
-        # What is missed turns an eigenvector towards others, which counts by the difference of their weights.
-        by = squares @ (self._slopes(values) * change + 2 * SPARE * residuals)
-        by += self._missing(component, source, squares, change + residuals)
-        return float(change_of_root(fields, by).max() / np.sqrt(fields.max()))
+        seen = SPARE * float((missed / np.maximum(residuals[few], 1e-300)).max())
+        return change, residuals * min(1.0, seen) + change
 
 
 class PowerDistance(SpectralDistance):
@@ -108,7 +148,9 @@ class PowerDistance(SpectralDistance):
         self.prepare(self.laplacian.components[0], progress)
 
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
-        spectrum = component.spectrum(self.k, progress)
+        # With the diagonal of C, which tells what is left out; one more tells how clearly those used are set off.
+        component.factor(part(progress, 0, 0.1), diagonals=True)
+        spectrum = component.spectrum(self.k + 1, part(progress, 0.1, 1))
         return spectrum, spectrum.eigenvalues[: self.k] ** -self.alpha
 
     def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
@@ -127,16 +169,43 @@ class PowerDistance(SpectralDistance):
                 )
         return super()._remedy(components)
 
-    def _missing(self, component: Component, source: int, squares: np.ndarray, changes: np.ndarray) -> np.ndarray:
-        # One more tells how clearly those used are set off.
-        spectrum, count = component.spectrum(self.k + 1), squares.shape[1]
-        if len(spectrum.eigenvalues) <= count:
-            return np.zeros(len(squares))
-        values, next_value = spectrum.eigenvalues[:count], spectrum.eigenvalues[count]
-        # By how much eigenvectors may have turned towards the first that is left out.
-        turned = np.minimum(1, changes * next_value / np.maximum(next_value - values, 1e-300))
-        reach = np.ptp(spectrum.eigenvectors[:, count])
-        return 2 * reach * np.sqrt(squares) @ (turned * values ** (-self.alpha / 2))
+    def beyond(self, components: Sequence[int] | None = None) -> float:
+        """How far a field may be from the sum of all eigenpairs, as a share of its maximum: a proven bound.
+
+        components: their numbers; those that were asked about if there are none.  The sum of all is the biharmonic
+        distance for alpha = 2.
+        """
+        shares = []
+        for index in self._those(components):
+            component = self.laplacian.components[index]
+            tails, next_value = self._tails(component), self._next(component)
+            if next_value == np.inf:
+                left_out = np.zeros(len(tails))
+            elif self.alpha < 2:
+                # Hoelder: the sum of 1 / lambda^alpha lies between those of 1 / lambda and 1 / lambda^2.
+                spectrum, weights = self._weighted(component, None)
+                vectors, values = spectrum.eigenvectors[:, : len(weights)], spectrum.eigenvalues[: len(weights)]
+                slower = tail_lengths(commute_time_squares(component), vectors, values**-0.5)
+                left_out = slower ** (2 - self.alpha) * tails ** (self.alpha - 1)
+            else:
+                left_out = next_value ** (1 - self.alpha / 2) * tails
+            shares.append(Cloud(component, self.points(component)).worst(left_out, self._errors(component)))
+        return max(shares)
+
+    def _said_of(self, accuracy: float, components: Sequence[int]) -> str:
+        said = super()._said_of(accuracy, components)
+        if all(self.k >= self.laplacian.components[index].most_eigenpairs for index in components):
+            return said
+        with np.errstate(all="ignore"):
+            beyond = rounded_up(self.beyond(components))
+        return f"{said} as a sum of {self.k} eigenpairs; all of them would change it by at most {beyond}"
+
+    def _left_out(self, component: Component, next_value: float, tails: np.ndarray) -> np.ndarray:
+        # What is asked for is the sum of the first.
+        return np.zeros(len(tails))
+
+    def _is_cut(self) -> bool:
+        return True
 
 
 class TruncatedBiharmonicDistance(PowerDistance):

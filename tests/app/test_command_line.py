@@ -154,19 +154,30 @@ def test_answers_come_with_their_accuracy(mesh, tmp_path, capsys):
         assert ACCURATE.search(capsys.readouterr().out)
     assert main(["field", mesh, "--source", "3", "--distance", "geodesic", "-o", out]) == 0
     assert "accurate" not in capsys.readouterr().out
+    assert main(["field", mesh, "--source", "3", "--distance", "truncated", "--k", "9", "-o", out]) == 0
+    of_what = (
+        r"accurate to \de-\d\d of the maximum as a sum of 9 eigenpairs; all of them would change it by at most \de"
+    )
+    assert re.search(of_what, capsys.readouterr().out)
     assert main(["info", mesh, "--accuracy"]) == 0
     assert len(ACCURATE.findall(capsys.readouterr().out)) == 2
 
 
-def test_a_poor_accuracy_is_a_warning_and_a_bad_one_is_refused(mesh, tmp_path, capsys, monkeypatch):
+def test_a_poor_accuracy_is_a_warning_and_one_that_need_not_be_is_refused(mesh, tmp_path, capsys, monkeypatch):
     out = tmp_path / "d.npy"
-    monkeypatch.setattr(BiharmonicDistance, "_estimated_accuracy", lambda *_: 3e-5)
+    monkeypatch.setattr(BiharmonicDistance, "_estimated_accuracy", lambda *_: 9e-4)
     assert main(["field", mesh, "--source", "3", "-o", str(out)]) == 0
     said = capsys.readouterr()
-    assert "accurate to 3e-05" in said.out
-    assert said.err.startswith("bihdist: warning: biharmonic, exact on mesh.off is only accurate to 3e-05")
-    assert main(["figure", mesh, "--distance", "biharmonic", "-o", str(tmp_path / "d.png")]) == 0
-    assert "is only accurate to 3e-05 of the maximum" in capsys.readouterr().err
+    assert "accurate to 9e-04" in said.out
+    assert "warning" not in said.err
+    for method, share in (("heat", 4), ("dijkstra", 10)):
+        by = ["--distance", "geodesic", "--method", method]
+        assert main(["field", mesh, "--source", "3", *by, "-o", str(out)]) == 0
+        said = capsys.readouterr()
+        assert f"accurate to {share} % of the maximum typically" in said.out
+        assert f"on mesh.off is only accurate to {share} % of the maximum typically" in said.err
+    assert main(["figure", mesh, *by, "-o", str(tmp_path / "d.png")]) == 0
+    assert "is only accurate to 10 % of the maximum typically" in capsys.readouterr().err
     out.unlink()
     monkeypatch.setattr(BiharmonicDistance, "_estimated_accuracy", lambda *_: 0.37)
     for command in (["field", mesh, "--source", "3"], ["pairs", mesh, "--vertices", "1,2"], ["pairs", mesh, "--all"]):

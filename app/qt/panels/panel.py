@@ -325,7 +325,8 @@ class DistancePanel(QtWidgets.QWidget):
     def _warn(self) -> None:
         """Of what is not as one would think."""
         accuracy = None if self.answer is None else self.answer.accuracy
-        poor = f"Not exact here: only {accuracy.text}." if accuracy is not None and accuracy.is_poor else ""
+        is_poor = accuracy is not None and accuracy.is_poor and not self._is_preview
+        poor = f"Not exact here: only {accuracy.text}." if is_poor else ""
         self.head.show_warning(" ".join(said for said in (poor, self.view.scene.too_many) if said))
 
     def show_waiting(self, progress: tuple[float, str] | None, is_old: bool = True) -> None:

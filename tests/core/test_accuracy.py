@@ -1,0 +1,173 @@
+"""What spectral distances say of their accuracy, against dense spectra, for all pairs of vertices."""
+
+from functools import cache, partial
+
+import numpy as np
+import pytest
+from scipy.spatial.distance import cdist
+
+from bihdist_core import (
+    BiharmonicDistance,
+    DiffusionDistance,
+    GeodesicDistance,
+    Laplacian,
+    ParameterError,
+    PowerDistance,
+    SolverError,
+    Surface,
+    TruncatedBiharmonicDistance,
+)
+from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.operators import stiffness
+from bihdist_core.solver.spectrum import smallest_eigenpairs
+from tests.dense_reference import full_spectrum
+from tests.shapes import bumpy, grid, needles, sphere, spike, torus
+
+
+def stretched(s: Surface, by: tuple[float, float, float], name: str) -> Surface:
+    return Surface(s.vertices * by, s.faces, name)
+
+
+SHAPES = {
+    "long": lambda: stretched(sphere(300), (3.9, 1, 1), "long"),
+    "thin": lambda: stretched(sphere(250), (1, 1, 0.03), "thin"),
+    "bumpy": lambda: bumpy(300),
+    "torus": torus,
+    "strip": lambda: grid(60, 3),
+    "spike": lambda: spike(200, 6.0),
+    "needles": lambda: needles(bumpy(120), 1e-2, every=4),
+}
+every_shape = pytest.mark.parametrize("name", SHAPES)
+TIMES = (4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 15)
+
+
+@cache
+def known(name: str) -> tuple[Laplacian, np.ndarray, np.ndarray]:
+    """A shape, and its whole spectrum; eigenvalues from differences, which keep their digits."""
+    surface = SHAPES[name]()
+    _, vectors = full_spectrum(surface)
+    up = stiffness(surface).tocoo()
+    energy = np.zeros(vectors.shape[1])
+    for i, j, weight in zip(up.row, up.col, up.data, strict=True):
+        if i < j:
+            energy -= weight * (vectors[i] - vectors[j]) ** 2
+    return Laplacian(surface), energy, vectors
+
+
+def worst(distance, points: np.ndarray) -> float:
+    """The largest error of any distance, as a share of the maximum of the field it stands in."""
+    exact = cdist(points, points)
+    fields = distance.from_sources(np.arange(len(points)))
+    return float((np.abs(fields - exact).max(axis=0) / exact.max(axis=0)).max())
+
+
+def heat(values: np.ndarray, t: float) -> np.ndarray:
+    return np.exp(-t / 2 * (values / values[0]))
+
+
+@every_shape
+def test_diffusion_is_as_accurate_as_it_says_between_all_vertices(name):
+    laplacian, values, vectors = known(name)
+    for t in TIMES:
+        distance = DiffusionDistance(laplacian, t)
+        assert worst(distance, vectors * heat(values, t)) <= distance.accuracy <= 1.01e-7, t
+
+
+def test_vertices_that_few_eigenpairs_leave_together_are_told_apart():
+    """Two eigenpairs have all the weight, and around a long body vertices differ by others only."""
+    laplacian, values, vectors = known("long")
+    exact = vectors * heat(values, 4)
+    assert (heat(values, 4) ** 2 > 1e-8 * heat(values, 4)[0] ** 2).sum() == 2
+    fields, of_two = cdist(exact, exact), cdist(exact[:, :2], exact[:, :2])
+    off = np.abs(DiffusionDistance(laplacian, 4).from_sources(np.arange(300)) - fields).max(axis=0)
+    assert (off <= 1e-7 * fields.max(axis=0)).all()
+    assert np.abs(of_two - fields).max() > 2e-5 * fields.max()
+
+
+@every_shape
+def test_a_tolerance_is_honoured_and_takes_no_more_than_it_needs(name):
+    laplacian, values, vectors = known(name)
+    counts = []
+    for tolerance in (1e-2, 1e-4, 1e-6, 1e-10):
+        distance = DiffusionDistance(laplacian, 1 / 4, tolerance=tolerance)
+        assert worst(distance, vectors * heat(values, 1 / 4)) <= distance.accuracy <= 1.01 * tolerance
+        counts.append(distance.pair_count(0))
+    assert counts == sorted(counts)
+    assert counts[0] < counts[-1] or name in ("strip", "needles")
+    # As many as have a weight above the square of the tolerance, or a few more or less.
+    assert counts[1] <= 1.5 * (heat(values, 1 / 4) > 1e-4 * heat(values, 1 / 4)[0]).sum() + 15
+
+
+@every_shape
+def test_sums_are_as_accurate_as_they_say_or_refused(name):
+    laplacian, values, vectors = known(name)
+    for alpha, k in ((2, 1), (2, 3), (2, 10), (2, 57), (1.25, 25), (1.5, 60), (3, 12)):
+        distance = PowerDistance(laplacian, alpha, k)
+        error = worst(distance, vectors[:, :k] * values[:k] ** (-alpha / 2))
+        assert error <= distance.accuracy, (alpha, k)
+        if values[k] - values[k - 1] < 1e-9 * values[k]:
+            assert distance.accuracy > 1e-3
+            with pytest.raises(SolverError, match=f"it is open which eigenpairs are the first {k}"):
+                distance.certificate()
+        else:
+            assert distance.accuracy < 1e-7
+        assert worst(distance, vectors * values ** (-alpha / 2)) <= 1.001 * distance.beyond(), (alpha, k)
+
+
+def test_words_say_what_the_accuracy_of_a_sum_is_of():
+    surface = bumpy(300)
+    distance = TruncatedBiharmonicDistance(surface, k=30)
+    said, _, beyond = distance.certificate().text.rpartition(" ")
+    assert said.endswith("of the maximum as a sum of 30 eigenpairs; all of them would change it by at most")
+    exact = BiharmonicDistance(surface).from_sources(np.arange(300))
+    fields = distance.from_sources(np.arange(300))
+    off = (np.abs(fields - exact).max(axis=0) / fields.max(axis=0)).max()
+    assert float(beyond) / 4 < off < float(beyond)
+    whole = TruncatedBiharmonicDistance(surface, k=299)
+    assert "sum" not in whole.certificate().text
+    assert whole.beyond() < 1e-10
+    assert DiffusionDistance(surface).certificate().text.endswith("of the maximum")
+
+
+def test_eigenvectors_that_have_not_converged_are_told(monkeypatch):
+    """With residuals of some percent, also of clusters: the sphere's eigenvalues come three, five, seven at a time."""
+    surface = sphere(600)
+    values, vectors = full_spectrum(surface)
+    monkeypatch.setattr("bihdist_core.laplacian.smallest_eigenpairs", partial(smallest_eigenpairs, tolerance=0.05))
+    laplacian = Laplacian(surface)
+    found = laplacian.components[0].spectrum(60)
+    assert found.residuals.max() > 1e-3
+    for distance, points in (
+        (DiffusionDistance(laplacian, t=2), vectors * heat(values, 2)),
+        (TruncatedBiharmonicDistance(laplacian, k=48), vectors[:, :48] / values[:48]),
+        (PowerDistance(laplacian, alpha=1.5, k=35), vectors[:, :35] * values[:35] ** -0.75),
+        (TruncatedBiharmonicDistance(laplacian, k=50), vectors[:, :50] / values[:50]),
+    ):
+        assert 1e-12 < worst(distance, points) <= distance.accuracy, distance.label
+
+
+def test_what_takes_too_many_eigenpairs_is_less_accurate_before_it_is_refused(monkeypatch):
+    laplacian, values, vectors = known("bumpy")
+    full = DiffusionDistance(laplacian, 1 / 4).pair_count(0)
+    enough = DiffusionDistance(laplacian, 1 / 4, tolerance=1e-4).pair_count(0)
+    monkeypatch.setattr("bihdist_core.distances.diffusion.MOST_PAIRS", most := (full + 3 * enough) // 4)
+    fresh = Laplacian(laplacian.surface)
+    distance = DiffusionDistance(fresh, 1 / 4)
+    assert distance.pair_count(0) <= most
+    assert 1e-7 < distance.accuracy <= 1.01e-4
+    assert worst(distance, vectors * heat(values, 1 / 4)) <= distance.accuracy
+    with pytest.raises(ParameterError, match=r"to a tolerance of 1e-07 needs about \d+ eigenpairs here; at most"):
+        DiffusionDistance(Laplacian(laplacian.surface), 1 / 4, tolerance=1e-7)
+
+
+def test_methods_that_are_not_exact_say_so_and_what_is_made_of_them():
+    surface = bumpy(150)
+    heat_method = GeodesicDistance(surface, "heat").certificate()
+    assert heat_method.is_poor
+    assert heat_method.text == "accurate to 4 % of the maximum typically, and worse on coarse meshes"
+    assert GeodesicDistance(surface, "exact").certificate() == Certificate()
+    nine = Certificate.of(9e-6)
+    assert not nine.is_poor
+    assert Certificate.of_difference(nine, heat_method) == heat_method
+    assert Certificate.of_difference(Certificate(), nine) == Certificate()
+    assert Certificate.of_difference(nine, Certificate.of(1e-3)).is_poor
