@@ -130,6 +130,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.ended.connect(self.choices.end_at)
         self.grid.looked.connect(self.views.moved)
         self.grid.cancelled.connect(self.session.cancel)
+        self.grid.retried.connect(self.waits.retry)
         self.grid.save_wanted.connect(self.field_files.save)
         self.wear()
         self._scroll = QtWidgets.QScrollArea()

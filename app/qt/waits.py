@@ -45,6 +45,11 @@ class Waits:
                 # Never an old field under a new name.
                 self._window.grid.panel(panel.id).show_waiting(WAITING)
 
+    def retry(self, id: int) -> None:
+        """Let what was stopped in a panel be computed again."""
+        self._window.grid.panel(id).show_waiting(WAITING, is_old=not self._window.session.is_quick_look(id))
+        self._window.session.retry(id)
+
     def progress_changed(self) -> None:
         if not self._window.session.progress:
             self.show()
@@ -77,7 +82,7 @@ class Waits:
         is_answered = session.is_answered(id)
         fraction, text = session.progress.get(id, (nan, ""))
         if session.is_stopped_at(id) and not is_answered:
-            panel.show_stopped()
+            panel.show_stopped(shown, is_old=not session.is_quick_look(id))
         elif is_answered or (shown is not None and shown.is_preview and not self._is_other(id)):
             # A quick look, which the exact answer follows, or one whose accuracy is being found out.
             words = "Checking the accuracy" if is_answered else "A quick look; the exact one follows"

@@ -116,6 +116,11 @@ class Answering:
         shown = self.shown.get(panel)
         return shown is not None and not shown.is_preview and shown.asked == self._asked.get(panel)
 
+    def is_quick_look(self, panel: int) -> bool:
+        """Whether a panel shows a stand-in for the answer to its question."""
+        shown = self.shown.get(panel)
+        return shown is not None and shown.is_preview and shown.asked == self._asked.get(panel)
+
     def cancel(self, panel: int | None = None) -> None:
         """Stop what is going on for a panel, for all if none is named; what is asked next is answered."""
         for id in self._lanes if panel is None else {panel} & self._lanes.keys():

@@ -203,10 +203,17 @@ class Session:
             self._walk_end = starting_points(self.document)
 
     def cancel(self, panel: int | None = None) -> None:
-        """Stop what is going on, for one panel or everything; the next click or change asks again."""
+        """Stop what is going on, for one panel or everything; `retry`, the next click or change asks again."""
         if panel is None:
             self._surfaces.cancel()
         self._answering.cancel(panel)
+
+    def retry(self, panel: int) -> None:
+        """Ask again what was stopped for a panel."""
+        asked = questions(self.document).get(panel)
+        opened = None if asked is None else self._surfaces.found(asked.mesh)
+        if asked is not None and opened is not None:
+            self._answering.ask({panel: (asked, opened)}, live=False)
 
     def close(self) -> None:
         self._surfaces.end()
@@ -275,6 +282,10 @@ class Session:
     def is_stopped_at(self, panel: int) -> bool:
         """Whether that is for this panel."""
         return panel in self._answering.stopped
+
+    def is_quick_look(self, panel: int) -> bool:
+        """Whether a panel shows a stand-in for the answer to its present question."""
+        return self._answering.is_quick_look(panel)
 
     def is_answered(self, panel: int) -> bool:
         """Whether a panel shows the final answer to its present question, be its accuracy known or not."""

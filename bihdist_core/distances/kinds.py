@@ -79,6 +79,8 @@ class Parameter:
         """The value that a text means: a word, 50, 0.25, 1/4."""
         if self.choices:
             return self.checked(text)
+        if self.is_whole and text.isdecimal() and len(text) < 30:
+            return self.checked(int(text))
         try:
             number = float(Fraction(text)) if "/" in text else float(text)
         except (ValueError, ZeroDivisionError, OverflowError):

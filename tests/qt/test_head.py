@@ -214,7 +214,7 @@ def test_what_auto_stands_for_is_said(head):
     made = head("geodesic", 600)
     (control,) = made.controls
     assert control.text() == "auto"
-    made.show_method("heat")
+    made.show_method(made.shows.specs, "geodesic, heat method")
     assert control.text() == "auto: heat"
     made.show_quantity(quantity("geodesic(method=exact)"))
     assert control.text() == "exact"

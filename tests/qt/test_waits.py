@@ -37,6 +37,12 @@ def gate(monkeypatch):
     gate.set()
 
 
+def opened_menu(button):
+    """The actions of a button's menu, as it opens."""
+    button.menu().aboutToShow.emit()
+    return button.menu().actions()
+
+
 def pretend(screen, *progress):
     """Let the panels be at work, each at a share of something."""
     screen.session._answering.progress.update(enumerate(progress))
@@ -66,7 +72,7 @@ def test_a_panel_tells_what_it_waits_for_and_can_be_stopped(screen, mesh_file, g
     panel.waiting.stop.click()
     s.until(lambda: not panel.waiting.isVisible())
     assert s.session.is_stopped
-    assert panel.view.over.sentence == "Stopped. Click a point to ask again."
+    assert panel.stopped.is_saying("Stopped. Nothing is shown.")
 
 
 def test_what_was_stopped_is_asked_again_by_a_click(screen, mesh_file, gate):
@@ -76,14 +82,132 @@ def test_what_was_stopped_is_asked_again_by_a_click(screen, mesh_file, gate):
     s.until(panel.waiting.isVisible)
     s.window.cancel()
     assert not panel.waiting.isVisible()
-    QTest.mouseClick(panel.view, LEFT, pos=panel.view.rect().center())
+    place = QtCore.QPoint(panel.view.width() // 2, panel.stopped.y() - 8)
+    assert panel.stopped.isVisible()
+    QTest.mouseClick(panel.view, LEFT, pos=place)
     s.until(panel.waiting.isVisible)
-    assert panel.view.over.sentence == "", "it is not stopped any more"
+    assert not panel.stopped.isVisible(), "it is not stopped any more"
     gate.set()
     s.until(lambda: s.session.is_complete)
     assert not panel.waiting.isVisible()
-    assert panel.view.over.sentence == ""
+    assert not panel.stopped.isVisible()
     assert "no values" not in panel.bar.accessibleDescription()
+
+
+def test_what_was_stopped_is_asked_again_by_its_button_in_that_panel_alone(screen, mesh_file, gate):
+    s = screen((Spec.of("biharmonic"), Spec.of("commute-time")))
+    s.window.open(mesh_file(bumpy(300)), 0)
+    one, other = s.panels
+    s.until(lambda: one.waiting.isVisible() and other.waiting.isVisible())
+    s.window.activateWindow()
+    s.settle()
+    QTest.keyClick(one.view, QtCore.Qt.Key.Key_Escape)
+    s.until(lambda: one.stopped.isVisible() and other.stopped.isVisible())
+    one.stopped.button.setFocus()
+    s.window.progress_changed()
+    assert one.stopped.button.hasFocus(), "news of others do not take the keys from it"
+    QTest.keyClick(one.stopped.button, QtCore.Qt.Key.Key_Space)
+    assert (one.stopped.isVisible(), one.waiting.isVisible()) == (False, True)
+    gate.set()
+    s.until(lambda: s.session.is_answered(0))
+    s.settle()
+    assert (one.stopped.isVisible(), one.view._is_dimmed, other.stopped.isVisible()) == (False, False, True)
+    assert s.session.is_stopped_at(1)
+    QTest.mouseClick(other.stopped.button, LEFT)
+    s.until(lambda: s.session.is_complete)
+    assert not s.session.is_stopped
+
+
+def test_what_was_stopped_says_what_is_shown(screen, mesh_file, gate):
+    gate.set()
+    s = screen((Spec.of("truncated", k=20),))
+    s.open(mesh_file(bumpy(300)), 12)
+    (panel,) = s.panels
+    gate.clear()
+    panel.head.changed.emit(DistanceFrom(Spec.of("truncated", k=250)))
+    s.until(panel.waiting.isVisible)
+    panel.waiting.stop.click()
+    s.until(lambda: panel.stopped.is_saying("Stopped. Shown: biharmonic, 20 eigenpairs, from vertex 12."))
+    assert (panel.view._is_dimmed, "no values" in panel.bar.accessibleDescription()) == (True, True)
+    assert panel.stopped.geometry().bottom() < panel.view.height()
+    s.session.undo()
+    s.settle()
+    assert (panel.stopped.isVisible(), panel.view._is_dimmed) == (False, False)
+
+
+def test_a_quick_look_stays_when_the_exact_answer_is_stopped(screen, mesh_file, monkeypatch):
+    gate, answer = threading.Event(), Opened.answer
+
+    def held(opened, question, progress=None, at_once=None):
+        while question.spec["method"] == "exact" and question.at == 9 and not gate.wait(0.01):
+            progress(0.5, "exact geodesic")
+        return answer(opened, question, progress, at_once)
+
+    monkeypatch.setattr(Opened, "answer", held)
+    s = screen((Spec.of("geodesic", method="exact"),))
+    s.open(mesh_file(bumpy(300)), 5)
+    (panel,) = s.panels
+    s.session.show(move_source(s.document, 0, 9))
+    s.until(lambda: s.session.is_quick_look(0) and panel.waiting.isVisible())
+    panel.waiting.stop.click()
+    s.until(lambda: panel.stopped.is_saying("Stopped. Shown: geodesic, heat method, from vertex 9."))
+    assert (panel.view._is_dimmed, "no values" in panel.bar.accessibleDescription()) == (False, False)
+    gate.set()
+    panel.stopped.button.click()
+    s.until(lambda: s.session.is_complete)
+    assert panel.answer.label == "geodesic, exact"
+
+
+def test_what_auto_stood_for_on_another_mesh_is_not_said_after_a_stop(screen, mesh_file, gate):
+    gate.set()
+    s = screen((Spec.of("geodesic"),))
+    s.open(mesh_file(bumpy(300)), 5)
+    (panel,) = s.panels
+    (method,) = panel.head.controls
+    assert method.text() == "auto: exact"
+    gate.clear()
+    s.window.open(mesh_file(bumpy(400), "other.off"))
+    s.until(panel.waiting.isVisible)
+    s.window.cancel()
+    s.until(panel.stopped.isVisible)
+    assert method.text() == "auto"
+    gate.set()
+    panel.stopped.button.click()
+    s.until(lambda: s.session.is_complete)
+    assert method.text() == "auto: exact"
+
+
+def test_k_is_bounded_by_the_mesh_that_is_shown(screen, mesh_file):
+    s = screen(ONE)
+    s.open(mesh_file(bumpy(100)), 5)
+    (panel,) = s.panels
+    entry = next(a for a in opened_menu(panel.head.name) if a.text() == "Biharmonic, truncated")
+    entry.trigger()
+    s.until(lambda: s.session.is_complete)
+    assert panel.answer.label == "biharmonic, 99 eigenpairs", "as many as there are of the usual 200"
+    (k,) = panel.head.controls
+    box, slider = k.pop_up.box, k.pop_up.slider
+    k.open_under(k)
+    box.setText("99999")
+    QTest.keyClick(box, QtCore.Qt.Key.Key_Return)
+    assert k.pop_up.complaint.text() == "k must be a whole number above 0 and at most 99, not 99999."
+    k.pop_up.close()
+    slider.setValue(slider.maximum())
+    assert s.document.panel(0).shows.spec["k"] == 99
+    s.open(mesh_file(bumpy(300), "larger.off"), 5)
+    (k,) = panel.head.controls
+    assert (k.parameter.at_most, k.parameter.shown) == (299, (1, 299))
+
+
+def test_more_eigenpairs_than_another_mesh_has_fail_in_their_panel_alone(screen, mesh_file):
+    s = screen((Spec.of("truncated", k=250), Spec.of("biharmonic")))
+    s.open(mesh_file(bumpy(300)), 5)
+    s.open(mesh_file(bumpy(100), "small.off"), 5)
+    one, other = s.panels
+    said = "small.off has 99 eigenpairs besides the constant, and k is 250; choose k from 1 to 99."
+    assert (one.view.over.sentence, other.view.over.sentence) == (said, "")
+    assert other.answer.field is not None
+    assert not s.session.is_stopped
 
 
 def test_what_failed_and_is_computed_in_another_way_says_nothing_of_the_failure(screen, mesh_file):

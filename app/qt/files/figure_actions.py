@@ -72,7 +72,7 @@ def _surfaces(window, recipe: Recipe) -> Surfaces:
 def _complete_recipe(window) -> Recipe | None:
     if not window.session.is_complete:
         if window.session.is_stopped:
-            window.failed("A panel was stopped; click a point to compute it, or remove it, and export then.")
+            window.failed("A panel was stopped; press Retry in it, or remove it, and export then.")
         else:
             window.failed("The panels are not complete yet; a figure can be exported once they are.")
         return None

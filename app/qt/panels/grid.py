@@ -62,6 +62,7 @@ class PanelGrid(QtWidgets.QWidget):
     save_wanted = QtCore.Signal(int)  # the panel's field
     ended = QtCore.Signal(int, object)  # panel, where its colour bar is to end
     cancelled = QtCore.Signal(int)  # what is computed for a panel
+    retried = QtCore.Signal(int)  # it, once more
     activated = QtCore.Signal(int)
     brushed = QtCore.Signal(object, float)  # a `Met`, and how long a pixel is there
     brush_lifted = QtCore.Signal()
@@ -204,6 +205,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.head.save_wanted.connect(lambda: self.save_wanted.emit(panel.id))
         panel.ended.connect(lambda end: self.ended.emit(panel.id, end))
         panel.cancelled.connect(lambda: self.cancelled.emit(panel.id))
+        panel.retried.connect(lambda: self.retried.emit(panel.id))
         panel.show_style(self._style)
         return panel
 

@@ -5,6 +5,9 @@ from html import escape
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core import Surface
+from bihdist_core.distances.kinds import Spec
+
 from ...document.edits import PANEL_EDITS
 from ...document.map_colours import MapColours
 from ...document.quantities import ChangeOf, Difference, Interpolant, Prediction, Quantity
@@ -51,6 +54,7 @@ class PanelHead(QtWidgets.QWidget):
         self.controls: list[Control] = []
         self._choices = Choices()
         self._made_of: object = None
+        self._method: tuple[tuple[Spec, ...], str] = ((), "")
         self._info = self._warning = self._dot = self.letter = self._plain = self._name = ""
         # Panels are equally wide whatever is in here.
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
@@ -95,7 +99,8 @@ class PanelHead(QtWidgets.QWidget):
         if fields is not None:
             self._choices.fields = tuple(fields)
         self._choices.keep(shows)
-        made_of = (type(shows), *(part.word for part in shows.parts))
+        bounded = [self._choices.bounded(p) for spec in shows.specs for p in spec.kind.parameters]
+        made_of = (type(shows), *(part.word for part in shows.parts), *bounded)
         # Controls that fit stay, as a hand may be on one of them.
         if made_of != self._made_of:
             self._made_of = made_of
@@ -103,20 +108,32 @@ class PanelHead(QtWidgets.QWidget):
         name = self._plain or quantity_name(shows)
         self._name = name
         self._show_values()
+        self._show_method()
         self.name.setToolTip(f"{name}\nClick to show something else here")
         self.name.setAccessibleName(f"Shown here: {name}")
         self.show_info(self._info)
+
+    def show_surface(self, surface: Surface | None) -> None:
+        """Which surface it is on, where parameters have their bounds; None for none any more."""
+        self._choices.surface, self._method = surface, ((), "")
+        if surface is not None:
+            self.show_quantity(self.shows)
 
     def allow(self, words: set[str]) -> None:
         """Which of the panel's edits are possible."""
         for word, action in self.edits.items():
             action.setEnabled(word in words)
 
-    def show_method(self, method: str) -> None:
-        """Which method the field has been computed by, for the control that says "auto"."""
+    def show_method(self, specs: tuple[Spec, ...], label: str) -> None:
+        """What the field has been computed by, "geodesic, heat method", for the control that says "auto"."""
+        self._method = specs, label.partition(", ")[2].partition(" ")[0].rstrip(",")
+        self._show_method()
+
+    def _show_method(self) -> None:
+        specs, method = self._method
         control = self._of_parameter.get((0, "method"))
         if isinstance(control, ChoiceControl) and not isinstance(self.shows, Difference):
-            control.show_meant(method)
+            control.show_meant(method if specs == self.shows.specs else "")
             self._lay_out()
 
     def show_info(self, text: str) -> None:
@@ -211,7 +228,8 @@ class PanelHead(QtWidgets.QWidget):
         for place, part in enumerate(self.shows.parts):
             for parameter in part.spec.kind.parameters if part.specs else ():
                 of_what = f" ({('first', 'second')[place]}: {part_name(part)})" if is_difference else ""
-                control = parameter_control(self, parameter, next(signed), of_what)
+                bounded = self._choices.bounded(parameter)
+                control = parameter_control(self, bounded, next(signed), of_what)
                 control.chosen.connect(lambda value, of=(place, parameter.name): self._set(*of, value))
                 self._of_parameter[place, parameter.name] = control
         self.controls = list(self._of_parameter.values())

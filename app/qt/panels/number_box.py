@@ -1,6 +1,6 @@
 """One number to be set: a slider, and a pop-up with a slider and a box for the exact value."""
 
-from math import exp, log
+from math import exp, inf, log
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -204,7 +204,8 @@ class NumberPopUp(TypedPopUp):
         self.slider.chosen.connect(self.chosen)
         self.box.setFixedWidth(76)
         self.box.setAccessibleName(f"{meaning(parameter)}, the exact value")
-        self.box.setToolTip(f"{symbol(parameter)}: any number above {parameter.above:g}; Enter sets it")
+        most = "" if parameter.at_most == inf else f" and at most {parameter.at_most:,}, as the mesh has them"
+        self.box.setToolTip(f"{symbol(parameter)}: any number above {parameter.above:g}{most}; Enter sets it")
         self._lay_out(self.slider, self.box)
 
     def show_value(self, value: float) -> None:

@@ -31,6 +31,7 @@ from .end_box import EndPopUp
 from .head import PanelHead
 from .overlay import Pointed
 from .panel_marks import PanelMarks
+from .stopped import Stopped, stopped_words
 from .value_words import copied_words, value_words
 from .view import View
 from .waiting import Waiting
@@ -46,6 +47,7 @@ class DistancePanel(QtWidgets.QWidget):
     """See the module.  id, surface: those of the document's panel."""
 
     cancelled = QtCore.Signal()
+    retried = QtCore.Signal()
     ended = QtCore.Signal(object)  # where its colour bar is to end, None for the field's own maximum
 
     def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
@@ -60,6 +62,8 @@ class DistancePanel(QtWidgets.QWidget):
         self._end.chosen.connect(lambda end: self.ended.emit(None if end is None else end / self._scale))
         self.waiting = Waiting(self)
         self.waiting.cancelled.connect(self.cancelled)
+        self.stopped = Stopped(self.view)
+        self.stopped.retried.connect(self.retried)
         self._accent = QtWidgets.QWidget(self, objectName="activeLine")
         self._accent.setAttribute(QtCore.Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         layout = QtWidgets.QVBoxLayout(self)
@@ -104,6 +108,7 @@ class DistancePanel(QtWidgets.QWidget):
         is_at_bar, view = self._is_compact and self._is_waiting, self.view.geometry()
         top = view.bottom() + 1 if is_at_bar else view.top()
         self.waiting.fit(top, view.width(), self._is_compact, is_at_bar or not self._is_compact)
+        self.stopped.fit()
 
     def rest(self) -> None:
         """Show nothing, and keep nothing of what was shown."""
@@ -115,6 +120,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.show_empty(True)
         self.bar.clear()
         self.head.show_warning("")
+        self.head.show_surface(None)
         self.show_waiting(None)
 
     # ------------------------------------------------------------------ state into pixels
@@ -122,6 +128,7 @@ class DistancePanel(QtWidgets.QWidget):
         """Another surface, without a field yet."""
         self.rest()
         self._opened = opened
+        self.head.show_surface(opened.surface)
         self.marks.begin(opened.surface)
         self.view.picker = opened.prepared.picker
         self._drawn = opened.prepared.meshes.usual
@@ -317,8 +324,8 @@ class DistancePanel(QtWidgets.QWidget):
         self.answer, self._is_preview = shown.answer, shown.is_preview
         accuracy = shown.answer.accuracy
         self._warn()
-        # "geodesic, heat method"
-        self.head.show_method(shown.answer.label.partition(", ")[2].partition(" ")[0].rstrip(","))
+        if not shown.is_preview:
+            self.head.show_method(shown.asked.specs, shown.answer.label)
         said = [shown.answer.label, self.head.shows.hint, accuracy.text]
         self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in said if text))
 
@@ -336,6 +343,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._is_waiting = is_waiting
         self._place_waiting()
         self.view.dim(is_waiting)
+        self.stopped.hide()
         # Why there is no field is not said of one that is on its way.
         self.view.over.say("" if is_waiting or self.answer is None else self.answer.failure)
         if progress is None:
@@ -348,12 +356,16 @@ class DistancePanel(QtWidgets.QWidget):
         if changes:
             self._show_bar()
 
-    def show_stopped(self) -> None:
-        """The user has stopped it."""
+    def show_stopped(self, shown: Shown | None = None, is_old: bool = True) -> None:
+        """The user has stopped it, and this is what it shows.  is_old: which is not what is asked for."""
+        words = stopped_words(shown)
+        if self.stopped.is_saying(words):
+            return
         self.show_waiting(None)
-        self._is_waiting = True
-        self.view.dim(True)
-        self.view.over.say("Stopped. Click a point to ask again.")
+        self._is_waiting = is_old
+        self.view.dim(is_old)
+        self.view.over.say("")
+        self.stopped.show_words(words)
         self._show_bar()
 
     # ------------------------------------------------------------------ the pointer

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from qtpy import QtWidgets
 
-from bihdist_core import ParameterError
-from bihdist_core.distances.kinds import Kind, Spec, kind_of, kinds
+from bihdist_core import ParameterError, Surface
+from bihdist_core.distances.kinds import Kind, Parameter, Spec, kind_of, kinds
 
 from ...document.map_colours import MapColours
 from ...document.quantities import Difference, DistanceFrom, Interpolant, OwnField, Part, Prediction, Quantity
@@ -35,6 +35,7 @@ class Choices:
 
     def __init__(self) -> None:
         self.fields: tuple[str, ...] = ()
+        self.surface: Surface | None = None  # where parameters have their bounds
         self.has_other = False  # whether there is another surface, with points to be found on this one
         self._before: tuple[dict[str, Spec], dict[str, Spec]] = ({}, {})
 
@@ -43,6 +44,10 @@ class Choices:
         for before, part in zip(self._before, shows.parts, strict=False):
             if part.specs:
                 before[part.spec.word] = part.spec
+
+    def bounded(self, parameter: Parameter) -> Parameter:
+        """With the values that it can have on the surface."""
+        return parameter if self.surface is None else parameter.on(self.surface)
 
     def with_part(self, shows: Quantity, place: int, chosen: str | OwnField | Spec) -> Quantity:
         """Another distance, by its word or with parameters, or field at a place of what is shown."""
@@ -64,8 +69,10 @@ class Choices:
     def _part(self, chosen: str | OwnField | Spec, place: int, point: str) -> Part:
         if isinstance(chosen, OwnField):
             return chosen
-        spec = self._before[place].get(chosen) or Spec.of(chosen) if isinstance(chosen, str) else chosen
-        return DistanceFrom(spec, point)
+        if isinstance(chosen, Spec):
+            return DistanceFrom(chosen, point)
+        spec = self._before[place].get(chosen) or Spec.of(chosen)
+        return DistanceFrom(spec if self.surface is None else spec.on(self.surface), point)
 
 
 def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: Callable[[Quantity], None]) -> None:

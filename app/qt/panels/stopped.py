@@ -1,0 +1,72 @@
+"""What a panel says that was stopped: what it shows all the same, and a button that asks again."""
+
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core.sources.words import short_words_of
+
+from ...session.answering import Shown
+from ..look.look import LOOK
+
+MARGIN = 24
+"""Between it and the edges of the view."""
+
+
+class Stopped(QtWidgets.QWidget):
+    """In the middle of a view; `retried` by its button."""
+
+    retried = QtCore.Signal()
+
+    def __init__(self, parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent)
+        self.words = QtWidgets.QLabel(self, wordWrap=True)
+        self.words.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
+        self.button = QtWidgets.QPushButton("Retry", self, autoDefault=False)
+        self.button.setToolTip("Compute this panel again from the start")
+        self.button.clicked.connect(self.retried)
+        column = QtWidgets.QVBoxLayout(self)
+        column.setContentsMargins(12, 8, 12, 10)
+        column.setSpacing(8)
+        column.addWidget(self.words)
+        column.addWidget(self.button, 0, QtCore.Qt.AlignmentFlag.AlignCenter)
+        self.hide()
+
+    def show_words(self, words: str) -> None:
+        self.words.setText(words)
+        self.fit()
+        self.show()
+        self.raise_()
+
+    def is_saying(self, words: str) -> bool:
+        """Whether it is there, with these words: then somebody may be about to press the button."""
+        return not self.isHidden() and self.words.text() == words
+
+    def fit(self) -> None:
+        """Lie in the middle of the view, as narrow as the words are."""
+        view = self.parentWidget().rect()
+        margins, metrics = self.layout().contentsMargins(), self.words.fontMetrics()
+        beside = margins.left() + margins.right()
+        room = max(view.width() - 2 * MARGIN - beside, 1)
+        words = metrics.boundingRect(
+            QtCore.QRect(0, 0, room, 10_000), int(QtCore.Qt.TextFlag.TextWordWrap), self.words.text()
+        )
+        width = max(words.width() + 2, self.button.sizeHint().width())
+        self.words.setFixedSize(width, words.height())
+        size = QtCore.QSize(width + beside, self.layout().totalSizeHint().height())
+        self.setGeometry(QtCore.QRect(view.center() - QtCore.QPoint(size.width() // 2, size.height() // 2), size))
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        painter, ground = QtGui.QPainter(self), QtGui.QColor(LOOK.theme.canvas)
+        ground.setAlphaF(0.88)
+        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        painter.setPen(QtCore.Qt.PenStyle.NoPen)
+        painter.setBrush(ground)
+        painter.drawRoundedRect(self.rect(), 6, 6)
+
+
+def stopped_words(shown: Shown | None) -> str:
+    """What a panel that was stopped shows: the answer to what it was asked before, a quick look, or nothing."""
+    if shown is None or shown.answer.field is None:
+        return "Stopped. Nothing is shown."
+    at = getattr(shown.asked, "at", None)
+    where = "" if at is None else f", from {'vertex ' if isinstance(at, int) else ''}{short_words_of(at)}"
+    return f"Stopped. Shown: {shown.answer.label}{where}."
