@@ -13,7 +13,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
 from .drawable import copies_of, has_backs
 from .face_look import pass_on, put_face_look
-from .levels import BOLD, Levels, levels, too_many
+from .levels import BOLD, ZERO, Levels, levels, too_many
 from .selected import PAINT_SELECTED
 from .stand_in import StandInActor
 from .style import Style
@@ -50,7 +50,7 @@ _PAINT = """
     for (int k = max(above - 1, 0); k < min(above + 1, isolineCount); k++) {
       bool isThrough = isolineKind[k] > 1.5;
       if (isThrough != (pass == 1)) continue;
-      float halfWidth = isolineHalfWidth * (isolineKind[k] > 0.5 ? BOLD : 1.0);
+      float halfWidth = isolineHalfWidth * (isolineKind[k] > 0.5 ? BOLD : isolineKind[k] > 0.25 ? ZERO : 1.0);
       float fromLine = abs(isolineValue - isolineAt[k]) / max(perPixel, 1e-12);
       float paint = drawn * (1.0 - smoothstep(halfWidth - 0.6, halfWidth + 0.6, fromLine));
       if (isThrough) {
@@ -70,7 +70,7 @@ _PAINT = """
       fragOutput0.rgb = mix(fragOutput0.rgb, share > isolineTurn ? isolineFarColour : isolineColour, paint);
     }
   }
-""".replace("BOLD", str(BOLD))
+""".replace("BOLD", str(BOLD)).replace("ZERO", str(ZERO))
 
 
 class FieldActor:
@@ -240,6 +240,8 @@ class FieldActor:
         shares = found.values / self.maximum if self.maximum > 0 else found.values
         at = (shares + 1) / 2 if self.is_signed else shares
         kinds = np.where(found.is_through, 2.0, np.where(found.is_bold, 1.0, 0.0))
+        if self.is_signed and not isolines.bold:
+            kinds[(found.values == 0) & ~found.is_through] = 0.5
         count = min(len(at), MOST_LINES)
         self._uniforms.SetUniformi("isolineCount", count)
         # Of one size, so that the shader need not be made anew.
@@ -302,11 +304,11 @@ class FieldActor:
         data = self._own.GetPointData()
         self.stand_in.show(is_shown, self._array, UNDEFINED, {name: data.GetArray(name) for name in self._passed_on})
 
-    def set_scale(self, scale: float) -> None:
-        """Device pixels per pixel have changed."""
+    def set_scale(self, scale: float, share: float = 1.0) -> None:
+        """Device pixels per pixel have changed, or the share of their usual width that isolines have."""
         self._uniforms.SetUniformf("edgeScale", scale)
-        self._uniforms.SetUniformf("isolineCasing", CASING * scale)
-        self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale)
+        self._uniforms.SetUniformf("isolineCasing", CASING * scale * share)
+        self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale * share)
 
     def set_origin(self, x: float, y: float) -> None:
         """Where the picture begins, in pixels of a whole of which it is a part: hatching goes on from part to part."""

@@ -47,6 +47,7 @@ class Insets:
         self.renderers: list[vtkRenderer] = []
         self._in_sight: list[bool] = []
         self._field = field
+        self._proportion = 1.0
         self._own: list[FieldActor | None] = []  # for those with isolines of their own
         self._frames = self._lines()
         renderer.AddActor(self._frames)
@@ -75,13 +76,22 @@ class Insets:
         renderer, before = self.renderers[number], self._own[number]
         if is_own == (before is not None):
             return
-        self._own[number] = FieldActor(self._style, self._scale) if is_own else None
+        own = self._own[number] = FieldActor(self._style, self._scale) if is_own else None
+        if own is not None:
+            own.set_scale(self._scale, self._proportion)
         for each, is_drawn in ((self._field, not is_own), (before or self._own[number], is_own)):
             for actor in (each.actor, each.stand_in.actor):
                 renderer.AddActor(actor) if is_drawn else renderer.RemoveActor(actor)
 
     def _levels(self, number: int) -> Levels:
         return (self._own[number] or self._field).levels
+
+    def set_proportion(self, share: float) -> None:
+        """Let isolines of their own be of this share of their usual width."""
+        self._proportion = share
+        for own in self._own:
+            if own is not None:
+                own.set_scale(self._scale, share)
 
     @property
     def corners(self) -> tuple[str, ...]:

@@ -10,6 +10,9 @@ from ..document.looks import MOST_ISOLINES, Isolines
 BOLD = 2.0
 """By how much bold lines are wider than the others."""
 
+ZERO = 1.1
+"""By how much the line at 0 of a signed field is: it stands out by its colour, and where it winds it is not to blot."""
+
 
 @dataclass(frozen=True, eq=False)
 class Levels:
@@ -75,6 +78,13 @@ def _merged(values: np.ndarray, is_bold: np.ndarray, through: np.ndarray, wanted
     is_through = np.arange(len(both)) >= len(values)
     bold = np.append(is_bold, np.zeros(len(through), bool))
     return Levels(both[order], bold[order], is_through[order], wanted)
+
+
+def width_of(isolines: Isolines, is_bold: bool, is_zero: bool) -> float:
+    """The width of a line in those of a usual one; is_zero: at 0 of a signed field."""
+    if is_zero and not isolines.bold:
+        return ZERO
+    return BOLD if is_bold else 1.0
 
 
 def half_steps(count: int) -> int:

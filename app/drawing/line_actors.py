@@ -39,7 +39,8 @@ class RimmedLines:
         self, line: Colour, rim: Colour, width: float, rim_width: float, scale: float, nearer: float = NEARER
     ) -> None:
         whole = width + 2 * rim_width
-        self.actor = line_actor(line, whole * scale, nearer)
+        self._width = whole * scale
+        self.actor = line_actor(line, self._width, nearer)
         look = self.actor.GetProperty()
         look.RenderLinesAsTubesOn()  # plain lines have no edges, and are thinner the more they slant
         look.LightingOn()  # which has that shader
@@ -48,6 +49,10 @@ class RimmedLines:
         shader = self.actor.GetShaderProperty()
         shader.AddFragmentShaderReplacement(_LIT, False, rimmed, False)
         shader.GetFragmentCustomUniforms().SetUniform3f("rimColour", rim)
+
+    def set_proportion(self, share: float) -> None:
+        """Be of this share of the width."""
+        self.actor.GetProperty().SetLineWidth(self._width * share)
 
     def show(self, lines: Sequence[tuple[np.ndarray, bool]]) -> None:
         """Points (k, 3) of each, and whether the last joins the first."""

@@ -1,4 +1,4 @@
-"""Marked points of a surface: balls of constant size on the screen, with a dark rim that shows on every colour."""
+"""Marked points of a surface: balls or rings of constant size on the screen, which show on every colour."""
 
 from collections.abc import Sequence
 
@@ -19,12 +19,21 @@ _RIM = """//VTK::Light::Impl
 """
 """A ball is a disc of the shader's: towards its edge the normal turns away from the eye."""
 
+_RING = """//VTK::Light::Impl
+  float toEye = normalVCVSOutput.z;
+  fragOutput0.rgb = mix(vec3(1.0), rimColour, smoothstep(0.48, 0.62, toEye) - smoothstep(0.83, 0.90, toEye));
+"""
+"""A dark ring on a white disc, which is its halo, too."""
+
 
 class Marks:
-    """Points in colours of their own, hidden until there are any.  size: pixels across; rim: its colour, if any."""
+    """Points in colours of their own, hidden until there are any.
 
-    def __init__(self, size: float, rim: Colour | None = None) -> None:
-        self.actor = vtkActor()
+    size: pixels across; rim: its colour, if any; are_rings: in that of the rim, with a white halo.
+    """
+
+    def __init__(self, size: float, rim: Colour | None = None, are_rings: bool = False) -> None:
+        self.actor, self._size = vtkActor(), size
         mapper = vtkPolyDataMapper()
         mapper.SetColorModeToDirectScalars()
         self.actor.SetMapper(mapper)
@@ -35,9 +44,13 @@ class Marks:
         look.SetDiffuse(0.6)
         if rim is not None:
             shader = self.actor.GetShaderProperty()
-            shader.AddFragmentShaderReplacement(_LIT, False, _RIM, False)
+            shader.AddFragmentShaderReplacement(_LIT, False, _RING if are_rings else _RIM, False)
             shader.GetFragmentCustomUniforms().SetUniform3f("rimColour", rim)
         self.actor.VisibilityOff()
+
+    def set_proportion(self, share: float) -> None:
+        """Be of this share of the size."""
+        self.actor.GetProperty().SetPointSize(self._size * share)
 
     def show(self, positions: np.ndarray, colours: Sequence[Colour] | np.ndarray) -> None:
         """Mark these positions (k, 3), each in a colour."""

@@ -33,12 +33,14 @@ class PanelScene:
         self._source = Marks(style.marker_size * scale, style.mark_edge)
         self._lines = SourceLineActor(style, scale)
         self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
-        self._anchored = Marks(style.marker_size * scale, style.mark_edge)
+        self._anchored = Marks(style.marker_size * scale, style.mark_edge, are_rings=True)
         self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
         self._regions = RegionLines(style, scale)
         marks = (self._source, self._largest, self._anchored, self._passed)
         solid = [self._field.actor, self._regions.actor, self._lines.actor, *(each.actor for each in marks)]
         solid += [self._field.stand_in.actor]
+        self._sized = (self._regions, self._lines, *marks)
+        self._proportion = 1.0
         self.insets = Insets(renderer, solid, self._field, style, scale)
         renderer.SetBackground(*style.background)
         # To find out what is out of sight VTK would go over all vertices, and here nothing ever is.
@@ -52,6 +54,15 @@ class PanelScene:
         """The panel's own first, then those of the insets."""
         return [self.renderer, *self.insets.renderers]
 
+    def set_proportion(self, share: float) -> None:
+        """Let lines and marks be of this share of their usual size, see `proportion`."""
+        if share != self._proportion:
+            self._proportion = share
+            for each in self._sized:
+                each.set_proportion(share)
+            self._field.set_scale(self.scale, share)
+            self.insets.set_proportion(share)
+
     def remove(self) -> None:
         """Leave the renderer to another."""
         self.insets.remove()
@@ -63,7 +74,7 @@ class PanelScene:
         self.show_shape(mesh, bounds)
         self.mark_source(None)
         self.mark_largest(None)
-        self.mark_anchors(np.empty((0, 3)), [])
+        self.mark_anchors(np.empty((0, 3)))
         self.show_regions([])
         self._field.show_selected(None)
         self.mark_passed(np.empty((0, 3)))
@@ -172,7 +183,6 @@ class PanelScene:
         """Positions (k, 3) of points that isolines pass through."""
         self._passed.show(positions, [self.style.source] * len(positions))
 
-    def mark_anchors(self, positions: np.ndarray, values: Sequence[float]) -> None:
-        """Positions (k, 3), each filled with the colour of a value, grey where that is NaN."""
-        top, signed = self._field.maximum, self._field.is_signed
-        self._anchored.show(positions, [self.style.colour_of(value, top, signed) for value in values])
+    def mark_anchors(self, positions: np.ndarray) -> None:
+        """Rings at positions (k, 3)."""
+        self._anchored.show(positions, [self.style.mark_edge] * len(positions))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..drawing.field_actor import CASING
-from ..drawing.levels import BOLD
+from ..drawing.levels import BOLD, width_of
 from ..drawing.style import Colour
 from .axes import draw_axes
 from .description import Figure
@@ -128,7 +128,8 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         if not line.parts:
             continue
         colour, width = style.line(signed, line.value / top if top > 0 else 0.0), style.isoline_width * stroke
-        strokes = [(colour, width * (BOLD if line.is_bold else 1))]
+        wider = width_of(page.figure.panels[shot.panel].isolines, line.is_bold, signed and line.value == 0)
+        strokes = [(colour, width * wider)]
         if line.is_through:
             strokes = [(style.mark_edge, BOLD * width + 2 * CASING * stroke), (style.source, BOLD * width)]
         for colour, width in strokes:

@@ -50,9 +50,9 @@ GROUND = 0.8
 def draw_marks(
     axes: Axes, page: Composition, shot: Shot, order: int, frame, write: Callable[[Words, int], None]
 ) -> None:
-    """Those of one picture: rings around their places, discs where they have a value, dashed where they are hidden."""
+    """Those of one picture: rings around their places, with a halo at anchors, dashed where they are hidden."""
     style, panel = page.figure.style, page.figure.panels[shot.panel]
-    top, across = page.figure.tops()[shot.panel], page.layout.mark
+    across = page.layout.mark
     insets = [other.box for other in page.shots if other.panel == shot.panel and other.source is not None]
     insets = [box for box in insets if shot.source is None]
     written: list[Box] = []
@@ -97,8 +97,9 @@ def draw_marks(
             continue
         colour = style.largest if mark.is_largest else style.source
         if mark.value is not None:
-            colour = style.colour_of(mark.value, top, panel.signed)
-        patches = _ring(x, y, across, colour, style.mark_edge, mark.value is None, order)
+            patches = _anchor(x, y, across, style.mark_edge, order)
+        else:
+            patches = _ring(x, y, across, colour, style.mark_edge, True, order)
         for patch in patches:
             axes.add_artist(patch)
             if shot.source is not None:
@@ -171,6 +172,15 @@ def _ring(x: float, y: float, across: float, colour, edge, may_be_open: bool, or
     dark = Annulus((x, y), across / 2, across / 2 - hole, facecolor=edge, linewidth=0, zorder=order)
     light = Annulus((x, y), across / 2 - rim, across / 2 - hole - 2 * rim, facecolor=colour, linewidth=0, zorder=order)
     return [dark, light]
+
+
+def _anchor(x: float, y: float, across: float, edge, order: int) -> list:
+    """A dark ring on a white disc, which is its halo, too."""
+    from matplotlib.patches import Annulus, Circle
+
+    halo = Circle((x, y), across / 2, facecolor="white", linewidth=0, zorder=order)
+    width = 0.165 * across
+    return [halo, Annulus((x, y), 0.25 * across + width, width, facecolor=edge, linewidth=0, zorder=order)]
 
 
 def _draw_ghost(axes: Axes, x: float, y: float, across: float, style, order: int) -> None:

@@ -145,18 +145,14 @@ def test_insets_come_and_go_with_the_document(shown):
 
 
 # ---------------------------------------------------------------------- anchors
-def test_anchors_have_the_colours_of_their_values(shown):
+def test_anchors_are_light_in_their_middle_whatever_their_values(shown):
     s = shown(bumpy(2000))
-    vertex, style = facing(s), STYLES["paper"]
-    top = s.answers[0].maximum
-    for value, share in ((None, s.answers[0].field[vertex] / top), (0.0, 0.0), (0.5 * top, 0.5), (9 * top, 1.0)):
+    vertex, top = facing(s), s.answers[0].maximum
+    for value in (None, 0.0, 0.5 * top, 9 * top):
         points = (s.document.point("source"), Point("anchor", vertex))
         s.session.show(replace(s.document, points=points, anchors=(Anchor("anchor", value),)))
         s.settle(0.1)
-        found = colour_at(s.panels[0], seen_at(s.panels[0], vertex))
-        expected = style.colours_at(np.array([share]))[0]
-        # Shaded, so only the hue and saturation are the same.
-        assert np.abs(found / found.max() - expected / expected.max()).max() < 0.12
+        assert colour_at(s.panels[0], seen_at(s.panels[0], vertex)).min() > 0.9
     s.session.show(replace(s.document, anchors=()))
     s.settle(0.1)
     assert not s.panels[0].view.scene._anchored.actor.GetVisibility()

@@ -7,6 +7,7 @@ import numpy as np
 from qtpy import QtCore, QtGui
 
 from ..look.look import LOOK
+from .overlay import shrunk
 
 SIZE = 6.0
 """From the centre to a corner, in logical pixels."""
@@ -48,7 +49,9 @@ class ExtremumMarks(QtCore.QObject):
             # Going through the surface for each of them is too slow while it turns.
             self._rest.start()
         for position, is_up, is_seen in zip(self.positions, self.is_maximum, self._is_seen, strict=True):
-            paint_triangle(painter, self._view.place_of(position), bool(is_up), bool(is_seen))
+            at = self._view.place_of(position)
+            with shrunk(painter, at, self._view.proportion):
+                paint_triangle(painter, at, bool(is_up), bool(is_seen))
 
     def _look(self, then_paint: bool = True) -> None:
         seen = np.array([self._view.sees(position) for position in self.positions], bool)

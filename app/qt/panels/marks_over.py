@@ -98,7 +98,9 @@ class MarksOver:
 
     def pin_at(self, position: QtCore.QPoint) -> int:
         """The number of the pin whose drop is under a point of the view; 0 for none."""
-        return drop_under(QtCore.QPointF(position), self._seen_pins(), self._hidden_pins()) if self._pins else 0
+        if not self._pins:
+            return 0
+        return drop_under(QtCore.QPointF(position), self._seen_pins(), self._hidden_pins(), self._view.proportion)
 
     def tip_of(self, number: int) -> QtCore.QPoint:
         """The pixel of the place of a pin that is seen."""
@@ -138,7 +140,7 @@ class MarksOver:
         """What lies lowest first."""
         view = self._view
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        self.path.paint(painter, view.devicePixelRatioF())
+        self.path.paint(painter, view.devicePixelRatioF(), view.proportion)
         for colour, places in self._dabs:
             painter.setPen(QtGui.QPen(QtGui.QColor(colour), DAB))
             painter.drawPoints(places)
@@ -149,7 +151,7 @@ class MarksOver:
         if self._labels:
             paint_anchor_labels(painter, self._seen_labels(), QtCore.QRectF(view.rect()))
         if self._pins:
-            paint_pins(painter, self._seen_pins(), self._hidden_pins())
+            paint_pins(painter, self._seen_pins(), self._hidden_pins(), view.proportion)
         self.pairs.paint(painter)
         if self.pairs.names() and not self.sentence:
             paint_legend(painter, QtCore.QRectF(view.rect()), self.pairs.names())
@@ -158,7 +160,7 @@ class MarksOver:
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)
         for end in self.ends:
-            overlay.paint_ring(painter, view.place_of(end), True, not view.sees(end))
+            self._paint_ring(painter, view.place_of(end), True, not view.sees(end))
         for stroke in self.strokes:
             style = view.scene.style
             overlay.paint_stroke(painter, [view.place_of(x) for x in stroke], style.source, style.mark_edge)
@@ -167,10 +169,14 @@ class MarksOver:
 
     def _paint_pointed(self, painter: QtGui.QPainter, pointed: Pointed) -> None:
         at = self._view.place_of(pointed.position)
-        overlay.paint_ring(painter, at, pointed.is_own, pointed.is_hidden)
+        self._paint_ring(painter, at, pointed.is_own, pointed.is_hidden)
         if pointed.value:
             place = overlay.label_place(at, pointed.value, pointed.share, QtCore.QRectF(self._view.rect()))
             overlay.paint_label(painter, place, pointed.value, pointed.share)
+
+    def _paint_ring(self, painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hidden: bool) -> None:
+        with overlay.shrunk(painter, at, self._view.proportion):
+            overlay.paint_ring(painter, at, is_own, is_hidden)
 
     def _cover(self) -> QtCore.QRect:
         """What the ring and its label take."""

@@ -1,7 +1,8 @@
 """What lies over a view and needs no drawing of the surface: the ring and the label at the pointer, the
 axes, and sentences."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +39,17 @@ class Pointed:
     is_hidden: bool = False
     value: str = ""
     share: str = ""
+
+
+@contextmanager
+def shrunk(painter: QtGui.QPainter, at: QtCore.QPointF, share: float) -> Iterator[None]:
+    """Paint at this share of the usual size about a place."""
+    painter.save()
+    painter.translate(at)
+    painter.scale(share, share)
+    painter.translate(-at)
+    yield
+    painter.restore()
 
 
 def paint_ring(painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hidden: bool) -> None:

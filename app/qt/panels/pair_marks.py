@@ -13,7 +13,19 @@ from ...drawing.picking import pixel_of
 from ..look.look import LOOK
 from . import overlay
 from .extremum_marks import LOW, NOTE_LEFT, NOTE_TOP
-from .pin_marks import BRIGHT, DARK, HEAD, RISE, PinMark, drop_at, drop_under, paint_numeral, paint_pins
+from .pin_marks import (
+    BRIGHT,
+    DARK,
+    HEAD,
+    LEAST,
+    RISE,
+    PinMark,
+    drop_at,
+    drop_under,
+    is_in_drop,
+    paint_numeral,
+    paint_pins,
+)
 
 if TYPE_CHECKING:
     from .view import View
@@ -86,9 +98,9 @@ class PairMarks:
         place = QtCore.QPointF(position)
         if self.candidate is not None:
             at = self._place(self.candidate.position)
-            if at is not None and drop_at(at).contains(place):
+            if at is not None and is_in_drop(place, at, self._view.proportion):
                 return self.candidate.number
-        return drop_under(place, self._seen(), self._look()) if self._marks else 0
+        return drop_under(place, self._seen(), self._look(), self._view.proportion) if self._marks else 0
 
     def tip_of(self, number: int) -> QtCore.QPoint:
         """The pixel of the place of a drop that is seen."""
@@ -102,15 +114,18 @@ class PairMarks:
     # ------------------------------------------------------------------ painting
     def paint(self, painter: QtGui.QPainter) -> None:
         seen = self._seen()
-        paint_pins(painter, seen, self._look())
+        share = self._view.proportion
+        paint_pins(painter, seen, self._look(), share)
         for position in self.truth:
             at = self._place(position)
             if at is not None:
-                paint_cross(painter, at, not self._view.sees(position))
+                with overlay.shrunk(painter, at, share):
+                    paint_cross(painter, at, not self._view.sees(position))
         candidate = self.candidate
         at = None if candidate is None else self._place(candidate.position)
         if candidate is not None and at is not None:
-            paint_candidate(painter, at, candidate.number)
+            with overlay.shrunk(painter, at, max(share, LEAST)):
+                paint_candidate(painter, at, candidate.number)
             others = [drop_at(tip).boundingRect() for _, tip in seen.values()]
             box = label_box(at, candidate, QtCore.QRectF(self._view.rect()), others)
             overlay.paint_label(painter, box, candidate.value, candidate.share, self.is_meant)

@@ -206,8 +206,8 @@ class DistancePanel(QtWidgets.QWidget):
         return np.concatenate([self.positions[ids], self.marks.dots])
 
     def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
-        """Vertices with a value each; without one it is the field's own."""
-        self.marks.mark_anchors(anchors, self.answer)
+        """Vertices with a value each, or None."""
+        self.marks.mark_anchors(anchors)
 
     @property
     def source(self) -> int | None:

@@ -7,12 +7,10 @@ import numpy as np
 from bihdist_core import Surface
 from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.region_boundaries import Boundary
-from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.pieces import Pieces
 
 from ...drawing.source_lines import SourceLine, source_lines
 from ...drawing.style import PINS, WAITING
-from ...session.anchors import anchor_value
 from ...session.paired import Candidate, PairedPoint
 from ...session.passed import Passed
 from ...session.pinned import PinnedPlace
@@ -100,11 +98,10 @@ class PanelMarks:
         """What has been drawn so far: of each stroke the corners (k, 3) of faces, and the weights (k, 3) of these."""
         self._view.over.show_strokes([np.einsum("kc,kcx->kx", w, self.positions[corners]) for corners, w in strokes])
 
-    def mark_anchors(self, anchors: Sequence[tuple[int, float | None]], answer: Answer | None) -> None:
-        """Vertices with a value each; without one it is that of the answer's field."""
+    def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
+        """Vertices with a value each, or None."""
         self.anchors = anchors
-        values = [anchor_value(value, vertex, answer) for vertex, value in anchors]
-        self._view.scene.mark_anchors(self.positions[[vertex for vertex, _ in anchors]], values)
+        self._view.scene.mark_anchors(self.positions[[vertex for vertex, _ in anchors]])
         self._view.redraw()
 
     def hold_anchors(self, names: Sequence[str] | None, texts: Sequence[str] = (), chosen: str = "") -> None:

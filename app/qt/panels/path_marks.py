@@ -38,8 +38,8 @@ class PathMarks:
             low, high = (left, top), (left + width, top + height)
             self.pixels[((self.pixels >= low) & (self.pixels < high)).all(axis=1)] = np.nan
 
-    def paint(self, painter: QtGui.QPainter, ratio: float) -> None:
-        """ratio: device pixels in a logical one."""
+    def paint(self, painter: QtGui.QPainter, ratio: float, share: float = 1.0) -> None:
+        """ratio: device pixels in a logical one; share: of the usual widths."""
         if not len(self.pixels):
             return
         places = self.pixels / ratio
@@ -48,12 +48,12 @@ class PathMarks:
         for seen in (False, True):  # what is hidden lies behind
             lines = _runs(places, self.is_seen == seen)
             for colour, width in ((BRIGHT, WIDE), (DARK, NARROW)):
-                pen = QtGui.QPen(colour, width)
+                pen = QtGui.QPen(colour, share * width)
                 pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
                 pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
                 if not seen:
-                    pen.setWidthF(width - THINNER)
-                    pen.setDashPattern([0.01, DOTS / pen.widthF()])
+                    pen.setWidthF(share * (width - THINNER))
+                    pen.setDashPattern([0.01, share * DOTS / pen.widthF()])
                 painter.setPen(pen)
                 for line in lines:
                     painter.drawPolyline(line)

@@ -8,6 +8,7 @@ import numpy as np
 from qtpy import QtCore, QtGui
 
 from ..look.look import LOOK
+from .overlay import shrunk
 
 HEAD = 8.5
 """Radius of a drop's head, and of a badge's disc."""
@@ -17,6 +18,9 @@ RISE = 17.0
 
 RIMS = 2.5
 """Around the head."""
+
+LEAST = 0.75
+"""The share of its size that a drop has in small views, at least: its numeral is to be read."""
 
 BRIGHT, DARK = QtGui.QColor("#FFFFFF"), QtGui.QColor("#14161A")
 
@@ -41,20 +45,34 @@ class PinMark:
 
 
 def paint_pins(
-    painter: QtGui.QPainter, pins: Mapping[int, tuple[PinMark, QtCore.QPointF]], hidden: Collection[int]
+    painter: QtGui.QPainter,
+    pins: Mapping[int, tuple[PinMark, QtCore.QPointF]],
+    hidden: Collection[int],
+    share: float = 1.0,
 ) -> None:
-    """Drops at their places, by number: those that are hidden under the others, the first and what is lit on top."""
+    """Drops at their places, by number: those that are hidden under the others, the first and what is lit on top.
 
+    share: of the usual size of marks.
+    """
     for pin, at in _upwards(pins, hidden):
-        paint_drop(painter, at, pin, pin.number in hidden)
+        with shrunk(painter, at, max(share, LEAST)):
+            paint_drop(painter, at, pin, pin.number in hidden)
 
 
 def drop_under(
-    place: QtCore.QPointF, pins: Mapping[int, tuple[PinMark, QtCore.QPointF]], hidden: Collection[int]
+    place: QtCore.QPointF,
+    pins: Mapping[int, tuple[PinMark, QtCore.QPointF]],
+    hidden: Collection[int],
+    share: float = 1.0,
 ) -> int:
-    """The number of the pin whose drop is seen at a place; 0 for none."""
-    over = [pin.number for pin, at in _upwards(pins, hidden) if drop_at(at).contains(place)]
+    """The number of the pin whose drop is seen at a place; 0 for none.  share: of the usual size of marks."""
+    over = [pin.number for pin, at in _upwards(pins, hidden) if is_in_drop(place, at, share)]
     return over[-1] if over else 0
+
+
+def is_in_drop(place: QtCore.QPointF, tip: QtCore.QPointF, share: float) -> bool:
+    """Whether the drop with its tip at one place covers another, at a share of the usual size of marks."""
+    return drop_at(tip).contains(tip + (place - tip) / max(share, LEAST))
 
 
 def _upwards(

@@ -10,6 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 from ...drawing import moves
 from ...drawing.board import Board
 from ...drawing.picking import Met, Picker, pixel_of
+from ...drawing.proportion import proportion
 from ...drawing.style import Style
 from ..look.look import LOOK
 from .marks_over import MarksOver
@@ -98,6 +99,11 @@ class View(QtWidgets.QWidget):
         return max(round(self.width() * ratio), 1), max(round(self.height() * ratio), 1)
 
     @property
+    def proportion(self) -> float:
+        """The share of their usual size that lines and marks have here."""
+        return proportion(self.width(), self.height())
+
+    @property
     def is_empty(self) -> bool:
         return self._is_empty
 
@@ -149,6 +155,7 @@ class View(QtWidgets.QWidget):
         width, height = self.pixels
         size = QtCore.QSize(width, height)
         if self._is_stale or self._picture is None or self._picture.size() != size:
+            self.scene.set_proportion(self.proportion)
             self._drawing, self._written = self.board.picture(self.scene, (width, height)), None
             self._picture = self._image(self._drawing)
             self._is_stale = False
@@ -235,7 +242,8 @@ class View(QtWidgets.QWidget):
         at = np.array([pixel_of(renderer, handle) for handle in self.handles])
         away = np.hypot(x - at[:, 0], y - at[:, 1])
         nearest = int(away.argmin())
-        reach = (self.scene.style.marker_size / 2 + MARK_SLACK) * self.devicePixelRatioF()
+        size = self.scene.style.marker_size * self.proportion
+        reach = (size / 2 + MARK_SLACK) * self.devicePixelRatioF()
         return nearest if away[nearest] <= reach and self.sees(self.handles[nearest]) else -1
 
     # ------------------------------------------------------------------ the mouse

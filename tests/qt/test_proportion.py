@@ -1,0 +1,97 @@
+"""In small views lines and marks are smaller, so that the shape is seen; anchors are rings on every colour."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("qtpy")
+
+from dataclasses import replace
+
+from qtpy import QtCore
+
+from app.document.document import Anchor, Point
+from app.document.looks import Isolines
+from app.document.measuring import add_pins
+from app.drawing.levels import BOLD, ZERO, width_of
+from app.drawing.proportion import LEAST, USUAL, proportion
+from app.drawing.style import PAPER
+from app.qt.panels import pin_marks
+from tests.shapes import bumpy
+
+
+def test_marks_have_their_usual_size_from_a_usual_view_on_and_at_least_a_share_of_it():
+    assert proportion(USUAL, 3 * USUAL) == proportion(5 * USUAL, USUAL) == 1.0
+    assert proportion(0.8 * USUAL, 2 * USUAL) == pytest.approx(0.8)
+    assert proportion(2 * USUAL, 10) == LEAST
+
+
+def test_a_line_at_0_is_hardly_wider_than_others_unless_bold_ones_are_wanted():
+    assert (width_of(Isolines(20), True, True), width_of(Isolines(20), False, False)) == (ZERO, 1.0)
+    assert width_of(Isolines(20, bold=5), True, True) == BOLD
+
+
+@pytest.fixture
+def opened(screen, mesh_file):
+    s = screen()
+    s.window.resize(1500, 1000)
+    s.open(mesh_file(bumpy(1500)), 5)
+    return s
+
+
+def white(picture):
+    return int((picture.min(axis=2) > 240).sum())
+
+
+def test_a_small_view_has_thinner_lines_and_smaller_marks(opened):
+    s = opened
+    view = s.panels[0].view
+    s.until(lambda: view.proportion == 1.0)
+    s.pictures()
+    usual = view.scene._largest.actor.GetProperty().GetPointSize()
+    s.window.resize(700, 560)
+    s.until(lambda: view.proportion < 0.9)
+    before = view.shot()
+    assert view.scene._largest.actor.GetProperty().GetPointSize() == pytest.approx(usual * view.proportion)
+    view.scene.set_proportion(1.0)  # as it would be without
+    wide = s.window.grid.board.picture(view.scene, view.pixels)[..., :3]
+    ground = white(before)
+    assert white(wide) > ground  # more of the shape was under white lines
+
+
+def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(opened):
+    s = opened
+    s.session.show(add_pins(s.document, s.seen(2)[:1]))
+    s.settle()
+    view = s.panels[0].view
+    tip = view.place_of(view.over._pins[0].position)
+
+    def reach(tip):
+        """Pixels above the tip up to which the drop can be taken."""
+        at = QtCore.QPoint(round(tip.x()), 0)
+        return max(k for k in range(40) if view.over.pin_at(QtCore.QPoint(at.x(), round(tip.y()) - k)) == 1)
+
+    usual = reach(tip)
+    s.window.resize(700, 560)
+    s.until(lambda: view.proportion < 0.9)
+    s.settle(0.1)
+    share = max(view.proportion, pin_marks.LEAST)
+    tip = view.place_of(view.over._pins[0].position)
+    if tip.y() > 40:  # upright, as before
+        assert reach(tip) == pytest.approx(share * usual, abs=1.5)
+
+
+def test_anchors_are_dark_rings_with_a_light_halo_whatever_the_field(opened):
+    s = opened
+    vertex = s.seen(3)[1]
+    s.session.show(replace(s.document, points=(*s.document.points, Point("a", vertex)), anchors=(Anchor("a", 0.0),)))
+    s.until(lambda: s.session.is_complete)
+    s.settle()
+    view = s.panels[0].view
+    picture, place = view.shot(), view.place_of(s.panels[0].positions[vertex])
+    x, y = round(place.x() - 0.5), round(place.y() - 0.5)
+    size = PAPER.marker_size * view.proportion
+    around = picture[y - 12 : y + 13, x - 12 : x + 13].astype(int)
+    away = np.hypot(*np.mgrid[-12:13, -12:13])
+    centre, ring = around[away < 0.1 * size], around[np.abs(away - 0.33 * size) < 0.6]
+    assert centre.min() > 220
+    assert np.median(ring.max(axis=1)) < 70
