@@ -317,7 +317,7 @@ def test_the_path_is_asked_for_in_the_format_that_is_chosen(small, out):
     dialog.kinds.choose("PDF")
     dialog.save.click()
     files = dialog.findChild(QtWidgets.QFileDialog)
-    assert os.path.basename(files.selectedFiles()[0]) == "mesh.pdf"
+    assert os.path.basename(files.selectedFiles()[0]) == "mesh-figure.pdf"
     assert files.directory().absolutePath() == str(out)
     files.selectFile("other")
     files.accept()

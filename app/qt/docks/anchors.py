@@ -11,6 +11,7 @@ from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
 from ...document.anchoring import add_anchor, change_anchor, interpolate, interpolated, remove_anchors, show_distances
 from ...document.document import Anchor, Document
+from ...document.file_names import file_name
 from ...document.quantities import Interpolant
 from ...session.questions import vertex_at
 from ..look.look import LOOK
@@ -314,7 +315,7 @@ class AnchorsDock(Instrument):
         def write(path: str) -> None:
             write_anchors(path, surface, vertices, values, names)
 
-        save(self.window_, "Save anchors", f"{Path(surface.name).stem}-anchors", ANCHOR_FORMATS, write)
+        save(self.window_, "Save anchors", file_name([surface.name], "anchors"), ANCHOR_FORMATS, write)
 
     def save_fields(self) -> None:
         """What the panels show of interpolants."""
@@ -325,7 +326,7 @@ class AnchorsDock(Instrument):
             is_meant = any(isinstance(part, Interpolant) for part in panel.shows.parts)
             if is_meant and shown is not None and shown.answer.field is not None:
                 fields[str(panel.shows)] = shown.answer.field
-        name = f"{Path(session.surface.name).stem}-interpolants"
+        name = file_name([session.surface.name], "interpolants")
         save(self.window_, "Save interpolants", name, FIELD_FORMATS, lambda p: write_fields(p, session.surface, fields))
 
 

@@ -10,15 +10,21 @@ from bihdist_core.analysis.isoline_output import ISOLINE_FORMATS, write_isolines
 from bihdist_core.analysis.isoline_tracing import isolines
 from bihdist_core.errors import ParameterError
 
+from ...document.field_names import field_names
+from ...document.file_names import file_name
 from ..look.numbers import percent
 
 
 @dataclass(frozen=True, eq=False)
 class Levels:
-    """What can be saved of a panel: its surface, its field (n,), and the isolines' values; maximum: what 100 % are."""
+    """What can be saved of a panel: its surface, its field (n,), and the isolines' values.
+
+    name: for files; maximum: what 100 % are.
+    """
 
     surface: Surface
     field: np.ndarray
+    name: str
     label: str
     maximum: float
     values: np.ndarray
@@ -29,9 +35,12 @@ def levels_of(window: Any, panel: int) -> Levels | None:
     shown, opened = window.session.shown.get(panel), window.session.opened_in(panel)
     if shown is None or opened is None or shown.answer.field is None:
         return None
-    answer = shown.answer
+    answer, document = shown.answer, window.session.document
+    (name,) = field_names(document, [document.panel(panel)])
     values = np.array(window.grid.panel(panel).view.scene.isolines)
-    return Levels(opened.surface, answer.field, answer.label, 100.0 if percent(answer.unit) else answer.maximum, values)
+    return Levels(
+        opened.surface, answer.field, name, answer.label, 100.0 if percent(answer.unit) else answer.maximum, values
+    )
 
 
 def write_levels(path: str, levels: Levels) -> None:
@@ -51,4 +60,5 @@ def save_isolines(window: Any, panel: int, path: str = "") -> None:
     def write(path: str) -> None:
         write_levels(path, levels)
 
-    window.docks.writing.save("Save isolines", f"{levels.surface.name} isolines", ISOLINE_FORMATS, write, path)
+    name = file_name([levels.surface.name], "isolines", levels.name)
+    window.docks.writing.save("Save isolines", name, ISOLINE_FORMATS, write, path)

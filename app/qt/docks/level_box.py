@@ -13,6 +13,7 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.formats.field_output import write_fields
 from bihdist_core.progress import Progress
 
+from ...document.file_names import file_name
 from ..look.numbers import share
 from ..look.text_box import TextBox, mark_wrong
 from ..panels.flat_button import FlatButton
@@ -151,5 +152,5 @@ class LevelBox(QtWidgets.QWidget):
         def write(path: str) -> None:
             write_region(path, levels, found, way)
 
-        name = f"{levels.surface.name} region"
+        name = file_name([levels.surface.name], "region", levels.name)
         self._window.docks.writing.save("Save a region", name, REGION_FORMATS[way], write, path)

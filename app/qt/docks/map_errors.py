@@ -2,7 +2,6 @@
 window."""
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from qtpy import QtWidgets
@@ -13,6 +12,7 @@ from bihdist_core.formats.vertex_maps import MAP_FORMATS, write_map
 from bihdist_core.progress import Progress
 
 from ...document.document import Document
+from ...document.file_names import file_name
 from ...document.map_colours import MapColours, MapFile
 from ...document.mapping import show_maps, shows_maps
 from ...document.pairing import whole_pairs
@@ -254,8 +254,8 @@ class MapErrors(QtWidgets.QWidget):
 
     def save_map(self, spec: Spec, found: Any) -> None:
         asked = self.asked
-        stems = [] if asked is None else [Path(each.surface.name).stem for each in (asked.one, asked.two)]
-        name = "-".join([*stems, spec.word])
+        meshes = [] if asked is None else [each.surface.name for each in (asked.one, asked.two)]
+        name = file_name(meshes, "map", str(spec))
         save(self.window_, "Save the map", name, MAP_FORMATS, lambda path: write_map(path, found))
 
 

@@ -11,6 +11,7 @@ from qtpy import QtWidgets
 from bihdist_core import BihdistError
 from bihdist_core.formats.vertex_maps import MAP_FORMATS
 
+from ...document.file_names import file_name
 from ...document.map_colours import MapFile
 from ...document.mapping import with_map, with_truth
 from ...session.judging import is_same_ids
@@ -137,6 +138,10 @@ class MapTruth:
             return None
 
     # ------------------------------------------------------------------ the curves
+    def _file_name(self) -> str:
+        asked = self._section.asked
+        return file_name([] if asked is None else [asked.one.surface.name, asked.two.surface.name], "map-errors")
+
     def save_figure(self, path: str = "") -> None:
         """In the style of the page, in the colours that go with its ground."""
         from ...drawing.style import style_of
@@ -150,10 +155,11 @@ class MapTruth:
             style = style_of(page.style, window.session.document.colours)
             return ErrorFigure(self._section.named_curves(), colours, ChartLook(style))
 
-        save_figure(window, "Save the curves as a figure", "errors", save_error_figure, figure, path)
+        save_figure(window, "Save the curves as a figure", self._file_name(), save_error_figure, figure, path)
 
     def save_numbers(self) -> None:
         from ...figures.error_figure import ErrorFigure, save_error_figure
 
         curves = self._section.named_curves()
-        save(self._window, "Save the curves", "errors", (".csv",), lambda p: save_error_figure(ErrorFigure(curves), p))
+        name = self._file_name()
+        save(self._window, "Save the curves", name, (".csv",), lambda p: save_error_figure(ErrorFigure(curves), p))

@@ -8,6 +8,7 @@ from bihdist_core import BihdistError
 from bihdist_core.formats.vertex_maps import PAIR_FORMATS, read_pairs, write_pairs
 
 from ...document.document import Document
+from ...document.file_names import file_name
 from ...document.instruments import Pair
 from ...document.mapping import shows_maps
 from ...document.pairing import add_pairs, half_pair, number_of, remove_pairs
@@ -258,7 +259,7 @@ class PairsDock(Instrument):
     def choose_and_save(self) -> None:
         session, document = self.window_.session, self._document
         opened = [session.opened(mesh.name) for mesh in document.surfaces[:2]]
-        names = "-".join(Path(each.surface.name).stem for each in opened if each is not None)
+        name = file_name([each.surface.name for each in opened if each is not None], "pairs")
 
         def write(path: str) -> None:
             first, second = (each.surface for each in opened if each is not None)
@@ -267,7 +268,7 @@ class PairsDock(Instrument):
         if len(opened) < 2:
             self.window_.failed(ALONE)
         else:
-            save(self.window_, "Save pairs", f"{names}-pairs", PAIR_FORMATS, write)
+            save(self.window_, "Save pairs", name, PAIR_FORMATS, write)
 
 
 class _Columns(QtWidgets.QWidget):

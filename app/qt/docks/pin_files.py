@@ -8,11 +8,12 @@ from qtpy import QtWidgets
 from bihdist_core import BihdistError
 from bihdist_core.formats.pins import PIN_FORMATS, Pins, read_pins, write_pins
 
+from ...document.file_names import file_name
 from ...session.pinned import matrix_text, pins_text, pins_to_write, with_pins
 from ..look.numbers import number, share
+from .saving import ask_path
 
 READ = f"Pins ({' '.join(f'*{extension}' for extension in PIN_FORMATS)});;All files (*)"
-WRITTEN = "A table (*.csv);;JSON (*.json);;Picked points of MeshLab (*.pp)"
 
 
 class PinFiles:
@@ -28,13 +29,9 @@ class PinFiles:
     # ------------------------------------------------------------------ files
     def choose_and_save(self) -> None:
         surface = self._window.session.surface
-        dialog = QtWidgets.QFileDialog(self._window, "Save pins", str(self._folder), WRITTEN)
-        dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
-        dialog.selectFile(f"{Path(surface.name).stem}-pins.csv")
-        dialog.setDefaultSuffix("csv")
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(chosen.partition("*.")[2].rstrip(")")))
-        if dialog.exec():
-            self.save(dialog.selectedFiles()[0])
+        path = ask_path(self._window, "Save pins", file_name([surface.name], "pins"), PIN_FORMATS)
+        if path:
+            self.save(path)
 
     def save(self, path: str) -> None:
         """Write the pins, or say why not; how far those in faces are from the vertices that are written is said."""

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -14,12 +13,13 @@ from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
 from bihdist_core.distances.answers import Answer
 from bihdist_core.whole_file import check_output
 
+from ...document.file_names import file_name
+from .saving import ask_path
+
 if TYPE_CHECKING:
     from ...figures.profile_figure import ProfileFigure
 
 FIGURE_FORMATS = (".pdf", ".png", ".svg", ".eps")
-NUMBERS = "Numbers (*.csv *.npy *.vtp *.json)"
-FIGURES = "Figures (*.pdf *.png *.svg *.eps)"
 
 
 class ProfileFiles:
@@ -43,18 +43,15 @@ class ProfileFiles:
 
     # ------------------------------------------------------------------ by a dialog
     def choose_numbers(self) -> None:
-        self._choose("Save the profile's numbers", "profile.csv", NUMBERS, self.save_numbers)
+        self._choose("Save the profile's numbers", tuple(PROFILE_FORMATS), self.save_numbers)
 
     def choose_figure(self) -> None:
-        self._choose("Save the profile as a figure", "profile.pdf", FIGURES, self.save_figure)
+        self._choose("Save the profile as a figure", FIGURE_FORMATS, self.save_figure)
 
-    def _choose(self, title: str, name: str, kinds: str, save: Callable[[str], None]) -> None:
+    def _choose(self, title: str, formats: tuple[str, ...], save: Callable[[str], None]) -> None:
         window = self._dock.window_
-        folder = os.path.join(window.preferences.last_folder, name)
-        path, _ = QtWidgets.QFileDialog.getSaveFileName(window, title, folder, kinds)
+        path = ask_path(window, title, file_name([window.session.surface.name], "profile"), formats)
         if path:
-            path = path if os.path.splitext(path)[1] else path + os.path.splitext(name)[1]
-            window.preferences = replace(window.preferences, last_folder=os.path.dirname(path))
             try:
                 save(path)
             except BihdistError as error:

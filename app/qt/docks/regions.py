@@ -11,6 +11,7 @@ from bihdist_core.formats.curve_output import CURVE_FORMATS
 
 from ...document.document import Document, Panel
 from ...document.edits import can_divide
+from ...document.file_names import file_name
 from ...document.measuring import show_regions
 from ...drawing.style import PINS
 from ..look.look import LOOK
@@ -229,8 +230,9 @@ class RegionsDock(Instrument):
             menu.addAction("No panel shows regions").setEnabled(False)
 
     def _save(self, panel: int, way: str) -> None:
-        name = f"{self.window_.session.surface.name}-{way}"
-        title = f"{TITLES[way].removesuffix('…')}, by {quantity_name(self.window_.session.document.panel(panel).shows)}"
+        shows = self.window_.session.document.panel(panel).shows
+        name = file_name([self.window_.session.surface.name], "regions", way, str(shows))
+        title = f"{TITLES[way].removesuffix('…')}, by {quantity_name(shows)}"
         save(self.window_, title, name, FORMATS[way], partial(self.write, panel, way))
 
     def save_to(self, panel: int, way: str, path: str) -> bool:

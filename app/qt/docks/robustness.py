@@ -13,6 +13,7 @@ from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
 from ...document.change_edits import cut_by, refuse_change
 from ...document.changing import changed_mesh
 from ...document.document import Document
+from ...document.file_names import file_name
 from ..look.segments import Segments
 from ..panels.flat_button import FlatButton
 from .brushing import RADII
@@ -355,7 +356,7 @@ class RobustnessDock(Instrument):
         if opened is None:
             self.window_.failed("There is no change yet that a mesh could be saved with.")
             return
-        name = f"{Path(opened.surface.name).stem}-changed"
+        name = file_name([opened.surface.name], "changed")
         save(self.window_, "Save the changed mesh", name, MESH_FORMATS, lambda path: write_mesh(path, opened.surface))
 
 

@@ -10,6 +10,7 @@ from bihdist_core import BihdistError, Surface
 from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
 
 from ...document.document import Panel
+from ...document.file_names import file_name
 from ...document.measuring import add_pins
 from ...document.quantities import DistanceFrom
 from ...session.sampling import Sampled, SamplesQuestion, Sampling
@@ -96,7 +97,7 @@ class Sampler(QtWidgets.QWidget):
             save(
                 self._window,
                 "Save farthest points",
-                f"{surface.name}-samples",
+                file_name([surface.name], "samples", str(self._panel.shows)),
                 SAMPLE_FORMATS,
                 lambda path: write_samples(path, surface, vertices),
             )

@@ -38,7 +38,10 @@ def save(window: Any, title: str, name: str, formats: Sequence[str], write: Call
 
 
 def ask_path(window: Any, title: str, name: str, formats: Sequence[str]) -> str:
-    """A path that ends in one of the formats, the first if none is typed; empty if the user has none."""
+    """A path that ends in one of the formats, the first if none is typed; empty if the user has none.
+
+    name: a `file_name`.
+    """
     dialog = QtWidgets.QFileDialog(window, title, window.preferences.last_folder)
     dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
     dialog.setNameFilters([f"{NAMES[extension]} (*{extension})" for extension in formats])
@@ -52,7 +55,7 @@ def ask_path(window: Any, title: str, name: str, formats: Sequence[str]) -> str:
             dialog.selectFile(stem + extension)
 
     dialog.filterSelected.connect(take_format)
-    dialog.selectFile(re.sub(r"[^\w.-]+", "-", name).strip("-") + formats[0])
+    dialog.selectFile(name + formats[0])
     if not dialog.exec():
         return ""
     (path,) = dialog.selectedFiles()

@@ -15,6 +15,7 @@ from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress
 
 from ...document.document import Document
+from ...document.file_names import file_name
 from ...document.measuring import vertices_of
 from ...drawing.density import axis_ends
 from ...drawing.style import PINS, style_of
@@ -347,11 +348,18 @@ class ScatterDock(Instrument):
             look=ChartLook.of(page, style_of(page.style, document.colours), INCHES),
         )
 
+    def _file_name(self) -> str:
+        session = self.window_.session
+        panels = [session.document.panel(id) for id in self._pair(session.document)]
+        return file_name([session.surface.name], "scatter", *(str(panel.shows) for panel in panels))
+
     def save_figure(self, *_: object, path: str = "") -> None:
         """path: asks for one if it is empty."""
         from ...figures.scatter_figure import save_scatter_figure
 
-        save_figure(self.window_, "Save the scatter as a figure", "scatter", save_scatter_figure, self.figure, path)
+        save_figure(
+            self.window_, "Save the scatter as a figure", self._file_name(), save_scatter_figure, self.figure, path
+        )
 
     def save_numbers(self, *_: object, path: str = "") -> None:
         """The vertices, both fields there, and a column for each selection, 1 at its vertices."""
@@ -370,4 +378,4 @@ class ScatterDock(Instrument):
         if path:
             written(window, path, write)
         else:
-            save(window, "Save the scatter's numbers", "scatter", (".csv",), write)
+            save(window, "Save the scatter's numbers", self._file_name(), (".csv",), write)

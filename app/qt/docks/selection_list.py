@@ -9,6 +9,7 @@ from bihdist_core import BihdistError
 from bihdist_core.analysis.selecting import SELECTION_WAYS, write_selection
 
 from ...document.document import Document
+from ...document.file_names import file_name
 from ...document.instruments import Selection
 from ...document.measuring import change_selection, select, vertices_of
 from ...drawing.style import PINS
@@ -136,7 +137,8 @@ class SelectionList(QtWidgets.QTreeWidget):
             write(path)
         else:
             title = WAYS[way].removesuffix("…")
-            save(self._window, title, f"{surface.name} {selection.name}", SELECTION_WAYS[way], write)
+            name = file_name([surface.name], "selection", selection.name)
+            save(self._window, title, name, SELECTION_WAYS[way], write)
 
     @property
     def _document(self) -> Document:

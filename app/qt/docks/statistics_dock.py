@@ -14,6 +14,8 @@ from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress, part
 
 from ...document.document import Document
+from ...document.field_names import field_names
+from ...document.file_names import file_name
 from ...drawing.style import style_of
 from ...session.opened import Opened
 from ...session.questions import DifferenceQuestion, Question
@@ -263,11 +265,16 @@ class StatisticsDock(Instrument):
             ChartLook.of(page, style),
         )
 
+    def _file_name(self) -> str:
+        session = self.window_.session
+        words = field_names(session.document, [session.document.panel(self._panel)])
+        return file_name([session.surface_in(self._panel).name], "histogram", *words)
+
     def save_figure(self, *_: object, path: str = "") -> None:
         """path: asks for one if it is empty."""
         from ...figures.histogram_figure import save_histogram_figure
 
-        save_figure(self.window_, "Save the histogram", "histogram", save_histogram_figure, self.figure, path)
+        save_figure(self.window_, "Save the histogram", self._file_name(), save_histogram_figure, self.figure, path)
 
     def save_numbers(self, *_: object, path: str = "") -> None:
         """The ends of each bin, and its area."""
@@ -280,7 +287,7 @@ class StatisticsDock(Instrument):
         if path:
             written(window, path, write)
         else:
-            save(window, "Save the histogram's numbers", "histogram", (".csv", ".npy"), write)
+            save(window, "Save the histogram's numbers", self._file_name(), (".csv", ".npy"), write)
 
     def copy(self) -> None:
         """What the dock says, with tabs and all digits, as spreadsheets read it."""

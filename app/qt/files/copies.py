@@ -12,6 +12,7 @@ from bihdist_core import BihdistError, Place
 
 from ...document import one_line
 from ...document.file import recipe_text
+from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...document.starts import curves_in
 from ...figures.export import Surfaces, figure_of
@@ -20,7 +21,6 @@ from ...session.questions import vertex_at
 from ...session.recipe_file import recipe_written
 from ...version import version
 from .. import remembered
-from .job_dialog import stem
 from .preview import image_of
 
 MOST = 8000
@@ -35,7 +35,7 @@ INCH = 0.0254
 def copy_line(window: Any, recipe: Recipe, surfaces: Surfaces, is_python: bool) -> str:
     """Put the line that makes a figure on the clipboard, and say so; the line."""
     recipe = _at_vertices(recipe, surfaces)
-    output = f"{stem(recipe.document.surfaces[0].path, 'figure')}.{recipe.page.format or 'png'}"
+    output = f"{_file_name(recipe)}.{recipe.page.format or 'png'}"
     reason = one_line.why_not(recipe)
     if not reason:
         files = {curve: window.curve_files.path_of(curve) for curve in curves_in(recipe.document)}
@@ -100,6 +100,10 @@ def _at_vertices(recipe: Recipe, surfaces: Surfaces) -> Recipe:
     return replace(recipe, document=replace(document, points=points))
 
 
+def _file_name(recipe: Recipe) -> str:
+    return file_name([each.path for each in recipe.document.surfaces], "figure")
+
+
 def _kept(recipe: Recipe, given: Any) -> Path:
     """A file with a recipe that no line can say, among the program's data."""
     folder = remembered.folder() / "recipes"
@@ -108,7 +112,7 @@ def _kept(recipe: Recipe, given: Any) -> Path:
     except OSError as error:
         raise BihdistError(f"The recipe cannot be kept in {folder}: {error.strerror or error}.") from error
     text = recipe_text(recipe, version())
-    name = f"{stem(recipe.document.surfaces[0].path, 'figure')}-{hashlib.sha256(text.encode()).hexdigest()[:8]}.json"
+    name = f"{_file_name(recipe)}-{hashlib.sha256(text.encode()).hexdigest()[:8]}.json"
     with recipe_written(recipe, given, folder / name, version(), format=recipe.page.format):
         pass
     return folder / name

@@ -5,16 +5,14 @@ import json
 import os
 from pathlib import Path
 
-from qtpy import QtWidgets
-
 from bihdist_core import BihdistError, Curve, OutputError, ParameterError
 from bihdist_core.sources.words import curve_text, read_curve
 from bihdist_core.whole_file import whole_file
 
+from ...document.file_names import file_name
 from ...document.sourcing import members_of
 from .. import remembered
-
-CURVES = "Curves (*.json)"
+from ..docks.saving import ask_path
 
 
 class CurveFiles:
@@ -55,14 +53,12 @@ class CurveFiles:
     def choose_and_save(self, curve: Curve) -> bool:
         """Ask for a file; whether the curve was saved."""
         surface = self._window.session.surface
-        name = Path(surface.name).stem if surface is not None else "source"
-        dialog = QtWidgets.QFileDialog(self._window, "Save the curve", f"{name}-curve.json", CURVES)
-        dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("json")
-        if not dialog.exec():
+        name = file_name([] if surface is None else [surface.name], "curve")
+        path = ask_path(self._window, "Save the curve", name, (".json",))
+        if not path:
             return False
         try:
-            self.save(curve, dialog.selectedFiles()[0])
+            self.save(curve, path)
         except BihdistError as error:
             self._window.failed(str(error))
             return False

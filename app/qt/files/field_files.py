@@ -1,7 +1,6 @@
 """The fields that panels show, saved as values at vertices.  `window` is the main window."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 
@@ -10,6 +9,7 @@ from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 from ...document.beside_edits import letter_of
 from ...document.document import Panel
 from ...document.field_names import field_names
+from ...document.file_names import file_name
 from ...document.quantity_names import quantity_name
 
 
@@ -25,7 +25,7 @@ class FieldFiles:
         fields = self._fields([panel])
         if fields:
             (name,) = fields
-            self._write("Save the field", panel, name, fields, path, "")
+            self._write("Save the field", panel, f"field-{name}", fields, path, "")
         else:
             self._window.failed(self._why_not(panel))
 
@@ -50,7 +50,7 @@ class FieldFiles:
             write_fields(path, surface, fields)
 
         title = f"{title} of {letter}: {surface.name}" if letter else title
-        name = " ".join([Path(surface.name).stem, *letter, name])
+        name = file_name([surface.name], *letter, name)
         self._window.docks.writing.save(title, name, FIELD_FORMATS, write, path, said)
 
     def _fields(self, panels: Sequence[Panel]) -> dict[str, np.ndarray]:

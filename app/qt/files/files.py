@@ -8,7 +8,8 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import BihdistError, OutputError
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..docks.saving import MESH_FILES
+from ...document.file_names import file_name
+from ..docks.saving import MESH_FILES, ask_path
 from ..pages.messages import ask_which
 from .curve_files import is_curve
 from .session_actions import FILES
@@ -86,12 +87,11 @@ class Files(QtCore.QObject):
         copy(self._window, what)
 
     def choose_screenshot(self) -> None:
-        dialog = QtWidgets.QFileDialog(self._window, "Save a picture of the window", "bihdist.png", "Pictures (*.png)")
-        dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("png")
-        if dialog.exec():
+        name = file_name([self._window.session.surface.name], "window")
+        path = ask_path(self._window, "Save a picture of the window", name, (".png",))
+        if path:
             try:
-                self.save_screenshot(dialog.selectedFiles()[0])
+                self.save_screenshot(path)
             except BihdistError as error:
                 self._window.failed(str(error))
 

@@ -1,6 +1,5 @@
 """A dialog that asks how a file shall be, closes, and has the file drawn in the background."""
 
-import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -287,11 +286,6 @@ class Count(QtWidgets.QSpinBox):
         """nothing: what is said instead of the least number."""
         super().__init__(minimum=least, maximum=most, value=value, suffix=suffix, specialValueText=nothing)
         self.setButtonSymbols(QtWidgets.QAbstractSpinBox.ButtonSymbols.NoButtons)
-
-
-def stem(path: str, otherwise: str) -> str:
-    """A file's name without folder and extension."""
-    return os.path.splitext(os.path.basename(path))[0] or otherwise
 
 
 def _height(layout: QtWidgets.QLayout, width: int) -> int:

@@ -8,12 +8,13 @@ from qtpy import QtWidgets
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import MOST_PANELS
+from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...figures.export import Surfaces, figure_of
 from ...figures.layout import lay_out
 from ..look.canvas import offered_styles, style_name
 from .exports import Exports
-from .job_dialog import Choice, Count, FileKind, JobDialog, blamed_on, stem
+from .job_dialog import Choice, Count, FileKind, JobDialog, blamed_on
 from .size_boxes import SizeBoxes, SizeNames
 
 
@@ -32,7 +33,7 @@ class LooksDialog(JobDialog):
         parent: QtWidgets.QWidget | None = None,
         side: QtWidgets.QWidget | None = None,
     ) -> None:
-        name = stem(recipe.document.surfaces[0].path, "figure")
+        name = file_name([each.path for each in recipe.document.surfaces], what.lower())
         super().__init__(title, what, name, kinds, exports, parent, side)
         self._recipe, self._surfaces, self._has_one_unit = recipe, surfaces, True
         self.section("Size")

@@ -15,6 +15,7 @@ from bihdist_core import BihdistError, ParameterError
 from ...document.beside_edits import MOST_SHOWN
 from ...document.document import Document, MeshFile, content
 from ...document.file import checksum, read_recipe, with_paths
+from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...document.work import work_in
 from ...drawing.style import style_of
@@ -23,7 +24,7 @@ from ...session.given import Given
 from ...session.recipe_file import recipe_written
 from ...version import version
 from .. import remembered
-from ..docks.saving import MESH_FILES
+from ..docks.saving import MESH_FILES, ask_path
 
 FILES = (
     "Meshes, sessions and recipes (*.off *.obj *.ply *.stl *.vtk *.vtp *.json);;"
@@ -117,11 +118,9 @@ class SessionFile:
     def choose_and_save(self) -> bool:
         """Ask for a file; whether it was saved."""
         surface = self._window.session.surface
-        name = Path(surface.name).stem if surface is not None else "session"
-        dialog = QtWidgets.QFileDialog(self._window, "Save the session", f"{name}-session.json", "Sessions (*.json)")
-        dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("json")
-        return bool(dialog.exec()) and self.save_or_say(dialog.selectedFiles()[0])
+        name = file_name([] if surface is None else [surface.name], "session")
+        path = ask_path(self._window, "Save the session", name, (".json",))
+        return bool(path) and self.save_or_say(path)
 
     def save_or_say(self, path: str | None = None) -> bool:
         """Save, or tell the user why not; whether it was saved."""
