@@ -66,7 +66,7 @@ class Laplacian:
         if not 1 <= k <= most:
             name = self.surface.name
             raise ParameterError(
-                f"{name} has {most} eigenpairs besides the constant, and k is {k}; choose k from 1 to {most}."
+                f"{name} has {most:,} eigenpairs besides the constant, and k is {k:,}; choose k from 1 to {most:,}."
             )
 
     def component_of(self, vertex: int) -> "Component":

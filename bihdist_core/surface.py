@@ -47,7 +47,7 @@ class Surface:
         self.vertices.flags.writeable = self.faces.flags.writeable = False
 
     def __repr__(self) -> str:
-        return f"Surface({self.name}: {len(self.vertices)} vertices, {len(self.faces)} faces)"
+        return f"Surface({self.name}: {len(self.vertices):,} vertices, {len(self.faces):,} faces)"
 
     def check_vertex(self, vertex: int) -> int:
         """The id as an int; VertexError if there is no such vertex or it belongs to no face."""

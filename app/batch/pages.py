@@ -45,7 +45,7 @@ def said_of_ends(drawn: Sequence[Row]) -> list[str]:
 def _page(cells: Sequence[Cell], drawn: dict[str, Row], words: Sequence[str]) -> str:
     wide = max(cell.picture.width for cell in cells if cell.picture is not None)
     missing = sum(cell.picture is None for cell in cells)
-    count = f"{len(cells)} meshes" + (f", {missing} without a figure" if missing else "")
+    count = f"{len(cells):,} meshes" + (f", {missing} without a figure" if missing else "")
     parts = {
         "count": count,
         "words": "<br>".join(map(html.escape, words)),

@@ -7,9 +7,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from bihdist_core.counts import counted
+
 from ..version import version
 from .options import PARAMETERS, add_areas, add_distance, count, source, specs
-from .terminal import counted, tell
+from .terminal import tell
 
 if TYPE_CHECKING:
     from ..batch.drive import Outcome, Tell

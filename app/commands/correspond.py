@@ -2,9 +2,11 @@
 
 import argparse
 
+from bihdist_core.counts import counted
+
 from .mesh import laplacian_of
 from .options import add_areas, add_distance, specs
-from .terminal import accuracy, counted, progress_line
+from .terminal import accuracy, progress_line
 
 WORDS = "from a few pairs of corresponding vertices, a map from one mesh to another"
 TEXT = ".txt"
@@ -50,7 +52,7 @@ def run(options: argparse.Namespace) -> None:
     write_map(options.output, found)
     missing = int((found < 0).sum())
     none = f", {missing} without one to compare" if missing else ""
-    size = f"{len(found)} vertices to {len(two.surface.vertices)}"
+    size = f"{len(found):,} vertices to {len(two.surface.vertices):,}"
     print(f"{options.output}: {on_one.label}, {counted(len(pairs), 'pair')}, {size}{none}{said}")
     if truth is not None:
         with progress_line() as progress:

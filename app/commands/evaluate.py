@@ -4,9 +4,11 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bihdist_core.counts import counted
+
 from .mesh import laplacian_of
 from .options import count
-from .terminal import counted, progress_line
+from .terminal import progress_line
 
 if TYPE_CHECKING:
     import numpy as np

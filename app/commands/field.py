@@ -2,11 +2,13 @@
 
 import argparse
 
+from bihdist_core.counts import counted
+
 from ..document.field_names import distinct, field_name
 from ..document.quantities import Difference
 from .mesh import Facts, add_meshes, into_each, read_laplacian
 from .options import SOURCE, add_areas, add_distance, quantities, source
-from .terminal import accuracy, counted, progress_line
+from .terminal import accuracy, progress_line
 
 WORDS = "distances of all vertices from one or more sources"
 TEXT = ".csv"
@@ -58,5 +60,5 @@ def _one(options: argparse.Namespace) -> Facts:
             columns, label = 100 * columns, f"{label}, {PERCENTAGE_POINTS}"
     names = distinct([field_name(chosen, [each]) for each in options.source])
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
-    size = f"{columns.shape[0]} vertices, {counted(columns.shape[1], 'source')}"
+    size = f"{columns.shape[0]:,} vertices, {counted(columns.shape[1], 'source')}"
     return {"said": [f"{label}, {size}{said}"], "label": label, "shape": list(columns.shape), "fields": names}

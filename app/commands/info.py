@@ -69,7 +69,7 @@ def _print(facts: dict[str, Any], several: bool) -> None:
     if not several:
         del shown["mesh"]
     for name, value in shown.items():
-        print(f"{name:<26}{value}")
+        print(f"{name:<26}{f'{value:,}' if isinstance(value, int) else value}")
     if several:
         print()
 

@@ -3,9 +3,11 @@
 import argparse
 from typing import TYPE_CHECKING
 
+from bihdist_core.counts import counted
+
 from .mesh import read_laplacian
 from .options import add_areas, add_distance, positive, share, specs
-from .terminal import accuracy, counted, progress_line, tell_moved
+from .terminal import accuracy, progress_line, tell_moved
 
 if TYPE_CHECKING:
     from bihdist_core.formats.anchors import Anchors

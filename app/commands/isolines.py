@@ -4,10 +4,12 @@ import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from bihdist_core.counts import counted
+
 from .field_of import FieldOf, field_of
 from .isoline_options import add_levels, isolines_of
 from .options import SOURCE, add_areas, add_distance, source
-from .terminal import counted, progress_line
+from .terminal import progress_line
 
 if TYPE_CHECKING:
     import numpy as np
@@ -68,16 +70,13 @@ def run(options: argparse.Namespace) -> None:
         found = band(it.surface, it.field, *(it.scale * end for end in ends))
         if options.region_ids:
             write_ids(options.region_ids, found.vertices)
-            print(f"{options.region_ids}: {_vertices(len(found.vertices))}")
+            print(f"{options.region_ids}: {counted(len(found.vertices), 'vertex', 'vertices')}")
         if options.region_mesh:
             write_fields(options.region_mesh, found.surface, {it.word: found.along(it.field)})
             print(f"{options.region_mesh}: {counted(len(found.surface.faces), 'face')}")
         part = found.area / it.surface.face_areas.sum()
-        print(f"region {options.region}: area {found.area:.6g}, {part:.1%}, {_vertices(len(found.vertices))}")
-
-
-def _vertices(count: int) -> str:
-    return "1 vertex" if count == 1 else f"{count} vertices"
+        held = counted(len(found.vertices), "vertex", "vertices")
+        print(f"region {options.region}: area {found.area:.6g}, {part:.1%}, {held}")
 
 
 def _values(it: FieldOf, wanted: "Isolines", through: Sequence[int]) -> "np.ndarray":

@@ -44,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
     movie = Movie(chosen_recipe(options), turn, options.path, options.frames, options.fps)
     with progress_line() as progress:
         answers = write_movie(movie, options.output, progress, jobs=options.jobs)
-    print(f"{options.output}: {movie.frames} frames, {movie.frames / movie.fps:.3g} s")
+    print(f"{options.output}: {movie.frames:,} frames, {movie.frames / movie.fps:.3g} s")
     return judged(answers, os.path.basename(movie.recipe.document.surfaces[0].path))
 
 

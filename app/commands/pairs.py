@@ -3,10 +3,12 @@
 import argparse
 from typing import TYPE_CHECKING
 
+from bihdist_core.counts import counted
+
 from ..version import version
 from .mesh import NAME, Facts, add_meshes, found_mesh, into_each, read_laplacian
 from .options import add_areas, add_distance, count, positive, specs, vertex, vertices
-from .terminal import accuracy, counted, progress_line, tell, tell_moved
+from .terminal import accuracy, progress_line, tell, tell_moved
 
 if TYPE_CHECKING:
     from bihdist_core.analysis.all_pairs import Begun
@@ -173,7 +175,7 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
         raise
     count = len(laplacian.surface.vertices)
     return {
-        "said": [f"{distance.label}, all pairs of {count} vertices{said}"],
+        "said": [f"{distance.label}, all pairs of {count:,} vertices{said}"],
         "pairs": count**2,
         "distances": [str(spec)],
     }

@@ -3,9 +3,11 @@
 import argparse
 from typing import TYPE_CHECKING
 
+from bihdist_core.counts import counted
+
 from .mesh import laplacian_of
 from .options import add_distance, count, positive, source, specs, vertices
-from .terminal import counted, progress_line
+from .terminal import progress_line
 
 if TYPE_CHECKING:
     import numpy as np

@@ -79,5 +79,5 @@ def run(options: argparse.Namespace) -> int:
             write_profile(output, path, profile_fields(document, answers))
         else:
             save_profile_figure(profile_figure(document, page, path, answers), output)
-        print(f"{output}: {path.label}, {len(path.points)} points, {path.length:.6g} long")
+        print(f"{output}: {path.label}, {len(path.points):,} points, {path.length:.6g} long")
     return judged(found, surface.name)

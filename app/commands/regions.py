@@ -2,10 +2,12 @@
 
 import argparse
 
+from bihdist_core.counts import counted
+
 from .mesh import read_laplacian
 from .options import add_areas, add_distance, specs, vertices
 from .pairs import pins_in
-from .terminal import accuracy, counted, progress_line
+from .terminal import accuracy, progress_line
 
 WORDS = "the part of a mesh that is nearest to each of some vertices, by a distance"
 TEXT = ".csv"

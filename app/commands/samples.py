@@ -3,9 +3,11 @@
 import argparse
 import os
 
+from bihdist_core.counts import counted
+
 from .mesh import read_laplacian
 from .options import add_areas, add_distance, count, source, specs
-from .terminal import accuracy, counted, progress_line
+from .terminal import accuracy, progress_line
 
 WORDS = "vertices spread over a mesh, each the farthest from those before it"
 TEXT = ".txt"

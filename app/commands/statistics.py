@@ -56,7 +56,7 @@ def run(options: argparse.Namespace) -> None:
         _compare(options, *fields)
     if loss is not None:
         print(
-            f"biharmonic, the first {loss.counts[0]} eigenpairs: mean loss {loss.means[0]:.3%} of the maximum, "
+            f"biharmonic, the first {loss.counts[0]:,} eigenpairs: mean loss {loss.means[0]:.3%} of the maximum, "
             f"largest {loss.largest[0]:.3%} at vertex {loss.at[0]}"
         )
 
@@ -87,7 +87,7 @@ def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> None:
         units = f"{one.unit or 'none'} and {other.unit or 'none'}"
         raise ParameterError(f"Values in different units ({units}) cannot be compared; leave out --values.")
     found = field_agreement(one.surface, one.field, other.field, not options.values)
-    print(f"{other.label} over {one.label}, {found.count} vertices")
+    print(f"{other.label} over {one.label}, {found.count:,} vertices")
     print(f"  rank correlation {found.spearman:.6g}, by area {found.by_area:.6g}")
     scales = (1.0, 1.0) if options.values else (one.top, other.top)
     at = found.largest_at
@@ -97,7 +97,7 @@ def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> None:
     print(f"  mean deviation by area {mean}, largest {largest} at vertex {at}")
     if options.scatter:
         _save_scatter(options, one, other, found.spearman, at)
-        print(f"{options.scatter}: scatter of {found.count} vertices")
+        print(f"{options.scatter}: scatter of {found.count:,} vertices")
 
 
 def _save_histogram(options: argparse.Namespace, it: FieldOf) -> None:

@@ -9,6 +9,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING
 
+from bihdist_core.counts import counted
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -106,10 +108,6 @@ def judged(answers: "Iterable[Answer]", name: str) -> int:
     for label, text in dict.fromkeys((a.label, a.accuracy.text) for a in answers if a.accuracy.is_poor):
         warn(f"{label} on {name} is only {text}.")
     return 1 if failures else 0
-
-
-def counted(count: int, noun: str, several: str = "") -> str:
-    return f"{count} {noun}" if count == 1 else f"{count} {several or noun + 's'}"
 
 
 def tell_moved(path: str, noun: str, moved: "np.ndarray", names: "Sequence[object]", surface: "Surface") -> None:

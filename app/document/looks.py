@@ -45,13 +45,15 @@ class Isolines:
 
     def __post_init__(self) -> None:
         if not 0 <= self.count <= MOST_ISOLINES:
-            raise ParameterError(f"There are 0 to {MOST_ISOLINES} steps between isolines, not {self.count}.")
+            raise ParameterError(f"There are 0 to {MOST_ISOLINES:,} steps between isolines, not {self.count}.")
         if self.spacing is not None and not 1 / LARGEST <= self.spacing <= LARGEST:
             raise ParameterError(f"The spacing of isolines is a positive number, not {self.spacing:g}.")
         if self.spacing is not None and self.values:
             raise ParameterError("Isolines have a spacing or values, not both.")
         if len(self.values) > MOST_ISOLINES or not all(abs(value) <= LARGEST for value in self.values):
-            raise ParameterError(f"Isolines have up to {MOST_ISOLINES} values, all of them numbers up to {LARGEST:g}.")
+            raise ParameterError(
+                f"Isolines have up to {MOST_ISOLINES:,} values, all of them numbers up to {LARGEST:g}."
+            )
         if tuple(sorted(set(self.values))) != self.values:
             object.__setattr__(self, "values", tuple(sorted(set(self.values))))
         if not 0 <= self.bold <= MOST_ISOLINES:

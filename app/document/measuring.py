@@ -30,7 +30,7 @@ def add_pins(document: Document, places: Iterable[Source], surface: str = "A") -
     taken = {document.point(pin.point).at for pin in document.pins if document.point(pin.point).surface == surface}
     new = [at for at in dict.fromkeys(places) if at not in taken]
     if len(document.pins) + len(new) > MOST_PINS:
-        raise ParameterError(f"There are at most {MOST_PINS} pins, not {len(document.pins) + len(new)}.")
+        raise ParameterError(f"There are at most {MOST_PINS:,} pins, not {len(document.pins) + len(new):,}.")
     names = free_names("pin", len(new), [point.name for point in document.points])
     for name, at in zip(names, new, strict=True):
         document = replace(

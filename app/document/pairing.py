@@ -56,7 +56,7 @@ def place_point(document: Document, surface: str, at: Source) -> Document:
     document, name = _with_point(document, surface, at)
     if half is None:
         if len(document.pairs) >= MOST_PAIRS:
-            raise ParameterError(f"There are at most {MOST_PAIRS} pairs.")
+            raise ParameterError(f"There are at most {MOST_PAIRS:,} pairs.")
         new = Pair(*((name, "") if side == 0 else ("", name)), colour=_next_colour(document))
         return replace(document, pairs=(*document.pairs, new))
     whole = replace(half, second=name) if side else replace(half, first=name)
@@ -100,7 +100,7 @@ def add_pairs(document: Document, places: Iterable[tuple[int, int]]) -> Document
     known = {tuple(document.point(name).at for name in pair.points) for pair in document.pairs}
     new = [pair for pair in dict.fromkeys(places) if pair not in known]
     if len(document.pairs) + len(new) + (half is not None) > MOST_PAIRS:
-        raise ParameterError(f"There are at most {MOST_PAIRS} pairs, not {len(document.pairs) + len(new)}.")
+        raise ParameterError(f"There are at most {MOST_PAIRS:,} pairs, not {len(document.pairs) + len(new):,}.")
     for places_of_both in new:
         found = []
         for surface, at in zip(sides(document), places_of_both, strict=True):

@@ -98,9 +98,9 @@ class FigurePanel:
             object.__setattr__(self, "isolines", Isolines(self.isolines))  # a number of steps does
         count = len(self.surface.vertices)
         if self.field is not None and np.shape(self.field) != (count,):
-            raise ParameterError(f"The field has the shape {np.shape(self.field)}; the surface has {count} vertices.")
+            raise ParameterError(f"The field has the shape {np.shape(self.field)}; the surface has {count:,} vertices.")
         if self.colours is not None and (self.field is not None or np.shape(self.colours) != (count, 3)):
-            raise ParameterError(f"{count} vertices have a colour each and no field, or a field.")
+            raise ParameterError(f"{count:,} vertices have a colour each and no field, or a field.")
         if self.maximum is not None and not 0 < self.maximum < np.inf:
             raise ParameterError(f"A colour bar ends at a positive number, not at {self.maximum!r}.")
         if not self.views:

@@ -310,7 +310,7 @@ def _source_lines(starts: Sequence[Source], surface: Surface) -> tuple[SourceLin
 def _line_in_words(member: BoundaryLoop | Curve) -> str:
     if isinstance(member, BoundaryLoop):
         return f"Boundary loop {member.number}"
-    return f"The {'closed ' if member.closed else ''}curve of {len(member.places)} points"
+    return f"The {'closed ' if member.closed else ''}curve of {len(member.places):,} points"
 
 
 def _source_marks(starts: Sequence[Source], surface: Surface) -> list[Mark]:

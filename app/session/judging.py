@@ -251,7 +251,7 @@ class Judging:
         if 0 < stop < len(answers):
             yield stop
         while stop < len(answers):
-            report(stop / len(answers), f"errors of {stop} of {len(answers)} vertices")
+            report(stop / len(answers), f"errors of {stop:,} of {len(answers):,} vertices")
             some = answers[stop : stop + BLOCK]
             kept.find([vertex for each in some for vertex in each], _checked(report, stop / len(answers)))
             stop += len(some)

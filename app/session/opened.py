@@ -234,8 +234,8 @@ class Opened:
             count = len(self._given.field(field.sha256, field.name)) if field.surface in mine else 0
             if field.surface in mine and count != len(self.surface.vertices):
                 raise ParameterError(
-                    f"The field {field.name!r} has {count} values, and {self.surface.name} has "
-                    f"{len(self.surface.vertices)} vertices."
+                    f"The field {field.name!r} has {count:,} values, and {self.surface.name} has "
+                    f"{len(self.surface.vertices):,} vertices."
                 )
         beside = []
         for each in document.beside:

@@ -48,7 +48,7 @@ def band(surface: Surface, field: npt.ArrayLike, low: float = -np.inf, high: flo
     """
     f = np.asarray(field)
     if f.shape != (len(surface.vertices),) or f.dtype.kind not in "biuf":
-        raise ParameterError(f"A field is a real number for each of {len(surface.vertices)} vertices, not {f.shape}.")
+        raise ParameterError(f"A field is a real number for each of {len(surface.vertices):,} vertices, not {f.shape}.")
     f = f.astype(np.float64)
     if not low < high:
         raise ParameterError(f"A region lies between two values, the smaller first, not {low:g} and {high:g}.")

@@ -59,7 +59,7 @@ def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
     f, faces, x = np.asarray(field, np.float64), surface.faces, surface.vertices
     if f.shape != (len(x),):
         raise ParameterError(
-            f"A field is a real number for each of {len(x)} vertices, not an array of shape {f.shape}."
+            f"A field is a real number for each of {len(x):,} vertices, not an array of shape {f.shape}."
         )
     proper = np.ones(len(faces), bool)
     proper[surface.flat_faces] = False

@@ -89,7 +89,7 @@ def field_scatter(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares: 
     f, g = np.asarray(a), np.asarray(b)
     for field in (f, g):
         if field.shape != (n,) or field.dtype.kind not in "biuf":
-            raise ParameterError(f"A field is a real number for each of {n} vertices, not {field.shape}.")
+            raise ParameterError(f"A field is a real number for each of {n:,} vertices, not {field.shape}.")
     ids = np.flatnonzero(np.isfinite(f) & np.isfinite(g) & (surface.component_of_vertex >= 0))
     if not len(ids):
         raise ParameterError("To compare two fields, both need finite values at common vertices.")

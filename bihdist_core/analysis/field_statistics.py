@@ -176,7 +176,7 @@ def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[np.ndarray, np.ndar
     f = np.asarray(field)
     n = len(surface.vertices)
     if f.shape != (n,) or f.dtype.kind not in "biuf":
-        raise ParameterError(f"A field is a real number for each of {n} vertices, not {f.shape}.")
+        raise ParameterError(f"A field is a real number for each of {n:,} vertices, not {f.shape}.")
     faces = LinearField.on(surface, f)
     if not faces.area > 0:
         raise ParameterError(f"The field has no finite value on {surface.name}: on no face is it finite.")

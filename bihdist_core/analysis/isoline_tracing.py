@@ -50,7 +50,7 @@ def isolines(surface: Surface, field: npt.ArrayLike, values: npt.ArrayLike) -> l
     """
     f = np.asarray(field)
     if f.shape != (len(surface.vertices),) or f.dtype.kind not in "biuf":
-        raise ParameterError(f"A field is a real number for each of {len(surface.vertices)} vertices, not {f.shape}.")
+        raise ParameterError(f"A field is a real number for each of {len(surface.vertices):,} vertices, not {f.shape}.")
     f = f.astype(np.float64)
     levels = np.array(values, np.float64, ndmin=1)
     if levels.ndim != 1 or not np.isfinite(levels).all():

@@ -110,7 +110,7 @@ def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None
     given, n = np.asarray(labels), len(surface.vertices)
     if given.shape != (n,) or given.dtype.kind not in "iu":
         raise ParameterError(
-            f"Labels are whole numbers, one for each of the {n} vertices of {surface.name}; "
+            f"Labels are whole numbers, one for each of the {n:,} vertices of {surface.name}; "
             f"these have the shape {given.shape} and the type {given.dtype}."
         )
     counts = (given >= 0) & (surface.component_of_vertex >= 0)
@@ -125,7 +125,7 @@ def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None
 def checked_mask(surface: Surface, mask: npt.ArrayLike) -> np.ndarray:
     """(n,) which vertices count; ParameterError for anything but n times yes or no."""
     given, n = np.asarray(mask), len(surface.vertices)
-    what = f"A mask has 0 or 1 for each of the {n} vertices of {surface.name}"
+    what = f"A mask has 0 or 1 for each of the {n:,} vertices of {surface.name}"
     if given.shape != (n,):
         raise ParameterError(f"{what}; this one has the shape {given.shape}.")
     wrong = np.flatnonzero(~np.isin(given, (0, 1)))

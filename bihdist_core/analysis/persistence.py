@@ -43,7 +43,7 @@ def extrema(surface: Surface, field: npt.ArrayLike, share: float = 1e-3) -> Extr
     f = np.asarray(field, np.float64)
     n = len(surface.vertices)
     if f.shape != (n,):
-        raise ParameterError(f"A field is a real number for each of {n} vertices, not an array of shape {f.shape}.")
+        raise ParameterError(f"A field is a real number for each of {n:,} vertices, not an array of shape {f.shape}.")
     if not 0 <= share <= 1:
         raise ParameterError(f"The share is {share:g}; it must lie between 0 and 1.")
     used = np.isfinite(f) & (surface.component_of_vertex >= 0)

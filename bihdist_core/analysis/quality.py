@@ -328,7 +328,8 @@ def triangle_samples(
     ids = np.flatnonzero(distance.surface.component_of_vertex == component) if component >= 0 else np.empty(0, np.int64)
     if min(points, len(ids)) < 3:
         raise ParameterError(
-            f"Triangles need three points; {points} were asked for, and component {component} has {len(ids)} vertices."
+            f"Triangles need three points; {points:,} were asked for, and component {component} has {len(ids):,} "
+            "vertices."
         )
     some = np.random.default_rng(seed).choice(ids, min(points, len(ids)), replace=False)
     among = np.zeros((len(some), len(some)))

@@ -78,7 +78,7 @@ def least_of(surface: Surface, columns: npt.ArrayLike) -> tuple[np.ndarray, np.n
     f = np.asarray(columns, np.float64)
     n = len(surface.vertices)
     if f.ndim != 2 or len(f) != n or not f.shape[1]:
-        raise ParameterError(f"Regions are those of fields (n, k) of {n} vertices, k at least 1, not {f.shape}.")
+        raise ParameterError(f"Regions are those of fields (n, k) of {n:,} vertices, k at least 1, not {f.shape}.")
     f = np.where(np.isfinite(f), f, np.inf)
     return f, np.where(np.isfinite(f).any(axis=1), f.argmin(axis=1), -1)
 

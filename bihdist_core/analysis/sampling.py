@@ -38,7 +38,7 @@ def farthest_points(
     points = distance.surface.check_vertices(start).tolist()
     if not 1 <= len(points) <= count:
         raise ParameterError(
-            f"{len(points)} starts were given for {count} points; one is needed, and no more than that."
+            f"{len(points)} starts were given for {count:,} points; one is needed, and no more than that."
         )
     if len(set(points)) < len(points) or len(np.unique(distance.surface.component_of_vertex[points])) > 1:
         raise ParameterError(f"The starts {points} are not different vertices of one component.")
@@ -48,14 +48,14 @@ def farthest_points(
         if k >= given:
             farthest = int(np.nanargmax(nearest)) if np.isfinite(nearest).any() else points[0]
             if not nearest[farthest] > 0:
-                raise ParameterError(f"{count} points asked for; the component of vertex {points[0]} has {k}.")
+                raise ParameterError(f"{count:,} points asked for; the component of vertex {points[0]} has {k:,}.")
             points.append(farthest)
         if k + 1 < count:
-            report(k / count, f"{k + 1} of {count} points")
+            report(k / count, f"{k + 1:,} of {count:,} points")
             nearest = np.fmin(nearest, distance.from_source(points[k], part(progress, k / count, (k + 1) / count)))
             if among is not None:
                 nearest[~among] = np.nan
-    report(1.0, f"{count} points")
+    report(1.0, f"{count:,} points")
     return np.array(points)
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ..formats.polygons import counted
+from ..counts import counted
 from ..surface import FLAT, Surface
 
 TOUCH = "where faces touch in a point"

@@ -66,7 +66,7 @@ def truncation_loss(
     highest = max(component.most_eigenpairs for component in components)
     wanted = wanted[wanted <= highest]
     if not len(wanted):
-        raise ParameterError(f"{laplacian.surface.name} has {highest} eigenpairs at {_words(at)}.")
+        raise ParameterError(f"{laplacian.surface.name} has {highest:,} eigenpairs at {_words(at)}.")
     report = progress or silent
     distance = BiharmonicDistance(laplacian, part(report, 0, 0.2))
     exact = distance.from_source(at, part(report, 0.2, 0.3))

@@ -42,5 +42,5 @@ def carried_back(colours: npt.ArrayLike, found: npt.ArrayLike) -> np.ndarray:
         raise ParameterError(f"A map is one whole number for each vertex, not {ids.dtype} of the shape {ids.shape}.")
     wrong = np.flatnonzero((ids < NOWHERE) | (ids >= len(there)))
     if len(wrong):
-        raise ParameterError(f"Vertex {wrong[0]} is mapped to {ids[wrong[0]]}, and there are {len(there)} vertices.")
+        raise ParameterError(f"Vertex {wrong[0]} is mapped to {ids[wrong[0]]}, and there are {len(there):,} vertices.")
     return np.where((ids == NOWHERE)[:, None], np.nan, there[ids])

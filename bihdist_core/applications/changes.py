@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from typing import Any
 
+from ..counts import counted
 from ..errors import ParameterError
 
 WAYS = ("xyz", "normals")
@@ -67,11 +68,6 @@ class Perturbation:
 def count_of(runs: Runs) -> int:
     """How many ids there are in runs."""
     return sum(last - first + 1 for first, last in runs)
-
-
-def counted(count: int, word: str) -> str:
-    """ "1 hole", "12,345 holes"."""
-    return f"{count:,} {word}{'' if count == 1 else 's'}"
 
 
 def words_of_runs(runs: Runs) -> str:

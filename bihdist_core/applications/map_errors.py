@@ -69,13 +69,13 @@ def map_errors(
     surface = distance.surface
     to, right = _checked(found, surface, 2), _checked(truth, surface)
     if to.ndim not in (1, 2) or len(to) != len(right):
-        raise ParameterError(f"The map has {len(to)} values, and the truth {len(right)}; they need as many.")
+        raise ParameterError(f"The map has {len(to):,} values, and the truth {len(right):,}; they need as many.")
     errors = _errors(distance, to, right, part(progress, 0, 1 if partners is None else 0.5))
     if partners is not None:
         others = _checked(partners, surface)
         if len(others) != len(surface.vertices):
             raise ParameterError(
-                f"Symmetric partners are needed for each of the {len(surface.vertices)} vertices of {surface.name}, "
+                f"Symmetric partners are needed for each of the {len(surface.vertices):,} vertices of {surface.name}, "
                 f"not for {len(others)}."
             )
         known = right >= 0

@@ -61,7 +61,7 @@ def simplified(surface: Surface, count: int, progress: Progress | None = None) -
     """
     small, ids = _collapsed(surface, count, progress)
     if len(ids) > count:
-        raise ParameterError(f"{surface.name} cannot be simplified below {len(ids)} vertices without damage.")
+        raise ParameterError(f"{surface.name} cannot be simplified below {len(ids):,} vertices without damage.")
     return small, ids
 
 
@@ -78,7 +78,7 @@ def _collapsed(surface: Surface, count: int, progress: Progress | None) -> tuple
     n, used = len(surface.vertices), surface.component_of_vertex >= 0
     left, idle, relaxed = int(used.sum()), 0, False
     if not 4 <= count <= left:
-        raise ParameterError(f"{surface.name} has {left} vertices and cannot be simplified to {count}.")
+        raise ParameterError(f"{surface.name} has {left:,} vertices and cannot be simplified to {count:,}.")
     x, faces = surface.vertices, surface.faces
     quadrics = _quadrics(surface)
     alive = used.copy()

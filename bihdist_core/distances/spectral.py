@@ -143,7 +143,7 @@ class PowerDistance(SpectralDistance):
         super().__init__(laplacian)
         self.alpha, self.k = float(alpha), checked_count(k)
         self.laplacian.check_eigenpairs(self.k, int(self.laplacian.eigenpair_counts.max()))
-        self.label = f"1/λ^{alpha:g}, {self.k} eigenpairs"
+        self.label = f"1/λ^{alpha:g}, {self.k:,} eigenpairs"
         self.length_power = self.alpha - 1
         self.prepare(self.laplacian.components[0], progress)
 
@@ -198,7 +198,7 @@ class PowerDistance(SpectralDistance):
             return said
         with np.errstate(all="ignore"):
             beyond = rounded_up(self.beyond(components))
-        return f"{said} as a sum of {self.k} eigenpairs; all of them would change it by at most {beyond}"
+        return f"{said} as a sum of {self.k:,} eigenpairs; all of them would change it by at most {beyond}"
 
     def _left_out(self, component: Component, next_value: float, tails: np.ndarray) -> np.ndarray:
         # What is asked for is the sum of the first.
@@ -216,7 +216,7 @@ class TruncatedBiharmonicDistance(PowerDistance):
 
     def __init__(self, laplacian: Laplacian | Surface, k: int = 200, progress: Progress | None = None) -> None:
         super().__init__(laplacian, alpha=2.0, k=k, progress=progress)
-        self.label = f"biharmonic, {self.k} eigenpairs"
+        self.label = f"biharmonic, {self.k:,} eigenpairs"
 
 
 def checked_number(value: float, name: str) -> float:

@@ -50,7 +50,7 @@ def write_array(path: str | os.PathLike[str], array: npt.ArrayLike, header: Sequ
         raise ParameterError(f"a table needs one or two axes of real numbers, not {table.shape} of {table.dtype}.")
     columns = list(table.reshape(len(table), -1).T)
     if header is not None and len(header) != len(columns):
-        raise ParameterError(f"{len(header)} column names were given for {len(columns)} columns.")
+        raise ParameterError(f"{len(header)} column names were given for {len(columns):,} columns.")
     with whole_file(path) as temporary, temporary.open("wb") as file:
         if extension == ".npy":
             np.save(file, table)
@@ -67,7 +67,7 @@ def _checked(fields: Mapping[str, npt.ArrayLike], n: int) -> Columns:
         if column.shape != (n,) or column.dtype.kind not in "biuf":
             raise ParameterError(
                 f"the field {name!r} has shape {column.shape} and type {column.dtype}; "
-                f"it needs a real number for each of the {n} vertices."
+                f"it needs a real number for each of the {n:,} vertices."
             )
         columns[name] = column.astype(np.float64)
     return columns

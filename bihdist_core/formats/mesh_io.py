@@ -12,12 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
+from ..counts import counted
 from ..errors import MeshError
 from ..surface import Surface
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
-from .polygons import Polygons, counted, triangulated
+from .polygons import Polygons, triangulated
 from .stl import read_stl
 from .vtk import read_vtk
 from .vtp import read_vtp

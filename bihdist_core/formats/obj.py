@@ -6,8 +6,9 @@ the format are read over; an unknown one is an error, since a damaged `v` line w
 
 import numpy as np
 
+from ..counts import counted
 from ..errors import MeshError
-from .polygons import Polygons, counted, whole_numbers
+from .polygons import Polygons, whole_numbers
 from .text_lines import NumberLines, TextLines, keyword_code
 
 _OTHER_STATEMENTS = (

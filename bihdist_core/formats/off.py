@@ -29,8 +29,8 @@ def read_off(raw: bytes, name: str) -> Polygons:
             else "its counts are wrong"
         )
         raise MeshError(
-            f"{name} announces {vertex_count} vertices and {face_count} faces, one a line, but {held} lines follow: "
-            f"{problem}."
+            f"{name} announces {vertex_count:,} vertices and {face_count:,} faces, one a line, but {held:,} lines "
+            f"follow: {problem}."
         )
     numbers = lines.numbers(np.arange(len(lines)) >= header)
     wrong = np.flatnonzero(~np.isin(numbers.sizes[:vertex_count], allowed))
@@ -38,7 +38,7 @@ def read_off(raw: bytes, name: str) -> Polygons:
         k = wrong[0]
         expected = " or ".join(map(str, allowed))
         raise MeshError(
-            f"{name}, line {numbers.number[k]}: vertex {k} has {numbers.sizes[k]} numbers where {expected} belong."
+            f"{name}, line {numbers.number[k]}: vertex {k} has {numbers.sizes[k]:,} numbers where {expected} belong."
         )
     vertices = numbers.columns(3, slice(0, vertex_count))
     sizes, corners = _faces(numbers, vertex_count, name)
@@ -80,7 +80,7 @@ def _faces(numbers: NumberLines, vertex_count: int, name: str) -> tuple[np.ndarr
         k = int(np.argmax(bad))
         raise MeshError(
             f"{name}, line {numbers.number[vertex_count + k]}: face {k} announces {numbers.values[first[k]]:.16g} "
-            f"corners and {held[k] - 1} numbers follow."
+            f"corners and {held[k] - 1:,} numbers follow."
         )
     if len(sizes) and (sizes == 3).all():
         values = numbers.columns(4, np.s_[vertex_count:])[:, 1:].ravel()

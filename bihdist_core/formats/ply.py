@@ -11,8 +11,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..counts import counted
 from ..errors import MeshError
-from .polygons import Polygons, checked_corners, counted, runs, strip_triangles, whole_numbers
+from .polygons import Polygons, checked_corners, runs, strip_triangles, whole_numbers
 from .text_lines import TextLines, shown
 
 _TYPES = {
@@ -124,7 +125,7 @@ def _text_body(body: bytes, elements: list[_Element], name: str) -> dict[str, di
     if len(lines) != announced:
         what = " and ".join(f"{e.count} of {e.name}" for e in elements) or "nothing"
         raise MeshError(
-            f"{name} announces {what}, one a line, but {len(lines)} lines follow: "
+            f"{name} announces {what}, one a line, but {len(lines):,} lines follow: "
             f"{'the file is cut off or its' if len(lines) < announced else 'its'} counts are wrong."
         )
     columns, low = {}, 0

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..counts import counted
 from ..errors import MeshError
 
 EAR_CLIPPING_LIMIT = 512
@@ -23,11 +24,6 @@ class Polygons:
     corners: np.ndarray
     repairs: tuple[str, ...] = ()
     facts: tuple[str, ...] = ()
-
-
-def counted(count: int, one: str, many: str = "") -> str:
-    """'1 face', '2 faces'."""
-    return f"{count:,} {one if count == 1 else many or one + 's'}"
 
 
 def runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:

@@ -8,8 +8,9 @@ import re
 
 import numpy as np
 
+from ..counts import counted
 from ..errors import MeshError
-from .polygons import Polygons, counted
+from .polygons import Polygons
 from .text_lines import TextLines, keyword_code
 
 _HEAD = 84
@@ -59,7 +60,7 @@ def _binary_corners(raw: bytes, name: str) -> np.ndarray:
     announced, held = int.from_bytes(raw[80:84], "little"), (len(raw) - _HEAD) / _TRIANGLE.itemsize
     if not _has_binary_length(raw):
         raise MeshError(
-            f"{name} announces {announced} triangles but has room for {int(100 * held) / 100:.12g}: "
+            f"{name} announces {announced:,} triangles but has room for {int(100 * held) / 100:.12g}: "
             "it is cut off, its count is wrong or it is not an STL file."
         )
     return np.frombuffer(raw, _TRIANGLE, offset=_HEAD)["corners"].reshape(-1, 3).astype(np.float64)

@@ -29,7 +29,7 @@ def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> 
     if str(path) == IDENTITY:
         if n != most:
             raise ParameterError(
-                f"{source.name} has {n} vertices and {target.name} {most}, so the same ids are no map between them."
+                f"{source.name} has {n:,} vertices and {target.name} {most:,}, so the same ids are no map between them."
             )
         return np.arange(n)
     path = Path(path)
@@ -37,7 +37,7 @@ def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> 
         raise ParameterError(f"{path} is no map; these are {', '.join(MAP_FORMATS)} files, or the word {IDENTITY}.")
     found = read_whole_numbers(path, "map")
     if len(found) != n:
-        raise ParameterError(f"{path} maps {len(found)} vertices, and {source.name} has {n}.")
+        raise ParameterError(f"{path} maps {len(found):,} vertices, and {source.name} has {n:,}.")
     wrong = np.flatnonzero((found < -1) | (found >= most))
     if len(wrong):
         hint = " (ids count from 0)" if found.min() >= 1 and found.max() == most else ""

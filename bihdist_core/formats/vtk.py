@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..counts import counted
 from ..errors import MeshError
-from .polygons import Polygons, checked_corners, counted, strip_triangles, whole_numbers
+from .polygons import Polygons, checked_corners, strip_triangles, whole_numbers
 from .text_lines import parsed_numbers, plain_text, shown
 
 _TYPES = {
@@ -126,7 +127,7 @@ class _Cursor:
 
     def _too_short(self, count: int, held: int, what: str) -> MeshError:
         return MeshError(
-            f"{self.name} announces {count} numbers of {what} but at most {held} follow: "
+            f"{self.name} announces {count:,} numbers of {what} but at most {held} follow: "
             "the file is cut off or its counts are wrong."
         )
 
@@ -180,11 +181,13 @@ def _cells(words: list[str], file: _Cursor) -> Cells:
     entries = values.tolist()
     for k in range(len(starts)):
         if at >= size or not 0 <= entries[at] < size - at:
-            raise MeshError(f"{file.name}: cell {k} of {what} does not fit into the {size} numbers announced.")
+            raise MeshError(f"{file.name}: cell {k} of {what} does not fit into the {size:,} numbers announced.")
         starts[k] = at
         at += 1 + entries[at]
     if at != size or len(starts) != count or bad.any():
-        raise MeshError(f"{file.name}: {count} {what} do not fill the {size} numbers announced; the counts are wrong.")
+        raise MeshError(
+            f"{file.name}: {count:,} {what} do not fill the {size:,} numbers announced; the counts are wrong."
+        )
     sizes = values[starts]
     corner = np.ones(size, bool)
     corner[starts] = False
@@ -197,7 +200,7 @@ def cells_of_offsets(offsets: np.ndarray, corners: np.ndarray, where: str) -> Ce
         offsets = np.zeros(1, np.int64)
     sizes = np.diff(offsets)
     if offsets[0] != 0 or offsets[-1] != len(corners) or (sizes < 0).any():
-        raise MeshError(f"{where}: the offsets of the cells do not fit their {len(corners)} corners.")
+        raise MeshError(f"{where}: the offsets of the cells do not fit their {len(corners):,} corners.")
     return sizes, corners
 
 

@@ -81,7 +81,7 @@ class _File:
             case form:
                 raise MeshError(f"{self.name}: {what} have the format {form[:40]!r}, which is not read.")
         if count is not None and len(values) != count:
-            raise MeshError(f"{self.name} announces {count} numbers of {what} but holds {len(values)}.")
+            raise MeshError(f"{self.name} announces {count:,} numbers of {what} but holds {len(values):,}.")
         return values
 
     def _until_next(self, element: ElementTree.Element) -> bytes:
@@ -168,7 +168,7 @@ def _points(file: _File, piece: ElementTree.Element) -> np.ndarray:
     element = piece.find("Points/DataArray")
     if element is None:
         if n:
-            raise MeshError(f"{file.name} announces {n} points but holds none.")
+            raise MeshError(f"{file.name} announces {n:,} points but holds none.")
         return np.empty((0, 3))
     return file.array(element, 3 * n, "points").reshape(-1, 3).astype(np.float64)
 

@@ -169,7 +169,7 @@ def _in_turn(function: Any, items: Any) -> list[Any]:
 
 def _checked_matrix(tree: EliminationTree, matrix: sp.spmatrix) -> sp.csr_matrix:
     if matrix.shape != (tree.n, tree.n):
-        raise ParameterError(f"A matrix of shape {matrix.shape} does not fit a tree of {tree.n} vertices.")
+        raise ParameterError(f"A matrix of shape {matrix.shape} does not fit a tree of {tree.n:,} vertices.")
     # A copy, since SciPy sums duplicate entries in place.
     matrix = sp.csr_matrix(matrix, dtype=np.float64, copy=True)
     matrix.sum_duplicates()

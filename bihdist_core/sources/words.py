@@ -103,7 +103,7 @@ def words_of(source: Source, files: Mapping[Curve, str] = NONE) -> str:
     if isinstance(source, BoundaryLoop):
         return f"loop:{source.number}"
     if isinstance(source, Curve):
-        return files.get(source) or f"a {'closed ' if source.closed else ''}curve of {len(source.places)} points"
+        return files.get(source) or f"a {'closed ' if source.closed else ''}curve of {len(source.places):,} points"
     return str(source)
 
 

@@ -30,7 +30,7 @@ def test_numbers_are_the_fields_along_the_path(surface, tmp_path, capsys):
     options = ["--source", "17", "--through", "source,f40:0.2,0.5,300", *TWO]
     assert main(["profile", "part", *options, "-o", str(csv), "-o", str(array)]) == 0
     path = GeodesicPaths(surface).path([17, "f40:0.2,0.5", 300])
-    assert f"{path.label}, {len(path.points)} points, {path.length:.6g} long" in capsys.readouterr().out
+    assert f"{path.label}, {len(path.points):,} points, {path.length:.6g} long" in capsys.readouterr().out
     assert csv.read_text().startswith("arc,x,y,z,face,b0,b1,b2,biharmonic,geodesic(method=dijkstra)\n")
     table = np.load(array)
     assert np.array_equal(table, np.loadtxt(csv, delimiter=",", skiprows=1))

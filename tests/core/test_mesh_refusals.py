@@ -101,7 +101,7 @@ REFUSED = {
     "no counts": ("a.off", "OFF\nfive 3 0\n", "line 2: 'five 3 0' is not the numbers of vertices"),
     "OFF cut off": ("a.off", off()[:-12], "announces 5 vertices and 3 faces, one a line, but 7 lines follow"),
     "OFF count low": ("a.off", off().replace("5 3 0", "5 2 0"), "but 8 lines follow: its counts are wrong"),
-    "OFF count huge": ("a.off", off().replace("5 3 0", "5000000000000 3 0"), "announces 5000000000000 vertices"),
+    "OFF count huge": ("a.off", off().replace("5 3 0", "5000000000000 3 0"), "announces 5,000,000,000,000 vertices"),
     "OFF word": ("a.off", off().replace("0.25", "0,25"), "line 5: '0,25' is not a number"),
     "OFF coordinates": ("a.off", off().replace(" 0.25", ""), "line 5: vertex 2 has 2 numbers where 3 belong"),
     "OFF index": (
@@ -163,7 +163,7 @@ REFUSED = {
     "PLY longer": ("a.ply", ply("binary_little_endian") + b"abc", "goes on for 3 bytes"),
     "PLY huge": ("a.ply", ply("binary_little_endian").replace(b"face 3", b"face 99999999999999"), "holds at most"),
     "STL cut off": ("a.stl", stl_binary()[:-3], "announces 3 triangles but has room for 2.94"),
-    "STL count": ("a.stl", stl_binary(announced=2**32 - 1), "announces 4294967295 triangles"),
+    "STL count": ("a.stl", stl_binary(announced=2**32 - 1), "announces 4,294,967,295 triangles"),
     "STL short": ("a.stl", b"ab", "fewer than an STL header"),
     "STL text cut off": ("a.stl", stl_text()[:-16], "is cut off: its last line is 'endfacet'"),
     "STL order": (
@@ -183,7 +183,7 @@ REFUSED = {
     "VTK points": (
         "a.vtk",
         vtk_old(binary=True).replace(b"POINTS 5", b"POINTS 99999999999"),
-        "299999999997 numbers of POINTS",
+        "299,999,999,997 numbers of POINTS",
     ),
     "VTK cut off": ("a.vtk", vtk_old(binary=True)[:-30], "numbers of POLYGONS"),
     "VTK no points": ("a.vtk", vtk_old().split(b"POINTS")[0], "has no POINTS"),

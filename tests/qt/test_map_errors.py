@@ -103,7 +103,7 @@ def test_the_curves_are_those_of_the_pairs_by_each_distance(two):
         found = section(s).named_curves()[name]
         assert (found.mean, found.median, found.area) == pytest.approx((curve.mean, curve.median, curve.area), abs=1e-6)
         assert float(numbers(s)[name][0]) == pytest.approx(curve.mean, rel=1e-3)
-    assert section(s).said.text() == f"over {COUNT} vertices; geodesic, exact"
+    assert section(s).said.text() == f"over {COUNT:,} vertices; geodesic, exact"
     assert section(s).truth.button.text() == "truth: same ids"
 
 
@@ -373,4 +373,4 @@ def test_over_how_many_vertices_is_said_while_they_are_judged(two, monkeypatch):
     section(s)._background.answered.connect(lambda asked, judged: shown.append(section(s).said.text()))
     section(s).truth._choose(samples=0)
     s.until(lambda: whole(s) and section(s).judgement.wanted == COUNT)
-    assert any(f" of {COUNT} vertices" in words for words in shown)
+    assert any(f" of {COUNT:,} vertices" in words for words in shown)

@@ -52,7 +52,7 @@ def test_the_key_opens_the_dock_and_typed_ids_are_pinned(opened):
     assert dock.box.text() == ""
     type_ids(s, dock, "3, 20000")
     assert ids(s) == [12, 40, 700]
-    assert dock.wrong.text() == "No vertex 20000 here: 0 to 1,499"
+    assert dock.wrong.text() == "No vertex 20000 here: 0 to 1499"
     type_ids(s, dock, "40")
     assert dock.wrong.text() == "Vertex 40 has a pin already."
     QtTest.QTest.keyClicks(dock.box, "p")

@@ -199,7 +199,7 @@ def test_too_many_points_are_refused_in_the_dock(opened):
     sampler = dock(s, "regions").sampler
     sampler.count.setValue(2_000)
     press(sampler.pin)
-    s.until(lambda: "2000 points asked for" in sampler.words.text())
+    s.until(lambda: "2,000 points asked for" in sampler.words.text())
     sampler.count.setValue(201)
     press(sampler.pin)
     s.until(lambda: "at most 200 pins" in sampler.words.text())

@@ -103,7 +103,7 @@ class SourceBox(TextBox):
         if re.fullmatch("[0-9]{1,3}(,[0-9]{3})+", text):
             text = text.replace(",", "")
         if not text or (text.isascii() and text.isdigit() and int(text) >= self._count):
-            self._refuse(f"No vertex {text[:20] or 'of no id'} here: 0 to {self._count - 1:,}")
+            self._refuse(f"No vertex {text[:20] or 'of no id'} here: 0 to {self._count - 1}")
             return
         # The words of a curve, which has a file of its own, mean the one that is there.
         curves = [(words_of(member), member) for member in members_of(self._source) if isinstance(member, Curve)]

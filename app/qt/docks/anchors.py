@@ -303,7 +303,7 @@ class AnchorsDock(Instrument):
         self._show(document)
         far = float(found.moved.max())
         moved = f", moved to vertices by up to {far:.3g}" if far > 0 else ""
-        self.window_.say(f"Read {len(found)} anchors from {Path(path).name}{moved}")
+        self.window_.say(f"Read {len(found):,} anchors from {Path(path).name}{moved}")
 
     def choose_and_save(self) -> None:
         document, surface = self._document, self.window_.session.surface

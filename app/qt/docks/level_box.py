@@ -9,6 +9,7 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core.analysis.bands import Band, band
 from bihdist_core.analysis.level_words import value_from_words
 from bihdist_core.analysis.selecting import write_ids
+from bihdist_core.counts import counted
 from bihdist_core.errors import ParameterError
 from bihdist_core.formats.field_output import write_fields
 from bihdist_core.progress import Progress
@@ -19,7 +20,6 @@ from ..look.text_box import TextBox, mark_wrong
 from ..panels.flat_button import FlatButton
 from .background import Background
 from .isoline_files import Levels, save_isolines
-from .saving import vertices_in_words
 
 REST_MS = 250
 """After the last letter, until the region is looked for."""
@@ -127,7 +127,7 @@ class LevelBox(QtWidgets.QWidget):
         self.band = found
         self.more.setEnabled(True)
         part = found.area / self._levels.surface.face_areas.sum()
-        self.said.setText(f"{vertices_in_words(len(found.vertices))}, {share(float(part))} of the area")
+        self.said.setText(f"{counted(len(found.vertices), 'vertex', 'vertices')}, {share(float(part))} of the area")
 
     # ------------------------------------------------------------------ what becomes of it
     def select(self) -> None:

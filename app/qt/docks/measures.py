@@ -106,7 +106,7 @@ def _triangles_said(found: Found) -> str:
     sample = found.triangles
     if sample is None:
         return found.triangles_failure or "It is being measured; exact geodesic distances take their time."
-    so_far = "" if found.is_sampled else f"; so far, among {found.points} points"
+    so_far = "" if found.is_sampled else f"; so far, among {found.points:,} points"
     said = f"{sample.violations:,} of {sample.triples:,} triples break it"
     if sample.violations:
         return f"{said}, the worst by {100 * sample.worst:.2g} % of the largest distance{so_far}"

@@ -254,7 +254,7 @@ class PairsDock(Instrument):
         session.show(changed)
         new = len(changed.pairs) - len(document.pairs)
         known = f", {len(found) - new} of them known already" if new < len(found) else ""
-        self.window_.say(f"Read {len(found)} pairs from {Path(path).name}{known}")
+        self.window_.say(f"Read {len(found):,} pairs from {Path(path).name}{known}")
 
     def choose_and_save(self) -> None:
         session, document = self.window_.session, self._document

@@ -6,6 +6,7 @@ import numpy as np
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError
+from bihdist_core.counts import counted
 from bihdist_core.formats.pins import PIN_FORMATS, Pins, read_pins, write_pins
 
 from ...document.file_names import file_name
@@ -44,7 +45,7 @@ class PinFiles:
             return
         size = float(np.ptp(surface.vertices, axis=0).max())
         said = snapped(written, size)
-        self._window.say(f"Saved {_counted(len(written))} in {Path(path).name}{f': {said}' if said else ''}")
+        self._window.say(f"Saved {counted(len(written), 'pin')} in {Path(path).name}{f': {said}' if said else ''}")
 
     def choose_and_read(self) -> None:
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self._window, "Read pins", str(self._folder), READ)
@@ -62,7 +63,7 @@ class PinFiles:
             self._window.failed(str(error))
             return
         size = float(np.ptp(surface.vertices, axis=0).max())
-        self._window.say(snapped(found, size) or f"Read {_counted(len(found))} from {Path(path).name}")
+        self._window.say(snapped(found, size) or f"Read {counted(len(found), 'pin')} from {Path(path).name}")
 
     # ------------------------------------------------------------------ the clipboard
     def copy_list(self, answers: list) -> None:
@@ -86,10 +87,6 @@ def snapped(pins: Pins, size: float) -> str:
     most = int(far[pins.moved[far].argmax()])
     of_size = share(float(pins.moved[most]) / size) if size else ""
     return (
-        f"{_counted(len(far))} moved to a vertex, the farthest, {pins.ids[most]}, by "
+        f"{counted(len(far), 'pin')} moved to a vertex, the farthest, {pins.ids[most]}, by "
         f"{number(float(pins.moved[most]))} ({of_size} of the mesh's size)"
     )
-
-
-def _counted(count: int) -> str:
-    return "1 pin" if count == 1 else f"{count} pins"

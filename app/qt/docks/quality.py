@@ -168,7 +168,7 @@ class QualityDock(Instrument):
             colour = curve_colour(k) if found.whole is not None else LOOK.theme.disabled
             self.charts[panel.id].show_circles(whole.circles if whole is not None else (), colour)
         # Only exact geodesic distances take long enough for it to be seen.
-        share = f"triangles, {min(sampled.values())} of {TRIANGLE_POINTS} points" if sampled else ""
+        share = f"triangles, {min(sampled.values())} of {TRIANGLE_POINTS:,} points" if sampled else ""
         self.said.emit("measuring…" if waits else share)
 
     def _failed(self, panel: int) -> bool:

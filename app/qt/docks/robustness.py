@@ -7,7 +7,8 @@ import numpy as np
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
-from bihdist_core.applications.changes import Perturbation, count_of, counted
+from bihdist_core.applications.changes import Perturbation, count_of
+from bihdist_core.counts import counted
 from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
 
 from ...document.change_edits import cut_by, refuse_change

@@ -78,8 +78,3 @@ def saved_words(path: str) -> str:
     """That a file is written, and where."""
     folder, name = os.path.split(os.path.abspath(path))
     return f"Saved {name} in {folder}"
-
-
-def vertices_in_words(count: int) -> str:
-    """ "1 vertex", "12,345 vertices"."""
-    return f"{count:,} {'vertex' if count == 1 else 'vertices'}"

@@ -94,7 +94,7 @@ class TruncationBox(QtWidgets.QWidget):
             if self._is_on and not same:
                 self.compute()
             elif not self._is_on:
-                self._say(f"How much is lost where only the first k of {MOST} eigenpairs are summed.")
+                self._say(f"How much is lost where only the first k of {MOST:,} eigenpairs are summed.")
             elif same:
                 self._show()
 

@@ -80,7 +80,7 @@ class MovieDialog(LooksDialog):
         surface = self._surfaces[self._recipe.document.panels[0].surface].surface
         for stop in stops:
             if not 0 <= stop < len(surface.vertices):
-                raise VertexError(f"No vertex {stop} here: 0 to {len(surface.vertices) - 1:,}.")
+                raise VertexError(f"No vertex {stop} here: 0 to {len(surface.vertices) - 1}.")
         return stops
 
     def _show_length(self) -> None:
