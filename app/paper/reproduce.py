@@ -74,9 +74,14 @@ def reproduce(
     if mesh is not None and Path(mesh).is_dir():
         with Pictures() as pictures:
             return _each_mesh(folder, Path(mesh), _of_folder(chosen, only), quick, progress, say, up, pictures)
-    shapes = Shapes(own=read_surface(mesh)) if mesh is not None else Shapes.from_folder(SAMPLES)
     missing = Parts()
-    up = "y" if mesh is None and up == "auto" else _up(up, shapes.own, mesh or "", missing)
+    if mesh is None:
+        up = "y" if up == "auto" else up
+        shapes = Shapes.from_folder(SAMPLES)
+    else:
+        surface = read_surface(mesh)
+        up = _up(up, surface, mesh, missing)
+        shapes = Shapes(own=surface, up=up)
     with Pictures() as pictures:
         here = f"{folder / PAGE}#"
         sections = _sections(folder, chosen, shapes, quick, progress, say, here, up, pictures)
@@ -87,9 +92,9 @@ def reproduce(
     return _written(folder, sections, about, quick, before=mesh is None and not quick)
 
 
-def _up(up: str, surface: Surface | None, path: str | Path, parts: Parts) -> str:
-    """The axis that is up; left as it is where it cannot be guessed."""
-    if up != "auto" or surface is None:
+def _up(up: str, surface: Surface, path: str | Path, parts: Parts) -> str:
+    """The axis that is up; y where it cannot be guessed."""
+    if up != "auto":
         return up
     return parts.do(f"which way {Path(path).name} is up", guess_up, surface, Path(path).suffix) or "y"
 
@@ -230,11 +235,10 @@ def _each_mesh(
             say(f"not done: {reason}")
             sections.append(Section(_named(chosen[0], name, path), None, failure=reason))
             continue
-        shapes = Shapes(own=surface)
+        its_up = _up(up, surface, path, missing)
+        shapes = Shapes(own=surface, up=its_up)
         place = folder / name
         _make(place)
-
-        its_up = _up(up, surface, path, missing)
         here = f"{folder / PAGE}#{name}-"
         for section in _sections(place, chosen, shapes, quick, mine, say, here, its_up, pictures):
             named = _named(section.experiment, name, path)

@@ -35,7 +35,7 @@ HOW = (
     f"{100 * CONFIDENCE:g} % interval: a difference whose interval has 0 in it is a tie, and no tie holds. Times are "
     "processor times. The strips show all numbers: diamonds are pictured sources, dots random ones, a bar an interval, "
     "the shaded part what the rule allows. A statement of several parts holds if all of them do, and partly if some "
-    "do, or do partly; without a part that is needed it does not hold."
+    "do, or do partly; without a part that is needed it does not hold. Nothing over nothing, 0/0, is not judged."
 )
 QUICK = (
     "These verdicts are the quick ones: they come from smaller meshes and fewer random sources and starts, so that "
@@ -119,7 +119,7 @@ def _statement(section: str, claim: Claim) -> str:
         said = f"<p class=warning>⚠ {escape(claim.warning)}</p>{said}"
     return (
         f'<div class="statement {KINDS[claim.verdict]}" id="{_place(section, claim)}"><p>{chip(claim.verdict)} '
-        f"<span class=text>{escape(stated.text)}</span> <span class=quiet><span class=id>{claim.id}</span>: "
+        f"<span class=text>{escape(claim.text)}</span> <span class=quiet><span class=id>{claim.id}</span>: "
         f"{WORDS[stated.words]}, {escape(stated.where)}</span></p>"
         "<table><tr><th class=what>measured</th><th class=numbers>numbers</th><th class=spread>spread</th>"
         "<th>rule</th></tr>"
@@ -152,6 +152,7 @@ def _strip(limit: Limit, numbers: Numbers) -> str:
         if len({*spots}) == 1:
             return ""
     else:
+        numbers = numbers.known
         spots = [*numbers.pictured, *numbers.random]
         if len(spots) < 2:
             return ""

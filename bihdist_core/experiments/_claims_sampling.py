@@ -14,7 +14,7 @@ from .measures import by_source, percent
 from .parts import Parts
 from .result import Cell, Chart, Claim, Series, Table
 from .sampled_fields import PiecewiseLinear, Smoothest
-from .shapes import DISTANCES, STARTS, Shapes, distance, spread_points, vertex_at
+from .shapes import DISTANCES, STARTS, UPPER_BACK, Shapes, distance, spread_points
 from .verdicts import Numbers, exponent_estimate
 
 COUNTS, QUICK_COUNTS = (100, 150, 200, 300, 500), (100, 300)
@@ -32,7 +32,7 @@ def sampling(
     surface = shapes[name]
     component, ids = surface.component(0)
     laplacian = shapes.laplacian(name) if len(ids) == len(surface.vertices) else Laplacian(component)
-    pictured = int(np.searchsorted(ids, vertex_at(surface, 0.5, 0.72, "back")))
+    pictured = int(np.searchsorted(ids, shapes.vertex_at(surface, *UPPER_BACK, "back")))
     counts = sorted({min(count, len(ids) // 3) for count in (QUICK_COUNTS if quick else COUNTS)})
     judged = min(counts, key=lambda count: abs(count - JUDGED))
     # The sources are samples, so that the cones of all fields are where something is known.

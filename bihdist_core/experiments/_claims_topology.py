@@ -14,7 +14,7 @@ from ..errors import ParameterError, SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
-from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
+from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, over, percent
 from .parts import Parts
 from .result import Cell, Claim, Mark, Panel, Table
 from .shapes import DISTANCES, Shapes, distances_there, spread_points, start_vertex, starts
@@ -171,7 +171,7 @@ def _claim(id: str, pictured: Change | None, others: list[Change], ways: list[fl
 
 
 def _ratio(change: Change) -> float:
-    return change["geodesic"].normalised_largest / change[WORST].normalised_largest
+    return over(change["geodesic"].normalised_largest, change[WORST].normalised_largest)
 
 
 def _shortcuts(ratios: list[float], ways: list[float]) -> str:

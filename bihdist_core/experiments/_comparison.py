@@ -13,7 +13,7 @@ from .gathered import Gathered
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, kinked_edges, marks, over
 from .parts import Parts
 from .result import Cell, Chart, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, Shapes, distances_there, pictured_source, random_sources
+from .shapes import DISTANCES, Shapes, distances_there, random_sources
 from .statements import STATEMENTS
 
 NEEDS = {1: ("biharmonic",), 2: ("diffusion t = 1",), 3: ("circles",), 4: ("biharmonic", "geodesic")}
@@ -38,7 +38,7 @@ def compared(
     for q, name in enumerate(names):
         step = part(progress, q / len(names), (q + 1) / len(names))
         surface, laplacian = shapes[name], shapes.laplacian(name)
-        pictured = pictured_source(surface, name, "back")
+        pictured = shapes.pictured_source(name, "back")
         distances = distances_there(laplacian, parts, name)
         tried = {kind: parts.do(f"{kind} on {name}", d.from_source, pictured) for kind, d in distances.items()}
         fields = {kind: field for kind, field in tried.items() if field is not None}
@@ -57,7 +57,7 @@ def compared(
             numbers = _of_source(surface, source, distances, found, id, not k)
             sources.append((name, f"random {k}" if k else "on the back", source, *numbers))
         if "diffusion t = 1" in distances:
-            _minima_on_the_front(surface, pictured, count, distances["diffusion t = 1"], found, id)
+            _minima_on_the_front(shapes, name, pictured, count, distances["diffusion t = 1"], found, id)
         part(step, 0.7, 1)(0.0, f"{name}, circles")
         circled = parts.do(f"circles on {name}", shared_circles, shapes, name, count, part(step, 0.7, 1))
         if circled is None:
@@ -128,13 +128,15 @@ def _of_source(
     names = STATEMENTS[f"{id}-4"].names
     for name, number in zip(names, (more, denser), strict=True):
         found.add(name, number, is_pictured)
-    return 100 * depth, more, denser
+    cells = [None if np.isnan(number) else number for number in (more, denser)]
+    return 100 * depth, cells[0], cells[1]
 
 
 def _minima_on_the_front(
-    surface: Surface, pictured: int, count: int, diffusion: Distance, found: Gathered, id: str
+    shapes: Shapes, name: str, pictured: int, count: int, diffusion: Distance, found: Gathered, id: str
 ) -> None:
-    on_the_back = vertex_normals(surface)[:, 2] <= ON_THE_BACK
+    surface = shapes[name]
+    on_the_back = vertex_normals(surface) @ shapes.axes[:, 2] <= ON_THE_BACK
     for k, source in enumerate([pictured, *random_sources(surface, count, on_the_back)]):
         depth = deepest_minimum(surface, diffusion.from_source(source), source, _opposite(surface, source))
         found.add(STATEMENTS[f"{id}-2"].names[0], depth, not k)

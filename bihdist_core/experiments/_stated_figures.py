@@ -81,6 +81,11 @@ def _three_distances(id: str, minimum: str, circles: str) -> tuple[Statement, ..
     )
 
 
+def insensitive(to: str) -> str:
+    """The statement of figure 6 on a change in words."""
+    return f"Biharmonic distance is insensitive to {to}."
+
+
 def _insensitive(id: str, to: str, words: str, before: str, changed: str = "") -> Statement:
     parts: tuple[Part, ...] = (Part("mean change, biharmonic", at_most(INSENSITIVE, "%")),)
     if to.startswith("noise"):
@@ -88,8 +93,9 @@ def _insensitive(id: str, to: str, words: str, before: str, changed: str = "") -
             Part(f"mean change, biharmonic, {way}", at_most(INSENSITIVE, "%"))
             for way in ("noise on each coordinate", "noise along the normals")
         )
-    text = f"Biharmonic distance is insensitive to {to}."
-    return Statement(id, text, "paper" if words else "ours", words or "after figure 6", parts, before, changed)
+    return Statement(
+        id, insensitive(to), "paper" if words else "ours", words or "after figure 6", parts, before, changed
+    )
 
 
 ALONG = (

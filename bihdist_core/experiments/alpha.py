@@ -12,7 +12,7 @@ from ..laplacian import Laplacian
 from ..progress import Progress, part
 from .measures import FIELD_COLUMNS, by_source, deepest_minimum, field_row, marks, percent
 from .result import Cell, Chart, Claim, Panel, Result, Series, Table
-from .shapes import Shapes, distance, random_sources, vertex_at
+from .shapes import UPPER_BACK, Shapes, distance, random_sources
 
 TITLE = "The family of weights 1/λ^α"
 ALPHAS = (1.25, 1.5, 2.0, 3.0, 4.0)
@@ -28,7 +28,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     laplacian = Laplacian(surface)
     everything = laplacian.components[0].most_eigenpairs
     laplacian.components[0].spectrum(everything, part(progress, 0.1, 0.8))
-    sources = {"upper back": vertex_at(surface, 0.5, 0.72, "back")}
+    sources = {"upper back": shapes.vertex_at(surface, *UPPER_BACK, "back")}
     random = random_sources(surface, QUICK_SOURCES if quick else SOURCES)
     sources |= {f"random {k}": source for k, source in enumerate(random, 1)}
     family = {alpha: distance(laplacian, f"power alpha = {alpha}, k = {everything}") for alpha in ALPHAS}

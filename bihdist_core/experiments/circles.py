@@ -21,7 +21,7 @@ from ..surface import Surface
 from ._stated_figures import CIRCLE, LONG, ROUNDER, TREND
 from .gathered import Gathered
 from .result import Chart, Series
-from .shapes import Shapes, distance, pictured_source, random_sources
+from .shapes import Shapes, distance, random_sources
 
 RADII = 0.04 / 2.0 ** np.arange(5)
 """Of the circles, largest first, as shares of the root of the area; the last is a sixteenth of the first."""
@@ -119,7 +119,7 @@ def shared_circles(shapes: Shapes, name: str, random: int, progress: Progress | 
     key = ("circles", name, random)
     if key not in shapes.kept:
         surface = shapes[name]
-        sides = [pictured_source(surface, name, side) for side in ("front", "back")]
+        sides = [shapes.pictured_source(name, side) for side in ("front", "back")]
         sources = [*sides, *random_sources(surface, random)]
         shapes.kept[key] = circles(surface, sources, ("biharmonic", "diffusion t = 1"), progress)
     found = shapes.kept[key]

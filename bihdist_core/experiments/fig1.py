@@ -13,7 +13,7 @@ from .gathered import Gathered
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, marks
 from .parts import Parts
 from .result import Cell, Panel, Result, Table
-from .shapes import Shapes, distance, pictured_source, random_sources
+from .shapes import Shapes, distance, random_sources
 
 TITLE = "Biharmonic distance from a source"
 RANDOM = {"figure": 24}
@@ -31,7 +31,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         step = part(progress, k / len(names), (k + 1) / len(names))
         step(0.0, name)
         biharmonic = distance(shapes.laplacian(name), "biharmonic")
-        source = pictured_source(surface, name, "front")
+        source = shapes.pictured_source(name, "front")
         field = biharmonic.from_source(source)
         row = parts.do(f"numbers of the field on {name}", _row, shapes, name, source, field)
         rows += [row] if row is not None else []

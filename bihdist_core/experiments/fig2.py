@@ -18,7 +18,7 @@ from .circles import PROTOCOL, circles, gather_circles
 from .gathered import Gathered
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, largest_jump, marks
 from .result import Cell, Mark, Panel, Result, Table
-from .shapes import Shapes, distance, random_sources, vertex_at
+from .shapes import Shapes, distance, random_sources
 from .statements import STATEMENTS
 
 TITLE = "Distances over a flat domain"
@@ -35,7 +35,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     (name,) = shapes.names("domain")
     surface, laplacian = shapes[name], shapes.laplacian(name)
     flat = float(surface.vertices[:, 2].max() - surface.vertices[:, 2].min()) == 0
-    source = vertex_at(surface, 0.12, 0.8)
+    source = shapes.vertex_at(surface, 0.12, 0.8)
     sources = [source, *random_sources(surface, QUICK if quick else RANDOM)]
     distances = {
         kind: distance(laplacian, kind, part(progress, 0.04 * k, 0.04 * k + 0.04)) for k, kind in enumerate(KINDS)

@@ -20,7 +20,7 @@ from ..surface import Surface
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
 from .parts import Parts
 from .result import Cell, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, Shapes, distances_there, random_sources, spread_points, vertex_at
+from .shapes import DISTANCES, UPPER_BACK, Shapes, distances_there, random_sources, spread_points
 
 TITLE = "A raw surface with holes"
 HOLES, HOLE_RADIUS = 24, 0.045
@@ -44,7 +44,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     """The fields on the scan and on the punched surface against the intact one; on the own surface, punched only."""
     (name,) = shapes.names("figure")
     intact, parts = shapes[name], Parts()
-    sources = {"pictured": vertex_at(intact, 0.5, 0.72, "back")}
+    sources = {"pictured": shapes.vertex_at(intact, *UPPER_BACK, "back")}
     random = random_sources(intact, QUICK_SOURCES if quick else SOURCES)
     sources |= {f"random {k}": source for k, source in enumerate(random, 1)}
     damaged: dict[str, tuple[Surface, np.ndarray]] = {}

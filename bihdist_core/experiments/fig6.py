@@ -16,10 +16,11 @@ from ..errors import SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
+from ._stated_figures import insensitive
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
 from .parts import Parts
 from .result import Cell, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, Shapes, distances_there, start_vertex, starts, vertex_at
+from .shapes import DISTANCES, UPPER_BACK, Shapes, distances_there, start_vertex, starts
 from .statements import STATEMENTS
 
 TITLE = "Noise, tessellation, deformation"
@@ -29,6 +30,8 @@ WAYS = {"xyz": "", "normals": " along the normals"}
 DRAWN = 1.0
 """Noise along the normals is drawn from this size on."""
 FINE, COARSE = 14_000, 4_000
+SIMPLIFIED = "fig6-5"
+"""The statement on simplification."""
 DRAWS, QUICK_DRAWS = 5, 2
 """How often noise is drawn."""
 EACH = 2
@@ -105,7 +108,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
             parts.note(case.name, parts.why(case.where))
             continue
         draws = QUICK_DRAWS if quick else DRAWS
-        measured = parts.do(case.name, _measured, case, before, draws, parts, step)
+        measured = parts.do(case.name, _measured, shapes, case, before, draws, parts, step)
         if measured is not None:
             found[case.name] = measured
     surfaces = {case.where: case.before for case in cases}
@@ -175,7 +178,7 @@ def _before(shapes: Shapes, name: str, case: Change, parts: Parts) -> Before:
     return Before(distances_there(laplacian, parts, case.where))
 
 
-def _measured(case: Change, before: Before, draws: int, parts: Parts, step: Progress) -> Found:
+def _measured(shapes: Shapes, case: Change, before: Before, draws: int, parts: Parts, step: Progress) -> Found:
     """The changes of biharmonic distance, and of the others that can be had before and after every draw.
 
     Raises SolverError if biharmonic distance is not among them.
@@ -197,7 +200,8 @@ def _measured(case: Change, before: Before, draws: int, parts: Parts, step: Prog
             lost.add(kind)
         sources = random[q * share : (q + 1) * share]
         if not q:
-            sources = [("pictured", _shared(surface, ids, vertex_at(surface, 0.5, 0.72, "back"))), *sources]
+            pictured = shapes.vertex_at(surface, *UPPER_BACK, "back")
+            sources = [("pictured", _shared(surface, ids, pictured)), *sources]
         for k, (label, source) in enumerate(sources):
             step((q + k / len(sources)) / len(case.after), f"{case.name}, {label}")
             kinds = [kind for kind in both if kind not in lost]
@@ -261,7 +265,9 @@ def _claims(found: dict[str, Found], parts: Parts, titles: list[list[str]]) -> l
         note = f"Mean change from the pictured source, after division by the maximum (raw in parentheses), {said}."
         # What is neither done nor noted as failed is the pose, of a mesh of a reader.
         failure = parts.why(*cases) or ("" if numbers else "There is no other pose of this mesh to compare it with.")
-        claims.append(Claim(id, numbers, note if numbers else "", failure=failure))
+        # The quick version simplifies other sizes than the statement names.
+        words = insensitive(f"simplification from {cases[0]}") if id == SIMPLIFIED else ""
+        claims.append(Claim(id, numbers, note if numbers else "", failure=failure, words=words))
     return claims
 
 

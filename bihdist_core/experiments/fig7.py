@@ -16,7 +16,7 @@ from .circles import PROTOCOL, circles, gather_circles
 from .gathered import Gathered
 from .measures import FIELD_COLUMNS, field_row, over
 from .result import Cell, Mark, Panel, Result, Table
-from .shapes import Shapes, distance, random_sources, vertex_at
+from .shapes import Shapes, distance, random_sources
 from .statements import STATEMENTS
 
 TITLE = "Diffusion times and biharmonic distance on a hand"
@@ -38,7 +38,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     x = surface.vertices
     low, high = x.min(axis=0), x.max(axis=0)
     width = (x[np.argmax(x[:, 1]), 0] - low[0]) / (high[0] - low[0])
-    pictured = vertex_at(surface, float(width), 0.88)
+    pictured = shapes.vertex_at(surface, float(width), 0.88)
     share = (x[:, 1] - low[1]) / (high[1] - low[1])
     palm = (share > PALM[0]) & (share < PALM[1])
     sources = [pictured, *random_sources(surface, QUICK if quick else RANDOM, share > FINGERS)]

@@ -89,8 +89,8 @@ def kinked_edges(surface: Surface, field: np.ndarray, geodesic: np.ndarray) -> t
 
 
 def over(one: float, other: float) -> float:
-    """How many times another number one is; 0 where both vanish, as nothing is not more than nothing."""
-    return one / other if other > 0 else (np.inf if one > 0 else 0.0)
+    """How many times another number one is; NaN where both vanish, which tells nothing."""
+    return one / other if other > 0 else (np.inf if one > 0 else np.nan)
 
 
 def marks(surface: Surface, field: np.ndarray, source: int) -> tuple[Mark, ...]:

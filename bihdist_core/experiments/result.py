@@ -26,7 +26,8 @@ class Claim:
     """What was measured of a statement, by its id: numbers by the names of its parts, and what there is to add.
 
     note: further numbers, in a sentence.  warning: why the numbers may be off, such as a loaded computer.  failure: why
-    there are none, or not all.  ParameterError for an unknown id or part.
+    there are none, or not all.  words: the statement with the sizes that were measured, where it names others.
+    ParameterError for an unknown id or part.
     """
 
     id: str
@@ -34,6 +35,7 @@ class Claim:
     note: str = ""
     warning: str = ""
     failure: str = ""
+    words: str = ""
 
     def __post_init__(self) -> None:
         if self.id not in STATEMENTS:
@@ -49,7 +51,7 @@ class Claim:
     @property
     def text(self) -> str:
         """The statement in words."""
-        return self.statement.text
+        return self.words or self.statement.text
 
     @property
     def verdict(self) -> Verdict | None:
@@ -102,7 +104,7 @@ class Panel:
     """One picture: a field (n,) on the surface of that name in `Result.surfaces`, or the bare surface without field.
 
     row: panels of one row belong side by side.  style: "surface", or "height" for a flat domain whose field is drawn
-    as a height.  views: names of directions, "front" (seen from +z), "back", "source" (the side that sees the row's
+    as a height.  views: names of directions, "front", "back", "source" (the side that sees the row's
     first mark best), or "zoom" (around `zoom_vertex`, showing `zoom_radius`, in the surface's unit).  Isolines:
     `isoline_count` equally spaced ones.  exaggerate: colours show the field to this power; below 1 small values are
     spread out.  failure: why a field is missing.

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..analysis.upright import axes_of
 from ..applications.resizing import at_most, resized
 from ..distances.answers import Distances
 from ..distances.distance import Distance
@@ -20,6 +21,9 @@ from .parts import Parts
 
 NAMES = ("figure", "figure_pose2", "animal", "hand", "genus3", "domain", "scan")
 """The surfaces that the experiments know: y is up, and the front looks to +z (the animal's head is at +x)."""
+
+UPPER_BACK = (0.5, 0.72)
+"""Where figures 3 and 6 and others start from, on the back of the person: shares of width and height."""
 
 SEEDS = ("vertex 0", "seed 1", "seed 2", "seed 3", "seed 4")
 """The first starts of every protocol: the first vertex, and some drawn at random once and for all."""
@@ -39,14 +43,20 @@ def starts(count: int = STARTS) -> tuple[str, ...]:
 class Shapes:
     """The surfaces by name, read when first needed; or, in the place of all of them, the reader's own.
 
-    meshes: surfaces or paths of mesh files.  own: the reader's surface.
+    meshes: surfaces or paths of mesh files.  own: the reader's surface.  up: the axis that is up in all of them, such
+    as "z" or "-y".
     """
 
     def __init__(
-        self, meshes: Mapping[str, Surface | str | os.PathLike[str]] | None = None, own: Surface | None = None
+        self,
+        meshes: Mapping[str, Surface | str | os.PathLike[str]] | None = None,
+        own: Surface | None = None,
+        up: str = "y",
     ) -> None:
         self._meshes = dict(meshes or {})
         self.own = own
+        self.axes = axes_of(up)
+        """(3, 3) columns: what is right, up and to the front."""
         self._surfaces: dict[str, Surface] = {}
         self._laplacians: dict[str, Laplacian] = {}
         self.kept: dict[object, object] = {}
@@ -119,6 +129,22 @@ class Shapes:
             return surface.component(0)[0]
         return surface
 
+    def vertex_at(self, surface: Surface, x: float, y: float, side: str = "front") -> int:
+        """The vertex of one of them seen at shares x and y of its width and height, from the "front" or the "back"."""
+        ids = np.flatnonzero(surface.component_of_vertex == 0)
+        places = surface.vertices[ids] @ self.axes
+        low, high = places.min(axis=0), places.max(axis=0)
+        at = low[:2] + np.array([x, y]) * (high - low)[:2]
+        off = np.linalg.norm(places[:, :2] - at, axis=1)
+        # Both sides have a vertex within an edge or so of the ray, unless it misses the surface.
+        near = np.flatnonzero(off <= max(1.5 * surface.mean_edge_length, float(off.min())))
+        depth = places[near, 2]
+        return int(ids[near[np.argmin(depth) if side == "back" else np.argmax(depth)]])
+
+    def pictured_source(self, name: str, side: str) -> int:
+        """The vertex that figures 1, 4 and 5 start from, on the "front" or the "back" of the surface of that name."""
+        return self.vertex_at(self[name], *PLACES[side].get(name, PLACES[side]["figure"]), side)
+
 
 DISTANCES = ("biharmonic", "geodesic", "diffusion t = 1")
 
@@ -150,14 +176,15 @@ def start_vertex(surface: Surface, seed: str = "vertex 0") -> int:
 
 PLACES: dict[str, dict[str, tuple[float, float]]] = {
     "front": {"figure": (0.5, 0.75), "animal": (0.5, 0.62), "hand": (0.5, 0.4), "genus3": (0.5, 0.4)},
-    "back": {"figure": (0.5, 0.72), "figure_pose2": (0.5, 0.72), "animal": (0.5, 0.62), "hand": (0.5, 0.45)},
+    "back": {
+        "figure": UPPER_BACK,
+        "figure_pose2": UPPER_BACK,
+        "animal": (0.5, 0.62),
+        "hand": (0.5, 0.45),
+        "genus3": (0.5, 0.5),
+    },
 }
-"""Where the pictured sources are: shares of width and height; in the middle for other shapes."""
-
-
-def pictured_source(surface: Surface, name: str, side: str) -> int:
-    """The vertex that figures 1, 4 and 5 start from, on the "front" or the "back"."""
-    return vertex_at(surface, *PLACES[side].get(name, (0.5, 0.5)), side)
+"""Where the pictured sources are: shares of width and height; those of the person for meshes of a reader."""
 
 
 def random_sources(surface: Surface, count: int, among: np.ndarray | None = None) -> list[int]:
@@ -180,16 +207,3 @@ def spread_points(surface: Surface, count: int, start: str | int = "vertex 0") -
         points.append(int(np.argmax(nearest)))
         nearest = np.minimum(nearest, lengths.distances(points[-1]))
     return ids[points]
-
-
-def vertex_at(surface: Surface, x: float, y: float, side: str = "front") -> int:
-    """The vertex seen at shares x and y of the surface's width and height, from the front (+z) or from the "back"."""
-    vertices = surface.vertices
-    ids = np.flatnonzero(surface.component_of_vertex == 0)
-    low, high = vertices[ids].min(axis=0), vertices[ids].max(axis=0)
-    at = low[:2] + np.array([x, y]) * (high - low)[:2]
-    off = np.linalg.norm(vertices[ids, :2] - at, axis=1)
-    # Both sides have a vertex within an edge or so of the ray, unless it misses the surface.
-    near = ids[off <= max(1.5 * surface.mean_edge_length, float(off.min()))]
-    depth = vertices[near, 2]
-    return int(near[np.argmin(depth) if side == "back" else np.argmax(depth)])

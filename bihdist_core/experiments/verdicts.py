@@ -84,10 +84,15 @@ def between(low: float, high: float, unit: str = "") -> Limit:
 
 @dataclass(frozen=True)
 class BySource:
-    """A number from each pictured source (one for each shape), and from each random one."""
+    """A number from each pictured source (one for each shape), and from each random one; NaN for 0/0."""
 
     pictured: tuple[float, ...]
     random: tuple[float, ...] = ()
+
+    @property
+    def known(self) -> "BySource":
+        """Those that are numbers."""
+        return BySource(*(tuple(x for x in each if not np.isnan(x)) for each in (self.pictured, self.random)))
 
 
 @dataclass(frozen=True)
@@ -115,14 +120,16 @@ def number_of(numbers: Numbers) -> float:
     """The one number that stands for them: the estimate, or the median of the pictured sources, or of the others."""
     if isinstance(numbers, Estimate):
         return numbers.value
-    return float(np.median(numbers.pictured or numbers.random or (np.nan,)))
+    known = numbers.known
+    return float(np.median(known.pictured or known.random or (np.nan,)))
 
 
 def ends_of(numbers: Numbers) -> tuple[float, float]:
     """The interval of an estimate; the least and the greatest of all sources' numbers."""
     if isinstance(numbers, Estimate):
         return numbers.low, numbers.high
-    every = (*numbers.pictured, *numbers.random) or (np.nan,)
+    known = numbers.known
+    every = (*known.pictured, *known.random) or (np.nan,)
     return float(min(every)), float(max(every))
 
 
@@ -195,10 +202,11 @@ class Part:
         return f"{said}, pictured {self.of} and {100 * MOST:g} % of random ones"
 
     def counts(self, numbers: Numbers) -> tuple[int, int | None]:
-        """How many random sources or measurements there are, and how many of the sources meet the limit."""
+        """How many random sources or measurements tell something, and how many of the sources meet the limit."""
         if isinstance(numbers, Estimate):
             return numbers.count, None
-        return len(numbers.random), sum(self.limit.meets(number) for number in numbers.random)
+        random = numbers.known.random
+        return len(random), sum(self.limit.meets(number) for number in random)
 
     def said(self, numbers: Numbers) -> str:
         """The numbers with their spread, in words: "2.1 % pictured; 1.8 to 3 % from 24 random sources"."""
@@ -210,16 +218,25 @@ class Part:
             value, ends = self.limit.said(numbers.value), _span(self.limit, numbers.low, numbers.high)
             return value if ends == value else f"{value} ({ends})"
         said = []
-        if numbers.pictured:
-            said.append(f"{_span(self.limit, min(numbers.pictured), max(numbers.pictured))} pictured")
-        if numbers.random:
-            least, most, count = min(numbers.random), max(numbers.random), len(numbers.random)
-            of = self.of if count > 1 else self.of[:-1]
-            said.append(f"{_span(self.limit, least, most)} from {count} random {of}")
+        known = numbers.known
+        if known.pictured:
+            said.append(f"{_span(self.limit, min(known.pictured), max(known.pictured))} pictured")
+        elif numbers.pictured:
+            said.append("0/0 pictured")
+        if known.random:
+            said.append(f"{_span(self.limit, min(known.random), max(known.random))} {self._from(len(known.random))}")
+        if missing := len(numbers.random) - len(known.random):
+            said.append(f"0/0 {self._from(missing)}")
         return "; ".join(said)
 
+    def _from(self, count: int) -> str:
+        return f"from {count} random {self.of if count > 1 else self.of[:-1]}"
+
     def judge(self, numbers: Numbers | None) -> Verdict | None:
-        """What the numbers say; None where there are none.  ParameterError for numbers of the other sort."""
+        """What the numbers say; None where there are none, or only 0/0 from the pictured sources.
+
+        Raises ParameterError for numbers of the other sort.
+        """
         if numbers is None:
             return None
         if isinstance(numbers, Estimate) == (self.by == "sources"):
@@ -229,10 +246,11 @@ class Part:
             if sure and all(self.limit.meets(x) for x in (numbers.low, numbers.value, numbers.high)):
                 return "holds"
             return "partly" if self.limit.meets(numbers.value) else "does not hold"
-        if not numbers.pictured and not numbers.random:
+        known = numbers.known
+        if not known.pictured and (numbers.pictured or not known.random):
             return None
-        shown = bool(numbers.pictured) and self.share(numbers.pictured) == 1
-        share = self.share(numbers.random)
+        shown = bool(known.pictured) and self.share(known.pictured) == 1
+        share = self.share(known.random)
         if shown and share >= MOST:
             return "holds"
         return "partly" if shown or share > MAJORITY else "does not hold"

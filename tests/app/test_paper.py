@@ -116,6 +116,15 @@ def test_a_quick_page_says_that_its_verdicts_are():
     assert "These verdicts are the quick ones" not in page("Title", "Introduction.", [section])
 
 
+def test_a_statement_on_other_sizes_than_its_own_is_told_in_theirs():
+    words = "Biharmonic distance is insensitive to simplification from 400 to 150 vertices."
+    claim = Claim("fig6-5", {"mean change, biharmonic": BySource((0.01,), (0.01,))}, words=words)
+    for text in (verdicts.statements("fig6", [claim]), verdicts.overview([("fig6", [claim])])):
+        assert words in text
+        assert "14,000" not in text
+    assert claim.rows()[0][1] == words
+
+
 @pytest.mark.parametrize(
     ("limit", "numbers", "dots"),
     [
@@ -124,6 +133,7 @@ def test_a_quick_page_says_that_its_verdicts_are():
         (above(0), Estimate(1.0, -0.5, 2.5, 25), 0),
         (above(0), Estimate(1.0, -np.inf, np.inf, 2), 0),
         (at_most(0), BySource((0.0,), (0.0, 0.0)), 2),
+        (at_most(1), BySource((np.nan,), (0.2, np.nan, 3.0)), 2),
     ],
 )
 def test_a_spread_is_drawn_with_what_the_rule_allows(limit, numbers, dots):

@@ -10,7 +10,7 @@ from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.experiments import EXPERIMENTS, SEEDS, Shapes, fig9, fig10, table1, table2
 from bihdist_core.experiments._claims_topology import APART, FAR_ROUND, far_pairs, nearly_touching
 from bihdist_core.experiments.result import Table
-from bihdist_core.experiments.shapes import spread_points, start_vertex, starts, vertex_at
+from bihdist_core.experiments.shapes import spread_points, start_vertex, starts
 from bihdist_core.experiments.spheres import icosphere
 from tests.shapes import bumpy, grid, torus, two_pieces
 
@@ -87,12 +87,12 @@ def test_vertices_are_found_by_their_place():
     x, y, z = s.vertices.T
     for side, sign in (("front", 1), ("back", -1)):
         # Within 1.5 edges of the ray: 6 % of the width.
-        v = vertex_at(s, 0.5, 0.7, side)
+        v = Shapes(own=s).vertex_at(s, 0.5, 0.7, side)
         assert sign * z[v] > 0.3
         assert (x[v] - x.min()) / np.ptp(x) == pytest.approx(0.5, abs=0.07)
         assert (y[v] - y.min()) / np.ptp(y) == pytest.approx(0.7, abs=0.07)
     # A ray beside the surface finds the vertex nearest to it.
-    assert vertex_at(grid(4, 4), 5, 5) == 24
+    assert Shapes({}).vertex_at(grid(4, 4), 5, 5) == 24
 
 
 def test_tables_are_asked_by_their_columns():

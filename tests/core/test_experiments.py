@@ -38,6 +38,7 @@ def result(shapes):
     with pytest.MonkeyPatch.context() as patch:
         for module, sizes in [(table1, (500, 1000)), (table2, (500, 1000)), (_claims_growth, (500, 1000, 2000))]:
             patch.setattr(module, "QUICK_SIZES", sizes)
+        patch.setattr(table1, "JUDGED", 1000)
 
         def compute(id):
             if id not in results:

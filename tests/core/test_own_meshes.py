@@ -7,6 +7,7 @@ import pytest
 
 from bihdist_core import SolverError, Surface
 from bihdist_core.analysis.quality import small_radius
+from bihdist_core.analysis.upright import axes_of
 from bihdist_core.distances.geodesic import GeodesicDistance
 from bihdist_core.experiments import (
     EXPERIMENTS,
@@ -17,13 +18,15 @@ from bihdist_core.experiments import (
     _claims_metric,
     _claims_sampling,
     _claims_topology,
+    _comparison,
     circles,
+    fig1,
     fig3,
     fig6,
     shapes,
 )
 from bihdist_core.progress import part
-from tests.shapes import bumpy, spike, two_pieces
+from tests.shapes import bumpy, grid, spike, two_pieces
 
 ASSETS = Path(__file__).resolve().parents[2] / "assets"
 
@@ -125,6 +128,7 @@ def test_fig6_judges_what_needs_no_diffusion_distance_without_it(refuse, monkeyp
         assert set(claim.numbers) == set(claim.statement.names)
         assert claim.verdict
         assert "geodesic" in claim.note
+    assert claims["fig6-5"].text == "Biharmonic distance is insensitive to simplification from 400 to 150 vertices."
     # A mesh has one pose: that is no failure.
     assert claims["fig6-6"].failure == "There is no other pose of this mesh to compare it with."
     assert not any("pose" in each.part for each in result.not_done)
@@ -197,6 +201,39 @@ def test_fig4_judges_each_statement_from_the_distances_it_needs(refuse, kind, ju
     assert all(table.rows for table in result.tables)
 
 
+def test_fig4_does_not_judge_kinks_where_there_are_none():
+    # Nothing bends the geodesics of a square.
+    claim = EXPERIMENTS["fig4"].compute(Shapes(own=grid(12, 12)), quick=True).claims[3]
+    assert claim.verdict is None
+    assert "0/0 pictured" in claim.measured
+
+
+def test_what_is_pictured_goes_by_the_axis_that_is_up(monkeypatch):
+    def none(*_):
+        raise SolverError("No circles, which take long.")
+
+    for module in (fig1, _comparison):
+        monkeypatch.setattr(module, "shared_circles", none)
+    surface = bumpy(150)
+    as_before = Shapes(own=surface)
+    for up in ("-y", "x", "z"):
+        # Its front and its top are where they were, in coordinates that are others.
+        turned = Surface(surface.vertices @ axes_of(up).T, surface.faces, surface.name)
+        by_axis = Shapes(own=turned, up=up)
+        for side in ("front", "back"):
+            at = [shapes.vertex_at(shapes.own, 0.4, 0.8, side) for shapes in (as_before, by_axis)]
+            assert at[0] == at[1]
+        assert Shapes(own=turned).vertex_at(turned, 0.4, 0.8, "back") != at[0]
+    for id in ("fig1", "fig3", "fig4", "alpha"):
+        one, other = (EXPERIMENTS[id].compute(shapes, quick=True) for shapes in (as_before, by_axis))
+        assert [panel.marks[0] for panel in one.panels] == [panel.marks[0] for panel in other.panels], id
+        if id == "fig4":
+            # From sources on the back minima are looked for on the front.
+            front, same = (next(iter(result.claims[1].numbers.values())) for result in (one, other))
+            assert front.pictured == pytest.approx(same.pictured, abs=1e-9)
+            assert front.random == pytest.approx(same.random, abs=1e-9)
+
+
 def test_fig3_loses_no_statement(refuse, monkeypatch):
     refuse("diffusion t = 1")
     own = Shapes(own=bumpy(400))
@@ -235,3 +272,12 @@ def test_fig3_without_its_scan_has_the_holes():
     assert [each.part for each in result.not_done] == ["scan"]
     assert [claim.verdict is None for claim in result.claims] == [True, False]
     assert "'scan'" in result.claims[0].failure
+
+
+@pytest.mark.parametrize("n", [5, 60])
+def test_fig8_judges_no_mesh_that_has_fewer_eigenpairs(n):
+    result = EXPERIMENTS["fig8"].compute(Shapes(own=bumpy(n)), quick=True)
+    (claim,) = result.claims
+    assert (claim.verdict, claim.numbers) == (None, {})
+    assert claim.failure == f"It is judged over the first 200 eigenpairs, and bumpy has {n - 1}."
+    assert len(result.charts[0].series[0].x) == n - 1

@@ -77,6 +77,7 @@ def test_a_busy_computer_is_said_to_be_one(monkeypatch):
 @pytest.mark.parametrize("module", [table1, table2])
 def test_verdicts_on_times_do_not_depend_on_the_wall(module, clocks, monkeypatch):
     monkeypatch.setattr(module, "QUICK_SIZES", (400, 500, 600))
+    monkeypatch.setattr(table1, "JUDGED", 600)
     # What is timed takes no time of its own here.
     nothing = {
         table1: ("_columns", lambda *_: lambda ids: np.zeros((1, len(ids)))),
@@ -93,6 +94,18 @@ def test_verdicts_on_times_do_not_depend_on_the_wall(module, clocks, monkeypatch
     assert numbers[0] == numbers[1]
     # The last run waited for its processor.
     assert all("busy" in claim.warning for claim in result.claims)
+
+
+def test_table1_is_not_judged_below_the_papers_largest_size(clocks, monkeypatch):
+    monkeypatch.setattr(table1, "_columns", lambda *_: lambda ids: np.zeros((1, len(ids))))
+    monkeypatch.setattr(table1, "QUICK_SIZES", (200, 300))
+    clocks([1.0, 2.0, 7.0], [1.0])
+    result = table1.compute(Shapes({"figure": bumpy(300)}), quick=True)
+    claim = result.claims[0]
+    assert (claim.verdict, claim.numbers, result.not_done) == (None, {}, ())
+    assert claim.failure == "It is judged at 16,000 vertices, and the largest size here is 300."
+    assert "at 300 vertices" in claim.note
+    assert result.claims[1].verdict
 
 
 def test_a_few_blocks_of_sources_stand_for_all(clocks):

@@ -40,7 +40,9 @@ def sources(met, of, pictured=True):
         (sources(5, 10, pictured=False), FAILS),  # half is no majority
         (BySource((1.0,)), PARTLY),  # no random ones
         (BySource((1.0, 1.0001), (1.0,) * 10), PARTLY),  # one of two pictured ones
-        (BySource((np.nan,), (np.nan,)), FAILS),
+        (BySource((np.nan,), (np.nan,)), None),  # 0/0 is not judged
+        (BySource((np.nan,), (1.0,) * 10), None),  # nor without the pictured source
+        (BySource((1.0, np.nan), (1.0,) * 9 + (np.nan,)), HOLDS),  # what tells nothing is left out
         (BySource(()), None),
         (None, None),
     ],
@@ -157,6 +159,9 @@ def test_numbers_are_said_with_their_spread():
     part = Part("change", at_most(0.05, "%"))
     assert part.said(BySource((0.021,), (0.018, 0.03))) == "2.1 % pictured; 1.8 to 3 % from 2 random sources"
     assert part.said(BySource((0.021, 0.05), (0.03,))) == "2.1 to 5 % pictured; 3 % from 1 random source"
+    assert part.said(BySource((np.nan,), (0.03, np.nan, np.nan))) == (
+        "0/0 pictured; 3 % from 1 random source; 0/0 from 2 random sources"
+    )
     exponent = Part("exponent", at_most(2), "interval")
     assert exponent.said(Estimate(1.9, 1.7, 2.1, 4)) == "1.9 (1.7 to 2.1)"
     assert exponent.said(Estimate(1.9, -np.inf, np.inf, 2)) == "1.9 (no interval)"
