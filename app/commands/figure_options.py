@@ -80,7 +80,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         type=_zoom,
         action="append",
         metavar="V[,FACTOR[,N]]",
-        help="enlarge the place of a vertex, perhaps with N steps of isolines",
+        help="enlarge the place of a vertex, perhaps with N isolines",
     )
     parser.add_argument("--anchors", type=_anchors, metavar="V[=VALUE],…", help="mark vertices, coloured by a value")
     _add_switch(parser, "anchor-values", "numbers beside the anchors that have a value (default: no)")

@@ -11,7 +11,15 @@ if TYPE_CHECKING:
 
 def add_levels(parser: argparse.ArgumentParser) -> None:
     """Where isolines are."""
-    parser.add_argument("--isolines", type=int, metavar="N", help="number of steps, 0 for none (default: 20)")
+    parser.add_argument(
+        "--isolines", type=int, metavar="N", help="about so many, at round values; 0 for none (default: 20)"
+    )
+    parser.add_argument(
+        "--equal-isolines",
+        action=argparse.BooleanOptionalAction,
+        default=None,
+        help="as many equal steps from 0 to the maximum, instead of round values",
+    )
     parser.add_argument(
         "--isoline-spacing", type=float, metavar="STEP", help="isolines at multiples of this, in the field's unit"
     )
@@ -49,12 +57,13 @@ def _where(options: argparse.Namespace, now: "Isolines") -> dict[str, Any]:
         "--isoline-values": options.isoline_values,
     }
     named = [name for name, value in asked.items() if value is not None]
+    round = {} if options.equal_isolines is None else {"round": not options.equal_isolines}
     if len(named) > 1:
         raise ParameterError(f"{' and '.join(named)} are two ways to say where isolines are; choose one.")
     if not named:
-        return {}
+        return round
     count = now.count if options.isolines is None else options.isolines
-    return {"spacing": options.isoline_spacing, "values": options.isoline_values or (), "count": count}
+    return {"spacing": options.isoline_spacing, "values": options.isoline_values or (), "count": count, **round}
 
 
 def with_isolines(document: "Document", options: argparse.Namespace) -> "Document":

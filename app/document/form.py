@@ -128,7 +128,8 @@ def _anchor_data(anchor: Anchor) -> dict[str, Any]:
 
 
 def _isolines_data(isolines: Isolines) -> int | dict[str, Any]:
-    data = _unlike(isolines, Isolines(isolines.count))
+    # Equal steps are what nothing says: files of older programs have no others.
+    data = _unlike(isolines, Isolines(isolines.count, round=False))
     return {"count": isolines.count, **data} if data else isolines.count
 
 
@@ -314,7 +315,7 @@ def _weights(data: Any, where: str) -> Weights:
 
 def read_isolines(data: Any, where: str) -> Isolines:
     if not isinstance(data, dict):
-        return placed(Isolines, where, count=whole(data, where))
+        return placed(Isolines, where, count=whole(data, where), round=False)
     readers = {
         "count": whole,
         "spacing": or_none(number),
@@ -322,8 +323,9 @@ def read_isolines(data: Any, where: str) -> Isolines:
         "bold": whole,
         "labels": flag,
         "through": listed(text),
+        "round": flag,
     }
-    return placed(Isolines, where, **record(data, where, readers, set()))
+    return placed(Isolines, where, **{"round": False, **record(data, where, readers, set())})
 
 
 def _colours(data: Any, where: str) -> Colours:

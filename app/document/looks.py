@@ -31,9 +31,10 @@ def one_of(value: str, choices: tuple[str, ...], what: str) -> str:
 class Isolines:
     """Which values have a line.
 
-    count: of equal steps from 0 to the maximum.  spacing: of multiples, or values, in the field's unit: instead of
-    steps.  bold: every so many is bolder, none for 0.  labels: the lines' values stand on them.  through: the names of
-    points that have a line of their own.
+    count: about so many, at multiples of a round step (1, 2, 2.5 or 5 times a power of ten); without `round`, of equal
+    steps from 0 to the maximum.  spacing: of multiples, or values, in the field's unit, instead.  bold: every so many
+    is bolder, none for 0.  labels: the lines' values stand on them.  through: the names of points that have a line of
+    their own.
     """
 
     count: int = 20
@@ -42,6 +43,7 @@ class Isolines:
     bold: int = 0
     labels: bool = False
     through: tuple[str, ...] = ()
+    round: bool = True
 
     def __post_init__(self) -> None:
         if not 0 <= self.count <= MOST_ISOLINES:

@@ -198,6 +198,7 @@ ROWS = (
             "Isolines.bold",
             "Isolines.labels",
             "Isolines.through",
+            "Isolines.round",
         ),
         say_isolines,
     ),

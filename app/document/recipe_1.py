@@ -8,6 +8,7 @@ from bihdist_core.errors import ParameterError
 from .document import Anchor, Document, MeshFile, Panel, Point
 from .form import read_isolines, read_view, read_zoom, with_range
 from .json_values import Reader, flag, listed, number, or_none, placed, record, text, whole
+from .looks import Isolines
 from .page import Page, Recipe
 from .quantities import DistanceFrom
 
@@ -63,7 +64,10 @@ def recipe_of_format_1(data: dict[str, Any]) -> Recipe:
         anchors=tuple(Anchor(f"anchor {k}", value) for k, (_, value) in enumerate(anchors, 1)),
         camera=views[0],
         next_id=len(values["panels"]),
-        **with_range({name: values[name] for name in DOCUMENT if name in values}),
+        **{
+            "isolines": Isolines(round=False),
+            **with_range({name: values[name] for name in DOCUMENT if name in values}),
+        },
         up="y",
     )
     page = {"hints": True, **{name: values[name] for name in PAGE if name in values}}

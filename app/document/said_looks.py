@@ -20,6 +20,9 @@ def say_isolines(recipe: Recipe) -> Said:
     elif isolines.count != USUAL.isolines.count:
         options.append(("--isolines", digits(isolines.count)))
         arguments["isolines"] = isolines.count
+    if not isolines.round:
+        options.append(("--equal-isolines", None))
+        arguments["equal_isolines"] = True
     vertices = [vertex_of(recipe.document.point(name)) for name in isolines.through]
     if None in vertices or not _has_own_points(recipe.document):
         raise Unsaid("An isoline passes through a point that is more than that.")

@@ -1,7 +1,8 @@
 """Which values have an isoline, and which of them stand out: the same for surfaces, pictures and colour bars."""
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -37,8 +38,8 @@ def levels(
 ) -> Levels:
     """Those of a field that goes up to `own`, from 0 or, if signed, -own, where the colour bar ends at `maximum`.
 
-    Multiples of a step lie above 0 and below the field's own maximum; if signed, there is an even number of steps from
-    -maximum to maximum, so that 0 has a line, which is bold.  through: the field's values at points, NaN for none.
+    Multiples of a step lie above 0 and below the field's own maximum; if signed, 0 has a line, which is bold, and equal
+    steps from -maximum to maximum are an even number.  through: the field's values at points, NaN for none.
     """
     if not (maximum > 0 and own > 0):
         return _merged(np.empty(0), np.empty(0, bool), np.empty(0), 0)
@@ -53,7 +54,8 @@ def levels(
     else:
         step = isolines.spacing or 0.0
         if isolines.spacing is None and isolines.count:
-            step = maximum / (half_steps(isolines.count) if signed else isolines.count)
+            steps = half_steps(isolines.count) if signed else isolines.count
+            step = round_step(maximum, steps) if isolines.round else maximum / steps
         last = int(min(np.ceil(own / step - 1e-6) - 1, 1e9)) if step else 0
         wanted = 2 * last + 1 if signed and step else last
         if isolines.spacing is None:
@@ -61,7 +63,8 @@ def levels(
         elif wanted > MOST_ISOLINES:
             step = 0.0
         number = np.arange(-last if signed else 1, last + 1) if step else np.empty(0, int)
-        values = step * number
+        # 0.15 and not 0.15000000000000002.
+        values = np.array([float(f"{v:.12g}") for v in step * number]) if isolines.round else step * number
     is_bold = number % isolines.bold == 0 if isolines.bold else np.zeros(len(number), bool)
     if signed:
         is_bold |= values == 0
@@ -85,6 +88,37 @@ def width_of(isolines: Isolines, is_bold: bool, is_zero: bool) -> float:
     if is_zero and not isolines.bold:
         return ZERO
     return BOLD if is_bold else 1.0
+
+
+ROUND = (1.0, 2.0, 2.5, 5.0)
+"""Times powers of ten: round steps."""
+
+SMALLEST = 1e-290
+"""Below it, powers of ten are no longer exact."""
+
+
+def round_step(top: float, steps: int) -> float:
+    """The round step of which so many lead from 0 to the top as nearly as can be, in proportion."""
+    size = top / steps
+    if size < SMALLEST:
+        return size
+    power = math.floor(math.log10(size))
+    found = [float(f"{digits}e{power + k}") for k in (0, 1) for digits in ROUND]
+    # No more than are drawn, so that none is missing at the top.
+    return min((s for s in found if top / s <= MOST_ISOLINES), key=lambda step: abs(math.log(size / step)))
+
+
+def in_unit(isolines: Isolines, scale: float, in_shares: bool, signed: bool) -> Isolines:
+    """Those of a document as those of a field in which its fractions are so many times as large.
+
+    in_shares: what is round are percentages of the maximum; these divide it into equal steps.
+    """
+    isolines = isolines.scaled(scale)
+    if not (in_shares and isolines.round and isolines.count):
+        return isolines
+    half = half_steps(isolines.count) if signed else isolines.count
+    steps = max(round(1 / round_step(1.0, half)), 1)
+    return replace(isolines, count=min(2 * steps if signed else steps, MOST_ISOLINES), round=False)
 
 
 def half_steps(count: int) -> int:

@@ -146,6 +146,11 @@ class PanelScene:
         return self._field.levels
 
     @property
+    def wanted_isolines(self) -> Isolines:
+        """What says where isolines are."""
+        return self._field.isolines
+
+    @property
     def isolines(self) -> np.ndarray:
         """(k,) those values."""
         return self.levels.values

@@ -19,12 +19,13 @@ from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.changing import COLUMNS, changed_mesh
 from ..document.document import Document, Panel, Zoom, starting_points
-from ..document.looks import NO_LINES
+from ..document.looks import NO_LINES, Isolines
 from ..document.measuring import vertices_of
 from ..document.page import Recipe
 from ..document.profile_words import shows_path
 from ..document.quantities import ChangeOf
 from ..document.sourcing import members_of
+from ..drawing.levels import in_unit
 from ..drawing.selected import selected_colours
 from ..drawing.source_lines import SourceLine, source_lines
 from ..drawing.style import PINS, style_of
@@ -222,7 +223,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         label="" if answer.failure else answer.label,
         unit=answer.unit,
         failure=answer.failure,
-        isolines=NO_LINES if answer.is_rough else document.isolines.scaled(answer.scale),
+        isolines=NO_LINES if answer.is_rough else _isolines(document, answer),
         through=tuple(point.value for point in through),
         views=tuple(opened.view_of(view, up) for view in views),
         marks=(
@@ -247,6 +248,11 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         regions=() if answer.field is None else _region_lines(document, panel, opened),
         selected=_selected(document, panel, surface),
     )
+
+
+def _isolines(document: Document, answer: Answer) -> Isolines:
+    in_shares = document.range == "shares" and answer.signs is None
+    return in_unit(document.isolines, answer.scale, in_shares, answer.is_signed)
 
 
 def _zooms(document: Document, opened: Opened) -> tuple[Zoom, ...]:

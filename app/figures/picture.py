@@ -96,6 +96,7 @@ def figure(
     predict: int | None = None,
     maps: Sequence[str] = (),
     isolines: int | Isolines = 20,
+    equal_isolines: bool = False,
     isoline_spacing: float | None = None,
     isoline_values: Sequence[float] = (),
     isoline_through: Sequence[int] = (),
@@ -151,7 +152,8 @@ def figure(
     cameras, side by side.  camera: the eleven
     numbers that `--camera` takes, after other views.  up: the axis that points up, "z" or "-z", "auto" for a guess.
     projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
-    with a factor, or with that and a number of steps.  isolines: a number of steps; isoline_spacing, isoline_values:
+    with a factor, or with that and a number of steps.  isolines: about how many, at round values;
+    equal_isolines: at so many equal steps from 0 to the maximum; isoline_spacing, isoline_values:
     where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.  anchors:
     vertices to be marked, perhaps each with a value; anchor_values: written beside them.  pins: vertices, or places in
     faces, with numbers, in their order.  extrema: triangles at maxima, and at minima away from
@@ -184,7 +186,12 @@ def figure(
     names = free_names("anchor", len(marked), [point.name for point in document.points])
     chosen = _views(views, camera)
     lines = isolines if isinstance(isolines, Isolines) else Isolines(isolines, isoline_spacing, tuple(isoline_values))
-    lines = replace(lines, bold=bold_isolines or lines.bold, labels=isoline_labels or lines.labels)
+    lines = replace(
+        lines,
+        bold=bold_isolines or lines.bold,
+        labels=isoline_labels or lines.labels,
+        round=lines.round and not equal_isolines,
+    )
     found = colours if isinstance(colours, Colours) else colours_named(colours)
     document = replace(
         document,

@@ -12,6 +12,7 @@ from bihdist_core.sources.words import short_words_of
 
 from ..document.page import Recipe
 from ..document.sourcing import members_of
+from ..drawing.levels import half_steps, round_step
 from ..session.questions import source_at
 from .description import Figure
 from .layout import lay_out
@@ -80,10 +81,24 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
         sentences.append(ranges[figure.range])
     isolines = figure.panels[0].isolines
     if isolines.count and isolines.spacing is None and not isolines.values:
-        sentences.append(f"Isolines at {isolines.count} equal steps")
+        if isolines.round:
+            steps = [f"{step:g}{with_unit(unit)}" for step, unit in _steps(figure)]
+            sentences.append(f"Isolines every {_listed(steps)}" if steps else "")
+        else:
+            sentences.append(f"Isolines at {isolines.count} equal steps")
     elif isolines.spacing is not None:
         sentences.append(f"Isolines every {isolines.spacing:.4g}")
-    return escaped(". ".join(sentence[0].upper() + sentence[1:] for sentence in sentences) + ".")
+    return escaped(". ".join(sentence[0].upper() + sentence[1:] for sentence in sentences if sentence) + ".")
+
+
+def _steps(figure: Figure) -> list[tuple[float, str]]:
+    """The round steps of the panels' isolines with their units, in order, each once."""
+    found = {}
+    for panel, top in zip(figure.panels, figure.tops(), strict=True):
+        if panel.field is not None and panel.isolines.count and top > 0:
+            half = half_steps(panel.isolines.count) if panel.signed else panel.isolines.count
+            found[round_step(top, half), panel.unit] = None
+    return list(found)
 
 
 def sources_in_words(sources: Sequence[Source]) -> str:

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
     from .canvas import Composition
 
-LINE_ROOM = 4.0
-"""Units from one isoline on a colour bar to the next, at least."""
+LINE_ROOM, END_ROOM = 4.0, 1.5
+"""Units from one isoline on a colour bar to the next, and to an end of the bar, at least."""
 
 
 def draw_words(axes: Axes, page: Composition) -> None:
@@ -122,11 +122,13 @@ def _draw_lines_on_bar(axes: Axes, page: Composition, bar: Bar) -> None:
     found = levels(panel.isolines, top, top, panel.signed, panel.through)
     low = -top if panel.signed else 0.0
     shares = (found.values - low) / (top - low) if top > 0 else found.values
-    usual = np.concatenate([[0.0], shares[~found.is_through], [1.0]])
-    room = float(np.diff(usual).min()) * (bar.box.height if bar.is_upright else bar.box.width)
+    usual, long = shares[~found.is_through], bar.box.height if bar.is_upright else bar.box.width
+    room = float(np.diff(usual).min(initial=1.0)) * long
     for share, value, bold, through in zip(shares, found.values, found.is_bold, found.is_through, strict=True):
         # Where bars are in shares of the maximum, they do not end there.
         at, width = bar.low + share * (bar.high - bar.low), style.isoline_width * stroke
+        if not through and min(share, 1 - share) * long < END_ROOM:
+            continue
         if through:
             _across(axes, bar, at, (0, 1), style.mark_edge, BOLD * width + 2 * CASING * stroke)
             _across(axes, bar, at, (0, 1), style.source, BOLD * width)

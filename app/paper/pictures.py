@@ -11,6 +11,7 @@ from bihdist_core.experiments import Panel, Result
 from bihdist_core.experiments.result import MARKS
 
 from ..document.camera import Camera, View
+from ..document.looks import Isolines
 from ..drawing.camera import directions, outwards_at
 from ..drawing.style import PAPER
 from ..figures.description import Entry
@@ -114,7 +115,7 @@ def _panel(result: Result, panel: Panel, up: str, side: str) -> FigurePanel:
         field,
         panel.heading,
         label=label,
-        isolines=panel.isoline_count,
+        isolines=Isolines(panel.isoline_count, round=False),
         views=("relief",) if is_relief else tuple(views) or ("front",),
         marks=_marks(panel.marks),
         height=RELIEF if is_relief else 0.0,

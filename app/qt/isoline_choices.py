@@ -19,13 +19,13 @@ class IsolineChoices:
         self._window = window
 
     def steps(self, count: int) -> None:
-        """So many equal steps from 0 to each panel's maximum."""
+        """About so many, at round values, or as many equal steps."""
         self._change("isolines", count=count, spacing=None, values=())
 
     def ask_steps(self) -> None:
         now = self._window.session.document.isolines.count
         count, chosen = QtWidgets.QInputDialog.getInt(
-            self._window, "Isolines", "Equal steps from 0 to each panel's maximum:", now, 0, MOST_ISOLINES
+            self._window, "Isolines", "About how many in each panel:", now, 0, MOST_ISOLINES
         )
         if chosen:
             self.steps(count)
@@ -61,6 +61,10 @@ class IsolineChoices:
         if not values:
             raise ParameterError("Isolines at values need one value at least, such as 0.5.")
         self._change("", spacing=None, values=values)
+
+    def equal(self, is_on: bool) -> None:
+        """Equal steps from 0 to each panel's maximum, or round values."""
+        self._change("", round=not is_on)
 
     def bold(self, is_on: bool) -> None:
         self._change("", bold=BOLD if is_on else 0)

@@ -33,7 +33,7 @@ REACHABLE = QtCore.QSize(120, 12)
 
 @dataclass(frozen=True)
 class Preferences:
-    """theme: one of CHOICES.  isolines: steps between the isolines of a mesh that is opened anew.  wheel_reversed:
+    """theme: one of CHOICES.  isolines: about how many a mesh has that is opened anew.  wheel_reversed:
     turning the wheel does the opposite.  geometry: where the window
     was, in Qt's own words; empty if nowhere.  last_folder: where a file was opened last; empty if nowhere.  turntable:
     what is up stays upright while the surface turns.  snap: the pointer puts sources on vertices."""

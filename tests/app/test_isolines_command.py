@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from app.drawing.levels import round_step
 from app.main import main
 from bihdist_core import BiharmonicDistance, GeodesicDistance, band, difference, isolines, read_surface
 from bihdist_core.analysis.level_words import region_from_words, value_from_words
@@ -28,12 +29,16 @@ def test_curves_are_those_of_python(mesh, tmp_path, capsys):
     surface = read_surface(mesh)
     field = BiharmonicDistance(surface).from_source(7)
     out = str(tmp_path / "lines.csv")
-    assert main(["isolines", mesh, "--source", "7", "--isolines", "5", "-o", out]) == 0
+    assert main(["isolines", mesh, "--source", "7", "--isolines", "5", "--equal-isolines", "-o", out]) == 0
     expected = isolines(surface, field, field.max() * np.arange(1, 5) / 5)
     found = rows(out)
     points = np.concatenate([line.points for line in expected])
     assert np.allclose(np.column_stack([found[k] for k in "xyz"]), points, atol=1e-12)
     assert f"{len(expected)} curve" in capsys.readouterr().out
+    # At round values where nothing else is said.
+    assert main(["isolines", mesh, "--source", "7", "--isolines", "5", "-o", out]) == 0
+    step = round_step(field.max(), 5)
+    assert np.unique(rows(out)["value"]).tolist() == pytest.approx(np.arange(step, field.max(), step))
 
 
 def test_values_may_be_named_and_lie_on_both_sides_of_0(mesh, tmp_path):

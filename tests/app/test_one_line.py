@@ -160,6 +160,7 @@ EXAMPLES = {
     "Isolines.values": lambda d, p: (replace(d, isolines=Isolines(values=(0.1, 0.25))), p),
     "Isolines.bold": lambda d, p: (replace(d, isolines=Isolines(bold=5)), p),
     "Isolines.labels": lambda d, p: (replace(d, isolines=Isolines(labels=True)), p),
+    "Isolines.round": lambda d, p: (replace(d, isolines=Isolines(round=False)), p),
     "Isolines.through": lambda d, p: (replace(d, isolines=Isolines(through=("source",))), p),
     "Colours.map": lambda d, p: (replace(d, colours=Colours("paper")), p),
     "Colours.stops": lambda d, p: (
@@ -346,7 +347,7 @@ def recipes(draw):
         points=(*document.points, *(Point(f"anchor {vertex}", vertex) for vertex in marks)),
         anchors=tuple(Anchor(f"anchor {vertex}", value) for vertex, value in marks.items()),
         areas=draw(st.sampled_from(["voronoi", "barycentric"])),
-        isolines=Isolines(draw(st.integers(0, 1000))),
+        isolines=Isolines(draw(st.integers(0, 1000)), round=draw(st.booleans())),
         range=draw(st.sampled_from(["own", "shared"])),
         zooms=tuple(draw(st.lists(st.builds(Zoom, VERTICES, st.floats(1.001, 100)), max_size=2))),
         height=draw(st.sampled_from([0.0, 0.35, 1 / 3])),

@@ -44,6 +44,7 @@ def test_a_recipe_of_version_0_1_draws_the_same_figure(mesh, tmp_path):
         "9,4",
         "--isolines",
         "12",
+        "--equal-isolines",
         "--hints",
     ]
     assert main(["figure", mesh, *words, *SMALL, "-o", str(tmp_path / "new.png")]) == 0

@@ -13,9 +13,11 @@ import pytest
 from matplotlib.patches import Rectangle
 
 from app.document.document import Zoom
+from app.drawing.levels import round_step
+from app.drawing.style import LINES
 from app.figures.bars import bar_words, ends, shared_words
 from app.figures.canvas import Composition, drawn, matplotlib_settings
-from app.figures.draw import Figure, FigurePanel, Mark, save_figure
+from app.figures.draw import Figure, FigurePanel, Mark, draw_figure, save_figure
 from app.figures.fonts import check_font
 from app.figures.layout import lay_out
 from app.figures.shots import Shot, take_shots
@@ -179,7 +181,11 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     caption = re.search(r"\\caption\{(.*)\}\n", text)[1]
     assert "Distances on mesh.off from vertex 4. Biharmonic, exact, 0 to " in caption
     assert "mesh units; diffusion, t = 1, 0 to " in caption
-    assert caption.endswith("Isolines at 9 equal steps.")
+    ends = [float(end) for end in re.findall(r"0 to ([0-9.]+)", caption)]
+    first, second = (f"{round_step(end, 9):g}" for end in ends)
+    assert f"Isolines every {first} mesh units and {second}" in caption
+    assert main([*words, "--equal-isolines"]) == 0
+    assert "Isolines at 9 equal steps." in (tmp_path / "my_figure.tex").read_text()
     assert escaped(r"50% of a_b & {c} \\ −1") == r"50\% of a\_b \& \{c\} \textbackslash{}\textbackslash{} $-$1"
     (tmp_path / "my_figure.tex").write_text("an article")
     assert main(words) == 2
@@ -202,6 +208,16 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
 )
 def test_sources_of_all_kinds_are_named_as_what_they_are(sources, said):
     assert sources_in_words([checked_source(words) for words in sources]) == said
+
+
+@pytest.mark.parametrize("top", [0.4, 0.4001, 0.4159])
+def test_lines_stand_on_the_bar_however_near_the_last_one_is_to_its_end(ball, top):
+    panel = FigurePanel(ball, np.linspace(0, top, 100), unit="mesh units")
+    figure = Figure((panel,), size=Size(600, 500, dpi=96), style=LINES)
+    box = lay_out(figure).cells[0].bar.box
+    row = draw_figure(figure)[round(box.y + box.height / 2), round(box.x) + 1 : round(box.right) - 1, :3]
+    is_line = (row[2:-2] < 225).all(axis=1)
+    assert np.diff(is_line.astype(int)).clip(0).sum() == (20 if top > 0.41 else 19)
 
 
 def test_a_caption_names_no_vertex_where_a_place_is_the_source(mesh_file, tmp_path):

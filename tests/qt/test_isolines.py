@@ -8,6 +8,7 @@ import pytest
 from app.document.document import Zoom
 from app.document.edits import move_source
 from app.document.looks import Isolines
+from app.drawing.levels import round_step
 from app.drawing.line_labels import value_text
 from bihdist_core import ParameterError
 from tests.shapes import bumpy
@@ -33,7 +34,7 @@ def words(menu):
 def test_the_menu_and_the_button_say_where_they_are(s):
     menu, button = s.window.menus.isolines, s.window.tools["isolines"]
     choices = s.window.choices.isoline
-    assert (words(menu), button.accessibleDescription()) == (["20 steps"], "20")
+    assert (words(menu), button.accessibleDescription()) == (["About 20"], "20")
     choices.steps(7)
     assert (words(menu), button.accessibleDescription()) == (["Another number (7)…"], "7")
     choices.spacing("0,25")
@@ -44,12 +45,12 @@ def test_the_menu_and_the_button_say_where_they_are(s):
     menu.labels.trigger()
     assert s.document.isolines == Isolines(7, values=(0.1, 0.5), bold=5, labels=True)
     choices.steps(10)
-    assert words(menu) == ["10 steps", "Every fifth bolder", "Labels"]
+    assert words(menu) == ["About 10", "Every fifth bolder", "Labels"]
     choices.steps(0)
     assert (words(menu)[0], button.accessibleDescription()) == ("None", "None")
     for _ in range(6):
         s.session.undo()
-    assert (s.document.isolines, words(menu)) == (Isolines(), ["20 steps"])
+    assert (s.document.isolines, words(menu)) == (Isolines(), ["About 20"])
 
 
 def test_what_is_typed_wrong_is_said(s):
@@ -125,9 +126,24 @@ def test_a_line_through_a_point_follows_source_and_undo(s):
     assert s.panels[-1].view.scene.levels.is_through.sum() == 1
 
 
+def test_lines_are_at_round_values_unless_equal_steps_are_chosen(s):
+    scene, menu = s.panels[0].view.scene, s.window.menus.isolines
+    top = scene.maximum
+    step = round_step(top, 20)
+    assert scene.isolines == pytest.approx(np.arange(step, top, step))
+    s.window.choices.range("shares")
+    assert scene.isolines == pytest.approx(top * np.arange(1, 20) / 20)
+    s.session.undo()
+    assert scene.isolines == pytest.approx(np.arange(step, top, step))
+    menu.equal.trigger()
+    assert scene.isolines == pytest.approx(top * np.arange(1, 20) / 20)
+    assert (s.document.isolines, menu.equal.isChecked()) == (Isolines(round=False), True)
+
+
 def test_the_colour_bar_tells_bold_lines_and_lines_through_points(s):
     choices = s.window.choices.isoline
     choices.steps(10)
+    choices.equal(True)
     choices.bold(True)
     choices.pass_through(0, 40)
     s.settle()
@@ -215,6 +231,7 @@ def test_labels_say_the_values_of_the_lines_they_stand_on(s):
 def test_an_inset_has_a_number_of_its_own(s):
     panel = s.panels[0]
     vertex = panel.view.met_at(panel.view.rect().center()).vertex
+    s.window.choices.isoline.equal(True)
     s.session.show(replace(s.document, zooms=(Zoom(vertex, 3.0, "top left"),)))
     s.settle()
     view, same = panel.view, panel.view.shot()

@@ -108,7 +108,7 @@ def test_the_words_people_know_find_what_they_mean_and_all_synonyms_belong_to_so
         "measure": "Pins",
         "compare": "Add a panel",
         "zoom": "Nearer",
-        "contours": "Isolines: 20 steps",
+        "contours": "Isolines: About 20",
         "dark mode": "Theme: Dark",
     }.items():
         rows = found(commands, typed)

@@ -96,7 +96,7 @@ def test_isolines_can_be_changed_and_left_out(screen, mesh_file):
         return sum((picture > 250).all(axis=2).sum() for picture in s.pictures())
 
     counts = []
-    for word in ("None", "20 steps"):
+    for word in ("None", "About 20"):
         entry(s.window.menus.isolines, word).trigger()
         counts.append(white())
     s.window.choices.isolines(60)

@@ -11,7 +11,7 @@ BOLD = 5
 
 
 class IsolineMenu(QtWidgets.QMenu):
-    """Entries for numbers of steps have them, as words, as data."""
+    """Entries for numbers of lines have them, as words, as data."""
 
     def __init__(self, window) -> None:
         super().__init__("&Isolines", window)
@@ -19,7 +19,7 @@ class IsolineMenu(QtWidgets.QMenu):
         self.setToolTipsVisible(True)
         self._where = QtWidgets.QActionGroup(self)
         for count in ISOLINES:
-            action = self._entry(f"{count} steps" if count else "None", str(count))
+            action = self._entry(f"About {count}" if count else "None", str(count))
             action.triggered.connect(lambda *_, count=count: choices.steps(count))
         self.addSeparator()
         self._other = self._entry("Another number…", "other")
@@ -31,6 +31,10 @@ class IsolineMenu(QtWidgets.QMenu):
         self._values.setToolTip("At the values that are typed")
         self._values.triggered.connect(choices.ask_values)
         self.addSeparator()
+        self.equal = self.addAction("Equal steps")
+        self.equal.setCheckable(True)
+        self.equal.setToolTip("As many steps from 0 to each panel's maximum, instead of round values")
+        self.equal.triggered.connect(choices.equal)
         self.bold = self.addAction("Every fifth bolder")
         self.bold.setCheckable(True)
         self.bold.triggered.connect(choices.bold)
@@ -56,6 +60,8 @@ class IsolineMenu(QtWidgets.QMenu):
         self._other.setText(f"Another number ({isolines.count})…" if word == "other" else "Another number…")
         self._spacing.setText(f"Spacing ({tick(isolines.spacing)})…" if isolines.spacing is not None else "Spacing…")
         self._values.setText(f"Values ({len(isolines.values)})…" if word == "values" else "Values…")
+        self.equal.setChecked(not isolines.round)
+        self.equal.setEnabled(isolines.spacing is None and not isolines.values)
         self.bold.setChecked(bool(isolines.bold))
         self.labels.setChecked(isolines.labels)
         self.through.setEnabled(bool(isolines.through))
@@ -69,9 +75,9 @@ class IsolineMenu(QtWidgets.QMenu):
 
 
 def isolines_in_words(isolines: Isolines) -> str:
-    """For the button: "20", "None", "0.05 apart", "3 values"."""
+    """For the button: "20", "20 equal", "None", "0.05 apart", "3 values"."""
     if isolines.spacing is not None:
         return f"{tick(isolines.spacing)} apart"
     if isolines.values:
         return "1 value" if len(isolines.values) == 1 else f"{len(isolines.values)} values"
-    return str(isolines.count or "None")
+    return f"{isolines.count}{'' if isolines.round else ' equal'}" if isolines.count else "None"

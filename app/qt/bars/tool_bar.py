@@ -62,7 +62,7 @@ class ToolBar(QtWidgets.QToolBar):
         self.addWidget(self.source_box)
         self._button("live", "live", "Live", actions["live"])
         self._line()
-        self._menu("isolines", "isolines", "Isolines", menus.isolines, "How many steps isolines make")
+        self._menu("isolines", "isolines", "Isolines", menus.isolines, "How many isolines there are, and where")
         self._menu("colours", "colours", "Colours", menus.colours, "The colours of the fields")
         self._menu("range", "range", "Range", menus.range, "Where the colours end: in each panel, or in all alike")
         self._menu("views", "views", "View", menus.views, "Standard views (1 to 7, R), views before and after")

@@ -32,7 +32,7 @@ class PreferencesDialog(QtWidgets.QDialog):
         self.isolines = QtWidgets.QSpinBox(maximum=MOST_ISOLINES, accessibleName="Isolines of new meshes")
         self.isolines.setFixedWidth(84)
         self.isolines.setToolTip(
-            f"Steps from 0 to the maximum when the program starts: 0 to {MOST_ISOLINES}, 0 for none"
+            f"About how many, at round values, when the program starts: 0 to {MOST_ISOLINES}, 0 for none"
         )
         self.wheel = Segments(WHEEL, "Wheel")
         self.wheel.setToolTip("What turning the wheel away from you does to the view")

@@ -17,6 +17,7 @@ from ...document.quantities import DistanceFrom
 from ...drawing.bands import band_edges, beyond
 from ...drawing.board import Board
 from ...drawing.drawable import drawable
+from ...drawing.levels import in_unit
 from ...drawing.picking import LatePicker
 from ...drawing.prepared import Drawn
 from ...drawing.relief import relief, rise
@@ -59,7 +60,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.bar = ColourBar(self)
         self.bar.end_wanted.connect(self.ask_end)
         self._end = EndPopUp(self)
-        self._end.chosen.connect(lambda end: self.ended.emit(None if end is None else end / self._scale))
+        self._end.chosen.connect(self._end_at)
         self.waiting = Waiting(self)
         self.waiting.cancelled.connect(self.cancelled)
         self.stopped = Stopped(self.view)
@@ -82,7 +83,6 @@ class DistancePanel(QtWidgets.QWidget):
         self._isolines = TWENTY_STEPS
         self.answer: Answer | None = None
         self._is_preview = self._is_waiting = self._in_shares = self._is_compact = False
-        self._scale = 1.0  # of its values, where those of the document are fractions
         self.show_active(False)
 
     # ------------------------------------------------------------------ how it looks
@@ -166,7 +166,7 @@ class DistancePanel(QtWidgets.QWidget):
         """These, and one through each of the points, which have dots."""
         self._isolines = isolines
         scene = self.view.scene
-        scene.show_isolines(isolines.scaled(self._scale), tuple(point.value for point in through))
+        scene.show_isolines(self._lines, tuple(point.value for point in through))
         lines = scene.levels.values[scene.levels.is_through]
         self.marks.mark_passed([point for point in through if point.value in lines])
         self._show_bands()
@@ -181,7 +181,17 @@ class DistancePanel(QtWidgets.QWidget):
     def _edges(self) -> np.ndarray:
         """(k,) shares of the maximum at which bands end."""
         is_signed = self.answer is not None and self.answer.is_signed
-        return band_edges(self._isolines.scaled(self._scale), self.view.scene.maximum, is_signed)
+        return band_edges(self._lines, self.view.scene.maximum, is_signed)
+
+    @property
+    def _lines(self) -> Isolines:
+        """The document's, as those of the answer."""
+        answer = self.answer
+        return (
+            self._isolines
+            if answer is None
+            else in_unit(self._isolines, answer.scale, self._in_shares, answer.is_signed)
+        )
 
     @property
     def opened(self) -> Opened | None:
@@ -229,9 +239,9 @@ class DistancePanel(QtWidgets.QWidget):
         """
         self._in_shares = in_shares and shown.answer.signs is None
         self.answer = answer = shown.answer
-        if answer.scale != self._scale:
-            self._scale = answer.scale
-            self.view.scene.show_isolines(self._isolines.scaled(self._scale))
+        scene = self.view.scene
+        if self._lines != scene.wanted_isolines:
+            scene.show_isolines(self._lines)
         self._raise(answer, maximum or answer.maximum, height)
         if answer.colours is not None:
             self.view.scene.show_colours(answer.colours)
@@ -295,6 +305,11 @@ class DistancePanel(QtWidgets.QWidget):
         answer = self.answer
         if answer is not None and answer.field is not None and not self._is_waiting:
             self._end.ask(self.bar, self.view.scene.maximum, answer.maximum, answer.unit)
+
+    def _end_at(self, end: float | None) -> None:
+        """What was typed is in the answer's unit, and the document's are fractions."""
+        scale = 1.0 if self.answer is None else self.answer.scale
+        self.ended.emit(None if end is None else end / scale)
 
     def _raise(self, answer: Answer, top: float, height: float) -> None:
         """Let the surface be a relief of the answer, or flat again."""
