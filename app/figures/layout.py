@@ -26,6 +26,10 @@ NARROW, WIDE = 420.0, 600.0
 SMALLEST_WORDS = 0.67
 """How much smaller at most, before they have to fit."""
 
+CLOSE, APART = 100.0, 200.0
+"""In panels as narrow as the one headings are no larger than labels, lest they be larger than the shapes; from the
+other on they have their usual size."""
+
 STROKE = 400.0
 """Views narrower than this many units have thinner lines."""
 
@@ -139,6 +143,12 @@ def _factor(figure: Figure, grid: Grid, room: float) -> float:
     return max(min(room / NARROW, 1.0), SMALLEST_WORDS)
 
 
+def _heading_size(figure: Figure, factor: float, room: float) -> float:
+    """How large headings are in panels of this width."""
+    share = 1.0 if figure.text is not None else min(max((room - CLOSE) / (APART - CLOSE), 0.0), 1.0)
+    return (LABEL + share * (HEADING - LABEL)) * factor
+
+
 # ---------------------------------------------------------------------- what has to find room
 def _shapes(figure: Figure, panel: int) -> list[tuple[float, float, Seen | None]]:
     """Of each view of a panel its width and height, 1 for the usual height, and what it shows if that is cropped."""
@@ -185,7 +195,9 @@ class _Texts:
         room = min(rooms) - 8
         most = 2 if level < 2 else 1
         heads = [p.heading if figure.title == "heading" and level < 5 else "" for p in figure.panels]
-        self.heading, self.headings = lettering.fitted(heads, HEADING * factor, room, most, True)
+        self.heading, self.headings = lettering.fitted(
+            heads, _heading_size(figure, factor, min(rooms)), room, most, True
+        )
         self.hint, self.hints = self._hints([p.hint for p in figure.panels], room) if level < 1 else (0.0, [()] * count)
         feet = [bars.bar_words(figure, k) if level < 3 else "" for k in range(count)]
         self.label, self.feet = lettering.fitted(feet, LABEL * factor, room, most + (figure.title == "caption"))

@@ -17,7 +17,7 @@ LEAST_DPI, MOST_DPI = 10, 2400
 LARGEST = 32_000
 """Pixels along a side."""
 
-NAMED = {"column": "85mm", "double": "178mm", "slide": "1920x1080@192dpi", "A0": "1189x841mm@150dpi"}
+NAMED = {"column": "85mm", "double": "178mm", "slide": "1920x1080@288dpi", "A0": "1189x841mm@150dpi"}
 """Sizes by what they are for: one or two columns of a journal, a screen that is looked at from afar, a poster."""
 
 _WRITTEN = re.compile(

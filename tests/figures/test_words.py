@@ -302,3 +302,33 @@ def test_what_an_inset_enlarges_is_inside_the_view():
         assert view.holds(frame.x, frame.y, 1e-9)
         assert view.holds(frame.right, frame.bottom, 1e-9)
         assert frame.width == pytest.approx(frame.height)
+
+
+def sizes_of(count, size):
+    """Of the headings, and of the smallest words, in pixels, with short names."""
+    ball = bumpy(100)
+    panels = tuple(
+        FigurePanel(ball, np.linspace(0, 1.0, 100), heading="biharmonic, exact", unit="mesh units")
+        for _ in range(count)
+    )
+    layout = lay_out(Figure(panels, size=Size.parse(size)))
+    headings = [words for cell in layout.cells for words in cell.words if words.is_bold]
+    texts = [words.size for cell in layout.cells for words in (*cell.words, *cell.bar.texts) if words.lines]
+    return layout, headings, layout.scale * min(texts)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 6])
+def test_words_of_a_slide_are_read_from_afar(count):
+    layout, headings, smallest = sizes_of(count, "slide")
+    assert layout.page == (1920, 1080)
+    assert smallest >= 24  # pixels
+    assert layout.scale * headings[0].size >= 1.2 * smallest
+
+
+def test_headings_of_narrow_panels_are_no_larger_than_labels_and_leave_the_width_to_the_shape():
+    layout, headings, smallest = sizes_of(3, "column")
+    for words, cell in zip(headings, layout.cells, strict=True):
+        assert layout.scale * words.size <= 1.05 * smallest
+        assert layout.lettering.width(words.lines[0], words.size, bold=True) < 0.8 * cell.box.width
+    _, wide, smallest = sizes_of(1, "column")  # which has room for them
+    assert wide[0].size > 1.15 * smallest / layout.scale

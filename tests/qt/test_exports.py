@@ -340,13 +340,13 @@ def test_a_size_has_a_name_or_is_one_s_own(small):
         size.write(text)
         assert size.name() == "Own size"
         assert dialog.chosen().page.size == text
-    for text, name in (("85mm", "One column"), ("1920×1080@192", "Slide"), ("", "Usual"), ("slide", "Slide")):
+    for text, name in (("85mm", "One column"), ("1920×1080@288", "Slide"), ("", "Usual"), ("slide", "Slide")):
         size.write(text)
         assert size.name() == name
     size.width_box.setFocus()
     QtTest.QTest.keyClicks(size.width_box, "0")
     assert size.name() == "Own size"
-    assert dialog.chosen().page.size == "19200x1080px@192"
+    assert dialog.chosen().page.size == "19200x1080px@288"
     size.width_box.clear()
     dialog.choose_path()
     assert "A height needs a width" in dialog._sentences[size.width_box].text()
