@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bihdist_core import Surface
+from bihdist_core import GeodesicDistance, Surface
 from tests.assets.test_samples import corner_angles, edge_lengths, sample, volume
 
 HEIGHTS = [0, 8, 16, 24, 32, 40]
@@ -98,3 +98,15 @@ def test_an_outline_cut_by_its_neighbours_triangles_is_refused() -> None:
     rings = [solid.walls(outline, (0.0, 7.0))[1] for outline in (10 * square, slot, hole)]
     with pytest.raises(ValueError, match=r"z = 7\.0 is too coarse"):
         solid.flat(rings, up=True)
+
+
+@pytest.mark.parametrize(
+    ("name", "heat", "dijkstra"), [("figure", (0.007, 0.03), (0.04, 0.06)), ("part", (0.03, 0.08), (0.1, 0.18))]
+)
+def test_geodesics_that_are_not_exact_are_off_by_what_is_said(name, heat, dijkstra) -> None:
+    # The means that `GeodesicDistance` names; from single sources they differ by half.
+    exact = GeodesicDistance(sample(name), "exact").from_source(100)
+    there = exact > 0
+    for method, (least, most) in (("heat", heat), ("dijkstra", dijkstra)):
+        found = GeodesicDistance(sample(name), method).from_source(100)
+        assert least < float((np.abs(found - exact)[there] / exact[there]).mean()) < most, method

@@ -164,7 +164,7 @@ def test_methods_that_are_not_exact_say_so_and_what_is_made_of_them():
     surface = bumpy(150)
     heat_method = GeodesicDistance(surface, "heat").certificate()
     assert heat_method.is_poor
-    assert heat_method.text == "accurate to 4 % of the maximum typically, and worse on coarse meshes"
+    assert heat_method.text == "accurate to 4 % of the maximum typically, and worse on coarse meshes and thin faces"
     assert GeodesicDistance(surface, "exact").certificate() == Certificate()
     nine = Certificate.of(9e-6)
     assert not nine.is_poor
