@@ -3,8 +3,8 @@
 Three ways.  The shortest path, exact (pygeodesic, Mitchell, Mount, Papadimitriou 1987).  The shortest path along edges,
 straightened by flipping edges until no part of it can be made shorter (potpourri3d, Sharp and Crane 2020): mostly the
 shortest, else by some thousandths longer, and in a hundredth of the time.  The shortest path along edges itself, 4 to
-13 % too long in the mean on the samples, on any mesh.  Both libraries hold the interpreter lock, and one of them can crash: so they run in a
-process of their own.
+13 % too long in the mean on the samples, on any mesh.  Both libraries hold the interpreter lock, and one of them can
+crash: so they run in a process of their own.
 """
 
 import importlib.util
