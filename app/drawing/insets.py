@@ -132,10 +132,15 @@ class Insets:
         return self._main
 
     @property
-    def covered(self) -> list[tuple[int, int, int, int]]:
+    def placed(self) -> dict[vtkRenderer, tuple[int, int, int, int]]:
         """(left, bottom, width, height) in device pixels of those that are seen."""
         seen = [r for r, is_seen in zip(self.renderers, self._in_sight, strict=False) if is_seen]
-        return [(*renderer.GetOrigin(), *renderer.GetSize()) for renderer in seen]
+        return {renderer: (*renderer.GetOrigin(), *renderer.GetSize()) for renderer in seen}
+
+    @property
+    def covered(self) -> list[tuple[int, int, int, int]]:
+        """Their boxes alone."""
+        return list(self.placed.values())
 
     # ------------------------------------------------------------------ where they are
     def _boxes(self) -> dict[str, Rectangle]:

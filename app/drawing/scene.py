@@ -30,13 +30,12 @@ class PanelScene:
         self.bounds: Sequence[float] = (0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
         self.seconds = 0.0  # that the last picture of all of it took
         self._field = FieldActor(style, scale)
-        self._source = Marks(style.marker_size * scale, style.mark_edge)
         self._lines = SourceLineActor(style, scale)
         self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
         self._anchored = Marks(style.marker_size * scale, style.mark_edge, are_rings=True)
         self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
         self._regions = RegionLines(style, scale)
-        marks = (self._source, self._largest, self._anchored, self._passed)
+        marks = (self._largest, self._anchored, self._passed)
         solid = [self._field.actor, self._regions.actor, self._lines.actor, *(each.actor for each in marks)]
         solid += [self._field.stand_in.actor]
         self._sized = (self._regions, self._lines, *marks)
@@ -72,7 +71,7 @@ class PanelScene:
     def show_surface(self, mesh: vtkPolyData, bounds: Sequence[float]) -> None:
         """Show a surface made by `drawable`, without a field yet."""
         self.show_shape(mesh, bounds)
-        self.mark_source(None)
+        self.show_source_lines([])
         self.mark_largest(None)
         self.mark_anchors(np.empty((0, 3)))
         self.show_regions([])
@@ -171,13 +170,8 @@ class PanelScene:
         return self._field.maximum
 
     # ------------------------------------------------------------------ marks
-    def mark_source(self, positions: np.ndarray | None, lines: Sequence[tuple[np.ndarray, bool]] = ()) -> None:
-        """Where the field starts, one place (3,) or several (k, 3).
-
-        lines: points (k, 3) of each line that it starts from, and whether the last joins the first.
-        """
-        places = np.empty((0, 3)) if positions is None else positions.reshape(-1, 3)
-        self._source.show(places, [self.style.source] * len(places))
+    def show_source_lines(self, lines: Sequence[tuple[np.ndarray, bool]]) -> None:
+        """Points (k, 3) of each line that the field starts from, and whether the last joins the first."""
         self._lines.show(lines)
 
     def mark_largest(self, position: np.ndarray | None) -> None:

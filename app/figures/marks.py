@@ -9,6 +9,7 @@ import numpy as np
 
 from ..drawing.corners import Rectangle, inside, joins
 from ..drawing.marks import DOT
+from ..drawing.source_disc import DASHED, DASHES, HALO, RIM
 from .boxes import Box, Words
 from .crosses import cross_of
 from .description import Mark
@@ -18,6 +19,7 @@ from .shots import Shot
 from .triangles import triangle_of
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from .canvas import Composition
@@ -28,17 +30,8 @@ POINT = 0.75
 MOST_NAMED = 3
 """So many hidden marks have a sentence each."""
 
-RING = 6.0
-"""Units across, from which on a mark is a ring, so that its place is seen in it."""
-
-RIM = 0.075
-"""The width of a mark's rims, as a share of what it is across."""
-
 LEAST_DOT = 4.0
 """Units across."""
-
-OPEN = 0.46
-"""The same of the hole of a ring."""
 
 LEAST_GHOST = 7.5
 """Units across, at which dashes are still told apart."""
@@ -50,7 +43,7 @@ GROUND = 0.8
 def draw_marks(
     axes: Axes, page: Composition, shot: Shot, order: int, frame, write: Callable[[Words, int], None]
 ) -> None:
-    """Those of one picture: rings around their places, with a halo at anchors, dashed where they are hidden."""
+    """Those of one picture: discs, rings with a halo at anchors, dashed rings where they are hidden."""
     style, panel = page.figure.style, page.figure.panels[shot.panel]
     across = page.layout.mark
     insets = [other.box for other in page.shots if other.panel == shot.panel and other.source is not None]
@@ -76,7 +69,7 @@ def draw_marks(
             continue
         mark = panel.marks[k]
         if mark.is_passed:
-            dot = _ring(x, y, max(DOT * across, LEAST_DOT), style.source, style.mark_edge, False, order)[0]
+            dot = _disc(x, y, max(DOT * across, LEAST_DOT), style.source, style.mark_edge, order)
             axes.add_artist(dot)
             if shot.source is not None:
                 dot.set_clip_path(frame)
@@ -99,7 +92,7 @@ def draw_marks(
         if mark.value is not None:
             patches = _anchor(x, y, across, style.mark_edge, order)
         else:
-            patches = _ring(x, y, across, colour, style.mark_edge, True, order)
+            patches = [_disc(x, y, across, colour, style.mark_edge, order)]
         for patch in patches:
             axes.add_artist(patch)
             if shot.source is not None:
@@ -121,7 +114,7 @@ def draw_sample(axes: Axes, page: Composition, mark: Mark, x: float, y: float, o
         elif mark.ball or mark.diamond:
             patches = solid_of(page, mark, x, y, False, order)
         else:
-            patches = _ring(x, y, across, style.source, style.mark_edge, True, order)
+            patches = [_disc(x, y, across, style.source, style.mark_edge, order)]
         for patch in patches:
             axes.add_artist(patch)
 
@@ -160,18 +153,12 @@ def _draw_pins(axes: Axes, page: Composition, shot: Shot, order: int, frame, ins
                 part.set_clip_path(frame)
 
 
-def _ring(x: float, y: float, across: float, colour, edge, may_be_open: bool, order: int) -> list:
-    from matplotlib.patches import Annulus, Circle
+def _disc(x: float, y: float, across: float, colour, edge, order: int) -> Artist:
+    from matplotlib.patches import Circle
 
     rim = max(RIM * across, 0.5)
-    if not may_be_open or across < RING:
-        look = {"facecolor": colour, "edgecolor": edge, "linewidth": rim * POINT}
-        return [Circle((x, y), across / 2 - rim / 2, zorder=order, **look)]
-    hole = OPEN * across / 2
-    # One in the other, so that no colour shows beside the rims.
-    dark = Annulus((x, y), across / 2, across / 2 - hole, facecolor=edge, linewidth=0, zorder=order)
-    light = Annulus((x, y), across / 2 - rim, across / 2 - hole - 2 * rim, facecolor=colour, linewidth=0, zorder=order)
-    return [dark, light]
+    look = {"facecolor": colour, "edgecolor": edge, "linewidth": rim * POINT}
+    return Circle((x, y), across / 2 - rim / 2, zorder=order, **look)
 
 
 def _anchor(x: float, y: float, across: float, edge, order: int) -> list:
@@ -188,9 +175,9 @@ def _draw_ghost(axes: Axes, x: float, y: float, across: float, style, order: int
     from matplotlib.patches import Circle
 
     across = max(across, LEAST_GHOST)
-    width = max(0.12 * across, 0.7)
-    light = {"edgecolor": style.background, "linewidth": 1.9 * width * POINT}
-    dark = {"edgecolor": style.text, "linewidth": width * POINT, "linestyle": (0, (2.2, 1.4))}
+    width = max(DASHED * across, 0.7)
+    light = {"edgecolor": style.background, "linewidth": HALO * width * POINT}
+    dark = {"edgecolor": style.text, "linewidth": width * POINT, "linestyle": (0, DASHES)}
     for look in (light, dark):
         axes.add_artist(Circle((x, y), across / 2 - width / 2, fill=False, zorder=order, **look))
 

@@ -8,62 +8,35 @@ from qtpy import QtCore, QtGui
 
 from ..look.look import LOOK
 from .overlay import shrunk
+from .seen_places import SeenPlaces
 
 SIZE = 6.0
 """From the centre to a corner, in logical pixels."""
 
-REST_MS = 120
-"""After the last move of the camera it is looked anew which of them are hidden."""
-
 BRIGHT, DARK = QtGui.QColor("#FFFFFF"), QtGui.QColor("#14161A")
 
 
-class ExtremumMarks(QtCore.QObject):
-    """view: the `View` that they lie over."""
+class ExtremumMarks(SeenPlaces):
+    """Maxima and minima."""
 
     def __init__(self, view: Any) -> None:
         super().__init__(view)
-        self._view = view
-        self.positions = np.empty((0, 3))
         self.is_maximum = np.empty(0, bool)
-        self._is_seen = np.empty(0, bool)
-        self._looked_from: tuple[float, ...] | None = None
-        self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._rest.timeout.connect(self._look)
 
     def show(self, positions: np.ndarray, is_maximum: np.ndarray) -> None:
         """Positions (k, 3), and (k,) whether they are maxima."""
         if np.array_equal(positions, self.positions) and np.array_equal(is_maximum, self.is_maximum):
             return
-        self.positions, self.is_maximum = positions, is_maximum
-        self._is_seen = np.ones(len(positions), bool)
-        self._looked_from = None
-        self._view.update()
+        self.is_maximum = is_maximum
+        self.place(positions)
 
     def paint(self, painter: QtGui.QPainter) -> None:
         if not len(self.positions):
             return
-        if self._looked_from is None:
-            self._look(then_paint=False)
-        elif self._looked_from != self._camera():
-            # Going through the surface for each of them is too slow while it turns.
-            self._rest.start()
-        for position, is_up, is_seen in zip(self.positions, self.is_maximum, self._is_seen, strict=True):
+        for position, is_up, is_seen in zip(self.positions, self.is_maximum, self.seen(), strict=True):
             at = self._view.place_of(position)
             with shrunk(painter, at, self._view.proportion):
                 paint_triangle(painter, at, bool(is_up), bool(is_seen))
-
-    def _look(self, then_paint: bool = True) -> None:
-        seen = np.array([self._view.sees(position) for position in self.positions], bool)
-        self._looked_from = self._camera()
-        changes = not np.array_equal(seen, self._is_seen)
-        self._is_seen = seen
-        if changes and then_paint:
-            self._view.update()
-
-    def _camera(self) -> tuple[float, ...]:
-        camera = self._view.camera
-        return (*camera.GetPosition(), *camera.GetFocalPoint(), camera.GetParallelProjection())
 
 
 def paint_triangle(painter: QtGui.QPainter, at: QtCore.QPointF, is_up: bool, is_seen: bool) -> None:

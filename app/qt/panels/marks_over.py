@@ -17,6 +17,7 @@ from .overlay import Pointed
 from .pair_marks import PairMarks, paint_legend
 from .path_marks import PathMarks
 from .pin_marks import PinMark, drop_under, paint_pins
+from .source_marks import SourceMarks
 
 if TYPE_CHECKING:
     from .view import View
@@ -31,6 +32,7 @@ class MarksOver:
     def __init__(self, view: "View") -> None:
         self._view = view
         self.extrema = ExtremumMarks(view)
+        self.sources = SourceMarks(view)
         self.path = PathMarks()
         self.pairs = PairMarks(view)
         self.pointed: Pointed | None = None
@@ -145,6 +147,7 @@ class MarksOver:
             painter.setPen(QtGui.QPen(QtGui.QColor(colour), DAB))
             painter.drawPoints(places)
         self.extrema.paint(painter)
+        self.sources.paint(painter)
         if self._has_axes:
             at = middle(view.width(), view.height(), view.scene.insets.corners)
             overlay.paint_axes(painter, arms(frame(camera_seen(view.camera, 1.0))), at)

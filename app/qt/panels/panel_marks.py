@@ -56,6 +56,7 @@ class PanelMarks:
         self._view.over.pairs.show((), None)
         self._view.over.show_anchors(())
         self._view.handles, self._view.over.strokes = np.empty((0, 3)), ()
+        self._view.over.sources.place(self.positions)
         self._put_extrema()
         self._put_ends()
         self._put_path()
@@ -63,10 +64,11 @@ class PanelMarks:
     def begin(self, surface: Surface) -> None:
         """Lie on a surface; nothing is marked there yet."""
         self.positions = surface.vertices
+        self._view.over.sources.place(np.empty((0, 3)))
 
     def follow(self, surface: Surface) -> None:
         """Lie on another shape of the surface from now on, but for the source and the anchors: see `mark_source`."""
-        self.begin(surface)
+        self.positions = surface.vertices
         self._put_path()
         self._put_pins()
         self._put_pairs()
@@ -91,7 +93,8 @@ class PanelMarks:
         lines = [(line.positions(self.positions), line.is_closed) for line in self._lines if has_shape]
         if self._held is None:
             self._view.handles = places
-        self._view.scene.mark_source(places, lines)
+        self._view.over.sources.place(places)
+        self._view.scene.show_source_lines(lines)
         self._view.redraw()
 
     def show_strokes(self, strokes: Sequence[tuple[np.ndarray, np.ndarray]]) -> None:

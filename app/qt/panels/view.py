@@ -104,6 +104,11 @@ class View(QtWidgets.QWidget):
         return proportion(self.width(), self.height())
 
     @property
+    def mark_size(self) -> float:
+        """How far the mark of a source is across, in logical pixels."""
+        return self.scene.style.marker_size * self.proportion
+
+    @property
     def is_empty(self) -> bool:
         return self._is_empty
 
@@ -242,8 +247,7 @@ class View(QtWidgets.QWidget):
         at = np.array([pixel_of(renderer, handle) for handle in self.handles])
         away = np.hypot(x - at[:, 0], y - at[:, 1])
         nearest = int(away.argmin())
-        size = self.scene.style.marker_size * self.proportion
-        reach = (size / 2 + MARK_SLACK) * self.devicePixelRatioF()
+        reach = (self.mark_size / 2 + MARK_SLACK) * self.devicePixelRatioF()
         return nearest if away[nearest] <= reach and self.sees(self.handles[nearest]) else -1
 
     # ------------------------------------------------------------------ the mouse
