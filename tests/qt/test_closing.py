@@ -121,7 +121,7 @@ def test_closing_asks_where_a_session_has_changed_since_it_was_saved(screen, mes
     assert not file.may_close(asked.answering("cancel"))
     assert file.may_close(asked.answering("discard"))
     assert file.may_close(asked.answering("save"))
-    assert asked == ["s [*].json has unsaved changes."] * 3
+    assert asked == ["The session s [*].json has unsaved changes."] * 3
     assert read_recipe(tmp_path / "s [*].json").document.sources == (7,)
     assert not s.window.isWindowModified()
     assert file.may_close(asked.answering("cancel"))
@@ -175,7 +175,8 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
     name = "s.json[*] - mesh.off" if was_saved else "mesh.off[*]"
     assert title(other.window) == (f"{name} - Biharmonic distance", True)
     assert not file.may_close(asked.answering("cancel"))
-    assert asked == ["s.json has unsaved changes." if was_saved else "What was recovered has not been saved."]
+    lost = "The session s.json has unsaved changes." if was_saved else "What was recovered has not been saved."
+    assert asked == [lost]
     file.save(None if was_saved else str(saved))
     assert read_recipe(saved).document.sources == (9,)
     assert title(other.window) == ("s.json[*] - mesh.off - Biharmonic distance", False)

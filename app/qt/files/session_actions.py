@@ -144,7 +144,7 @@ class SessionFile:
     @property
     def _question(self) -> str:
         if self.path is not None:
-            return f"{os.path.basename(self.path)} has unsaved changes."
+            return f"The session {os.path.basename(self.path)} has unsaved changes."
         if self._saved is not None:
             return "What was recovered has not been saved."
         *others, last = self._unsaved_work
