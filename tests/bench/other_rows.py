@@ -1,10 +1,11 @@
-"""Rows 5 and 6: eigenpairs, and geodesic distance by the heat method."""
+"""Rows 5 and 6: eigenpairs and what diffusion needs of them, and geodesic distance by the heat method."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from bihdist_core import GeodesicDistance, Surface
+from bihdist_core import DiffusionDistance, GeodesicDistance, Laplacian, Surface
+from bihdist_core.distances.diffusion import TOLERANCE
 from bihdist_core.distances.heat_geodesic import heat_matrix, heat_time
 from bihdist_core.solver.spectrum import Spectrum, smallest_eigenpairs
 
@@ -16,6 +17,8 @@ from .timing import alternate
 
 HEAT = 1e-6
 RESIDUAL, EIGENVALUE = 1e-4, 1e-6
+WEIGHT = 1e-8
+"""Leaving out smaller ones is the obvious rule, and off by up to 1e-4 of the maximum."""
 
 
 def eigenpairs(size: Size) -> Iterator[Line]:
@@ -39,6 +42,30 @@ def eigenpairs(size: Size) -> Iterator[Line]:
             tolerance=EIGENVALUE,
             note=f"residuals up to {result.answer.residuals.max():.0e}; peer: scipy eigsh, the same factor",
         )
+    surface = case.distance.surface
+    for t in (4.0, 1.0, 1 / 4):
+        result = alternate(lambda t=t: DiffusionDistance(surface, t), lambda t=t: by_weights(surface, t), 1)
+        yield compared(
+            5,
+            f"diffusion, t = {t:.3g}, right to {TOLERANCE:.0e}, {case.count}",
+            result,
+            bound=2.0,
+            error=result.answer.accuracy,
+            tolerance=1.1 * TOLERANCE,
+            note=f"{result.answer.pair_count(0)} eigenpairs; peer: the {result.peer_answer} of a weight above "
+            f"{WEIGHT:.0e} of the first",
+        )
+
+
+def by_weights(surface: Surface, t: float) -> int:
+    """Find the eigenpairs of a weight that is no less than a share of the first; how many there are."""
+    component = Laplacian(surface).components[0]
+    component.factor(diagonals=True)
+    found = component.spectrum(16)
+    last = found.eigenvalues[0] * (1 - np.log(WEIGHT) / t)
+    while (value := found.eigenvalues[-1]) < last:
+        found = component.spectrum(int(1.1 * len(found.eigenvalues) * last / value + 4))
+    return int(np.searchsorted(found.eigenvalues, last))
 
 
 def heat_geodesic(size: Size) -> Iterator[Line]:
