@@ -82,9 +82,8 @@ def test_what_was_stopped_is_asked_again_by_a_click(screen, mesh_file, gate):
     s.until(panel.waiting.isVisible)
     s.window.cancel()
     assert not panel.waiting.isVisible()
-    place = QtCore.QPoint(panel.view.width() // 2, panel.stopped.y() - 8)
     assert panel.stopped.isVisible()
-    QTest.mouseClick(panel.view, LEFT, pos=place)
+    QTest.mouseClick(panel.view, LEFT, pos=panel.view.rect().center())
     s.until(panel.waiting.isVisible)
     assert not panel.stopped.isVisible(), "it is not stopped any more"
     gate.set()

@@ -7,12 +7,12 @@ from bihdist_core.sources.words import short_words_of
 from ...session.answering import Shown
 from ..look.look import LOOK
 
-MARGIN = 24
-"""Between it and the edges of the view."""
+MARGIN, ABOVE = 24, 12
+"""Between it and the sides of the view, and its lower edge."""
 
 
 class Stopped(QtWidgets.QWidget):
-    """In the middle of a view; `retried` by its button."""
+    """Low in a view, where it hides little of a shape; `retried` by its button."""
 
     retried = QtCore.Signal()
 
@@ -41,7 +41,7 @@ class Stopped(QtWidgets.QWidget):
         return not self.isHidden() and self.words.text() == words
 
     def fit(self) -> None:
-        """Lie in the middle of the view, as narrow as the words are."""
+        """Lie low in the view, as narrow as the words are."""
         view = self.parentWidget().rect()
         margins, metrics = self.layout().contentsMargins(), self.words.fontMetrics()
         beside = margins.left() + margins.right()
@@ -52,7 +52,8 @@ class Stopped(QtWidgets.QWidget):
         width = max(words.width() + 2, self.button.sizeHint().width())
         self.words.setFixedSize(width, words.height())
         size = QtCore.QSize(width + beside, self.layout().totalSizeHint().height())
-        self.setGeometry(QtCore.QRect(view.center() - QtCore.QPoint(size.width() // 2, size.height() // 2), size))
+        top = max(view.height() - size.height() - ABOVE, 0)
+        self.setGeometry(QtCore.QRect(QtCore.QPoint((view.width() - size.width()) // 2, top), size))
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         painter, ground = QtGui.QPainter(self), QtGui.QColor(LOOK.theme.canvas)
