@@ -24,8 +24,8 @@ ROUNDING = 10
 """Allowance, times root n, for residuals that rounding alone makes: in a regular mesh the roundings of all rows are
 alike, and the solve leaves their sum in the pinned row."""
 
-LARGE, LARGE_PRODUCT = 1000, 2.5e9
-"""Rows of a dense matrix whose eigenpairs take some 0.3 s, and multiplications that take as long."""
+LARGE, LARGE_PRODUCT = 800, 1.5e9
+"""Rows of a dense matrix whose eigenpairs take some 0.2 s, and multiplications that take as long."""
 
 
 @dataclass(frozen=True, eq=False)
