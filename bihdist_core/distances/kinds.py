@@ -71,7 +71,7 @@ class Parameter:
             number = math.nan
         if not (self.above < number < math.inf and number <= self.at_most) or (self.is_whole and number != int(number)):
             kind = "a whole number" if self.is_whole else "a number"
-            most = "" if self.at_most == math.inf else f" and at most {self.at_most:g}"
+            most = "" if self.at_most == math.inf else f" and at most {self.at_most:,}"
             raise ParameterError(f"{self.name} must be {kind} above {self.above:g}{most}, not {_shown(value)}.")
         return int(number) if self.is_whole else number
 

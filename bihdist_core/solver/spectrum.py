@@ -126,7 +126,7 @@ def _check(stiffness: sp.csr_matrix, areas: np.ndarray, count: int, tolerance: f
         raise ParameterError("Each vertex area must be a finite number, not negative.")
     most = int((areas > 0).sum()) - 1
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 1 <= count <= most:
-        raise ParameterError(f"There are {most:,} eigenpairs besides the constant; {count:,} asked for.")
+        raise ParameterError(f"There are {most:,} eigenpairs besides the constant; {count} asked for.")
     if not 0 < tolerance < 1:
         raise ParameterError(f"The tolerance is {tolerance:g}; it must be between 0 and 1.")
 

@@ -231,7 +231,7 @@ def test_wrong_kinds_of_parameters_are_refused_in_a_sentence():
 def test_more_eigenpairs_than_there_are_are_refused_before_anything_is_factored(make, k, monkeypatch):
     monkeypatch.setattr(Component, "factor", lambda *_, **__: pytest.fail("it is factored"))
     with pytest.raises(
-        ParameterError, match=f"has 59 eigenpairs besides the constant, and k is {k}; choose k from 1 to 59"
+        ParameterError, match=f"has 59 eigenpairs besides the constant, and k is {k:,}; choose k from 1 to 59"
     ):
         make(bumpy(60), k=k)
 
