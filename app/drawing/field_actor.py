@@ -16,7 +16,7 @@ from .face_look import pass_on, put_face_look
 from .levels import BOLD, ZERO, Levels, levels, too_many
 from .selected import PAINT_SELECTED
 from .stand_in import StandInActor
-from .style import Style
+from .style import RIM, Style
 
 UNDEFINED = -1000.0
 """Stands for NaN in the scalars: shares are never negative, and the shader needs a number.  As far from them as VTK
@@ -65,9 +65,15 @@ _PAINT = """
       if (k > 0) room = min(room, isolineAt[k] - isolineAt[k - 1]);
       if (k + 1 < isolineCount) room = min(room, isolineAt[k + 1] - isolineAt[k]);
       float least = isolineKind[k] > 0.5 ? 0.4 : 2.0;
-      paint *= smoothstep(least, 2.0 * least, room / max(perPixel, 1e-12));
-      float share = abs(2.0 * isolineAt[k] - 1.0);
-      fragOutput0.rgb = mix(fragOutput0.rgb, share > isolineTurn ? isolineFarColour : isolineColour, paint);
+      float fade = smoothstep(least, 2.0 * least, room / max(perPixel, 1e-12));
+      paint *= fade;
+      bool isZero = isolineSigned > 0.5 && abs(2.0 * isolineAt[k] - 1.0) < 1e-6;
+      if (!isZero) {
+        float rim = halfWidth + isolineRimWidth;
+        float under = drawn * fade * (1.0 - smoothstep(rim - 0.6, rim + 0.6, fromLine));
+        fragOutput0.rgb = mix(fragOutput0.rgb, isolineRimColour, isolineRimOpacity * under);
+      }
+      fragOutput0.rgb = mix(fragOutput0.rgb, isZero ? isolineZeroColour : isolineColour, paint);
     }
   }
 """.replace("BOLD", str(BOLD)).replace("ZERO", str(ZERO))
@@ -266,11 +272,14 @@ class FieldActor:
 
     def _take_table(self) -> None:
         self._mapper.SetLookupTable(self.table)
-        self._uniforms.SetUniform3f("isolineColour", self.style.line(self.is_signed))
-        self._uniforms.SetUniform3f("isolineFarColour", self.style.line(self.is_signed, 1.0))
+        rim = self.style.rim(self.is_signed, 1.0) or (0.0, 0.0, 0.0, 0.0)
+        self._uniforms.SetUniform3f("isolineColour", self.style.isoline)
+        self._uniforms.SetUniform3f("isolineZeroColour", self.style.line(self.is_signed))
+        self._uniforms.SetUniform3f("isolineRimColour", rim[:3])
+        self._uniforms.SetUniformf("isolineRimOpacity", rim[3])
         self._uniforms.SetUniform3f("isolineThroughColour", self.style.source)
         self._uniforms.SetUniform3f("isolineCasingColour", self.style.mark_edge)
-        self._uniforms.SetUniformf("isolineTurn", self.style.turn if self.is_signed else 1e9)
+        self._uniforms.SetUniformf("isolineSigned", float(self.is_signed))
 
     @property
     def isolines(self) -> Isolines:
@@ -308,6 +317,7 @@ class FieldActor:
         """Device pixels per pixel have changed, or the share of their usual width that isolines have."""
         self._uniforms.SetUniformf("edgeScale", scale)
         self._uniforms.SetUniformf("isolineCasing", CASING * scale * share)
+        self._uniforms.SetUniformf("isolineRimWidth", RIM * scale * share)
         self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale * share)
 
     def set_origin(self, x: float, y: float) -> None:

@@ -21,6 +21,9 @@ LINES_ON_COLOURS = (WHITE, INK, (1.0, 0.45, 0.0), (0.0, 0.75, 0.3))
 CURVES = ("#0A7358", "#B45309", "#6D4AC7", "#1D2125", "#8A3A78", "#5F6B00")
 """Of curves in charts on a light ground, in turn."""
 
+RIM_OPACITY, RIM = 0.6, 0.8
+"""Of the rim beside isolines of signed fields, and its width on each side in pixels at scale 1."""
+
 STANDS_OUT = 0.12
 """Distances in Oklab from which on a line is seen well."""
 
@@ -33,8 +36,8 @@ class Style:
     drawn as they are, and without `coloured` isolines alone tell the field.  back: of the inside of a surface, where
     it is seen; edge, edge_on_dark: of the wireframe, on light and on dark colours.
     plain: of a surface that is meant to have no field.
-    bands: one colour from isoline to isoline.  turn: the share of the maximum from which on, on both sides of 0,
-    isolines have the other colour.
+    bands: one colour from isoline to isoline.  signed_isoline: of that at 0 of a signed field; the others have one
+    colour in all panels, and on a signed field, which is light in its middle, a faint rim, see `rim`.
     """
 
     stops: Stops
@@ -59,8 +62,6 @@ class Style:
     mark_edge: Colour = (0.1, 0.1, 0.12)
     diverging: Stops = colour_maps.DIVERGING
     signed_isoline: Colour = INK
-    far_isoline: Colour = WHITE
-    turn: float = 0.6
     bands: bool = False
 
     def colours(self, count: int = 512, signed: bool = False) -> np.ndarray:
@@ -90,9 +91,13 @@ class Style:
 
     def line(self, signed: bool = False, share: float = 0.0) -> Colour:
         """The colour of the isoline at a share of the maximum."""
-        if not signed:
-            return self.isoline
-        return self.far_isoline if abs(share) > self.turn else self.signed_isoline
+        return self.signed_isoline if signed and share == 0 else self.isoline
+
+    def rim(self, signed: bool, share: float) -> tuple[float, float, float, float] | None:
+        """Red, green, blue and opacity of what is beside that isoline, so that it is seen; None for nothing."""
+        if not (signed and self.coloured) or share == 0:
+            return None
+        return (*(INK if sum(self.isoline) > 1.5 else WHITE), RIM_OPACITY)
 
 
 CURVES = ("#0A7358", "#B45309", "#6D4AC7", "#1D2125", "#8A3A78", "#5F6B00")
@@ -131,7 +136,6 @@ LINES = Style(
     coloured=False,
     diverging=((-1.0, (1, 1, 1)), (1.0, (1, 1, 1))),
     signed_isoline=(0, 0, 0),
-    far_isoline=(0, 0, 0),
     largest=(1, 1, 1),
     text=(0, 0, 0),
     quiet_text=(0.25, 0.25, 0.25),
@@ -204,14 +208,9 @@ def line_on(stops: Stops) -> Colour:
 
 
 def _with_diverging(style: Style, stops: Stops) -> Style:
-    """The style with another map for what is signed; isolines are dark where it is light and light where it is dark."""
-    shares = np.linspace(0, 1, 101)
-    sides = [oklab(colours_at(stops, sign * shares))[:, 0] for sign in (-1, 1)]
-    is_light = sides[0][0] > MIDDLE
-    near, far = (INK, WHITE) if is_light else (WHITE, INK)
-    turned = [side < MIDDLE if is_light else side > MIDDLE for side in sides]
-    last = max(float(shares[side.argmax()]) if side.any() else 1.0 for side in turned)
-    return replace(style, diverging=stops, signed_isoline=near, far_isoline=far, turn=last)
+    """The style with another map for what is signed; the line at 0 is dark where that is light, and the reverse."""
+    is_light = oklab(colours_at(stops, np.zeros(1)))[0, 0] > MIDDLE
+    return replace(style, diverging=stops, signed_isoline=INK if is_light else WHITE)
 
 
 MIDDLE = 0.6

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..drawing.field_actor import CASING
 from ..drawing.levels import BOLD, width_of
-from ..drawing.style import Colour
+from ..drawing.style import RIM, Colour
 from .axes import draw_axes
 from .description import Figure
 from .fonts import families, has_cff_outlines
@@ -130,6 +130,9 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         colour, width = style.line(signed, line.value / top if top > 0 else 0.0), style.isoline_width * stroke
         wider = width_of(page.figure.panels[shot.panel].isolines, line.is_bold, signed and line.value == 0)
         strokes = [(colour, width * wider)]
+        rim = style.rim(signed, line.value)
+        if rim is not None:
+            strokes.insert(0, (rim, width * wider + 2 * RIM * stroke))
         if line.is_through:
             strokes = [(style.mark_edge, BOLD * width + 2 * CASING * stroke), (style.source, BOLD * width)]
         for colour, width in strokes:

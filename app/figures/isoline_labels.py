@@ -11,6 +11,7 @@ import numpy as np
 from ..drawing.field_actor import CASING
 from ..drawing.line_labels import Contour, Label
 from ..drawing.line_labels import labelled as labelled_lines
+from ..drawing.style import RIM
 from .description import Figure
 from .layout import Layout
 from .marks import POINT
@@ -74,4 +75,6 @@ def draw_labels(axes: Axes, figure: Figure, layout: Layout, shot: Shot, order: i
         if line.is_through:
             rim = 2 * CASING * layout.stroke * POINT
             text.set_path_effects([withStroke(linewidth=rim, foreground=style.mark_edge)])
+        elif (faint := style.rim(panel.signed, line.value)) is not None:
+            text.set_path_effects([withStroke(linewidth=2 * RIM * layout.stroke * POINT, foreground=faint)])
     return contours

@@ -9,7 +9,7 @@ import numpy as np
 from ..drawing.bands import band_edges, bar_parts
 from ..drawing.field_actor import CASING
 from ..drawing.levels import BOLD, levels
-from ..drawing.style import Colour
+from ..drawing.style import RIM, Colour
 from .bars import TICK, Bar
 from .boxes import Box, Words
 from .layout import Cell
@@ -134,6 +134,9 @@ def _draw_lines_on_bar(axes: Axes, page: Composition, bar: Bar) -> None:
             _across(axes, bar, at, (0, 1), style.source, BOLD * width)
         elif room >= LINE_ROOM:
             width = min(width, room / 4) * (BOLD if bold else 1)
+            rim = style.rim(panel.signed, value)
+            if rim is not None:
+                _across(axes, bar, at, (0, 1), rim, width + 2 * min(RIM * stroke, room / 8))
             _across(axes, bar, at, (0, 1), style.line(panel.signed, value / top), width)
 
 

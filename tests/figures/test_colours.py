@@ -92,8 +92,7 @@ def test_a_map_of_ones_own_that_is_lightest_in_its_middle_colours_differences_to
     assert goes_both_ways(stops)
     style = style_of("paper", Colours("mine", stops))
     assert style.colours(3, signed=True) == pytest.approx(np.array([c for _, c in stops]))
-    assert (style.signed_isoline, style.far_isoline) == (INK, WHITE)
-    assert 0.3 < style.turn < 0.9
+    assert (style.line(True, 0.0), style.line(True, 0.7)) == (INK, style.isoline)
     assert not goes_both_ways(MAPS["ember"].stops)
     assert style_of("paper", Colours("mine", MAPS["ember"].stops)).diverging == PAPER.diverging
 

@@ -39,7 +39,8 @@ class ColourBar(QtWidgets.QWidget):
         self._through: tuple[QtGui.QColor, ...] = ()
         self._ends: tuple[str, ...] = ()
         self._bands: list[tuple[float, QtGui.QColor]] = []
-        self._beyond, self._far = (False, False), (2.0, QtGui.QColor())
+        self._beyond, self._rest_colour = (False, False), QtGui.QColor()
+        self._rim: QtGui.QColor | None = None
         self._at_rest: tuple[float, str] | None = None
         self._sentence: tuple[str, ...] = ()
         self._layout = lay_out(None, self.width())
@@ -59,7 +60,7 @@ class ColourBar(QtWidgets.QWidget):
         signed: bool = False,
         line_colour: tuple[float, float, float] = (1, 1, 1),
         maximum: float | None = None,
-        far: tuple[float, tuple[float, float, float]] | None = None,
+        rest: tuple[tuple[float, ...], tuple[float, ...] | None] | None = None,
         bands: npt.ArrayLike = (),
         beyond: tuple[bool, bool] = (False, False),
         in_shares: bool = False,
@@ -70,8 +71,9 @@ class ColourBar(QtWidgets.QWidget):
         """A new field, of which nothing is said yet: colours (k, 3), 0 to 1, evenly from low to high, in `unit`.
 
         lines: (m,) the isolines' values.  signed: low is -high, and 0 in the middle has a bold line.  maximum: the
-        field's own (of its absolute values, if signed), which may be another than high.  far: the share of the way from
-        the middle to an end from which on lines have another colour, and that colour.  bands: (k - 1,) places, 0 to 1,
+        field's own (of its absolute values, if signed), which may be another than high.  rest: colours
+        of all lines but that at 0, and of their rims, None for no rims; as `line_colour` if not given.
+        bands: (k - 1,) places, 0 to 1,
         where one colour ends and the next begins.  beyond: whether values lie beyond the low and the high end.
         in_shares: the ticks are shares of high.  bold, through: (k,) those of the lines that are bolder, or pass
         through points; these have a colour and that of a rim.
@@ -94,7 +96,9 @@ class ColourBar(QtWidgets.QWidget):
         self._ends = tuple(QtGui.QColor.fromRgbF(*colours[k]).name() for k in (0, -1))
         self._line_colour = QtGui.QColor.fromRgbF(*line_colour)
         self._through = tuple(QtGui.QColor.fromRgbF(*colour) for colour in through_colours)
-        self._far = (2.0, self._line_colour) if far is None else (far[0], QtGui.QColor.fromRgbF(*far[1]))
+        colour, rim = (line_colour, None) if rest is None else rest
+        self._rest_colour = QtGui.QColor.fromRgbF(*colour)
+        self._rim = None if rim is None else QtGui.QColor.fromRgbF(*rim)
         self.show_value(None)
         self._lay_out()
 
@@ -220,9 +224,10 @@ class ColourBar(QtWidgets.QWidget):
         if self._reading is not None:
             self._paint_bands(painter, bar, shape)
         for x in self._layout.isolines:
-            from_middle = abs(2 * (x - bar.left()) / bar.width() - 1)
             width = 2 if x in self._layout.bold else 1
-            self._paint_line(painter, x, width, self._far[1] if from_middle > self._far[0] else self._line_colour)
+            if self._rim is not None:
+                self._paint_line(painter, x, width + 2, self._rim)
+            self._paint_line(painter, x, width, self._rest_colour)
         if self._layout.zero is not None:
             self._paint_line(painter, self._layout.zero, 2, self._line_colour)
         for x in self._layout.through:

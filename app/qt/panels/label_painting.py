@@ -9,7 +9,7 @@ from qtpy import QtCore, QtGui
 from ...drawing.field_actor import CASING
 from ...drawing.levels import BOLD
 from ...drawing.line_labels import PAD, STRAIGHT
-from ...drawing.style import Colour, Style
+from ...drawing.style import RIM, Style
 from ..look.look import LOOK
 
 FONT_SIZE = 11.0
@@ -57,8 +57,9 @@ def painted(
         path.addText(
             QtCore.QPointF(-metrics.horizontalAdvance(label.text) / 2, metrics.capHeight() / 2), font, label.text
         )
-        if label.is_through:
-            pen = QtGui.QPen(_colour(style.mark_edge), 2 * CASING * ratio)
+        rim = style.mark_edge if label.is_through else style.rim(signed, label.value)
+        if rim is not None:
+            pen = QtGui.QPen(_colour(rim), 2 * (CASING if label.is_through else RIM) * ratio)
             pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
             painter.strokePath(path, pen)
         colour = style.source if label.is_through else style.line(signed, label.value / top if top > 0 else 0.0)
@@ -103,5 +104,5 @@ def _pixels(image: QtGui.QImage) -> np.ndarray:
     return np.array(memory, np.uint8).reshape(image.height(), image.width(), 4)
 
 
-def _colour(colour: Colour) -> QtGui.QColor:
+def _colour(colour: Sequence[float]) -> QtGui.QColor:
     return QtGui.QColor.fromRgbF(*colour)

@@ -273,7 +273,7 @@ class DistancePanel(QtWidgets.QWidget):
             signed,
             style.line(signed),
             maximum=answer.maximum,
-            far=(style.turn, style.line(signed, 1.0)) if signed else None,
+            rest=(style.line(signed, 1.0), style.rim(signed, 1.0)) if signed else None,
             bands=(edges + 1) / 2 if signed else edges,
             beyond=beyond(answer.field, top, signed),
             in_shares=self._in_shares,
