@@ -62,7 +62,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def __init__(self, document: Document | None = None, preferences: Preferences | None = None) -> None:
         super().__init__()
-        self.setWindowTitle("Biharmonic distance")
+        self.setWindowTitle("Biharmonic distance[*]")
         self.preferences = preferences or Preferences()
         self._posted.connect(lambda function: function())
         self.session = Session(self, self._posted.emit, prepare, document, remembered.up_of)
@@ -129,7 +129,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.asked.connect(self.choices.edit_panel)
         self.grid.ended.connect(self.choices.end_at)
         self.grid.looked.connect(self.views.moved)
-        self.grid.cancelled.connect(self.session.cancel)
+        self.grid.cancelled.connect(self.waits.stop)
         self.grid.retried.connect(self.waits.retry)
         self.grid.save_wanted.connect(self.field_files.save)
         self.wear()
@@ -139,13 +139,11 @@ class MainWindow(QtWidgets.QMainWindow):
         self._scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
         self._scroll.setWidget(self.grid)
         self._stack.addWidget(self._scroll)
-        if not self.session.is_opening and not self._waiting:
-            self.show_start()
-        else:
-            self._stack.setCurrentWidget(self._scroll)
         waiting, self._waiting = self._waiting, []
         for function in waiting:
             function()
+        if self.session.surface is None and not self.session.is_opening:
+            self.show_start()
 
     def open(self, path: str, source: int | None = None) -> None:
         """Open a mesh, also before the panels are made."""
@@ -176,6 +174,11 @@ class MainWindow(QtWidgets.QMainWindow):
             self._waiting.append(function)
         else:
             function()
+
+    def show_opening(self, words: str) -> None:
+        """The first mesh is being read."""
+        self._opening.setText(words)
+        self._stack.setCurrentWidget(self._opening)
 
     def show_start(self) -> None:
         """Nothing is open: how to begin."""

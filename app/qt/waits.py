@@ -68,12 +68,28 @@ class Waits:
     def show(self) -> None:
         self._show_soon.stop()
         window = self._window
-        load = window.session.progress.get("load")
-        window.status.show_progress(_sentence(*load) if load and load[1] else "")
-        if window.grid is not None and window.session.surface is not None:
-            for panel in window.session.document.panels:
+        load, session = self._load, window.session
+        window.status.show_progress(_sentence(*load) if load is not None else "")
+        if session.surface is not None:
+            for panel in session.document.panels if window.grid is not None else ():
                 self.note(panel.id)
+        elif session.is_opening:
+            window.show_opening(_sentence(*load) if load is not None else "Opening…")
+        elif window.grid is not None:
+            window.show_start()
         window.announce_soon()
+
+    @property
+    def _load(self) -> tuple[float, str] | None:
+        """How far the reading of meshes is, and what is being done; None where nothing is."""
+        load = self._window.session.progress.get("load")
+        return load if load is not None and load[1] else None
+
+    def stop(self, id: int) -> None:
+        """What a panel waits for is no longer wanted."""
+        session = self._window.session
+        session.cancel(None if session.document.panel(id).surface in session.replaced else id)
+        self.show()
 
     def note(self, id: int) -> None:
         """Say in a panel what it is waiting for."""
@@ -81,7 +97,10 @@ class Waits:
         panel, shown = window.grid.panel(id), session.shown.get(id)
         is_answered = session.is_answered(id)
         fraction, text = session.progress.get(id, (nan, ""))
-        if session.is_stopped_at(id) and not is_answered:
+        if self._load is not None and session.document.panel(id).surface in session.replaced:
+            fraction, text = self._load
+            panel.show_waiting((fraction, words_of(text)))
+        elif session.is_stopped_at(id) and not is_answered:
             panel.show_stopped(shown, is_old=not session.is_quick_look(id))
         elif is_answered or (shown is not None and shown.is_preview and not self._is_other(id)):
             # A quick look, which the exact answer follows, or one whose accuracy is being found out.

@@ -262,6 +262,13 @@ class Session:
         return self._surfaces.on_their_way is not None
 
     @property
+    def replaced(self) -> set[str]:
+        """The names of surfaces in whose places others are being read from files."""
+        opening = self._surfaces.on_their_way
+        meshes = opening.meshes if opening is not None and opening.is_wanted() else ()
+        return {mesh.name for mesh in meshes if mesh.change is None}
+
+    @property
     def shown(self) -> dict[int, Shown]:
         """What each panel shows, by its id."""
         return self._answering.shown

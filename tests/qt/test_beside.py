@@ -66,7 +66,7 @@ def test_a_second_mesh_has_panels_a_letter_and_a_source_of_its_own(two):
     assert [panel.surface for panel in s.document.panels] == ["A", "B"]
     assert [panel.head.letter for panel in s.panels] == ["A", "B"]
     assert s.session.surface.name == "first.off"
-    assert s.window.windowTitle().startswith("first.off, second.off")
+    s.until(lambda: s.window.windowTitle().startswith("first.off, second.off"))
     assert s.window.status.counts.text == "A  300 vertices   B  300 vertices"
     # Two poses of one shape: the source is the same place of it.
     assert [s.document.point(name).at for name in ("source", "source 2")] == [7, 7]

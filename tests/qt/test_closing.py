@@ -62,7 +62,7 @@ def test_closing_asks_where_work_would_be_lost_that_was_never_saved(screen, mesh
     file = s.window.session_file
     s.session.show(move_source(s.document, 0, 6))
     assert file.may_close(asked.answering("cancel"))
-    assert title(s.window) == ("mesh.off[*] - Biharmonic distance", False)
+    s.until(lambda: title(s.window) == ("mesh.off[*] - Biharmonic distance", False))
     for word, add in WORK.items():
         s.session.show(add(s.document))
         s.until(lambda: not s.session.is_opening)
@@ -101,7 +101,7 @@ def test_pairs_are_asked_about(screen, mesh_file):
     s.session.show(place_point(s.document, "A", 7))
     assert not s.window.session_file.may_close(asked.answering("cancel"))
     assert asked == ["The pairs have not been saved."]
-    assert title(s.window) == ("mesh.off, other.off[*] - Biharmonic distance", True)
+    s.until(lambda: title(s.window) == ("mesh.off, other.off[*] - Biharmonic distance", True))
 
 
 def test_closing_asks_where_a_session_has_changed_since_it_was_saved(screen, mesh_file, tmp_path):
@@ -109,7 +109,7 @@ def test_closing_asks_where_a_session_has_changed_since_it_was_saved(screen, mes
     s.open(mesh_file(bumpy(300)), 5)
     file = s.window.session_file
     file.save(str(tmp_path / "s [*].json"))
-    assert title(s.window) == ("s [*][*].json[*] - mesh.off - Biharmonic distance", False)
+    s.until(lambda: title(s.window) == ("s [*][*].json[*] - mesh.off - Biharmonic distance", False))
     s.window.reset_view("top")
     assert file.may_close(asked.answering("cancel"))
     assert not asked
@@ -173,13 +173,13 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
     assert remembered.lost_states() == []
     file = other.window.session_file
     name = "s.json[*] - mesh.off" if was_saved else "mesh.off[*]"
-    assert title(other.window) == (f"{name} - Biharmonic distance", True)
+    other.until(lambda: title(other.window) == (f"{name} - Biharmonic distance", True))
     assert not file.may_close(asked.answering("cancel"))
     lost = "The session s.json has unsaved changes." if was_saved else "What was recovered has not been saved."
     assert asked == [lost]
     file.save(None if was_saved else str(saved))
     assert read_recipe(saved).document.sources == (9,)
-    assert title(other.window) == ("s.json[*] - mesh.off - Biharmonic distance", False)
+    other.until(lambda: title(other.window) == ("s.json[*] - mesh.off - Biharmonic distance", False))
     assert file.may_close(asked.answering("cancel"))
     s.window.close()
     assert not remembered.own_state().exists()

@@ -60,7 +60,7 @@ def hover(s, count=24):
 
 def test_many_edges_and_a_long_name_move_nothing_and_are_told_in_a_list(opened):
     s, chip = opened, opened.window.status.notes
-    assert NAME in s.window.windowTitle()
+    s.until(lambda: NAME in s.window.windowTitle())
     assert s.session.surface.nonmanifold_edge_count == COUNT
     assert fits(s.window)
     assert s.window.minimumSizeHint().width() <= 640

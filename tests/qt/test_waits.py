@@ -8,13 +8,13 @@ import pytest
 from app.document.edits import move_source
 from app.document.quantities import DistanceFrom
 from app.session.lane import Lane
-from app.session.opened import Opened
+from app.session.opened import Opened, open_mesh
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, fin
 
 pytest.importorskip("qtpy")
 
-from qtpy import QtCore
+from qtpy import QtCore, QtWidgets
 from qtpy.QtTest import QTest
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
@@ -61,6 +61,80 @@ def test_a_mesh_being_read_is_told_in_the_status_bar(screen):
     s.session._surfaces.progress = None
     s.window.progress_changed()
     assert progress.text == ""
+
+
+@pytest.fixture
+def reading(monkeypatch):
+    """Meshes are read once it is set, whatever the machine's speed."""
+    gate = threading.Event()
+
+    def held(*given, **named):
+        gate.wait()
+        return open_mesh(*given, **named)
+
+    monkeypatch.setattr("app.session.surfaces.open_mesh", held)
+    yield gate
+    gate.set()
+
+
+def test_while_a_file_is_read_the_old_surface_stays_dimmed_and_the_title_changes_with_the_picture(
+    screen, mesh_file, reading
+):
+    s = screen(ONE * 2)
+    reading.set()
+    s.open(mesh_file(bumpy(300)), 5)
+    s.until(lambda: s.window.windowTitle().startswith("mesh.off"))
+    before, document = s.pictures(), s.document
+    reading.clear()
+    s.window.open(mesh_file(bumpy(200), "other.off"))
+    s.until(lambda: all(panel.waiting.isVisible() for panel in s.panels))
+    assert [panel.waiting.text for panel in s.panels] == ["Reading other.off, 0 %"] * 2
+    assert all(panel.view._is_dimmed for panel in s.panels)
+    assert all((a == b).all() for a, b in zip(before, s.pictures(), strict=True))
+    assert s.window.windowTitle().startswith("mesh.off")
+    QTest.mouseClick(s.panels[1].waiting.stop, LEFT)
+    assert not s.session.is_opening
+    reading.set()
+    s.until(lambda: not any(panel.waiting.isVisible() or panel.view._is_dimmed for panel in s.panels))
+    assert s.document == document
+    s.settle()
+    drawn, seen = [panel.view.pictures for panel in s.panels], []
+
+    def note(title):
+        seen.append((title, [panel.view.pictures > count for panel, count in zip(s.panels, drawn, strict=True)]))
+
+    s.window.windowTitleChanged.connect(note)
+    s.window.open(mesh_file(bumpy(200), "other.off"))
+    s.until(lambda: seen)
+    assert seen == [("other.off[*] - Biharmonic distance", [True, True])]
+    assert {panel.opened.surface.name for panel in s.panels} == {"other.off"}
+
+
+def test_a_mesh_that_comes_beside_dims_nothing(screen, mesh_file, reading):
+    s = screen(ONE)
+    reading.set()
+    s.open(mesh_file(bumpy(300)), 5)
+    reading.clear()
+    s.session.open_beside(mesh_file(bumpy(200), "other.off"))
+    s.until(lambda: s.window.status.progress.text == "Reading other.off 0 %")
+    assert not s.panels[0].view._is_dimmed
+    reading.set()
+    s.until(lambda: len(s.document.surfaces) == 2)
+
+
+def test_the_first_mesh_is_told_in_the_middle_until_it_is_there(screen, mesh_file, reading):
+    s = screen(ONE)
+    pages = s.window.centralWidget().findChild(QtWidgets.QStackedWidget)
+    start = pages.currentWidget()
+    s.window.open(mesh_file(bumpy(300)))
+    s.until(lambda: isinstance(pages.currentWidget(), QtWidgets.QLabel))
+    s.until(lambda: pages.currentWidget().text() == "Reading mesh.off 0 %")
+    assert s.window.windowTitle() == "Biharmonic distance[*]"
+    s.window.cancel()
+    reading.set()
+    s.until(lambda: pages.currentWidget() is start)
+    s.open(mesh_file(bumpy(300)))
+    assert pages.currentWidget().isAncestorOf(s.window.grid)
 
 
 def test_a_panel_tells_what_it_waits_for_and_can_be_stopped(screen, mesh_file, gate):

@@ -267,7 +267,7 @@ def test_a_dropped_file_is_opened(screen, mesh_file):
     )
     s.window.files.eventFilter(s.window, drop)
     s.until(lambda: s.session.is_complete)
-    assert s.window.windowTitle() == "dropped.off[*] - Biharmonic distance"
+    s.until(lambda: s.window.windowTitle() == "dropped.off[*] - Biharmonic distance")
 
 
 def test_samples_are_listed_with_their_pictures_and_open(screen):
@@ -281,7 +281,7 @@ def test_samples_are_listed_with_their_pictures_and_open(screen):
     assert not any(action.icon().isNull() for action in actions.values())
     actions["Genus 3"].trigger()
     s.until(lambda: s.session.is_complete)
-    assert s.window.windowTitle().startswith("genus3.ply")
+    s.until(lambda: s.window.windowTitle().startswith("genus3.ply"))
 
 
 def test_the_screenshot_holds_the_panels(screen, mesh_file, tmp_path):

@@ -89,7 +89,12 @@ class SessionFile:
         self.show_title()
 
     def show_title(self) -> None:
-        """The session's file, if it has one, the meshes, and whether closing would lose something."""
+        """The session's file, if any, the meshes once they are seen, and whether closing would lose something."""
+        self._window.setWindowModified(self.is_changed)
+        if self._window.grid is not None:
+            self._window.grid.once_painted(self._write_title)
+
+    def _write_title(self) -> None:
         session = self._window.session
         opened = [session.opened(mesh.name) for mesh in session.document.surfaces]
         meshes = ", ".join(dict.fromkeys(each.surface.name for each in opened if each is not None))
@@ -97,7 +102,6 @@ class SessionFile:
         # Doubled, Qt's word for the sign of change is a part of the name.
         first, *others = (part.replace("[*]", "[*][*]") for part in parts)
         self._window.setWindowTitle(" - ".join([f"{first}[*]", *others]))
-        self._window.setWindowModified(self.is_changed)
 
     def save(self, path: str | None = None) -> None:
         """Into a file, the one it was saved in or opened from if none is given; OutputError if that cannot be."""

@@ -85,6 +85,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._panels: dict[int, DistancePanel] = {}
         self._spare: list[DistancePanel] = []
         self._style = PAPER
+        self._once: list[Callable[[], None]] = []  # once all is painted
         self._is_closed = False
         self._are_in_rows = self._correspond = False
         self.pointing = Pointing()
@@ -197,6 +198,7 @@ class PanelGrid(QtWidgets.QWidget):
         view.centred.connect(lambda met: view.centre(met.position))
         view.brushed.connect(self.brushed)
         view.brush_lifted.connect(self.brush_lifted)
+        view.drawn.connect(self._drawn)
         view.installEventFilter(self)
         self.labels.watch(panel)
         panel.head.clicked.connect(lambda: self.activate(panel.id))
@@ -317,6 +319,23 @@ class PanelGrid(QtWidgets.QWidget):
         for panel in self.panels:
             panel.view.redraw()
         self.pointing.show_again_soon()
+
+    def once_painted(self, function: Callable[[], None]) -> None:
+        """Call a function when the panels have been painted as they are now: at once if they have."""
+        if not any(panel.view.is_stale for panel in self.panels):
+            function()
+        elif function not in self._once:
+            self._once.append(function)
+
+    def _drawn(self) -> None:
+        """One of the views; the others follow before anything else is done, and then all come to the screen."""
+        if self._once:
+            QtCore.QTimer.singleShot(0, self._painted)
+
+    def _painted(self) -> None:
+        once, self._once = self._once, []
+        for function in once:
+            function()
 
     def draw_in_full(self) -> None:
         """With all that comes only once the camera rests."""

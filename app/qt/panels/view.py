@@ -112,6 +112,11 @@ class View(QtWidgets.QWidget):
     def is_empty(self) -> bool:
         return self._is_empty
 
+    @property
+    def is_stale(self) -> bool:
+        """Whether it is on the screen, and has not been drawn as it is now."""
+        return self._is_stale and not self._is_empty and not self.visibleRegion().isEmpty()
+
     def show_style(self, style: Style) -> bool:
         """Look like this from now on; whether that is another look, so that all has to be shown again."""
         ratio = self.devicePixelRatioF()
