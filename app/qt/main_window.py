@@ -93,6 +93,8 @@ class MainWindow(QtWidgets.QMainWindow):
         self._opening = QtWidgets.QLabel("Opening…")
         self._opening.setProperty("quiet", True)
         self._opening.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
+        # However long a file's name is, the window may be narrow.
+        self._opening.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Preferred)
         self._stack = QtWidgets.QStackedWidget()
         self._stack.addWidget(self._opening)
         middle = QtWidgets.QWidget()
@@ -177,7 +179,8 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def show_opening(self, words: str) -> None:
         """The first mesh is being read."""
-        self._opening.setText(words)
+        room, cut = self._stack.width() - 48, QtCore.Qt.TextElideMode.ElideMiddle
+        self._opening.setText(self._opening.fontMetrics().elidedText(words, cut, room))
         self._stack.setCurrentWidget(self._opening)
 
     def show_start(self) -> None:

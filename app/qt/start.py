@@ -13,6 +13,7 @@ from qtpy import QtCore
 from bihdist_core import BihdistError
 
 from ..document.document import Document
+from ..samples import SAMPLES
 from .application import application, check_screen
 from .files.session_actions import offer_lost_state
 from .look.look import LOOK
@@ -51,6 +52,7 @@ def run_viewer(
     LOOK.choose(theme or preferences.theme)
     if isinstance(shown, Document):
         shown = as_preferred(shown, preferences)
+    preferences = beginning_at(preferences, shown)
     window = MainWindow(None if isinstance(shown, str) else shown, preferences)
     restore_geometry(window, preferences)
     _alive.append(window)
@@ -97,6 +99,14 @@ def run_viewer(
 def as_preferred(document: Document, preferences: Preferences) -> Document:
     """A document as the user wants what is opened anew."""
     return replace(document, isolines=preferences.isolines, snap=preferences.snap)
+
+
+def beginning_at(preferences: Preferences, shown: Document | str) -> Preferences:
+    """With dialogs that begin at the folder of a document's mesh, or of a session, unless that is a sample."""
+    path = shown if isinstance(shown, str) else "".join(mesh.path for mesh in shown.surfaces[:1])
+    folder = os.path.dirname(os.path.abspath(path))
+    is_own = os.path.isfile(path) and folder != str(SAMPLES)
+    return replace(preferences, last_folder=folder) if is_own else preferences
 
 
 def share_arenas() -> None:

@@ -124,4 +124,4 @@ def words_of(text: str) -> str:
 
 
 def _sentence(fraction: float, text: str) -> str:
-    return f"{words_of(text)} {fraction:.0%}".replace("%", " %")
+    return f"{words_of(text)}, {fraction:.0%}".replace("%", " %")

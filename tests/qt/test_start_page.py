@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from app.samples import mesh_path, sample_names
+from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
@@ -263,3 +264,25 @@ def test_the_ground_keeps_up_with_the_theme(page):
     for word in ("dark", "light"):
         LOOK.choose(word)
         assert page.grab().toImage().pixelColor(2, 2).name() == LOOK.theme.canvas.lower()
+
+
+def test_the_first_dialog_begins_at_the_folder_of_the_mesh_on_the_command_line(screen, mesh_file, monkeypatch):
+    from qtpy import QtWidgets
+
+    from app.document.document import comparison
+    from app.qt.preferences import Preferences
+    from app.qt.start import beginning_at
+
+    before, mesh = Preferences(last_folder="/before"), mesh_file(bumpy(60))
+    monkeypatch.chdir(os.path.dirname(mesh))
+    for shown in (mesh, os.path.basename(mesh), comparison(mesh)):
+        assert beginning_at(before, shown).last_folder == os.path.dirname(mesh)
+    for shown in (comparison(mesh_path("figure")), comparison(""), "gone.off"):
+        assert beginning_at(before, shown) == before
+    s, began = screen(), []
+    s.window.preferences = beginning_at(before, mesh)
+    monkeypatch.setattr(
+        QtWidgets.QFileDialog, "getOpenFileName", lambda parent, title, folder, files: began.append(folder) or ("", "")
+    )
+    s.window.actions_by_word["open"].trigger()
+    assert began == [os.path.dirname(mesh)]

@@ -56,7 +56,7 @@ def test_a_mesh_being_read_is_told_in_the_status_bar(screen):
     s.window.progress_changed()
     s.until(lambda: progress.text)
     s.settle()
-    assert progress.text == "Reading mesh.off 50 %"
+    assert progress.text == "Reading mesh.off, 50 %"
     assert progress.width() >= progress.sizeHint().width(), "and can be seen"
     s.session._surfaces.progress = None
     s.window.progress_changed()
@@ -116,7 +116,7 @@ def test_a_mesh_that_comes_beside_dims_nothing(screen, mesh_file, reading):
     s.open(mesh_file(bumpy(300)), 5)
     reading.clear()
     s.session.open_beside(mesh_file(bumpy(200), "other.off"))
-    s.until(lambda: s.window.status.progress.text == "Reading other.off 0 %")
+    s.until(lambda: s.window.status.progress.text == "Reading other.off, 0 %")
     assert not s.panels[0].view._is_dimmed
     reading.set()
     s.until(lambda: len(s.document.surfaces) == 2)
@@ -128,7 +128,7 @@ def test_the_first_mesh_is_told_in_the_middle_until_it_is_there(screen, mesh_fil
     start = pages.currentWidget()
     s.window.open(mesh_file(bumpy(300)))
     s.until(lambda: isinstance(pages.currentWidget(), QtWidgets.QLabel))
-    s.until(lambda: pages.currentWidget().text() == "Reading mesh.off 0 %")
+    s.until(lambda: pages.currentWidget().text() == "Reading mesh.off, 0 %")
     assert s.window.windowTitle() == "Biharmonic distance[*]"
     s.window.cancel()
     reading.set()
