@@ -19,6 +19,7 @@ from app.batch.wanted import MAXIMA, RANGES, Wanted
 from app.document.camera import Camera
 from app.document.document import comparison
 from app.document.file import recipe_text
+from app.document.looks import Isolines
 from app.document.page import Recipe
 from app.figures.contact_sheet import LARGEST, Cell, contact_sheet
 from bihdist_core import Surface, write_mesh
@@ -41,6 +42,8 @@ def meshes(tmp_path_factory):
 
 def drawn(meshes, out, range, document):
     """The rows of all figures."""
+    # Of meshes of other sizes, round values would be elsewhere.
+    document = replace(document, isolines=Isolines(round=False))
     recipe = recipe_text(Recipe(document), "1")
     wanted = Wanted((MAXIMA,), recipe=recipe, range=range)
 
