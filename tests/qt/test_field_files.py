@@ -66,8 +66,8 @@ def test_every_panel_saves_what_the_command_writes_in_every_format(screen, mesh_
         written = (tmp_path / f"mine{extension}").read_bytes()
         there = tmp_path / f"theirs{extension}"
         assert written == written_by_the_command(mesh, "5", s.document.panels[place], there)
-    assert asked[0] == ("Save the field", "mesh biharmonic_from_5")
-    assert asked[-1] == ("Save the field", "mesh biharmonic_minus_geodesic_percent_from_5")
+    assert asked[0] == ("Save the field", "mesh-field-biharmonic-from-5")
+    assert asked[-1] == ("Save the field", "mesh-field-biharmonic-minus-geodesic-percent-from-5")
     # By the menu Panels that of the active panel, from a source of several parts.
     s.session.show(move_source(s.document, 0, SourceSet((7, Place(12, (0.2, 0.5, 0.3))))))
     s.until(lambda: s.session.is_complete)
@@ -109,7 +109,7 @@ def test_all_fields_are_columns_of_one_file_with_names_that_tell_them_apart(scre
     file = s.window.menuBar().actions()[0].menu()
     entry(file, "Save all &fields…")
     assert said(s) == f"Saved all.csv in {tmp_path}; Positions is shown in colours, and has no field."
-    assert asked == [("Save all fields", "mesh fields")]
+    assert asked == [("Save all fields", "mesh-fields")]
     with open(tmp_path / "all.csv", newline="") as lines:
         header, *rows = csv.reader(lines)
     assert header == [
@@ -134,7 +134,7 @@ def test_two_meshes_have_a_file_each(screen, mesh_file, tmp_path, paths):
     answers += ["one.npy", "other.npy"]
     s.window.actions_by_word["save fields"].trigger()
     s.until(lambda: (tmp_path / "other.npy").exists())
-    assert asked == [(f"Save all fields of {letter}: mesh.off", f"mesh {letter} fields") for letter in "AB"]
+    assert asked == [(f"Save all fields of {letter}: mesh.off", f"mesh-{letter}-fields") for letter in "AB"]
     for mesh, name in zip(s.document.surfaces, ("one", "other"), strict=True):
         fields = [s.session.shown[panel.id].answer.field for panel in s.document.panels_of(mesh.name)]
         assert np.array_equal(np.load(tmp_path / f"{name}.npy"), np.column_stack(fields), equal_nan=True)
@@ -187,5 +187,5 @@ def test_the_dialog_writes_the_format_that_is_chosen_in_it(screen, mesh_file, tm
 
     QtCore.QTimer.singleShot(0, choose)
     s.window.field_files.save(s.document.panels[0].id)
-    assert said(s) == f"Saved mesh-biharmonic_from_5.vtp in {tmp_path}"
-    assert b"biharmonic_from_5" in (tmp_path / "mesh-biharmonic_from_5.vtp").read_bytes()
+    assert said(s) == f"Saved mesh-field-biharmonic-from-5.vtp in {tmp_path}"
+    assert b"biharmonic_from_5" in (tmp_path / "mesh-field-biharmonic-from-5.vtp").read_bytes()
