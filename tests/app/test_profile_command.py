@@ -63,7 +63,8 @@ def test_charts(tmp_path, extension, capsys):
         options = ["--source", "17", "--through", "source,300", *TWO, *words]
         assert main(["profile", "part", *options, "-o", str(file)]) == 0
     assert files[0].read_bytes() != files[1].read_bytes()
-    assert capsys.readouterr().err == ""
+    # Nothing of fonts, say, which the formats treat differently.
+    assert all("Dijkstra" in line for line in capsys.readouterr().err.splitlines())
     if extension == ".svg":
         assert ">% of the maximum</text>" in files[0].read_text()
         assert ">mesh units</text>" in files[1].read_text()

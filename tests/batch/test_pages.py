@@ -145,6 +145,7 @@ def test_a_sheet_of_hundreds_is_no_larger_than_a_screen_or_two():
 
 @pytest.mark.parametrize("kind", OURS, ids=lambda kind: kind.word)
 def test_units_tell_how_distances_scale(kind):
-    distance = Spec.of(kind.word).changed(**({"alpha": 1.2} if kind.word == "power" else {}))
+    values = {"alpha": 1.2, "k": 20}
+    distance = Spec.of(kind.word, **{p.name: values[p.name] for p in kind.parameters if p.name in values})
     made = distance.build(Laplacian(bumpy(120)))
     assert length_power(made.unit) == pytest.approx(made.length_power, rel=1e-5)

@@ -56,6 +56,10 @@ class Screen:
             self.application.processEvents()
             time.sleep(0.005)
 
+    def activate(self):
+        """Give the window the keyboard focus; told so, Qt waits for no window manager."""
+        self.application.setActiveWindow(self.window)
+
     def settle(self, seconds=0.2):
         """Let queued repaints happen."""
         end = time.monotonic() + seconds

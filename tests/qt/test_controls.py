@@ -51,7 +51,7 @@ def test_keys_work_while_something_is_typed(screen, mesh_file, monkeypatch, key)
 
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
-    s.window.activateWindow()
+    s.activate()
     done = []
     for word in ("figure", "add panel", "movie"):
         action = s.window.actions_by_word[word]

@@ -71,7 +71,7 @@ def test_what_is_drawn_on_the_surface_becomes_a_curve(opened, tmp_path):
 
     s, view = opened, opened.panels[0].view
     camera = view.camera.GetPosition()
-    s.window.activateWindow()
+    s.activate()
     s.settle()
     QtTest.QTest.keyClick(view, QtCore.Qt.Key.Key_D)
     assert s.window.actions_by_word["draw source"].isChecked()
@@ -205,7 +205,7 @@ def test_a_ring_that_is_drawn_is_closed_and_a_click_is_a_place(opened):
     from qtpy import QtCore, QtTest
 
     s, view = opened, opened.panels[2].view
-    s.window.activateWindow()
+    s.activate()
     s.settle()
     QtTest.QTest.keyClick(view, QtCore.Qt.Key.Key_D)
     turn = np.linspace(0, 2 * np.pi, 24)

@@ -123,7 +123,7 @@ def test_keys_turn_move_and_zoom_all_panels(opened):
 
 def test_tab_goes_from_panel_to_panel_and_shows_where_the_keys_are(opened):
     s = opened
-    s.window.activateWindow()
+    s.activate()
     s.panels[0].view.setFocus()
     for panel in (1, 2, 0):
         key(s, "Tab", panel=(panel - 1) % 3)
@@ -174,7 +174,7 @@ def test_a_held_key_lets_the_source_follow_and_a_tap_switches_that_on(opened):
     from qtpy import QtTest
 
     s, view, live = opened, opened.panels[0].view, opened.window.actions_by_word["live"]
-    s.window.activateWindow()
+    s.activate()
     view.setFocus()
     s.until(view.hasFocus)
     target, key = front(s), QtTest.QTest
@@ -277,7 +277,7 @@ def test_letters_typed_into_the_source_box_are_no_shortcuts(opened):
     from qtpy import QtTest
 
     s = opened
-    s.window.activateWindow()
+    s.activate()
     s.window.source_box.setFocus()
     s.window.source_box.selectAll()
     QtTest.QTest.keyClicks(s.window.source_box, "zl4c2")

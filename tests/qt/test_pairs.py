@@ -59,7 +59,7 @@ def click(s, panel, vertex):
 
 def press(s, panel, key):
     """On the view of a panel, which has the keys."""
-    s.window.activateWindow()
+    s.activate()
     s.panels[panel].view.setFocus()
     QtTest.QTest.keyClick(s.panels[panel].view, key)
     complete(s)

@@ -75,7 +75,7 @@ def shown(screen, mesh_file):
 
 def palette_of(s):
     """Opened by its key, where the keys are."""
-    s.window.activateWindow()
+    s.activate()
     QTest.qWaitForWindowActive(s.window)
     QTest.keyClick(s.window, KEYS.Key_F1)
     s.settle(0.1)

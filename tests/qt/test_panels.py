@@ -199,7 +199,7 @@ def test_undo_redo_and_the_walk_through_sources_by_keyboard(screen, mesh_file):
     s.open(mesh_file(bumpy(300)), 5)
     for vertex in (6, 7, 8):
         s.session.show(move_source(s.document, 0, vertex))
-    s.window.activateWindow()
+    s.activate()
     s.settle()
     view, control, shift, alt = s.panels[0].view, Qt.ControlModifier, Qt.ShiftModifier, Qt.AltModifier
     QTest.keyClick(view, Qt.Key_Z, control)
@@ -251,7 +251,7 @@ def test_escape_puts_the_box_back_and_elsewhere_stops_the_work(screen, mesh_file
 
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
-    s.window.activateWindow()
+    s.activate()
     s.settle()
     box, view = s.window.source_box, s.panels[0].view
     QTest.keyClick(view, Qt.Key_G)

@@ -40,7 +40,7 @@ def test_the_key_opens_the_dock_and_typed_ids_are_pinned(opened):
     from qtpy import QtCore, QtTest
 
     s = opened
-    s.window.activateWindow()
+    s.activate()
     QtTest.QTest.qWaitForWindowActive(s.window)
     QtTest.QTest.keyClick(s.panels[0].view, QtCore.Qt.Key.Key_P)
     s.settle(0.1)

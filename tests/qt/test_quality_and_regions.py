@@ -26,7 +26,7 @@ def key(s, letter):
     from qtpy.QtTest import QTest
 
     view = s.panels[0].view
-    s.window.activateWindow()
+    s.activate()
     view.setFocus()
     s.until(view.hasFocus)
     QTest.keyClick(view, letter)

@@ -242,7 +242,7 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
                 s.panels[0].view.dragged.emit(0, corner(s.session.surface, int(vertex)))
             s.panels[0].view.released.emit()
     last, document = pictures(), s.document
-    s.window.activateWindow()
+    s.activate()
     s.window.typed_source.ask()
     s.settle()
 

@@ -212,7 +212,7 @@ def test_snapping_is_remembered_and_kept_with_a_session(application, screen, mes
     s = screen()
     s.window.remembers = True
     s.open(mesh_file(bumpy(400)), 5)
-    s.window.activateWindow()
+    s.activate()
     s.settle()
     snaps = s.window.actions_by_word["snap"]
     QtTest.QTest.keyClicks(s.panels[0].view, "v")

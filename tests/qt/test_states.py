@@ -15,7 +15,7 @@ from tests.shapes import bumpy
 def window(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(300)))
-    s.window.activateWindow()
+    s.activate()
     assert QtTest.QTest.qWaitForWindowActive(s.window)
     return s
 

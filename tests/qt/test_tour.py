@@ -99,11 +99,8 @@ def test_the_tour_can_be_left_by_the_cross(tour):
 
 def touring(s, mesh):
     """A window of a mesh with the tour, and the keys."""
-    from qtpy import QtWidgets
-
     s.open(mesh, 5)
-    # Shortcuts are for the active window; told so, Qt waits for no window manager.
-    QtWidgets.QApplication.setActiveWindow(s.window)
+    s.activate()
     s.window.guide.start_tour()
     return s.window.guide.tour
 

@@ -172,7 +172,7 @@ def test_what_was_stopped_is_asked_again_by_its_button_in_that_panel_alone(scree
     s.window.open(mesh_file(bumpy(300)), 0)
     one, other = s.panels
     s.until(lambda: one.waiting.isVisible() and other.waiting.isVisible())
-    s.window.activateWindow()
+    s.activate()
     s.settle()
     QTest.keyClick(one.view, QtCore.Qt.Key.Key_Escape)
     s.until(lambda: one.stopped.isVisible() and other.stopped.isVisible())

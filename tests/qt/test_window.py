@@ -339,7 +339,7 @@ def test_what_was_seen_stays_in_view_when_the_window_changes_its_shape(screen, m
 def test_letters_without_a_meaning_do_nothing(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(800)))
-    s.window.activateWindow()
+    s.activate()
     s.settle()
     before, done = seen(s), []
     for action in s.window.actions():

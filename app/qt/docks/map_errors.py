@@ -178,7 +178,7 @@ class MapErrors(QtWidgets.QWidget):
             return " ".join(dict.fromkeys(judged.failures.values()))
         known = f"{judged.known:,}" if judged.is_whole else f"{judged.known:,} of {judged.wanted:,}"
         sampled = "" if judged.wanted == judged.vertices else " sampled"
-        return f"over {known}{sampled:,} vertices; {judged.method}"
+        return f"over {known}{sampled} vertices; {judged.method}"
 
     def name_of(self, map: Map) -> str:
         """In the table."""
