@@ -100,7 +100,7 @@ def test_perturb_writes_the_mesh_and_says_the_change(meshes, tmp_path, capsys):
     change = field_change(*(BiharmonicDistance(s).from_source(9) for s in (one, two)))
     said = capsys.readouterr().out.splitlines()
     assert said[0].endswith("noise of 0.4 edges along normals, seed 1")
-    assert f"changes by {change.normalised_mean:.3g} of its maximum" in said[1]
+    assert f"changes by {100 * change.normalised_mean:.3g} % of its maximum" in said[1]
 
 
 def test_a_sample_is_simplified_and_compared_where_vertices_stay(tmp_path, capsys):

@@ -199,7 +199,7 @@ def test_the_copied_lines_make_the_bytes_of_the_export(screen, mesh_file, tmp_pa
     s.until(lambda: out.with_suffix(".json").exists() and not s.window.exports.running)
     (tmp_path / "elsewhere").mkdir()
     place = {"cwd": tmp_path / "elsewhere", "env": {**os.environ, "PYTHONPATH": os.getcwd()}, "check": True}
-    made = tmp_path / "elsewhere" / f"a mesh.{format}"
+    made = tmp_path / "elsewhere" / f"a-mesh-figure.{format}"
     assert command[0] == "bihdist"
     for words in (
         [sys.executable, "-m", "app", *command[1:]],
