@@ -177,8 +177,8 @@ class MapErrors(QtWidgets.QWidget):
         if not judged.curves:
             return " ".join(dict.fromkeys(judged.failures.values()))
         known = f"{judged.known:,}" if judged.is_whole else f"{judged.known:,} of {judged.wanted:,}"
-        sampled = "" if judged.wanted == judged.vertices else " sampled"
-        return f"over {known}{sampled} vertices; {judged.method}"
+        vertices = "vertices" if judged.wanted == judged.vertices else "sampled vertices"
+        return f"over {known} {vertices}; {judged.method}"
 
     def name_of(self, map: Map) -> str:
         """In the table."""
