@@ -78,7 +78,7 @@ class DiffusionDistance(SpectralDistance):
                     return spectrum, count
                 needed, at_worst = (min(trial.needed(each), most) for each in (self.tolerance, self._coarsest))
                 # From the first few it can only be guessed.
-                if at_worst > (MOST_PAIRS if have >= MOST_PAIRS else 1.5 * MOST_PAIRS):
+                if at_worst > (have if have >= MOST_PAIRS else 1.5 * MOST_PAIRS):
                     raise ParameterError(
                         f"Diffusion with t = {self.t:g} to a tolerance of {self._coarsest:g} needs about "
                         f"{at_worst:.3g} eigenpairs here; at most {MOST_PAIRS} are computed. Choose a larger t or "

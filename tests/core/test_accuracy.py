@@ -158,6 +158,9 @@ def test_what_takes_too_many_eigenpairs_is_less_accurate_before_it_is_refused(mo
     assert worst(distance, vectors * heat(values, 1 / 4)) <= distance.accuracy
     with pytest.raises(ParameterError, match=r"to a tolerance of 1e-07 needs about \d+ eigenpairs here; at most"):
         DiffusionDistance(Laplacian(laplacian.surface), 1 / 4, tolerance=1e-7)
+    # More that are there already, for another distance, are no reason to refuse.
+    fresh.components[0].spectrum(most + 2)
+    assert DiffusionDistance(fresh, 1 / 4).accuracy <= distance.accuracy
 
 
 def test_methods_that_are_not_exact_say_so_and_what_is_made_of_them():
