@@ -65,8 +65,9 @@ class Isolines:
         """The same lines of a field that is so many times as large."""
         if factor == 1 or (self.spacing is None and not self.values):
             return self
-        spacing = None if self.spacing is None else factor * self.spacing
-        return replace(self, spacing=spacing, values=tuple(factor * value for value in self.values))
+        spacing = None if self.spacing is None else min(factor * self.spacing, LARGEST)
+        values = tuple(max(-LARGEST, min(factor * value, LARGEST)) for value in self.values)
+        return replace(self, spacing=spacing, values=values)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,8 @@ from ..document.looks import MOST_ISOLINES
 from ..drawing.levels import levels, too_many
 from .bars.isoline_menu import BOLD
 
+IN_UNIT = "in each panel's unit (0.05 for 5 % of a difference)"
+
 
 class IsolineChoices:
     """Edits of the document's isolines."""
@@ -33,23 +35,23 @@ class IsolineChoices:
 
     def ask_spacing(self) -> None:
         now = self._window.session.document.isolines.spacing
-        self._ask(
-            "From one isoline to the next, in each panel's unit:", "" if now is None else f"{now:.6g}", self.spacing
-        )
+        said = f"From one isoline to the next, {IN_UNIT}:"
+        self._ask(said, "" if now is None else f"{now:.6g}", self.spacing)
 
     def spacing(self, text: str) -> None:
         """A typed one; ParameterError if it makes more lines than can be drawn."""
         session = self._window.session
         wanted = replace(session.document.isolines, spacing=_number(text), values=())
         for shown in session.shown.values():
-            own, answer = shown.answer.maximum, shown.answer
+            answer = shown.answer
+            own = answer.maximum / answer.scale
             if said := too_many(levels(wanted, own, own, answer.is_signed), wanted, own):
                 raise ParameterError(said)
         self._change("", spacing=wanted.spacing, values=())
 
     def ask_values(self) -> None:
         now = self._window.session.document.isolines.values
-        said = "Isolines at these values, in each panel's unit, with spaces between them:"
+        said = f"Isolines at these values, {IN_UNIT}, with spaces between them:"
         self._ask(said, " ".join(f"{value:.6g}" for value in now), self.values)
 
     def values(self, text: str) -> None:

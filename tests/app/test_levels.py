@@ -63,6 +63,8 @@ def test_panels_that_end_alike_have_the_same_lines_and_shares_round_percentages(
     )
     typed = Isolines(spacing=0.05)
     assert in_unit(typed, 100.0, True, False).spacing == pytest.approx(5)
+    assert Isolines(spacing=1e99).scaled(100.0).spacing == 1e100
+    assert Isolines(values=(-1e100, 0.5)).scaled(100.0).values == (-1e100, 50.0)
     assert in_unit(Isolines(20, round=False), 1.0, True, False) == Isolines(20, round=False)
 
 

@@ -8,6 +8,7 @@ import pytest
 from app.document.document import Zoom
 from app.document.edits import move_source
 from app.document.looks import Isolines
+from app.document.quantities import Difference
 from app.drawing.levels import round_step
 from app.drawing.line_labels import value_text
 from bihdist_core import ParameterError
@@ -65,6 +66,21 @@ def test_what_is_typed_wrong_is_said(s):
         with pytest.raises(ParameterError, match=said):
             take(text)
     assert s.document.isolines == Isolines()
+
+
+def test_a_spacing_is_a_fraction_for_differences(s):
+    document = s.document
+    shows = Difference(document.panels[0].shows, document.panels[1].shows)
+    s.session.show(replace(document, panels=(replace(document.panels[0], shows=shows),)))
+    s.until(lambda: s.session.is_complete)
+    field = s.answers[0].field
+    step = np.abs(field).max() / 100 / 20.5
+    s.window.choices.isoline.spacing(f"{step:.12g}")
+    assert np.diff(s.panels[0].view.scene.isolines) == pytest.approx(100 * step)
+    # In percentage points there would be a hundred times as many.
+    s.window.choices.isoline.spacing(f"{step / 20:.12g}")
+    with pytest.raises(ParameterError, match="isolines up to 0"):
+        s.window.choices.isoline.spacing(f"{step / 100:.12g}")
 
 
 def test_lines_are_where_their_values_are(s):
