@@ -102,19 +102,22 @@ def own_state() -> Path:
     return folder() / f"open-{os.getpid()}.json"
 
 
-def keep_state(write: Callable[[Path], None], session: str | None) -> None:
-    """Keep what the window shows, to be offered after a crash.
+def keep_state(write: Callable[[Path], None], session: str | None) -> bool:
+    """Keep what the window shows, to be offered after a crash; whether that was possible.
 
     write: writes it as a recipe at a path.  session: the path of the session's file, None if it has none yet.
     """
+    is_kept = False
     with suppress(OSError, BihdistError):
         folder().mkdir(parents=True, exist_ok=True)
         write(own_state())
         own_state().with_suffix(SESSION).write_text(os.path.abspath(session) if session else "", encoding="utf-8")
+        is_kept = True
     if own_state() not in _held and own_state().exists():
         lock = _lock(own_state())
         lock.tryLock(0)
         _held[own_state()] = lock
+    return is_kept
 
 
 def forget_state() -> None:

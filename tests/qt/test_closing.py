@@ -186,6 +186,28 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
     assert list(remembered.folder().glob("open-*.session")) == []
 
 
+def test_what_is_shown_again_stays_where_it_was_kept_if_it_cannot_be_kept_anew(screen, mesh_file, monkeypatch):
+    from qtpy.QtWidgets import QMessageBox
+
+    from app.qt import remembered
+    from app.qt.files.session_actions import SessionFile, offer_lost_state
+    from bihdist_core import OutputError
+
+    def write(*_, **__):
+        raise OutputError("The disk is full.")
+
+    s = screen()
+    s.window.remembers = True
+    remembered.folder().mkdir(parents=True)
+    lost = remembered.folder() / "open-999999.json"
+    lost.write_text(recipe_text(Recipe(comparison(mesh_file(bumpy(60)))), "9"))
+    monkeypatch.setattr(SessionFile, "_write", write)
+    offer_lost_state(s.window)
+    s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.Yes).click()
+    s.until(lambda: s.session.is_complete)
+    assert remembered.lost_states() == [lost]
+
+
 def test_what_cannot_be_shown_again_is_offered_the_next_time(screen, mesh_file):
     from qtpy.QtWidgets import QMessageBox
 

@@ -172,8 +172,8 @@ class SessionFile:
 
         def arrived() -> None:
             self._belongs_to(remembered.session_of(lost), IN_NO_FILE)
-            self.keep()  # before what holds it now is gone
-            remembered.remove_state(lost)
+            if self.keep():  # before what holds it now is gone
+                remembered.remove_state(lost)
 
         self._show(str(lost), arrived)
 
@@ -237,13 +237,14 @@ class SessionFile:
         if self._window.remembers:
             self._keep_soon.start()
 
-    def keep(self) -> None:
-        """Keep what is shown now."""
-        if self._window.session.surface is not None:
-            recipe = self.recipe()
-            meshes = tuple(with_paths(mesh, _absolute) for mesh in recipe.document.surfaces)
-            recipe = replace(recipe, document=replace(recipe.document, surfaces=meshes))
-            remembered.keep_state(lambda path: self._write(recipe, path, stays=True), self.path)
+    def keep(self) -> bool:
+        """Keep what is shown now, in case of a crash; whether that was possible."""
+        if self._window.session.surface is None:
+            return False
+        recipe = self.recipe()
+        meshes = tuple(with_paths(mesh, _absolute) for mesh in recipe.document.surfaces)
+        recipe = replace(recipe, document=replace(recipe.document, surfaces=meshes))
+        return remembered.keep_state(lambda path: self._write(recipe, path, stays=True), self.path)
 
     def forget(self) -> None:
         """The window closes as it should."""
