@@ -79,26 +79,28 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
     ranges = {"shared": "Panels of one unit share a range", "shares": "Colours are fractions of each maximum"}
     if figure.range in ranges:
         sentences.append(ranges[figure.range])
-    isolines = figure.panels[0].isolines
-    if isolines.count and isolines.spacing is None and not isolines.values:
-        if isolines.round:
-            steps = [f"{step:g}{with_unit(unit)}" for step, unit in _steps(figure)]
-            sentences.append(f"Isolines every {_listed(steps)}" if steps else "")
-        else:
-            sentences.append(f"Isolines at {isolines.count} equal steps")
-    elif isolines.spacing is not None:
-        sentences.append(f"Isolines every {isolines.spacing:.4g}")
+    sentences.append(_isolines(figure))
     return escaped(". ".join(sentence[0].upper() + sentence[1:] for sentence in sentences if sentence) + ".")
 
 
-def _steps(figure: Figure) -> list[tuple[float, str]]:
-    """The round steps of the panels' isolines with their units, in order, each once."""
-    found = {}
+def _isolines(figure: Figure) -> str:
+    """Where the panels' isolines are, "" where there are none or at values of one's own."""
+    every: dict[str, None] = {}
+    equal: dict[str, None] = {}
     for panel, top in zip(figure.panels, figure.tops(), strict=True):
-        if panel.field is not None and panel.isolines.count and top > 0:
-            half = half_steps(panel.isolines.count) if panel.signed else panel.isolines.count
-            found[round_step(top, half), panel.unit] = None
-    return list(found)
+        isolines = panel.isolines
+        if panel.field is None or not top > 0 or isolines.values:
+            continue
+        if isolines.spacing is not None:
+            every[f"{isolines.spacing:.4g}{with_unit(panel.unit)}"] = None
+        elif isolines.count and isolines.round:
+            half = half_steps(isolines.count) if panel.signed else isolines.count
+            every[f"{round_step(top, half):g}{with_unit(panel.unit)}"] = None
+        elif isolines.count:
+            equal[f"{isolines.count}"] = None
+    parts = [f"every {_listed(list(every))}"] if every else []
+    parts += [f"at {_listed(list(equal))} equal steps"] if equal else []
+    return f"Isolines {' and '.join(parts)}" if parts else ""
 
 
 def sources_in_words(sources: Sequence[Source]) -> str:

@@ -184,6 +184,9 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     ends = [float(end) for end in re.findall(r"0 to ([0-9.]+)", caption)]
     first, second = (f"{round_step(end, 9):g}" for end in ends)
     assert f"Isolines every {first} mesh units and {second}" in caption
+    assert main([*words, "--distance", "biharmonic - diffusion", "--range", "shares"]) == 0
+    assert re.search(r"Isolines every [0-9.]+ percentage points", (tmp_path / "my_figure.tex").read_text())
+    assert "and at 10 equal steps." in (tmp_path / "my_figure.tex").read_text()
     assert main([*words, "--equal-isolines"]) == 0
     assert "Isolines at 9 equal steps." in (tmp_path / "my_figure.tex").read_text()
     assert escaped(r"50% of a_b & {c} \\ −1") == r"50\% of a\_b \& \{c\} \textbackslash{}\textbackslash{} $-$1"
