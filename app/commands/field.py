@@ -36,7 +36,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _one(options: argparse.Namespace) -> Facts:
     from bihdist_core.distances.answers import Distances
-    from bihdist_core.distances.difference import PERCENTAGE_POINTS, check_units, difference
+    from bihdist_core.distances.difference import PERCENTAGE_POINTS, difference_in_unit
     from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
     from bihdist_core.sources.pieces import pieces_of
     from bihdist_core.whole_file import check_output
@@ -53,11 +53,8 @@ def _one(options: argparse.Namespace) -> Facts:
     labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
     columns, label = fields[0], " − ".join(labels)
     if isinstance(chosen, Difference):
-        columns = difference(*fields, raw=chosen.raw)
-        if chosen.raw:
-            check_units(*(distance.unit for distance in known))
-        else:
-            columns, label = 100 * columns, f"{label}, {PERCENTAGE_POINTS}"
+        columns, unit = difference_in_unit(*fields, (known[0].unit, known[1].unit), chosen.raw)
+        label = f"{label}, {unit}" if unit == PERCENTAGE_POINTS else label
     names = distinct([field_name(chosen, [each]) for each in options.source])
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
     size = f"{columns.shape[0]:,} vertices, {counted(columns.shape[1], 'source')}"

@@ -54,7 +54,7 @@ def field_of(
 ) -> FieldOf:
     """What `words` say, from the source, with the options beside them; laplacian: of the mesh if it is there."""
     from bihdist_core.distances.answers import Distances
-    from bihdist_core.distances.difference import PERCENTAGE_POINTS, check_units, difference
+    from bihdist_core.distances.difference import difference_in_unit
     from bihdist_core.sources.pieces import pieces_of
 
     from ..document.quantities import Difference
@@ -66,11 +66,7 @@ def field_of(
     fields = [distance.from_source(options.source, progress) for distance in known]
     unit, field = known[0].unit, fields[0]
     if isinstance(chosen, Difference):
-        field = difference(*fields, raw=chosen.raw)
-        if chosen.raw:
-            check_units(*(distance.unit for distance in known))
-        else:
-            unit, field = PERCENTAGE_POINTS, 100 * field
+        field, unit = difference_in_unit(*fields, (known[0].unit, known[1].unit), chosen.raw)
     return FieldOf(
         laplacian,
         field,

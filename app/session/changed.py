@@ -11,7 +11,7 @@ from bihdist_core.analysis.diagnostics import field_change
 from bihdist_core.applications.perturbation import image_of
 from bihdist_core.distances.accuracy import Certificate
 from bihdist_core.distances.answers import Answer, failed, percent, same_on
-from bihdist_core.distances.difference import PERCENTAGE_POINTS
+from bihdist_core.distances.difference import PERCENTAGE_POINTS, difference_in_unit
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source, SourceSet
 
@@ -199,7 +199,7 @@ def _compared(before: np.ndarray | None, after: np.ndarray | None, ids: np.ndarr
     both = np.isfinite(old) & np.isfinite(after)
     found = field_change(old[both], after[both])
     field = np.full(len(after), np.nan)
-    field[both] = 100 * (after[both] / after[both].max() - old[both] / old[both].max())
+    field[both], _ = difference_in_unit(after[both], old[both])
     field.flags.writeable = False
     return field, (
         f"mean {percent(found.normalised_mean)}, largest {percent(found.normalised_largest)}, each of its own "

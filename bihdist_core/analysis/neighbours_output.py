@@ -31,7 +31,7 @@ def write_nearest(
     """
     extension = check_output(path, NEIGHBOUR_FORMATS)
     if not len(sources) == len(indices) == len(distances):
-        raise ParameterError(f"{len(sources):,} vertices have neighbours of {len(indices)}; they need as many.")
+        raise ParameterError(f"{len(sources):,} vertices have neighbours of {len(indices):,}; they need as many.")
     is_there = indices >= 0
     if extension in (".csv", ".npy"):
         of_each = np.broadcast_to(np.asarray(sources)[:, None], indices.shape)

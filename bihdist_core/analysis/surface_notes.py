@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from ..counts import counted
 from ..surface import FLAT, Surface
 
-TOUCH = "where faces touch in a point"
 HELD = f"of (nearly) no area held in shape as if {FLAT:g} of the longest side high"
 
 

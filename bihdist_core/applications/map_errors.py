@@ -76,7 +76,7 @@ def map_errors(
         if len(others) != len(surface.vertices):
             raise ParameterError(
                 f"Symmetric partners are needed for each of the {len(surface.vertices):,} vertices of {surface.name}, "
-                f"not for {len(others)}."
+                f"not for {len(others):,}."
             )
         known = right >= 0
         mirrored = np.full(len(right), NOWHERE)

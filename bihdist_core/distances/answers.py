@@ -17,7 +17,7 @@ from ..progress import Progress, part, silent, turn
 from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
 from .accuracy import Certificate
-from .difference import PERCENTAGE_POINTS, check_units, difference, scale_of
+from .difference import PERCENTAGE_POINTS, difference_in_unit, scale_of
 from .distance import ELSEWHERE, Distance
 from .kinds import Spec
 
@@ -94,14 +94,11 @@ def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Ans
     if minuend.field is None or subtrahend.field is None:
         failures = dict.fromkeys(answer.failure for answer in (minuend, subtrahend) if answer.failure)
         return Answer(label=label, failure=" ".join(failures))
-    if raw and minuend.unit and subtrahend.unit:
-        try:
-            check_units(minuend.unit, subtrahend.unit)
-        except ParameterError as error:
-            return failed(label, error)
-    field = difference(minuend.field, subtrahend.field, raw) * (1.0 if raw else 100.0)
+    try:
+        field, unit = difference_in_unit(minuend.field, subtrahend.field, (minuend.unit, subtrahend.unit), raw)
+    except ParameterError as error:
+        return failed(label, error)
     field.flags.writeable = False
-    unit = (minuend.unit or subtrahend.unit) if raw else PERCENTAGE_POINTS
     certificate = None
     if minuend.certificate is not None and subtrahend.certificate is not None:
         certificate = Certificate.of_difference(minuend.certificate, subtrahend.certificate)
@@ -120,13 +117,15 @@ def _signs(minuend: Answer, subtrahend: Answer) -> tuple[str, str]:
     larger = "farther" if minuend.is_distance and subtrahend.is_distance else "larger"
     labels = (minuend.label, subtrahend.label)
     names = [label.partition(",")[0] for label in labels]
-    first, second = names if names[0] != names[1] else labels
+    if names[0] == names[1]:
+        names = list(labels) if labels[0] != labels[1] else ["the first", "the second"]  # from other points
+    first, second = names
     return f"{first} is {larger}", f"{second} is {larger}"
 
 
 def plain(value: float) -> str:
     """Three digits without a power of ten, unless that would be long."""
-    return f"{value:.3g}" if not 1e3 <= abs(value) < 1e7 else f"{value:,.0f}"
+    return f"{value:.3g}" if not 999.5 <= abs(value) < 1e7 else f"{value:,.0f}"
 
 
 def percent(fraction: float) -> str:

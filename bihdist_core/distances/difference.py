@@ -29,10 +29,19 @@ def scale_of(unit: str) -> float:
     return 100.0 if unit == PERCENTAGE_POINTS else 1.0
 
 
-def check_units(minuend: str, subtrahend: str) -> None:
-    """ParameterError for values of different units, which have no difference."""
-    if minuend != subtrahend:
-        raise ParameterError(f"Values in {minuend} and in {subtrahend} have no difference; leave out raw.")
+def difference_in_unit(
+    minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, units: tuple[str, str] = ("", ""), raw: bool = False
+) -> tuple[np.ndarray, str]:
+    """The `difference` of two fields (n,) or (n, k) with its unit: in percentage points, or, raw, in that of the two.
+
+    units: theirs; a field without one, which is no distance, is taken to be in the unit of the other.  Raises
+    ParameterError for fields of different shapes and, raw, of different units.
+    """
+    if not raw:
+        return 100 * difference(minuend, subtrahend), PERCENTAGE_POINTS
+    if all(units) and units[0] != units[1]:
+        raise ParameterError(f"Values in {units[0]} and in {units[1]} have no difference; leave out raw.")
+    return difference(minuend, subtrahend, raw=True), units[0] or units[1]
 
 
 def _shares(field: np.ndarray) -> np.ndarray:

@@ -5,7 +5,8 @@ import pytest
 
 from bihdist_core import ParameterError, difference
 from bihdist_core.distances.accuracy import Certificate
-from bihdist_core.distances.answers import Answer, difference_of
+from bihdist_core.distances.answers import Answer, difference_of, plain
+from bihdist_core.distances.difference import difference_in_unit
 
 
 def test_shares_lie_between_minus_one_and_one_and_values_are_subtracted():
@@ -62,6 +63,30 @@ def test_two_of_one_name_and_what_is_no_distance_are_told_apart():
     assert difference_of(one, other).largest_words.startswith("diffusion, t = 4 is farther by 50 % of its maximum")
     mine = Answer(label="height", field=np.array([0.0, 2.0, 2.0]))
     assert difference_of(one, mine).largest_words == "height is larger by 50 % of its maximum at vertex 1"
+
+
+def test_two_of_one_label_are_the_first_and_the_second():
+    one, other = (Answer(label="commute-time, exact", field=np.array(f)) for f in ([0.0, 1.0, 2.0], [2.0, 1.0, 0.0]))
+    assert difference_of(one, other).signs == ("the first is larger", "the second is larger")
+
+
+def test_a_difference_has_a_unit_or_is_refused():
+    one, other = np.array([0.0, 1.0, 2.0]), np.array([0.0, 3.0, 4.0])
+    for units, raw, unit in [
+        (("mm", "1"), False, "percentage points"),
+        (("mm", "mm"), True, "mm"),
+        (("", "mm"), True, "mm"),
+    ]:
+        field, found = difference_in_unit(one, other, units, raw)
+        assert found == unit
+        assert np.allclose(field, one - other if raw else 100 * (one / 2 - other / 4))
+    with pytest.raises(ParameterError, match="Values in mm and in 1 have no difference"):
+        difference_in_unit(one, other, ("mm", "1"), raw=True)
+
+
+@pytest.mark.parametrize(("value", "words"), [(999.4, "999"), (999.7, "1,000"), (-999.7, "-1,000"), (0.1417, "0.142")])
+def test_numbers_in_words_have_no_power_of_ten(value, words):
+    assert plain(value) == words
 
 
 def test_shares_are_of_the_largest_absolute_value():

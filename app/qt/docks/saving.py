@@ -50,9 +50,10 @@ def ask_path(window: Any, title: str, name: str, formats: Sequence[str]) -> str:
     def take_format(chosen: str) -> None:
         extension = re.search(r"\*(\.\w+)", chosen)[1]
         dialog.setDefaultSuffix(extension.removeprefix("."))
-        stem, typed = os.path.splitext(os.path.basename(dialog.selectedFiles()[0]))
-        if typed in formats:
-            dialog.selectFile(stem + extension)
+        for path in dialog.selectedFiles()[:1]:  # a dialog of the desktop may have none yet
+            stem, typed = os.path.splitext(os.path.basename(path))
+            if typed in formats:
+                dialog.selectFile(stem + extension)
 
     dialog.filterSelected.connect(take_format)
     dialog.selectFile(name + formats[0])
