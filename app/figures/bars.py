@@ -71,7 +71,7 @@ def end_words(figure: Figure, panel: int) -> str:
     if each.field is None:
         return ""
     if each.largest:
-        end = each.largest.replace(" % ", f"{BOUND}% ").replace(" at vertex ", f" at{BOUND}vertex{BOUND}")
+        end = _largest_words(each.largest)
     elif each.signed:
         vertex = int(np.nanargmax(np.abs(each.field))) if np.isfinite(each.field).any() else 0
         end = f"largest{BOUND}{_signed(each.field[vertex])} at{BOUND}vertex{BOUND}{vertex}"
@@ -84,10 +84,17 @@ def end_words(figure: Figure, panel: int) -> str:
     return f"{each.unit}, {end}" if each.unit else end
 
 
+def _largest_words(largest: str) -> str:
+    """How large a difference is; a number and what it counts stay on one line."""
+    return largest.replace(" % ", f"{BOUND}% ").replace(" at vertex ", f" at{BOUND}vertex{BOUND}")
+
+
 def bar_words(figure: Figure, panel: int) -> str:
     """All that stands under a panel: its name where it has no heading, and what its bar says."""
     each, end = figure.panels[panel], end_words(figure, panel)
-    if figure.has_one_bar and figure.range == "shared":
+    if figure.has_one_bar and each.largest:
+        end = _largest_words(each.largest)
+    elif figure.has_one_bar and figure.range == "shared":
         end = ""
     if figure.title == "none" or (figure.title == "heading" and each.heading):
         return end
@@ -99,7 +106,8 @@ def shared_words(figure: Figure, panel: int) -> str:
     """What stands at the one bar of all panels."""
     if figure.is_in_shares(panel):
         return "% of each maximum" if not figure.panels[panel].signed else "% of each largest value"
-    return end_words(figure, panel)
+    # How large a difference is stands under its panel.
+    return figure.panels[panel].unit if figure.panels[panel].largest else end_words(figure, panel)
 
 
 def ticks(high: float, low: float = 0.0, most: int = 5) -> list[float]:

@@ -252,7 +252,12 @@ def test_a_difference_is_in_percentage_points_in_every_range(ball, range):
     # Of one unit, they end together unless each has its own.
     assert ends(of, 2)[1] == (7.1 if range == "own" else 14.2)
     assert not of.has_one_bar
-    assert Figure(tuple(panels), range=range).has_one_bar == (range != "own")
+    alone = Figure(tuple(panels), range=range)
+    assert alone.has_one_bar == (range != "own")
+    if alone.has_one_bar:
+        # The one bar says what holds for both.
+        assert shared_words(alone, 0) == "percentage points"
+        assert [bar_words(alone, k).replace("\xa0", " ") for k in (0, 1)] == [f"b ({words})"] * 2
 
 
 def test_numbers_of_insets_stand_on_grounds_inside_the_page():
