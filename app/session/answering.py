@@ -227,7 +227,8 @@ class Answering:
     def _answered(self, id: int, new: Shown, live: bool) -> None:
         """Show an answer unless nobody asks for it any more, or something newer is shown."""
         now = self._asked.get(id)
-        if now is None or not (new.asked == now or (live and are_about_the_same(new.asked, now))):
+        # What was under way when the user stopped it may be done all the same.
+        if now is None or id in self.stopped or not (new.asked == now or (live and are_about_the_same(new.asked, now))):
             return
         old = self.shown.get(id)
         if old is None or not are_about_the_same(old.asked, new.asked) or old.serial <= new.serial:

@@ -159,6 +159,22 @@ def test_an_answer_that_comes_late_is_dropped(desk, mesh_file):
     assert d.view.told.count("answer 0") == 2  # for 1 and 3
 
 
+def test_an_answer_that_comes_after_a_stop_is_not_shown_until_it_is_asked_again(desk, mesh_file):
+    d = desk([BIHARMONIC])
+    d.opened(mesh_file(bumpy(200)), source=1)
+    kept, after = d.post_later()
+    d.click(2)
+    d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
+    d.session.cancel()
+    d.post = after
+    for function in kept:
+        function()
+    assert (d.sources_shown, d.session.is_stopped_at(0)) == ([1], True)
+    d.session.retry(0)
+    d.complete()
+    assert (d.sources_shown, d.session.is_stopped) == ([2], False)
+
+
 # ---------------------------------------------------------------------- what asks nobody
 @dataclass(frozen=True)
 class DeafSpec(Spec):
