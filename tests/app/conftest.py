@@ -51,7 +51,7 @@ class Desk:
         self.view.failures_are_expected = True
         self.until(lambda: any(words in told for told in self.view.told))
 
-    def until(self, condition, seconds=120):
+    def until(self, condition, seconds=600):
         end = time.monotonic() + seconds
         while not condition():
             assert time.monotonic() < end, f"waited in vain; told: {self.view.told}"

@@ -5,6 +5,7 @@ import os
 import queue
 import time
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from hypothesis import HealthCheck, settings
@@ -40,6 +41,14 @@ SPECS = st.sampled_from(
 VERTICES = st.integers(0, 29)  # which all surfaces have, on their largest component
 STEPS = int(os.environ.get("SESSION_STEPS", "50"))
 """Steps of a run; SESSION_STEPS=1000 for a long one."""
+PATIENCE = 600
+"""Seconds: lanes stand back, so that on a busy machine they get next to nothing."""
+
+
+@cache
+def fresh_field(spec, mesh, areas, vertex):
+    """By a distance built for it alone."""
+    return spec.build(LAPLACIANS[mesh, areas]).from_source(vertex)
 
 
 class AnySession(RuleBasedStateMachine):
@@ -48,7 +57,7 @@ class AnySession(RuleBasedStateMachine):
     @initialize()
     def begin(self):
         self.posted = queue.Queue()
-        self.session = Session(self, self.posted.put)
+        self.session = Session(self, self.posted.put, known_up=lambda sha256: "y")  # guessing it takes a while
         self.meshes = [self.session.given.add_surface(surface) for surface in SURFACES]
         document = comparison("", (Spec.of("biharmonic"),), (3,))
         # Open once, a surface is there at once afterwards.
@@ -148,7 +157,8 @@ class AnySession(RuleBasedStateMachine):
     def look(self, z):
         camera = Camera((0.0, 0.0, z), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.5, 0.5))
         self.session.look(camera)
-        self.key = ""
+        if camera == self.steps[self.place].camera:
+            self.key = ""  # the present itself ends a row of equal keys, and a camera that moves does not
         self.steps[self.place] = replace(self.steps[self.place], camera=camera)
 
     @rule()
@@ -199,7 +209,7 @@ class AnySession(RuleBasedStateMachine):
         self.run_until(lambda: self.session.is_complete)
 
     def run_until(self, condition):
-        end = time.monotonic() + 60
+        end = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < end, "waited in vain"
             try:
@@ -213,17 +223,17 @@ class AnySession(RuleBasedStateMachine):
         assert list(self.session.shown) == [] or set(self.session.shown) == {p.id for p in self.document.panels}
         mesh = self.meshes.index(self.document.surfaces[0])
         for panel in self.document.panels:
-            fresh = self.fresh(panel.shows, LAPLACIANS[mesh, self.document.areas])
+            fresh = self.fresh(panel.shows, mesh)
             answer = self.session.shown[panel.id].answer
             assert not answer.failure
             small = 1e-8 * np.nanmax(np.abs(fresh), initial=1e-3)
             assert np.allclose(answer.field, fresh, rtol=1e-7, atol=small, equal_nan=True)
 
-    def fresh(self, shows, laplacian):
+    def fresh(self, shows, mesh):
         if isinstance(shows, Difference):
-            a, b = (self.fresh(part, laplacian) for part in (shows.minuend, shows.subtrahend))
-            return a / np.nanmax(a) - b / np.nanmax(b)
-        return shows.spec.build(laplacian).from_source(self.document.point(shows.point).at)
+            a, b = (self.fresh(part, mesh) for part in (shows.minuend, shows.subtrahend))
+            return 100 * (a / np.nanmax(a) - b / np.nanmax(b))
+        return fresh_field(shows.spec, mesh, self.document.areas, self.document.point(shows.point).at)
 
     @invariant()
     def the_history_knows_where_it_is(self):
