@@ -14,7 +14,7 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import COMPARISON, Zoom
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
 from ...document.quantities import DistanceFrom
-from ...drawing.bands import band_edges, beyond
+from ...drawing.bands import band_edges
 from ...drawing.board import Board
 from ...drawing.drawable import drawable
 from ...drawing.levels import in_unit
@@ -26,7 +26,7 @@ from ...session.answering import Shown
 from ...session.opened import Opened
 from ...session.passed import Passed
 from ..look.look import LOOK
-from ..look.numbers import number
+from .answer_bar import show_answer
 from .colour_bar import ColourBar
 from .end_box import EndPopUp
 from .head import PanelHead
@@ -159,7 +159,7 @@ class DistancePanel(QtWidgets.QWidget):
         """Put the insets where they hide the least."""
         if self._opened is not None and self._zooms:
             samples = self._opened.prepared.samples if self._raised is None else self.positions
-            marked = [vertex for vertex, _ in self.marks.anchors] + ([] if self.source is None else [self.source])
+            marked = list(self.marks.anchors) + ([] if self.source is None else [self.source])
             self.view.scene.insets.settle(samples, self.positions[marked])
 
     def show_isolines(self, isolines: Isolines, through: tuple[Passed, ...] = ()) -> None:
@@ -212,12 +212,12 @@ class DistancePanel(QtWidgets.QWidget):
         """(k, 3) where marks are."""
         largest = None if self.answer is None else self.answer.largest
         ids = [vertex for vertex in (self.marks.source, largest) if vertex is not None]
-        ids += [vertex for vertex, _ in self.marks.anchors]
+        ids += self.marks.anchors
         return np.concatenate([self.positions[ids], self.marks.dots])
 
-    def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
-        """Vertices with a value each, or None."""
-        self.marks.mark_anchors(anchors)
+    def mark_anchors(self, vertices: Sequence[int]) -> None:
+        """Rings at the vertices of anchors, in their order."""
+        self.marks.mark_anchors(vertices)
 
     @property
     def source(self) -> int | None:
@@ -258,38 +258,11 @@ class DistancePanel(QtWidgets.QWidget):
         self._show_bar()
 
     def _show_bar(self) -> None:
-        answer, scene = self.answer, self.view.scene
+        answer = self.answer
         if answer is None or answer.field is None or self._is_waiting:
             self.bar.clear()
             return
-        top, style, signed = scene.maximum, scene.style, answer.is_signed
-        edges, lines = self._edges if style.bands else np.empty(0), scene.levels
-        self.bar.show_range(
-            style.band_colours(edges, signed) if style.bands and len(edges) else style.colours(signed=signed),
-            -top if signed else 0.0,
-            top,
-            lines.values,
-            answer.unit,
-            signed,
-            style.line(signed),
-            maximum=answer.maximum,
-            rest=(style.line(signed, 1.0), style.rim(signed, 1.0)) if signed else None,
-            bands=(edges + 1) / 2 if signed else edges,
-            beyond=beyond(answer.field, top, signed),
-            in_shares=self._in_shares,
-            bold=lines.values[lines.is_bold],
-            through=lines.values[lines.is_through],
-            through_colours=(style.source, style.mark_edge),
-        )
-        self.bar.show_shares(not answer.is_signed)
-        if answer.signs:
-            said = answer.largest_words
-            self.bar.show_note(said, said.replace(" of its maximum", ""))
-        elif answer.largest is not None:
-            value = float(answer.field[answer.largest])
-            self.bar.show_note(f"largest {number(value, signed=True)} at vertex {answer.largest}")
-        else:
-            self.bar.show_note(f"no isolines: {lines.wanted:,} are too many" if scene.too_many else "")
+        show_answer(self.bar, answer, self.view.scene, self._edges, self._in_shares)
 
     def show_prediction(self, best: float | None, sentence: Sequence[str], plain: str) -> None:
         """Of a prediction: the misfit of the best, None for none; a sentence where nothing is predicted, also shorter.
