@@ -75,7 +75,8 @@ class GridMarks:
         """Put the anchors of each panel's surface where they are."""
         for panel in document.panels:
             opened, marks = self._session.opened(panel.surface), self._panels[panel.id].marks
-            self._panels[panel.id].mark_anchors(anchors_on(document, panel.surface, opened))
+            anchors = anchors_on(document, panel.surface, opened)
+            self._panels[panel.id].mark_anchors([vertex for vertex, _ in anchors])
             if not any(isinstance(part, Interpolant) for part in panel.shows.parts):
                 marks.hold_anchors(None)
                 continue

@@ -33,7 +33,7 @@ class PanelMarks:
         self.source: int | None = None  # a vertex that stands for it
         self._pieces: tuple[Pieces, ...] = ()
         self._lines: list[SourceLine] = []
-        self.anchors: Sequence[tuple[int, float | None]] = ()
+        self.anchors: Sequence[int] = ()
         self._held: Sequence[AnchorLabel] | None = None
         self._pins: Sequence[PinnedPlace] = ()
         self._lit: Collection[str] = ()
@@ -101,10 +101,10 @@ class PanelMarks:
         """What has been drawn so far: of each stroke the corners (k, 3) of faces, and the weights (k, 3) of these."""
         self._view.over.show_strokes([np.einsum("kc,kcx->kx", w, self.positions[corners]) for corners, w in strokes])
 
-    def mark_anchors(self, anchors: Sequence[tuple[int, float | None]]) -> None:
-        """Vertices with a value each, or None."""
-        self.anchors = anchors
-        self._view.scene.mark_anchors(self.positions[[vertex for vertex, _ in anchors]])
+    def mark_anchors(self, vertices: Sequence[int]) -> None:
+        """Rings at the vertices of anchors, in their order."""
+        self.anchors = vertices
+        self._view.scene.mark_anchors(self.positions[list(vertices)])
         self._view.redraw()
 
     def hold_anchors(self, names: Sequence[str] | None, texts: Sequence[str] = (), chosen: str = "") -> None:
@@ -118,7 +118,7 @@ class PanelMarks:
                 self._held, view.handles = None, np.empty((0, 3))
                 view.over.show_anchors(())
             return
-        places = self.positions[[vertex for vertex, _ in self.anchors]]
+        places = self.positions[list(self.anchors)]
         view.handles = places
         self._held = [
             AnchorLabel(at, text, name == chosen) for at, text, name in zip(places, texts, names, strict=True) if text
