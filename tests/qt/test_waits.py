@@ -240,7 +240,7 @@ def test_what_auto_stood_for_on_another_mesh_is_not_said_after_a_stop(screen, me
     assert method.text() == "auto: exact"
     gate.clear()
     s.window.open(mesh_file(bumpy(400), "other.off"))
-    s.until(panel.waiting.isVisible)
+    s.until(lambda: panel.waiting.isVisible() and not s.session.is_opening)
     s.window.cancel()
     s.until(panel.stopped.isVisible)
     assert method.text() == "auto"
