@@ -101,7 +101,7 @@ def test_a_session_is_not_replaced_by_a_figure_of_its_name(mesh, tmp_path, capsy
     # Drawn as it is, it stays a session.
     settled = json.loads(before)
     settled["document"]["surfaces"][0]["sha256"] = checksum(mesh)
-    settled["document"]["up"] = "y"
+    settled["document"] |= {"up": "y", "camera": "home"}
     session.write_text(json.dumps(settled))
     assert main(["figure", "--recipe", str(session), "-o", str(tmp_path / "f.svg")]) == 0
     assert read_recipe(session).page.format == ""

@@ -106,17 +106,19 @@ def test_the_style_that_is_a_map_of_another_is_shown_as_that_map(shown):
 
 
 def test_bands_are_on_the_bar_where_the_isolines_are(shown):
-    shown.window.choices.isolines(4)
+    shown.window.choices.isolines(6)
     shown.window.choices.band_colours(True)
     shown.settle()
     bar = shown.panels[0].bar
     picture, box = bar.grab().toImage(), bar._layout.bar
     y = round(box.center().y())
     scene = shown.panels[0].view.scene
-    expected = scene.style.band_colours(np.array([0.25, 0.5, 0.75]))
-    for k, colour in enumerate(expected):
+    edges = scene.isolines / scene.maximum
+    assert len(edges) >= 3
+    ends = [0.0, *edges, 1.0]
+    for colour, start, end in zip(scene.style.band_colours(edges), ends[:-1], ends[1:], strict=True):
         for share in (0.1, 0.5, 0.9):
-            seen = picture.pixelColor(round(box.left() + (k + share) / 4 * box.width()), y)
+            seen = picture.pixelColor(round(box.left() + (start + share * (end - start)) * box.width()), y)
             assert np.abs(255 * colour - seen.getRgb()[:3]).max() <= 2
 
 
@@ -179,6 +181,8 @@ def test_an_end_is_typed_at_the_bar(shown):
 
 
 def test_shares_are_read_on_the_bar_and_colour_as_before(shown):
+    shown.window.choices.isolines(0)  # those of shares are at round percentages
+    shown.settle()
     before = pixels(shown)
     shown.window.choices.end_at(1, 0.2)
     shown.window.choices.range("shares")
