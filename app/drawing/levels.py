@@ -20,12 +20,14 @@ class Levels:
     """values: (k,) in order; is_bold, is_through: (k,), the latter for those through a point.
 
     wanted: how many there would be but for those through points; of a spacing that makes too many, none are.
+    step: from one line to the next, 0 where they are at given values.
     """
 
     values: np.ndarray
     is_bold: np.ndarray
     is_through: np.ndarray
     wanted: int
+    step: float = 0.0
 
     @property
     def widths(self) -> np.ndarray:
@@ -44,7 +46,7 @@ def levels(
     if not (maximum > 0 and own > 0):
         return _merged(np.empty(0), np.empty(0, bool), np.empty(0), 0)
     # A millionth of a step: at the farthest point itself a line would be a blot.
-    low, high = (-own if signed else 0.0), own
+    low, high, step = (-own if signed else 0.0), own, 0.0
     if isolines.values:
         values = np.array(isolines.values)
         number = np.arange(1, len(values) + 1)
@@ -54,7 +56,7 @@ def levels(
     else:
         step = isolines.spacing or 0.0
         if isolines.spacing is None and isolines.count:
-            steps = half_steps(isolines.count) if signed else isolines.count
+            steps = steps_to_top(isolines, signed)
             step = round_step(maximum, steps) if isolines.round else maximum / steps
         last = int(min(np.ceil(own / step - 1e-6) - 1, 1e9)) if step else 0
         wanted = 2 * last + 1 if signed and step else last
@@ -69,7 +71,7 @@ def levels(
     if signed:
         is_bold |= values == 0
     passed = np.array([v for v in through if low < v < high], float)
-    return _merged(values, is_bold, passed, wanted)
+    return replace(_merged(values, is_bold, passed, wanted), step=float(step))
 
 
 def _merged(values: np.ndarray, is_bold: np.ndarray, through: np.ndarray, wanted: int) -> Levels:
@@ -116,9 +118,24 @@ def in_unit(isolines: Isolines, scale: float, in_shares: bool, signed: bool) -> 
     isolines = isolines.scaled(scale)
     if not (in_shares and isolines.round and isolines.count):
         return isolines
-    half = half_steps(isolines.count) if signed else isolines.count
-    steps = max(round(1 / round_step(1.0, half)), 1)
+    steps = max(round(1 / round_step(1.0, steps_to_top(isolines, signed))), 1)
     return replace(isolines, count=min(2 * steps if signed else steps, MOST_ISOLINES), round=False)
+
+
+def with_kept_step(isolines: Isolines, step: float, maximum: float, own: float, signed: bool) -> Isolines:
+    """The same at multiples of the step they had before, unless that makes less than half or more than twice as many.
+
+    While the maximum changes a little at a time the lines then do not change back and forth between two round steps.
+    """
+    if isolines.spacing is not None or isolines.values or not (isolines.round and isolines.count and step > 0):
+        return isolines
+    is_near = 0.5 <= maximum / step / steps_to_top(isolines, signed) <= 2
+    return replace(isolines, spacing=step) if is_near and 2 * own / step <= MOST_ISOLINES else isolines
+
+
+def steps_to_top(isolines: Isolines, signed: bool) -> int:
+    """Steps that are wanted from 0 to the maximum."""
+    return half_steps(isolines.count) if signed else isolines.count
 
 
 def half_steps(count: int) -> int:

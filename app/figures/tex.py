@@ -12,7 +12,7 @@ from bihdist_core.sources.words import short_words_of
 
 from ..document.page import Recipe
 from ..document.sourcing import members_of
-from ..drawing.levels import half_steps, round_step
+from ..drawing.levels import round_step, steps_to_top
 from ..session.questions import source_at
 from .description import Figure
 from .layout import lay_out
@@ -94,8 +94,7 @@ def _isolines(figure: Figure) -> str:
         if isolines.spacing is not None:
             every[f"{isolines.spacing:.4g}{with_unit(panel.unit)}"] = None
         elif isolines.count and isolines.round:
-            half = half_steps(isolines.count) if panel.signed else isolines.count
-            every[f"{round_step(top, half):g}{with_unit(panel.unit)}"] = None
+            every[f"{round_step(top, steps_to_top(isolines, panel.signed)):g}{with_unit(panel.unit)}"] = None
         elif isolines.count:
             equal[f"{isolines.count}"] = None
     parts = [f"every {_listed(list(every))}"] if every else []

@@ -77,7 +77,7 @@ class AnchorGestures:
                 return
             self._moved = names[mark]
             self._window.docks.choose_anchor(self._moved)
-            self._window.gestures.sources.rate.begin()
+            self._window.gestures.sources.set_off()
         if not self._name_at(panel, met.vertex):
             moved = put_point(document, self._moved, met.vertex, surface)
             session.show(moved, key=f"drag of {self._moved}", live=True)

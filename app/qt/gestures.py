@@ -134,7 +134,7 @@ class Gestures:
             is_held = self._stepped_soon.isActive()
             self._move(id, int(others[towards.argmax()]), key=f"steps in {id}", live=is_held)
             if is_held:
-                self.sources.rate.begin()
+                self.sources.set_off()
             self._stepped_soon.start()
 
     def _stepped(self) -> None:
@@ -170,7 +170,7 @@ class Gestures:
         is_elsewhere = last is None or panel != last_in or self._at(panel, met) != self._at(panel, last)
         if is_led and met is not None and is_elsewhere:
             self.is_dragging = self._has_followed = True
-            self.sources.rate.begin()
+            self.sources.set_off()
             if self.pairs.are_meant(panel):
                 self.pairs.follow(panel, met)
             else:

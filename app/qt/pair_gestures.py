@@ -174,7 +174,7 @@ class PairGestures:
             return
         if not self._is_dragging:
             self._is_dragging = self._window.gestures.is_dragging = True
-            self._window.gestures.sources.rate.begin()
+            self._window.gestures.sources.set_off()
         session.show(move_pair_point(document, names[0], met.vertex), key=f"drag of {names[0]}", live=True)
 
     def _arrive(self) -> None:

@@ -47,7 +47,7 @@ class SourceGestures:
 
     def begin(self) -> None:
         """Another surface is there."""
-        self._moved = None
+        self.rest()
         self._forget_stroke()
 
     # ------------------------------------------------------------------ points
@@ -83,15 +83,21 @@ class SourceGestures:
             if mark >= len(marked):
                 return
             self._moved = marked[mark]
-            self.rate.begin()
+            self.set_off()
         name, whole, member = self._moved
         moved = with_moved(session.document, name, whole, member, self.at(panel, met))
         session.show(moved, key=f"drag in {panel}", live=True)
+
+    def set_off(self) -> None:
+        """The source begins to move; nothing while it does."""
+        self.rate.begin()
+        self._grid.marks.keep_steps(True)
 
     def rest(self) -> None:
         """The source has arrived."""
         self._moved = None
         self.rate.end()
+        self._grid.marks.keep_steps(False)
 
     # ------------------------------------------------------------------ members
     def add_or_remove(self, panel: int, met: "Met") -> None:

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from app.document.document import Anchor, comparison
 from app.document.edits import open_mesh
 from app.document.isoline_edits import pass_through, pass_through_none
-from app.document.looks import Isolines
-from app.drawing.levels import half_steps, in_unit, levels, round_step, too_many
+from app.document.looks import TWENTY_STEPS, Isolines
+from app.drawing.levels import half_steps, in_unit, levels, round_step, too_many, with_kept_step
 
 
 def values(isolines, maximum=1.0, own=1.0, **how):
@@ -66,6 +66,21 @@ def test_panels_that_end_alike_have_the_same_lines_and_shares_round_percentages(
     assert Isolines(spacing=1e99).scaled(100.0).spacing == 1e100
     assert Isolines(values=(-1e100, 0.5)).scaled(100.0).values == (-1e100, 50.0)
     assert in_unit(Isolines(20, round=False), 1.0, True, False) == Isolines(20, round=False)
+
+
+def test_a_step_is_kept_while_it_makes_half_to_twice_as_many():
+    def kept(isolines=TWENTY_STEPS, maximum=1.0, own=None, signed=False):
+        return with_kept_step(isolines, 0.05, maximum, maximum if own is None else own, signed)
+
+    assert levels(Isolines(20), 1.0, 1.0).step == 0.05
+    assert kept(maximum=0.51).spacing == kept(maximum=1.99).spacing == 0.05
+    assert values(kept(maximum=0.51), 0.51, 0.51) == [round(0.05 * k, 2) for k in range(1, 11)]
+    assert kept(Isolines(40), signed=True).spacing == 0.05
+    for other in (kept(maximum=0.49), kept(maximum=2.01), kept(signed=True, maximum=1.01), kept(own=26.0)):
+        assert other == Isolines(20)
+    for own in (Isolines(0), Isolines(20, round=False), Isolines(spacing=0.1), Isolines(values=(0.1,))):
+        assert kept(own) == own
+    assert with_kept_step(Isolines(20), 0.0, 1.0, 1.0, False) == Isolines(20)
 
 
 def test_some_are_bold():

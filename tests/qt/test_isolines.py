@@ -16,9 +16,10 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
-from qtpy import QtCore
+from qtpy import QtCore, QtTest
 
 from app.qt.panels.line_labels import Finder, asked_of
+from tests.qt.sourcing import drag
 
 
 @pytest.fixture
@@ -154,6 +155,26 @@ def test_lines_are_at_round_values_unless_equal_steps_are_chosen(s):
     menu.equal.trigger()
     assert scene.isolines == pytest.approx(top * np.arange(1, 20) / 20)
     assert (s.document.isolines, menu.equal.isChecked()) == (Isolines(round=False), True)
+
+
+def test_lines_keep_their_step_until_a_dragged_source_is_released(s):
+    panel, (one, other) = s.panels[0], s.seen(2)
+    scene, tops = panel.view.scene, []
+    for vertex in (one, other):
+        s.session.show(move_source(s.document, 0, vertex))
+        s.until(lambda: s.session.is_complete)
+        tops.append(scene.maximum)
+    count = next(n for n in range(10, 100) if len({round_step(top, n) for top in tops}) == 2)
+    s.window.choices.isolines(count)
+    before, after = (round_step(top, count) for top in reversed(tops))
+    place = s.point_of(panel, one)
+    drag(s, [s.point_of(panel, other), place], end=False)
+    s.until(lambda: s.session.is_complete and scene.maximum == tops[0])
+    s.settle(0.05)
+    assert scene.isolines == pytest.approx(np.arange(before, tops[0], before))
+    QtTest.QTest.mouseRelease(panel.view, QtCore.Qt.MouseButton.LeftButton, pos=place)
+    s.until(lambda: s.session.is_complete)
+    assert scene.isolines == pytest.approx(np.arange(after, tops[0], after))
 
 
 def test_the_colour_bar_tells_bold_lines_and_lines_through_points(s):

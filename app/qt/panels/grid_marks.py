@@ -35,7 +35,7 @@ class GridMarks:
         self._session, self._shown, self._moving = session, panels, moving
         self.lit: tuple[str, ...] = ()
         self.chosen_anchor = self.chosen_pair = ""
-        self._is_drawn_on = False
+        self._is_drawn_on = self._keeps_steps = False
         self._selected: Mapping[str, np.ndarray | None] = {}
         self._brush: QtGui.QCursor | None = None
 
@@ -172,6 +172,16 @@ class GridMarks:
         for panel in document.panels:
             if panel.id in self._panels:
                 self._panels[panel.id].show_isolines(document.isolines, self._through(document, panel))
+
+    def keep_steps(self, are_kept: bool) -> None:
+        """Whether isolines keep their steps for as long as these will do, which they do while a source moves."""
+        if are_kept == self._keeps_steps:
+            return
+        self._keeps_steps = are_kept
+        for panel in self._panels.values():
+            panel.keeps_step = are_kept
+        if not are_kept:
+            self.show_isolines(self._session.document)
 
     def show_isolines_again(self, document: Document, id: int) -> None:
         """Those through its points, with the answer that a panel shows now."""

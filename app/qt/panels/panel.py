@@ -17,7 +17,7 @@ from ...document.quantities import DistanceFrom
 from ...drawing.bands import band_edges
 from ...drawing.board import Board
 from ...drawing.drawable import drawable
-from ...drawing.levels import in_unit
+from ...drawing.levels import in_unit, with_kept_step
 from ...drawing.picking import LatePicker
 from ...drawing.prepared import Drawn
 from ...drawing.relief import relief, rise
@@ -81,8 +81,9 @@ class DistancePanel(QtWidgets.QWidget):
         self._shading, self._drawn = AS_IT_IS, None  # of the surface as it lies
         self._zooms: tuple[Zoom, ...] = ()
         self._isolines = TWENTY_STEPS
+        self._top = 0.0  # where the colours of the answer end
         self.answer: Answer | None = None
-        self._is_preview = self._is_waiting = self._in_shares = self._is_compact = False
+        self._is_preview = self._is_waiting = self._in_shares = self._is_compact = self.keeps_step = False
         self.show_active(False)
 
     # ------------------------------------------------------------------ how it looks
@@ -186,12 +187,11 @@ class DistancePanel(QtWidgets.QWidget):
     @property
     def _lines(self) -> Isolines:
         """The document's, as those of the answer."""
-        answer = self.answer
-        return (
-            self._isolines
-            if answer is None
-            else in_unit(self._isolines, answer.scale, self._in_shares, answer.is_signed)
-        )
+        answer, step = self.answer, self.view.scene.levels.step
+        if answer is None:
+            return self._isolines
+        lines = in_unit(self._isolines, answer.scale, self._in_shares, answer.is_signed)
+        return with_kept_step(lines, step, self._top, answer.maximum, answer.is_signed) if self.keeps_step else lines
 
     @property
     def opened(self) -> Opened | None:
@@ -239,10 +239,11 @@ class DistancePanel(QtWidgets.QWidget):
         """
         self._in_shares = in_shares and shown.answer.signs is None
         self.answer = answer = shown.answer
+        self._top = maximum or answer.maximum
         scene = self.view.scene
         if self._lines != scene.wanted_isolines:
             scene.show_isolines(self._lines)
-        self._raise(answer, maximum or answer.maximum, height)
+        self._raise(answer, self._top, height)
         if answer.colours is not None:
             self.view.scene.show_colours(answer.colours)
         elif answer.field is None:
