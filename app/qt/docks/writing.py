@@ -1,10 +1,12 @@
 """Files that are written in the background.  `window` is the main window."""
 
+import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
 from qtpy import QtCore
 
+from bihdist_core import BihdistError
 from bihdist_core.progress import Progress
 
 from .background import Background
@@ -21,6 +23,7 @@ class Writing(QtCore.QObject):
         self._background = Background("writing", _done, window)
         self._background.answered.connect(self._say)
         self._background.failed.connect(self._refuse)
+        window.closed.connect(self._finish)
 
     def save(
         self,
@@ -45,6 +48,15 @@ class Writing(QtCore.QObject):
 
     def _write_next(self) -> None:
         self._background.ask((self._waiting[0],))
+
+    def _finish(self) -> None:
+        """The window has closed: what waits is written all the same; the first is being written."""
+        for work in self._waiting[1:]:
+            try:
+                work()
+            except (BihdistError, OSError) as error:
+                print(f"bihdist: {error}", file=sys.stderr)
+        self._waiting.clear()
 
     def _say(self, request: object, words: str) -> None:
         self._window.say(words)

@@ -37,7 +37,7 @@ def show_answer(bar: ColourBar, answer: Answer, scene: PanelScene, edges: np.nda
     bar.show_shares(not signed)
     if answer.signs:
         said = answer.largest_words
-        bar.show_note(said, said.replace(" of its maximum", ""))
+        bar.show_note(said, said.partition(" of its maximum" if " % " in said else " at vertex")[0])
     elif answer.field is not None and answer.largest is not None:
         value = float(answer.field[answer.largest])
         bar.show_note(f"largest {number(value, signed=True)} at vertex {answer.largest}")
