@@ -168,6 +168,16 @@ def test_files_are_written_one_after_the_other_and_none_is_left_out(screen, mesh
         assert np.array_equal(np.load(tmp_path / f"{number}.npy"), s.answers[number % 3].field)
 
 
+def test_files_that_wait_when_the_window_closes_are_written(screen, mesh_file, tmp_path):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    for number in range(4):
+        s.window.field_files.save(s.document.panels[0].id, str(tmp_path / f"{number}.npy"))
+    s.window.close()
+    for number in range(4):
+        assert np.array_equal(np.load(tmp_path / f"{number}.npy"), s.answers[0].field)
+
+
 def test_the_dialog_writes_the_format_that_is_chosen_in_it(screen, mesh_file, tmp_path):
     from dataclasses import replace
 
