@@ -58,6 +58,7 @@ class Screen:
 
     def activate(self):
         """Give the window the keyboard focus; told so, Qt waits for no window manager."""
+        self.window.activateWindow()
         self.application.setActiveWindow(self.window)
 
     def settle(self, seconds=0.2):

@@ -10,6 +10,9 @@ from .hands import Hands
 SLACK = 0.002
 """Share of pixels that may differ from those of a window that was never touched: its numbers come in another order."""
 
+FAINT = 16
+"""Of 255: where a field has been computed anew, the edges of lines may be rounded differently by so much."""
+
 KEPT = Path(os.environ["BIHDIST_KEPT"]) if os.environ.get("BIHDIST_KEPT") else None
 """Where the pictures that were compared are left."""
 
@@ -130,5 +133,6 @@ def _plain(panel, session) -> str:
 def _differing(when: str, before: list, after: list, slack: float = 0.0) -> list[str]:
     if [picture.shape for picture in before] != [picture.shape for picture in after]:
         return [f"{when}: sizes {[p.shape for p in before]}, {[p.shape for p in after]}"]
-    parts = [float((a != b).any(axis=2).mean()) for a, b in zip(before, after, strict=True)]
+    faint = FAINT if slack else 0
+    parts = [float((np.abs(a.astype(int) - b).max(axis=2) > faint).mean()) for a, b in zip(before, after, strict=True)]
     return [f"{when}: panel at {k} differs in {part:.4%}" for k, part in enumerate(parts) if part > slack]

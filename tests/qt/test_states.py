@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("qtpy")
 
-from qtpy import QtCore, QtGui, QtTest, QtWidgets
+from qtpy import QtCore, QtGui, QtWidgets
 
 from app.qt.look.look import LOOK
 from app.qt.look.theme import DARK, LIGHT
@@ -16,7 +16,6 @@ def window(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(300)))
     s.activate()
-    assert QtTest.QTest.qWaitForWindowActive(s.window)
     return s
 
 
