@@ -229,10 +229,10 @@ from .sources.source import (
     Curve as Curve,
 )
 from .sources.source import (
-    Place as Place,
+    SourceSet as SourceSet,
 )
 from .sources.source import (
-    SourceSet as SourceSet,
+    SurfacePoint as SurfacePoint,
 )
 from .sources.words import source_from_words as source_from_words
 from .surface import Surface as Surface

@@ -14,9 +14,9 @@ import threading
 import numpy as np
 import scipy.sparse as sp
 
+from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
-from .flat_faces import FlatFaces
-from .once import once
+from .locked_cached_property import locked_cached_property
 from .operators import AREAS, stiffness, vertex_areas
 from .progress import Progress, part, turn
 from .solver.aside import aside
@@ -45,17 +45,17 @@ class Laplacian:
     def __repr__(self) -> str:
         return f"Laplacian({self.surface!r}, {self.areas_kind} areas)"
 
-    @once
+    @locked_cached_property
     def stiffness(self) -> sp.csr_matrix:
         """(n, n) cotangent stiffness matrix (see `operators`)."""
         return stiffness(self.surface)
 
-    @once
+    @locked_cached_property
     def areas(self) -> np.ndarray:
         """(n,) vertex areas, unit length squared."""
         return vertex_areas(self.surface, self.areas_kind)
 
-    @once
+    @locked_cached_property
     def eigenpair_counts(self) -> np.ndarray:
         """(c,) how many eigenpairs each component has besides the constant: as vertices with an area, less one."""
         label = self.surface.component_of_vertex[self.areas > 0]
@@ -93,7 +93,7 @@ class Component:
         self._factor_has_diagonals = False
         self._spectrum: Spectrum | None = None
 
-    @once
+    @locked_cached_property
     def _cut(self) -> tuple[Surface, np.ndarray]:
         return self.laplacian.surface.component(self.index)
 
@@ -111,18 +111,18 @@ class Component:
         """Local numbers of ids that belong to this component."""
         return np.searchsorted(self.vertices, vertices)
 
-    @once
+    @locked_cached_property
     def stiffness(self) -> sp.csr_matrix:
         """(m, m) stiffness matrix."""
         whole = self.laplacian.stiffness
         return whole if len(self.vertices) == whole.shape[0] else whole[self.vertices][:, self.vertices]
 
-    @once
-    def flat(self) -> FlatFaces:
-        """Its flat faces."""
-        return FlatFaces.of(self.surface)
+    @locked_cached_property
+    def flat(self) -> DegenerateFaces:
+        """Its degenerate faces."""
+        return DegenerateFaces.of(self.surface)
 
-    @once
+    @locked_cached_property
     def areas(self) -> np.ndarray:
         """(m,) vertex areas, unit length squared."""
         return self.laplacian.areas[self.vertices]
@@ -178,11 +178,11 @@ class Component:
             self.factor(progress, diagonals=True)
             return self._biharmonic_diagonal
 
-    @once
+    @locked_cached_property
     def _biharmonic_diagonal(self) -> np.ndarray:
         return self.factor(diagonals=True).sandwich_diagonal - self._u**2 / self.areas.sum()
 
-    @once
+    @locked_cached_property
     def biharmonic_eccentricity(self) -> np.ndarray:
         """(m,) the root of the mean, by area, of the squared biharmonic distances to all points; unit length.
 
@@ -194,7 +194,7 @@ class Component:
         squares = diagonal + (areas @ diagonal - 2 * y) / total
         return np.sqrt(np.maximum(squares, 0))
 
-    @once
+    @locked_cached_property
     def _u(self) -> np.ndarray:
         """(m,) u = G A 1."""
         return self.solve(self.areas)

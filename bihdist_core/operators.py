@@ -5,15 +5,15 @@ semi-definite, zero row sums; no unit.  A is the diagonal of vertex areas; unit 
 leaves the 1/2 out, which scales every biharmonic distance by 1/2 and changes nothing else; with it the discrete
 distance converges to the continuous one.  At a boundary the same formula gives Neumann conditions (section 3.2).
 
-Faces of (nearly) no area have no cotangents that could be used; what they get instead, `flat_faces` tells.  All other
-faces stay exactly as they are.
+Faces of (nearly) no area have no cotangents that could be used; what they get instead, `degenerate_faces` tells.  All
+other faces stay exactly as they are.
 """
 
 import numpy as np
 import scipy.sparse as sp
 
+from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError
-from .flat_faces import FlatFaces
 from .surface import FLAT, Surface, dots
 
 AREAS = ("voronoi", "barycentric")
@@ -31,8 +31,8 @@ def stiffness(surface: Surface) -> sp.csr_matrix:
 def face_weights(surface: Surface) -> np.ndarray:
     """(3, m) half the cotangent of each corner: what a face adds to the weight of the side opposite to it."""
     weights = _corners(surface)[0] / 2
-    if len(surface.flat_faces):
-        weights[:, surface.flat_faces] = FlatFaces.of(surface).weights()
+    if len(surface.degenerate_faces):
+        weights[:, surface.degenerate_faces] = DegenerateFaces.of(surface).weights()
     return weights
 
 
@@ -54,14 +54,14 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
         share = (part.sum(axis=0) - part) / 8
         obtuse = cotangents < 0
         share = np.where(obtuse.any(axis=0), np.where(obtuse, area / 2, area / 4), share)
-    flat, n = surface.flat_faces, len(surface.vertices)
+    flat, n = surface.degenerate_faces, len(surface.vertices)
     if not len(flat):
         return np.bincount(surface.faces.T.ravel(), share.ravel(), n)
     share = share.copy()
     share[:, flat] *= surface.face_heights[flat] / FLAT
     areas = np.bincount(surface.faces.T.ravel(), share.ravel(), n)
-    # A vertex that has flat faces only may be a tip of much area.  Next to none is taken for none: what is divided by
-    # such an area would be lost.  But a component needs some.
+    # A vertex that has degenerate faces only may be a tip of much area.  Next to none is taken for none: what is
+    # divided by such an area would be lost.  But a component needs some.
     proper, component = surface.in_proper_face, surface.component_of_vertex
     small = FLAT * (np.median(areas[proper]) if proper.any() else surface.mean_edge_length**2 or 1.0)
     faint = (component >= 0) & ~proper & (areas < small)
@@ -72,14 +72,15 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
 
 
 def face_sides(surface: Surface, true: bool = False) -> list[np.ndarray]:
-    """Of each face three vectors along its sides, (3, m) each, as `Surface.sides`; flat faces as in `FlatFaces.sides`.
+    """Of each face three vectors along its sides, (3, m) each, as `Surface.sides`; degenerate faces as in
+    `DegenerateFaces.sides`.
 
-    Those of a flat face lie in a plane of their own: what is made of them must not depend on where that is.
+    Those of a degenerate face lie in a plane of their own: what is made of them must not depend on where that is.
     """
     side = surface.sides()
-    if len(surface.flat_faces):
-        for all_faces, flat in zip(side, FlatFaces.of(surface).sides(true), strict=True):
-            all_faces[:, surface.flat_faces] = flat
+    if len(surface.degenerate_faces):
+        for all_faces, flat in zip(side, DegenerateFaces.of(surface).sides(true), strict=True):
+            all_faces[:, surface.degenerate_faces] = flat
     return side
 
 
@@ -89,7 +90,7 @@ def _corners(surface: Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     squares = np.stack([dots(s, s) for s in side])
     products = np.stack([-dots(side[(k + 1) % 3], side[(k + 2) % 3]) for k in range(3)])
     area = surface.face_areas.copy()
-    flat = surface.flat_faces
+    flat = surface.degenerate_faces
     if len(flat):
         (ax, ay), (bx, by) = side[0][:2, flat], side[1][:2, flat]
         area[flat] = np.abs(ax * by - ay * bx) / 2

@@ -13,7 +13,7 @@ Coordinates = np.ndarray | list[np.ndarray]
 """(3, m): vectors, each coordinate for itself."""
 
 FLAT = 1e-7
-"""A face whose height is less than this share of its longest side is flat (see `flat_faces`)."""
+"""A face whose height is less than this share of its longest side is flat (see `degenerate_faces`)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,7 +219,7 @@ class Surface:
         return 2 * areas / np.where(longest > 0, longest, 1)
 
     @cached_property
-    def flat_faces(self) -> np.ndarray:
+    def degenerate_faces(self) -> np.ndarray:
         """(k,) faces of (nearly) no area: height less than the share `FLAT` of the longest side (see `operators`)."""
         return np.flatnonzero(self.face_heights < FLAT)
 
@@ -227,7 +227,7 @@ class Surface:
     def in_proper_face(self) -> np.ndarray:
         """(n,) whether a vertex belongs to a face that is not flat."""
         proper = np.zeros(len(self.vertices), bool)
-        proper[np.delete(self.faces, self.flat_faces, axis=0)] = True
+        proper[np.delete(self.faces, self.degenerate_faces, axis=0)] = True
         return proper
 
     @cached_property
@@ -295,18 +295,18 @@ def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[np.ndarray,
         raise MeshError(f"{name}: face {bad[0]} has the vertices {_row(f[bad[0]])}; ids run from 0 to {n - 1}.")
     a, b, c = whole.T
     proper = np.flatnonzero((a != b) & (b != c) & (c != a))
-    once = _without_repeats(whole, proper)
+    locked_cached_property = _without_repeats(whole, proper)
     said = [
         f"{count} {'face' if count == 1 else 'faces'} {what} dropped"
         for count, what in [
             (len(f) - len(proper), "with a repeated vertex"),
-            (len(proper) - len(once), "that repeated another"),
+            (len(proper) - len(locked_cached_property), "that repeated another"),
         ]
         if count
     ]
-    if not len(once):
+    if not len(locked_cached_property):
         raise MeshError(f"{name}: every face names a vertex twice; a surface needs at least one triangle.")
-    return whole[once], said
+    return whole[locked_cached_property], said
 
 
 def _without_repeats(faces: np.ndarray, some: np.ndarray) -> np.ndarray:

@@ -99,7 +99,7 @@ def _eliminated(rows: Rows) -> list[tuple[int, Decimal, dict[int, Decimal]]]:
 def constrained_operators(surface: Surface, apexes: dict[int, tuple[int, int, float]]) -> tuple[np.ndarray, ...]:
     """The limit of faces of no height, dense: (n, k) T, (k, k) stiffness and (k, k) areas of what is free.
 
-    apexes: those vertices that flat faces hold to a foot, with the ends of its edge and the foot's share from the
+    apexes: those vertices that degenerate faces hold to a foot, with the ends of its edge and the foot's share from the
     first of them.  surface: without these faces.
     """
     from bihdist_core.operators import stiffness, vertex_areas

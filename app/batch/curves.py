@@ -12,7 +12,7 @@ from .maps import WITH_PARTNERS
 from .results import read_arrays
 from .storage import Folder
 from .task import Row
-from .wanted import ALL
+from .work_order import ALL
 
 ENDINGS = ("pdf", "svg", "png", "csv")
 NAME = "evaluate"

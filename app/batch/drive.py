@@ -18,7 +18,7 @@ from .maps import Map
 from .results import is_complete, said_of
 from .storage import Folder
 from .task import Failure, Report, Row, Task, done_before
-from .wanted import ALL, LAYOUTS, MAXIMA, OWN, Wanted, result_name
+from .work_order import ALL, LAYOUTS, MAXIMA, OWN, WorkOrder, result_name
 
 MESHES = (".obj", ".off", ".ply", ".stl", ".vtk", ".vtp")
 COLUMNS = (
@@ -73,7 +73,9 @@ def found_meshes(where: str) -> dict[str, str]:
     return found
 
 
-def tasks_for(meshes: dict[str, str], wanted: Wanted, address: str, version: str) -> tuple[list[Task], list[Failure]]:
+def tasks_for(
+    meshes: dict[str, str], wanted: WorkOrder, address: str, version: str
+) -> tuple[list[Task], list[Failure]]:
     """A task for each mesh, the largest file first; failures of those whose files cannot be read.
 
     address: of the folder for results.
@@ -103,7 +105,9 @@ def _checksum(path: str) -> str:
         return ""
 
 
-def tasks_for_maps(maps: Sequence[Map], wanted: Wanted, address: str, version: str) -> tuple[list[Task], list[Failure]]:
+def tasks_for_maps(
+    maps: Sequence[Map], wanted: WorkOrder, address: str, version: str
+) -> tuple[list[Task], list[Failure]]:
     """The same for each map."""
     tasks, failures = [], []
     wanted = replace(wanted, works=("evaluate",), layout="")
@@ -129,7 +133,7 @@ class Outcome:
 def do_all(
     meshes: dict[str, str],
     maps: Sequence[Map],
-    wanted: Wanted,
+    wanted: WorkOrder,
     address: str,
     version: str,
     engine: Engine,

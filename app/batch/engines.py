@@ -17,7 +17,7 @@ from typing import Any, Protocol
 from bihdist_core.errors import ParameterError
 
 from ..version import version
-from .doing import do
+from .execution import do
 from .memory import available, share
 from .task import Report, Task, gone, refused
 

@@ -18,9 +18,9 @@ from ..drawing.camera import Margins, aimed, frame
 from ..figures.contact_sheet import as_jpeg, thumbnail
 from ..figures.draw import save_figure
 from ..figures.export import Surfaces, compute, figure_of, open_document
-from ..session.given import Given
+from ..session.array_store import ArrayStore
 from .storage import Folder
-from .wanted import SIZE, thumbnail_name
+from .work_order import SIZE, thumbnail_name
 from .works import Made, Mesh
 
 
@@ -33,7 +33,7 @@ def recipe_for(path: str, mesh: Mesh) -> Recipe:
 
 def _computed(path: str, mesh: Mesh) -> tuple[Recipe, Document, Surfaces, list[Any]]:
     recipe = recipe_for(path, mesh)
-    document, surfaces = open_document(recipe, Given())
+    document, surfaces = open_document(recipe, ArrayStore())
     recipe = replace(recipe, document=document)
     return recipe, document, surfaces, compute(document, surfaces)
 

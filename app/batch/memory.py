@@ -3,7 +3,7 @@
 import math
 import os
 
-from .wanted import Wanted
+from .work_order import WorkOrder
 
 BASE = 2.5e8
 PER_VERTEX = 6e3
@@ -15,7 +15,7 @@ FIELDS, PAIRS = 3, 6
 """Times the bytes of a part that are there at once while it is computed, of fields and of all pairs among sources."""
 
 
-def needed(n: int, wanted: Wanted, landmarks: int = 0) -> int:
+def needed(n: int, wanted: WorkOrder, landmarks: int = 0) -> int:
     """Bytes for a mesh with n vertices and so many landmarks, at most at a time."""
     counts = (wanted.sources.count, len(wanted.sources.words), landmarks, 1)
     sources = n if wanted.sources.rule == "all" else max(counts)

@@ -7,7 +7,7 @@ from urllib.parse import quote
 from ..figures.contact_sheet import Cell, as_jpeg, as_png, contact_sheet, thumbnail
 from .storage import Folder
 from .task import Failure, Row
-from .wanted import OWN, result_name, thumbnail_name
+from .work_order import OWN, result_name, thumbnail_name
 
 SHEET, PAGE = "contact_sheet.png", "index.html"
 

@@ -17,7 +17,7 @@ import numpy as np
 from bihdist_core.errors import OutputError, ParameterError
 
 from .storage import Folder
-from .wanted import ARRAYS
+from .work_order import ARRAYS
 
 CHUNK = 1024
 """Rows and columns of a chunk of a Zarr array, which is read and written by chunks."""

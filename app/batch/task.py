@@ -8,7 +8,7 @@ from .maps import Map
 from .memory import too_big
 from .results import facts_of
 from .storage import Folder
-from .wanted import READ, Wanted, result_name
+from .work_order import READ, WorkOrder, result_name
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Task:
     mesh: str
     name: str
     checksums: str
-    wanted: Wanted
+    wanted: WorkOrder
     out: str
     version: str
     part: Part | None = None

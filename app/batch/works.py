@@ -24,7 +24,7 @@ from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of, source_from_words
 
 from .results import Array
-from .wanted import Wanted
+from .work_order import WorkOrder
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ class Made:
 class Mesh:
     """A mesh with what is computed of it once: the surface, the factor, the distances, the sources."""
 
-    def __init__(self, path: str, name: str, wanted: Wanted) -> None:
+    def __init__(self, path: str, name: str, wanted: WorkOrder) -> None:
         self.name, self.wanted = name, wanted
         self.surface: Surface = read_surface(path)
         self.extension = Path(path).suffix
@@ -221,15 +221,15 @@ WORK: dict[str, Callable[..., Made]] = {
 
 
 def _said(distance: Distance) -> dict[str, Any]:
-    certificate = distance.certificate()
+    error_estimate = distance.error_estimate()
     return {
         "distance": distance.identity or distance.label,
         "parameters": dict(Spec.parse(distance.identity).values) if distance.identity else {},
         "label": distance.label,
         "unit": distance.unit,
         "normalisation": "none",
-        "accuracy": certificate.text,
-        "accuracy_share": certificate.share,
+        "accuracy": error_estimate.text,
+        "accuracy_share": error_estimate.share,
     }
 
 

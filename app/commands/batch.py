@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..batch.maps import Map
     from ..batch.storage import Folder
     from ..batch.task import Failure, Report, Row
-    from ..batch.wanted import Sources, Wanted
+    from ..batch.work_order import Sources, WorkOrder
 
 INTERRUPTED = 130
 """The exit status, as everywhere."""
@@ -105,8 +105,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from ..batch.doing import PARTS
     from ..batch.drive import Outcome, do_all, found_meshes, write_tables
+    from ..batch.execution import PARTS
     from ..batch.results import check_format
     from ..batch.storage import Folder
 
@@ -192,13 +192,13 @@ def _maps(options: argparse.Namespace, meshes: "dict[str, str]") -> "tuple[list[
     return maps, [Failure(name, "evaluate", "", reason) for name, reason in reasons.items()]
 
 
-def _wanted(options: argparse.Namespace) -> "Wanted":
-    from ..batch.wanted import Wanted
+def _wanted(options: argparse.Namespace) -> "WorkOrder":
+    from ..batch.work_order import WorkOrder
 
     _check_together(options)
     chosen = tuple(str(each) for each in specs(options, list(dict.fromkeys(options.distance or ["biharmonic"]))))
     recipe = _recipe(options, chosen) if "figure" in options.do else ""
-    return Wanted(
+    return WorkOrder(
         works=options.do,
         distances=chosen,
         areas=options.areas or "voronoi",
@@ -221,7 +221,7 @@ def _check_together(options: argparse.Namespace) -> None:
     """ParameterError for options that would be left without effect."""
     from bihdist_core.errors import ParameterError
 
-    from ..batch.wanted import WORKS
+    from ..batch.work_order import WORKS
 
     asked = {*options.do}
     if not asked or not asked <= {*WORKS}:
@@ -278,7 +278,7 @@ def _sources(options: argparse.Namespace) -> "Sources":
     from bihdist_core.errors import ParameterError
     from bihdist_core.sources.words import short_words_of
 
-    from ..batch.wanted import Sources
+    from ..batch.work_order import Sources
 
     if options.landmarks:
         return Sources("landmarks", file=os.path.abspath(options.landmarks))

@@ -46,7 +46,7 @@ def _facts(mesh: str, options: argparse.Namespace) -> dict[str, Any]:
         "non-manifold edges": s.nonmanifold_edge_count,
         "non-manifold vertices": s.nonmanifold_vertex_count,
         "vertices without a face": s.unreferenced_count,
-        "flat faces": len(s.flat_faces),
+        "degenerate faces": len(s.degenerate_faces),
         "mean edge length": s.mean_edge_length,
         "area": float(s.face_areas.sum()),
         "facts": list(notes.facts),

@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> None:
         size = f"{counted(len(lines), 'curve')} at {counted(len(values), 'value')}, together {length:.6g} long"
         print(f"{options.output}: {it.label}, {size}{it.said}")
     if options.region:
-        # Of a difference 5 % are five percentage points, and not a share of its largest value.
+        # Of a difference 5 % are five percentage points, and not a fraction of its largest value.
         ends = region_from_words(options.region, 1.0 if it.scale != 1 else it.top)
         found = band(it.surface, it.field, *(it.scale * end for end in ends))
         if options.region_ids:

@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
     from ..figures.export import compute, open_document
     from ..figures.profile_curves import profile_fields, profile_figure
     from ..figures.profile_figure import save_profile_figure
-    from ..session.given import Given
+    from ..session.array_store import ArrayStore
     from ..session.profiling import path_of
 
     for output in options.output:
@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
     document = comparison(options.mesh, shows, (options.source,), options.areas or "voronoi")
     page = Page(size=options.size, style=options.style, font=options.font, text=options.text)
     with progress_line() as progress:
-        document, surfaces = open_document(Recipe(document, page), Given())
+        document, surfaces = open_document(Recipe(document, page), ArrayStore())
         surface = surfaces[document.surfaces[0].name].surface
         tell_repairs(surface)
         if options.pins:

@@ -93,10 +93,10 @@ def accuracy(distance: "Distance", everywhere: bool = False) -> str:
 
     everywhere: on all components, also those not asked about.
     """
-    certificate = distance.certificate(range(distance.surface.component_count) if everywhere else None)
-    if certificate.is_poor:
-        warn(f"{distance.label} on {distance.surface.name} is only {certificate.text}.")
-    return f", {certificate.text}" if certificate.text else ""
+    error_estimate = distance.error_estimate(range(distance.surface.component_count) if everywhere else None)
+    if error_estimate.is_poor:
+        warn(f"{distance.label} on {distance.surface.name} is only {error_estimate.text}.")
+    return f", {error_estimate.text}" if error_estimate.text else ""
 
 
 def judged(answers: "Iterable[Answer]", name: str) -> int:

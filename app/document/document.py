@@ -94,7 +94,7 @@ class Point:
 class FieldArray:
     """A field of the user's own, given from Python: values at a surface's vertices, under a name.
 
-    sha256: of the values, which stand beside the document (`session.given`).
+    sha256: of the values, which stand beside the document (`session.array_store`).
     """
 
     name: str
@@ -182,7 +182,7 @@ class Document:
     """See the module; ParameterError for parts that do not fit together.
 
     areas: which vertex areas the operators have.  range: where colour bars end, one of RANGES.  height: a flat surface
-    becomes a relief whose highest point is this share of its extent.  next_id: of the panel that is added next.
+    becomes a height field whose highest point is this share of its extent.  next_id: of the panel that is added next.
     fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
     projection: one of PROJECTIONS.  axes: whether their directions are shown.  weights: of anchors, for interpolants.
     regions: the panels, by id, that show the regions of the pins by their distance.  extrema: whether those of the

@@ -7,7 +7,7 @@ from bihdist_core.applications.changes import Perturbation, change_from_words, w
 from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import BoundaryLoop, Curve, Place, Source, SourceSet
+from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint
 from bihdist_core.sources.words import curve_rows, places_from
 
 from .beside import Beside
@@ -142,7 +142,7 @@ def view_data(view: View) -> str | dict[str, Any]:
 def _source_data(at: Source | None) -> int | dict[str, Any] | None:
     if isinstance(at, SourceSet):
         return {"set": [_source_data(member) for member in at.members]}
-    if isinstance(at, Place):
+    if isinstance(at, SurfacePoint):
         return {"face": at.face, "weights": list(at.weights)}
     if isinstance(at, BoundaryLoop):
         return {"loop": at.number}
@@ -263,7 +263,7 @@ def _source(data: Any, where: str) -> Source:
         values = record(data, where, {"curve": places_from, "closed": flag}, {"curve"})
         return placed(Curve, where, places=values["curve"], closed=values.get("closed", False))
     if isinstance(data, dict):
-        return placed(Place, where, **record(data, where, {"face": whole, "weights": numbers(3)}))
+        return placed(SurfacePoint, where, **record(data, where, {"face": whole, "weights": numbers(3)}))
     return whole(data, where)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from bihdist_core.applications.changes import joined_runs
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import Place, Source
+from bihdist_core.sources.source import Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
 from .document import Document, Point, free_names
@@ -25,7 +25,7 @@ def add_pins(document: Document, places: Iterable[Source], surface: str = "A") -
     """
     places = list(places)
     for at in places:
-        if not isinstance(at, int | Place):
+        if not isinstance(at, int | SurfacePoint):
             raise ParameterError(f"A pin is at a vertex or a place in a face, not at {short_words_of(at)}.")
     taken = {document.point(pin.point).at for pin in document.pins if document.point(pin.point).surface == surface}
     new = [at for at in dict.fromkeys(places) if at not in taken]

@@ -19,20 +19,20 @@ from bihdist_core.sources.words import NONE
 from ..samples import mesh_path
 from .camera import Camera
 from .changing import COLUMNS, split
-from .document import COMPARISON
-from .page import Recipe
-from .quantities import Quantity, from_point, own_fields
-from .said import (
+from .command_fragments import (
     NOTHING,
-    Said,
-    Unsaid,
+    CommandFragment,
+    NotExpressible,
     digits,
     of_document,
     of_page,
     with_value,
 )
-from .said_looks import say_colours, say_isolines, say_range, say_shading
-from .said_marks import say_anchors, say_pins, say_profile, say_regions, say_selections, say_weights, say_zooms
+from .document import COMPARISON
+from .look_fragments import say_colours, say_isolines, say_range, say_shading
+from .mark_fragments import say_anchors, say_pins, say_profile, say_regions, say_selections, say_weights, say_zooms
+from .page import Recipe
+from .quantities import Quantity, from_point, own_fields
 from .starts import Starts, as_argument
 
 
@@ -73,7 +73,7 @@ def why_not(recipe: Recipe) -> str:
     try:
         for _ in _all_said(recipe):
             pass
-    except Unsaid as reason:
+    except NotExpressible as reason:
         return str(reason)
     return ""
 
@@ -91,7 +91,7 @@ def _joined(words: list[str]) -> str:
     return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
 
 
-def _all_said(recipe: Recipe) -> Iterable[Said]:
+def _all_said(recipe: Recipe) -> Iterable[CommandFragment]:
     document, change = split(recipe.document)
     if change is None:
         return (row.say(recipe) for row in ROWS)
@@ -106,21 +106,21 @@ def _all_said(recipe: Recipe) -> Iterable[Said]:
 
 
 # ---------------------------------------------------------------------- what is shown of what
-def _mesh(recipe: Recipe) -> Said:
+def _mesh(recipe: Recipe) -> CommandFragment:
     if len(recipe.document.surfaces) != 1:
-        raise Unsaid(f"{len(recipe.document.surfaces)} meshes do not go into one line.")
+        raise NotExpressible(f"{len(recipe.document.surfaces)} meshes do not go into one line.")
     if not recipe.document.surfaces[0].path:
-        raise Unsaid("The mesh was given from Python as arrays, which no line can hold.")
+        raise NotExpressible("The mesh was given from Python as arrays, which no line can hold.")
     if recipe.document.fields or any(own_fields(panel.shows) for panel in recipe.document.panels):
-        raise Unsaid("Fields of one's own were given from Python as arrays, which no line can hold.")
+        raise NotExpressible("Fields of one's own were given from Python as arrays, which no line can hold.")
     return NOTHING
 
 
-def _panels(recipe: Recipe) -> Said:
+def _panels(recipe: Recipe) -> CommandFragment:
     """Quantities, and the sources from which each of them is shown, if that is how the panels stand."""
     document = recipe.document
     if not document.panels:
-        raise Unsaid("There are no panels.")
+        raise NotExpressible("There are no panels.")
     names = list(dict.fromkeys(name for panel in document.panels for name in panel.shows.points))
     shows: list[Quantity] = [
         from_point(p.shows, "source") for p in document.panels if set(p.shows.points) == set(names[:1])
@@ -128,10 +128,10 @@ def _panels(recipe: Recipe) -> Said:
     # What starts nowhere, such as interpolants, is named once.
     repeated = [from_point(each, name) for name in names or ["source"] for each in shows]
     if [panel.shows for panel in document.panels] != repeated:
-        raise Unsaid("The panels start from different points, and not each distance from each.")
+        raise NotExpressible("The panels start from different points, and not each distance from each.")
     places = [document.point(name).at for name in names]
     if None in places and len(places) > 1:
-        raise Unsaid("One of several sources is where nobody has put it.")
+        raise NotExpressible("One of several sources is where nobody has put it.")
     starts = [Starts(at) for at in places if at is not None]
     words = [str(each) for each in shows]
     is_usual = words == [str(spec) for spec in COMPARISON]
@@ -141,25 +141,25 @@ def _panels(recipe: Recipe) -> Said:
     arguments: dict[str, Any] = {} if is_usual else {"distances": words}
     if starts:
         arguments["source"] = starts if len(starts) > 1 else starts[0]
-    return Said(tuple(options), arguments)
+    return CommandFragment(tuple(options), arguments)
 
 
-def _columns(recipe: Recipe) -> Said:
+def _columns(recipe: Recipe) -> CommandFragment:
     """Without a word, one row a source."""
     names = {name for panel in recipe.document.panels for name in panel.shows.points}
     usual = len(recipe.document.panels) // len(names) if len(names) > 1 else None
     if recipe.page.columns is None and usual is not None:
-        raise Unsaid("The panels of several sources are in one row.")
+        raise NotExpressible("The panels of several sources are in one row.")
     if recipe.page.columns == usual:
         return NOTHING
     return with_value("--columns", "columns", recipe.page.columns)
 
 
-def _views(recipe: Recipe) -> Said:
+def _views(recipe: Recipe) -> CommandFragment:
     views = recipe.views
     cameras = [view for view in views if isinstance(view, Camera)]
     if len(cameras) > 1 or (cameras and views[-1] is not cameras[0]):
-        raise Unsaid("There are several cameras.")
+        raise NotExpressible("There are several cameras.")
     names = [view for view in views if isinstance(view, str)]
     if names == ["auto"] and not cameras:
         return NOTHING
@@ -169,7 +169,7 @@ def _views(recipe: Recipe) -> Said:
         numbers = (*camera.position, *camera.focal_point, *camera.up, *camera.extent)
         options.append(("--camera", ",".join(map(digits, numbers))))
         arguments["camera"] = tuple(map(float, numbers))
-    return Said(tuple(options), arguments)
+    return CommandFragment(tuple(options), arguments)
 
 
 # ---------------------------------------------------------------------- all of it
@@ -178,7 +178,7 @@ class Row:
     """Parts, such as "Document.areas", and what says them."""
 
     parts: tuple[str, ...]
-    say: Callable[[Recipe], Said]
+    say: Callable[[Recipe], CommandFragment]
 
 
 ROWS = (

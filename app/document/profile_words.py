@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import Place, Source, checked_source
+from bihdist_core.sources.source import Source, SurfacePoint, checked_source
 from bihdist_core.sources.words import words_of
 
 from .document import Document, Point, free_names
@@ -43,7 +43,7 @@ def with_profile(
             names.append(_named(document, known[1], int(known[2] or 1)))
             continue
         at = checked_source(word)
-        if not isinstance(at, int | Place):
+        if not isinstance(at, int | SurfacePoint):
             raise ParameterError(f"A profile goes through vertices and places in faces, not {word}.")
         name = free_names("path", 1, [point.name for point in document.points])[0]
         document = replace(document, points=(*document.points, Point(name, at, document.surfaces[0].name)))
@@ -87,6 +87,6 @@ def _word(document: Document, name: str) -> int | str:
         return f"source:{sources.index(name) + 1}" if len(sources) > 1 else "source"
     if isinstance(at, int):
         return at
-    if isinstance(at, Place):
+    if isinstance(at, SurfacePoint):
         return words_of(at)
     raise ParameterError("The path goes through what is no point.")

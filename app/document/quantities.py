@@ -72,7 +72,7 @@ class Interpolant(ByDistance):
 
 @dataclass(frozen=True)
 class ChangeOf(ByDistance):
-    """How a distance differs on a changed surface from what it was before, each as a share of its maximum.
+    """How a distance differs on a changed surface from what it was before, each as a fraction of its maximum.
 
     At the vertices that both have.  point: on the changed surface.
     """
@@ -126,7 +126,7 @@ Part = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction | MapColour
 
 @dataclass(frozen=True)
 class Difference:
-    """One distance less another: each as a share of its maximum, or, if raw, as it is (in equal units)."""
+    """One distance less another: each as a fraction of its maximum, or, if raw, as it is (in equal units)."""
 
     minuend: Part
     subtrahend: Part

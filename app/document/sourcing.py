@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Place, Source, SourceSet
+from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, SourceSet, SurfacePoint
 
 from .document import Document
 from .edits import put_point, source_name
@@ -11,14 +11,14 @@ DIGITS = 4
 """Of the weights of places that are pointed at: far below what a pointer can tell."""
 
 
-def place_in(face: int, weights: Sequence[float]) -> Place:
+def place_in(face: int, weights: Sequence[float]) -> SurfacePoint:
     """The place in a face, with weights (3,) in few digits."""
     first, second = (round(max(float(w), 0.0), DIGITS) for w in weights[:2])
     first = min(first, 1.0)
-    return Place.of(face, first, min(second, round(1 - first, DIGITS)))
+    return SurfacePoint.of(face, first, min(second, round(1 - first, DIGITS)))
 
 
-def place_at(corners: Sequence[int], face: int, weights: Sequence[float]) -> int | Place:
+def place_at(corners: Sequence[int], face: int, weights: Sequence[float]) -> int | SurfacePoint:
     """The same, or the vertex where one of the face's corners (3,) has all of the weight."""
     place = place_in(face, weights)
     for corner, weight in zip(corners, place.weights, strict=True):
@@ -37,8 +37,8 @@ def members_of(source: Source | None) -> tuple[Member, ...]:
 def points_of(source: Source | None) -> tuple[Member, ...]:
     """The members that are points, in the order of `Pieces.points`: vertices first, then places in faces."""
     members = members_of(source)
-    vertices = [each for each in members if not isinstance(each, Place | BoundaryLoop | Curve)]
-    return (*vertices, *(each for each in members if isinstance(each, Place)))
+    vertices = [each for each in members if not isinstance(each, SurfacePoint | BoundaryLoop | Curve)]
+    return (*vertices, *(each for each in members if isinstance(each, SurfacePoint)))
 
 
 def source_from(members: Sequence[Member]) -> Source:

@@ -11,7 +11,7 @@ BAR_STEPS = 256
 
 
 def band_edges(isolines: Isolines, maximum: float, signed: bool = False) -> np.ndarray:
-    """(k,) shares of the maximum, from 0 or, if signed, -1 to 1, that have an isoline.
+    """(k,) fractions of the maximum, from 0 or, if signed, -1 to 1, that have an isoline.
 
     Empty where there are none, or more than can be told apart.
     """

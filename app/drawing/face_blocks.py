@@ -2,7 +2,7 @@
 
 Only NumPy, whose sorts, gathers and sums release the interpreter lock, so that the window stays awake while another
 thread makes the blocks of a large mesh.  VTK's locators hold the lock for as long as they are built, 0.4 s for a
-million vertices; figures, drawn in a process of their own, use one (`figures.sight`), whose rays are quicker.
+million vertices; figures, drawn in a process of their own, use one (`figures.hidden_lines`), whose rays are quicker.
 """
 
 import numpy as np
@@ -33,7 +33,7 @@ class FaceBlocks:
         self._centres, self._halves = self._boxes()
         self._largest = float(np.abs(self._centres).max() + self._halves.max())
 
-    def first_met(self, start: np.ndarray, end: np.ndarray) -> tuple[int, np.ndarray, np.ndarray] | None:
+    def first_hit(self, start: np.ndarray, end: np.ndarray) -> tuple[int, np.ndarray, np.ndarray] | None:
         """The face met first on the way from start (3,) to end (3,), its corners' weights (3,), and the point (3,) met.
 
         None if there is none.  No way slips through between two faces with a common edge: both decide about it by the

@@ -370,7 +370,7 @@ class FieldActor:
 def lookup_table(style: Style, signed: bool = False, edges: np.ndarray | None = None) -> vtkLookupTable:
     """The style's colours from 0 to 1, or those of a signed field, and what is undefined below.
 
-    edges: (k,) shares of the maximum at which, where the style has bands, one ends and the next begins.
+    edges: (k,) fractions of the maximum at which, where the style has bands, one ends and the next begins.
     """
     if style.bands and edges is not None and len(edges):
         # Each colour stands for a part of the range, not for its beginning.

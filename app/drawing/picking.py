@@ -12,7 +12,7 @@ from .face_blocks import FaceBlocks
 
 
 @dataclass(frozen=True, eq=False)
-class Met:
+class Hit:
     """Where a ray first meets a surface.
 
     position: (3,) in a face; weights: (3,) of its corners there, which add up to 1; vertex: the corner nearest to it.
@@ -31,29 +31,29 @@ class Picker:
         self._surface = surface
         self._blocks = FaceBlocks(surface)
 
-    def met_at(self, renderer: vtkRenderer, x: float, y: float) -> Met | None:
+    def pick(self, renderer: vtkRenderer, x: float, y: float) -> Hit | None:
         """Where the surface is met at device pixel (x, y), y up; None beside the surface."""
-        met = self._first_met(renderer, x, y)
-        if met is None:
+        hit = self._first_hit(renderer, x, y)
+        if hit is None:
             return None
-        face, weights, position = met
+        face, weights, position = hit
         ids = self._surface.faces[face]
         nearest = np.linalg.norm(self._surface.vertices[ids] - position, axis=1).argmin()
-        return Met(face, weights, position, int(ids[nearest]))
+        return Hit(face, weights, position, int(ids[nearest]))
 
     def sees(self, renderer: vtkRenderer, point: np.ndarray) -> bool:
         """Whether nothing but faces about it stands before a point (3,) of the surface."""
-        met = self._first_met(renderer, *pixel_of(renderer, point))
-        if met is None:
+        hit = self._first_hit(renderer, *pixel_of(renderer, point))
+        if hit is None:
             return True  # at a silhouette the way may pass it by
         camera = renderer.GetActiveCamera()
         eye = np.array(camera.GetPosition())
-        nearer = np.linalg.norm(point - eye) - np.linalg.norm(met[2] - eye)
+        nearer = np.linalg.norm(point - eye) - np.linalg.norm(hit[2] - eye)
         if camera.GetParallelProjection():
-            nearer = (point - met[2]) @ np.array(camera.GetDirectionOfProjection())
+            nearer = (point - hit[2]) @ np.array(camera.GetDirectionOfProjection())
         return bool(nearer <= 2 * self._surface.mean_edge_length)
 
-    def _first_met(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, np.ndarray, np.ndarray] | None:
+    def _first_hit(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, np.ndarray, np.ndarray] | None:
         ends = []
         for depth in (0.0, 1.0):
             renderer.SetDisplayPoint(x, y, depth)
@@ -62,7 +62,7 @@ class Picker:
             if weight == 0:
                 return None
             ends.append(np.array(point) / weight)
-        return self._blocks.first_met(*ends)
+        return self._blocks.first_hit(*ends)
 
 
 class LatePicker:
@@ -78,8 +78,8 @@ class LatePicker:
             self._made = Picker(self._surface)
         return self._made
 
-    def met_at(self, *where: Any) -> Met | None:
-        return self._picker.met_at(*where)
+    def pick(self, *where: Any) -> Hit | None:
+        return self._picker.pick(*where)
 
     def sees(self, *where: Any) -> bool:
         return self._picker.sees(*where)

@@ -25,7 +25,7 @@ class Prepared:
 
     meshes: by shading, that which is chosen by itself ready.
     points: (k, 3) of the vertices that have a face, to fit the camera to, and their bounds (x, x, y, y, z, z).
-    samples: (SAMPLES, 3) on the faces, as many for equal areas.  is_flat: whether it can become a relief.
+    samples: (SAMPLES, 3) on the faces, as many for equal areas.  is_flat: whether it can become a height field.
     """
 
     meshes: "Meshes"

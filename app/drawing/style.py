@@ -69,7 +69,7 @@ class Style:
         return self.colours_at(np.linspace(-1 if signed else 0, 1, count), signed)
 
     def band_colours(self, edges: np.ndarray, signed: bool = False) -> np.ndarray:
-        """(k + 1, 3) the colours of bands, each that of its middle; edges: (k,) shares of the maximum, going up."""
+        """(k + 1, 3) the colours of bands, each that of its middle; edges: (k,) fractions of the maximum, going up."""
         ends = np.concatenate([[-1.0 if signed else 0.0], edges, [1.0]])
         return self.colours_at((ends[1:] + ends[:-1]) / 2, signed)
 
@@ -90,7 +90,7 @@ class Style:
         return self.colours_at(np.array([share]), signed)[0]
 
     def line(self, signed: bool = False, share: float = 0.0) -> Colour:
-        """The colour of the isoline at a share of the maximum."""
+        """The colour of the isoline at a fraction of the maximum."""
         return self.signed_isoline if signed and share == 0 else self.isoline
 
     def rim(self, signed: bool, share: float) -> tuple[float, float, float, float] | None:

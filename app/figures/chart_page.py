@@ -122,7 +122,7 @@ def _keep_on_page(figure: Figure) -> None:
                 axis.label.set(**{ends[-1]: 0.5 + moved / length})
 
 
-def dress(axes: Axes, look: ChartLook, across: str = "", up: str = "") -> None:
+def style_axes(axes: Axes, look: ChartLook, across: str = "", up: str = "") -> None:
     """Axes at the left and below, round numbers with true minus signs, quiet lines; across, up: words at the axes."""
     from matplotlib.ticker import FuncFormatter
 

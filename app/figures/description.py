@@ -56,14 +56,14 @@ class FigurePanel:
 
     label and unit stand at the colour bar, heading and hint above.  maximum: the end of the colour bar, the field's
     own if None.  through: values that have an isoline besides, which stands out.  views: pictures of the same side by
-    side, each a standard one or a camera.  height: a flat surface becomes a relief, raised by the field so that its
-    maximum is this share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
-    signed: the field has values on both sides of 0, and its colour bar goes from -maximum to maximum.
-    up: which axis is up in standard views.  source: the vertex that the view from the source looks at.  is_parallel:
-    nothing gets smaller with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.
-    lines: those that the field starts from; regions: boundaries of the pins' regions; selected: (n, 4) uint8 colours of
-    vertices that stand out, see `selected_colours`; path: that of a profile.  colours: (n, 3) of the surface's own,
-    instead of a field, grey where they are NaN.  largest: of a difference, in words, how large it is and where.
+    side, each a standard one or a camera.  height: a flat surface becomes a height field, raised by the field so that
+    its maximum is this share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
+    signed: the field has values on both sides of 0, and its colour bar goes from -maximum to maximum. up: which axis is
+    up in standard views.  source: the vertex that the view from the source looks at.  is_parallel: nothing gets smaller
+    with distance.  axes: where x, y and z point to is shown, unless it is in a panel before. lines: those that the
+    field starts from; regions: boundaries of the pins' regions; selected: (n, 4) uint8 colours of vertices that stand
+    out, see `selected_colours`; path: that of a profile.  colours: (n, 3) of the surface's own, instead of a field,
+    grey where they are NaN.  largest: of a difference, in words, how large it is and where.
     """
 
     surface: Surface

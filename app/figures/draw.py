@@ -19,7 +19,7 @@ from .description import Figure, FigurePanel, Mark
 from .layout import lay_out
 from .marks import hidden_words
 from .raster import check_offscreen
-from .shots import Stage, take_shots
+from .shots import RenderCache, take_shots
 
 __all__ = ["FIGURE_FORMATS", "Figure", "FigurePanel", "Mark", "Zoom", "check_offscreen", "draw_figure", "save_figure"]
 
@@ -35,7 +35,7 @@ MOST_PIXELS = 6000
 def draw_figure(
     figure: Figure,
     progress: Progress | None = None,
-    stage: Stage | None = None,
+    render_cache: RenderCache | None = None,
     words: KeptWords | None = None,
     share: float = 1.0,
 ) -> np.ndarray:
@@ -44,7 +44,7 @@ def draw_figure(
     stage, words: kept from one figure to the next.  share: of its own resolution.
     Raises BihdistError where nothing can be drawn off screen.
     """
-    return page_pixels(_page(figure, False, progress, stage, share), words)
+    return page_pixels(_page(figure, False, progress, render_cache, share), words)
 
 
 def save_figure(figure: Figure, path: str | os.PathLike[str], progress: Progress | None = None) -> list[str]:
@@ -84,9 +84,9 @@ def described(figure: Figure) -> str:
 
 
 def _page(
-    figure: Figure, vector: bool, progress: Progress | None, stage: Stage | None = None, share: float = 1.0
+    figure: Figure, vector: bool, progress: Progress | None, render_cache: RenderCache | None = None, share: float = 1.0
 ) -> Composition:
     layout = lay_out(figure, 0.0, share)
     if vector:
         layout = lay_out(figure, min(VECTOR_DPI / 96, MOST_PIXELS / max(layout.width, layout.height)), share)
-    return Composition(figure, layout, take_shots(figure, layout, part(progress, 0.0, 0.95), stage))
+    return Composition(figure, layout, take_shots(figure, layout, part(progress, 0.0, 0.95), render_cache))

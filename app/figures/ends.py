@@ -12,7 +12,7 @@ from ..document.edits import with_ends, with_range
 from ..document.file import read_recipe
 from ..document.looks import RANGES
 from ..document.quantities import Difference
-from ..session.given import Given
+from ..session.array_store import ArrayStore
 from .export import compute, figure_of, open_document
 
 
@@ -31,7 +31,7 @@ def ends_in(path: str | os.PathLike[str], progress: Progress | None = None) -> t
     Raises BihdistError for a file that is none, or that cannot be drawn.
     """
     recipe = read_recipe(path)
-    document, surfaces = open_document(recipe, Given.read(recipe))
+    document, surfaces = open_document(recipe, ArrayStore.read(recipe))
     answers = compute(document, surfaces, progress)
     tops = figure_of(replace(recipe, document=document), surfaces, answers).tops()
     return tuple(

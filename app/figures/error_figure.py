@@ -16,7 +16,7 @@ from bihdist_core.progress import Progress
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..drawing.style import CURVES
-from .chart_page import FAINT, USUAL_LOOK, ChartLook, dress, save_chart
+from .chart_page import FAINT, USUAL_LOOK, ChartLook, save_chart, style_axes
 from .draw import FIGURE_FORMATS
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def _table(curves: Mapping[str, ErrorCurve | MeanCurve]) -> str:
 
 def _draw(page: Figure, figure: ErrorFigure) -> None:
     look, axes = figure.look, page.add_subplot()
-    dress(axes, look, "geodesic error / √area", "% of the vertices")
+    style_axes(axes, look, "geodesic error / √area", "% of the vertices")
     thresholds = np.linspace(0, LIMIT, STEPS + 1)
     are_thin = bool(figure.means) and len(figure.curves) > MOST_NAMED
     for curve in figure.curves.values() if are_thin else ():

@@ -13,7 +13,7 @@ from bihdist_core.analysis.region_boundaries import region_boundaries
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.pieces import pieces_of
-from bihdist_core.sources.source import BoundaryLoop, Curve, Place, Source
+from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
@@ -30,25 +30,25 @@ from ..drawing.selected import selected_colours
 from ..drawing.source_lines import SourceLine, source_lines
 from ..drawing.style import PINS, style_of
 from ..session.anchors import anchor_value, anchors_on
+from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
-from ..session.changed import carried
 from ..session.extrema import extrema_of
-from ..session.given import Given
-from ..session.mapped import map_in
-from ..session.opened import Opened, open_mesh
-from ..session.passed import Passed, passed
-from ..session.pinned import pinned_on
+from ..session.isoline_points import IsolinePoint, passed
+from ..session.loaded_mesh import LoadedMesh, open_mesh
+from ..session.map_answers import map_in
+from ..session.perturbed_meshes import carried
+from ..session.pin_locations import located_pins
 from ..session.profiling import path_of
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from ..session.regions import regions_of, regions_questions
 from .description import Figure, FigurePanel, Mark
 from .draw import FIGURE_FORMATS, check_offscreen, check_transparency, save_figure
-from .paired import pair_marks, plain_heading
+from .pair_marks import pair_marks, plain_heading
 from .size import Size
 from .tex import tex_path, tex_snippet
 
-Surfaces = dict[str, Opened]
+Surfaces = dict[str, LoadedMesh]
 """The surfaces of a document, by their names in it."""
 
 
@@ -68,7 +68,7 @@ def check_tex(path: str | os.PathLike[str]) -> Path:
     return snippet
 
 
-def open_document(recipe: Recipe, given: Given) -> tuple[Document, Surfaces]:
+def open_document(recipe: Recipe, given: ArrayStore) -> tuple[Document, Surfaces]:
     """The recipe's document with checksums and vertices, and its surfaces.
 
     Raises ParameterError if one is missing or has changed since the document was written.
@@ -76,10 +76,10 @@ def open_document(recipe: Recipe, given: Given) -> tuple[Document, Surfaces]:
     surfaces, document = {}, recipe.document
     remedy = "Name the mesh that is to be drawn with --mesh." if recipe.made_with else ""
     for mesh in document.surfaces:
-        surfaces[mesh.name] = opened = open_mesh(mesh, given, remedy, list(surfaces.values()))
-        document = opened.settled(document)
-    for opened in surfaces.values():
-        opened.beside = tuple(surfaces.values())
+        surfaces[mesh.name] = loaded = open_mesh(mesh, given, remedy, list(surfaces.values()))
+        document = loaded.settled(document)
+    for loaded in surfaces.values():
+        loaded.beside = tuple(surfaces.values())
     if document.maps:
         one, two, *_ = surfaces.values()
         for map in document.maps:
@@ -146,7 +146,7 @@ def _silent(_text: str) -> None:
 def write_figure(
     figure: Figure,
     recipe: Recipe,
-    given: Given,
+    given: ArrayStore,
     path: str,
     version: str,
     progress: Progress | None = None,
@@ -188,7 +188,7 @@ def export(
     check_transparency(recipe.page.transparent, path)
     if tex:
         check_tex(path)
-    given = Given.read(recipe)
+    given = ArrayStore.read(recipe)
     document, surfaces = open_document(recipe, given)
     recipe = replace(recipe, document=document)
     # What cannot be drawn is refused before the long work.
@@ -199,20 +199,20 @@ def export(
     return figure, recipe, answers
 
 
-def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) -> FigurePanel:
-    document, surface = recipe.document, opened.surface
+def _figure_panel(recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answer) -> FigurePanel:
+    document, surface = recipe.document, loaded.surface
     starts = [source_at(document.point(name).at, surface) for name in panel.shows.points]
     heading = answer.label
-    if opened.origin is not None and not isinstance(panel.shows, ChangeOf):
-        heading += f", after: {opened.mesh.change}"
+    if loaded.origin is not None and not isinstance(panel.shows, ChangeOf):
+        heading += f", after: {loaded.mesh.change}"
     starting = dict.fromkeys(point for point in starting_points(document) if not point.image_of)
     if starts and len(starting) > 1:
         heading += f", from {', '.join(map(short_words_of, starts))}"
     hint = "; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text)
-    heading, hint = plain_heading(document, panel, opened, answer) or (heading, hint)
-    through = passed(document, panel.surface, opened, answer)
+    heading, hint = plain_heading(document, panel, loaded, answer) or (heading, hint)
+    through = passed(document, panel.surface, loaded, answer)
     up = document.up_of(panel.surface)
-    up = up if up != "auto" else opened.up
+    up = up if up != "auto" else loaded.up
     views = recipe.page.views or (document.camera_of(panel.surface),)
     return FigurePanel(
         surface,
@@ -225,17 +225,17 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         failure=answer.failure,
         isolines=NO_LINES if answer.is_rough else _isolines(document, answer),
         through=tuple(point.value for point in through),
-        views=tuple(opened.view_of(view, up) for view in views),
+        views=tuple(loaded.view_of(view, up) for view in views),
         marks=(
             *_extremum_marks(document, panel, surface, answer),
             *_dots(through, answer),
             *_source_marks(starts, surface),
-            *_anchor_marks(recipe, panel, opened, answer),
+            *_anchor_marks(recipe, panel, loaded, answer),
             *_largest(answer),
             *_pin_marks(document, panel, surface),
-            *pair_marks(document, panel, opened, answer),
+            *pair_marks(document, panel, loaded, answer),
         ),
-        zooms=_zooms(document, opened),
+        zooms=_zooms(document, loaded),
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
         largest=answer.largest_words,
@@ -245,7 +245,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
         is_parallel=document.projection == "orthographic",
         axes=document.axes,
         lines=_source_lines(starts, surface),
-        regions=() if answer.field is None else _region_lines(document, panel, opened),
+        regions=() if answer.field is None else _region_lines(document, panel, loaded),
         selected=_selected(document, panel, surface),
     )
 
@@ -255,11 +255,11 @@ def _isolines(document: Document, answer: Answer) -> Isolines:
     return in_unit(document.isolines, answer.scale, in_shares, answer.is_signed)
 
 
-def _zooms(document: Document, opened: Opened) -> tuple[Zoom, ...]:
+def _zooms(document: Document, loaded: LoadedMesh) -> tuple[Zoom, ...]:
     """At the same places of a changed surface."""
-    if opened.origin is None:
+    if loaded.origin is None:
         return document.zooms
-    places = [vertex_at(carried(zoom.vertex, opened), opened.surface) for zoom in document.zooms]
+    places = [vertex_at(carried(zoom.vertex, loaded), loaded.surface) for zoom in document.zooms]
     return tuple(replace(zoom, vertex=vertex) for zoom, vertex in zip(document.zooms, places, strict=True))
 
 
@@ -284,12 +284,12 @@ def _path(document: Document, surfaces: Surfaces) -> tuple[dict[str, tuple[Sourc
     return {name: (SourceLine(places.corners, places.weights, is_closed=False),)}, ()
 
 
-def _region_lines(document: Document, panel: Panel, opened: Opened) -> tuple[SourceLine, ...]:
+def _region_lines(document: Document, panel: Panel, loaded: LoadedMesh) -> tuple[SourceLine, ...]:
     """The boundaries of the pins' regions, where the panel shows them."""
     question = regions_questions(document).get(panel.id)
     if question is None:
         return ()
-    curves = region_boundaries(opened.surface, regions_of(question, opened))
+    curves = region_boundaries(loaded.surface, regions_of(question, loaded))
     return tuple(SourceLine(curve.corners, curve.weights, curve.closed) for curve in curves)
 
 
@@ -330,13 +330,13 @@ def _source_marks(starts: Sequence[Source], surface: Surface) -> list[Mark]:
             if is_vertex:
                 marks.append(Mark(vertex))
                 continue
-            place = Place(face, tuple(weights.tolist()))
+            place = SurfacePoint(face, tuple(weights.tolist()))
             at = (tuple(corners.tolist()), place.weights)
             marks.append(Mark(vertex, corners=at[0], weights=at[1], name=f"The place {short_words_of(place)}"))
     return marks
 
 
-def _dots(through: Sequence[Passed], answer: Answer) -> list[Mark]:
+def _dots(through: Sequence[IsolinePoint], answer: Answer) -> list[Mark]:
     """On isolines through points; see `drawing.levels` on the values that have one."""
     low = -answer.maximum if answer.is_signed else 0.0
     on_lines = [point for point in through if low < point.value < answer.maximum]
@@ -352,8 +352,8 @@ def _largest(answer: Answer) -> list[Mark]:
     return [Mark(vertex, text=f"{value:+.3g}{percent} at {vertex}".replace("-", "−"), is_largest=True)]
 
 
-def _anchor_marks(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:
-    found = anchors_on(recipe.document, panel.surface, opened)
+def _anchor_marks(recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[Mark]:
+    found = anchors_on(recipe.document, panel.surface, loaded)
     has_words = recipe.page.anchor_values
     return [
         Mark(
@@ -367,7 +367,7 @@ def _anchor_marks(recipe: Recipe, panel: Panel, opened: Opened, answer: Answer) 
 
 def _pin_marks(document: Document, panel: Panel, surface: Surface) -> list[Mark]:
     marks = []
-    for pinned in pinned_on(document, panel.surface, surface):
+    for pinned in located_pins(document, panel.surface, surface):
         vertex = pinned.vertex if pinned.vertex is not None else int(pinned.corners[pinned.weights.argmax()])
         mark = Mark(vertex, number=pinned.number, colour=PINS[pinned.pin.colour])
         if pinned.vertex is None:

@@ -17,7 +17,7 @@ from ..drawing.style import Style
 from .composition import KeptWords
 from .description import Figure
 from .draw import draw_figure
-from .shots import Stage
+from .shots import RenderCache
 from .worker import Worker
 
 if TYPE_CHECKING:
@@ -61,10 +61,10 @@ class _Drawing:
 
     def __init__(self) -> None:
         # Without a graphics card sampling costs three times as much; in what moves nobody sees its absence.
-        self.stage, self.words = Stage(samples=0, curves=False), KeptWords()
+        self.render_cache, self.words = RenderCache(samples=0, curves=False), KeptWords()
 
     def frame(self, figure: Figure, mode: str, progress: Progress | None = None) -> Any:
-        picture = draw_figure(figure, progress, self.stage, self.words)
+        picture = draw_figure(figure, progress, self.render_cache, self.words)
         # The usual kind of MP4 has an even number of rows and columns.
         picture = np.pad(picture, [(0, picture.shape[0] % 2), (0, picture.shape[1] % 2), (0, 0)], mode="edge")
         if mode == "RGB":
@@ -94,7 +94,7 @@ def _with_256_colours(picture: np.ndarray, style: Style) -> Image:
 
 def _drawn_here(figures: Iterator[Figure], count: int, mode: str, progress: Progress) -> Iterator[Any]:
     drawing = _Drawing()
-    with drawing.stage:
+    with drawing.render_cache:
         for k, figure in enumerate(figures):
 
             def go_on(_fraction: float, _text: str, k: int = k) -> None:

@@ -10,7 +10,7 @@ from bihdist_core import Surface
 
 from ..document.camera import Camera, View
 from ..drawing.camera import Margins, Projection, outwards_at, standard_camera
-from ..drawing.relief import relief, rise
+from ..drawing.height_field import rise, warp_by_scalar
 from .boxes import Box
 from .description import FigurePanel
 
@@ -41,12 +41,12 @@ class Seen:
 
 
 def shown_surface(panel: FigurePanel, top: float) -> Surface:
-    """The surface, or the relief of its field."""
+    """The surface, or the height field of its field."""
     if not panel.height or panel.field is None:
         return panel.surface
     used = _used(panel.surface)
     bounds = np.stack([used.min(axis=0), used.max(axis=0)], axis=1).ravel().tolist()
-    return relief(panel.surface, panel.field, top, rise(bounds, panel.height))
+    return warp_by_scalar(panel.surface, panel.field, top, rise(bounds, panel.height))
 
 
 def camera_of(view: View, panel: FigurePanel, surface: Surface, aspect: float) -> Camera:

@@ -10,7 +10,7 @@ import numpy as np
 
 from bihdist_core.progress import Progress
 
-from .chart_page import USUAL_LOOK, ChartLook, dress, save_chart
+from .chart_page import USUAL_LOOK, ChartLook, save_chart, style_axes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,7 +45,7 @@ def save_histogram_figure(
 
 def _draw(page: Figure, figure: HistogramFigure) -> None:
     look, axes = figure.look, page.add_subplot()
-    dress(axes, look, f"{figure.name} ({figure.unit})" if figure.unit else figure.name, "% of the area")
+    style_axes(axes, look, f"{figure.name} ({figure.unit})" if figure.unit else figure.name, "% of the area")
     ends = figure.ends
     axes.bar(
         ends[:-1],

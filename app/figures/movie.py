@@ -24,7 +24,7 @@ from ..document.document import Document, Panel
 from ..document.edits import put_point
 from ..document.page import Recipe
 from ..drawing.camera import turned
-from ..session.given import Given
+from ..session.array_store import ArrayStore
 from ..session.questions import Question, questions, vertex_at
 from .description import Figure
 from .export import Surfaces, figure_of, open_document, refuse_if_nothing
@@ -85,7 +85,7 @@ def write_movie(
     movie: Movie,
     path: str | os.PathLike[str],
     progress: Progress | None = None,
-    given: Given | None = None,
+    given: ArrayStore | None = None,
     jobs: int | None = None,
 ) -> list[Answer]:
     """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel.
@@ -96,7 +96,7 @@ def write_movie(
     check_movie(path)
     if not movie.recipe.document.panels:
         raise ParameterError("The recipe has no panels.")
-    document, surfaces = open_document(movie.recipe, given or Given.read(movie.recipe))
+    document, surfaces = open_document(movie.recipe, given or ArrayStore.read(movie.recipe))
     movie = replace(movie, recipe=replace(movie.recipe, document=document))
     fields = _Fields(movie, surfaces, part(progress, 0.0, SETTING_UP))
     with whole_file(path) as temporary:
@@ -193,12 +193,12 @@ def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
     seen = fields.documents[:1] if movie.turn else fields.documents[:: max(len(fields.documents) // PLACES, 1)]
     starts = {}
     for name in dict.fromkeys(panel.surface for panel in document.panels):
-        opened = fields.surfaces[name]
-        surface = opened.surface
+        loaded = fields.surfaces[name]
+        surface = loaded.surface
         sources = [vertex_at(at, surface) for each in seen for at in _sources_on(each, name)]
         view = movie.recipe.page.views[0] if movie.recipe.page.views else document.camera_of(name)
         up = document.up_of(name)
-        view = opened.view_of(view, up)
+        view = loaded.view_of(view, up)
         starts[name] = start_and_axis(view, surface, movie.turn, document.height, sources, up, document.projection)
     first, _ = starts[document.panels[0].surface]
     size = fitted_size(fields.figure(0, {name: camera for name, (camera, _) in starts.items()}), first.extent)

@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import connected_components
 
 from bihdist_core.analysis.chains import chains
 
-from .sight import Part, Sight
+from .hidden_lines import HiddenLineRemoval, Part
 
 BESIDE = 0.3
 """Pixels from an outline to where what lies behind it is looked for."""
@@ -20,7 +20,7 @@ BRIDGED, TICK = 6.0, 3.0
 """Pixels: shorter pieces of a fold that are no outline are drawn between others; shorter outlines are not drawn."""
 
 
-def outlines(sight: Sight) -> list[Part]:
+def outlines(sight: HiddenLineRemoval) -> list[Part]:
     """Lines (k, 2) in pixels, each with whether its last point joins its first.
 
     An outline lies on folds, edges whose faces lie to the same side of them in the picture or that have not two faces.
@@ -29,7 +29,7 @@ def outlines(sight: Sight) -> list[Part]:
     folds, inner = _folds(sight)
     at = sight.lifted(sight.at)
     ends = at[folds]
-    hidden, start, stop = sight.hiding.intervals(ends, np.concatenate([folds, folds], axis=1))
+    hidden, start, stop = sight.occlusion.intervals(ends, np.concatenate([folds, folds], axis=1))
     # Each visible piece joins two nodes: the fold's ends have the vertices' ids, others one of their own.
     edge, low, high = _outside(len(folds), hidden, start, stop)
     count = len(at)
@@ -40,7 +40,7 @@ def outlines(sight: Sight) -> list[Part]:
     return _lines(nodes, places[:, :2], drawn)
 
 
-def _folds(sight: Sight) -> tuple[np.ndarray, np.ndarray]:
+def _folds(sight: HiddenLineRemoval) -> tuple[np.ndarray, np.ndarray]:
     """(k, 2) edges at which the surface turns away, ends, or meets more than one other face, and (k,) a vertex of a
     face at each, on the side where the surface is; -1 where that is both sides."""
     f, at = sight.surface.faces, sight.at[:, :2]
@@ -73,7 +73,7 @@ def _outside(count: int, edge: np.ndarray, start: np.ndarray, stop: np.ndarray) 
     return edges[kept], lows[kept], highs[kept]
 
 
-def _is_outline(sight: Sight, pieces: np.ndarray, inner: np.ndarray) -> np.ndarray:
+def _is_outline(sight: HiddenLineRemoval, pieces: np.ndarray, inner: np.ndarray) -> np.ndarray:
     """(k,) whether pieces (k, 2, 3) of folds stand well before what is seen beside them."""
     a, b = pieces[:, 0], pieces[:, 1]
     middle, way = (a + b) / 2, b[:, :2] - a[:, :2]
@@ -81,7 +81,7 @@ def _is_outline(sight: Sight, pieces: np.ndarray, inner: np.ndarray) -> np.ndarr
     out = np.stack([way[:, 1], -way[:, 0]], 1) / np.maximum(length, 1e-300)[:, None]
     arm = sight.at[inner, :2] - middle[:, :2]
     out *= -np.sign((out * arm).sum(axis=1))[:, None]
-    beside = sight.hiding.nearest(middle[:, :2] + BESIDE * out)
+    beside = sight.occlusion.nearest(middle[:, :2] + BESIDE * out)
     behind = sight.depth(beside) - sight.depth(middle[:, 2])
     return (inner < 0) | (np.abs(behind) > STEP * sight.extent)
 

@@ -30,7 +30,7 @@ from ..document.page import Page, Recipe
 from ..document.profile_words import with_profile
 from ..document.quantities import Quantity
 from ..drawing.colour_file import colours_named
-from ..session.given import Given, Mesh, given_comparison, with_beside
+from ..session.array_store import ArrayStore, Mesh, comparison_of_arrays, with_beside
 from ..version import version
 from .description import Figure
 from .draw import draw_figure
@@ -44,7 +44,7 @@ class Picture:
     document: what it shows.  answers: for each panel the field, its label, unit and accuracy, or why there is none.
     """
 
-    def __init__(self, recipe: Recipe, surfaces: Surfaces, given: Given, answers: list[Answer]) -> None:
+    def __init__(self, recipe: Recipe, surfaces: Surfaces, given: ArrayStore, answers: list[Answer]) -> None:
         self.document: Document = recipe.document
         self.answers = answers
         self._recipe, self._surfaces, self._given = recipe, surfaces, given
@@ -142,29 +142,26 @@ def figure(
     """What `bihdist figure` draws, with its options.
 
     distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, the highest if None, a
-    `Place`, `BoundaryLoop`, `Curve` or `SourceSet`, or words such as "12+40"; or a list of these for a row of panels
-    each.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances` like
-    one: "biharmonic - mine".  perturb: what is done to the mesh, such as
-    "noise=0.4,along=normals,seed=1", "pose=FILE", "cut=3+10-20": each distance before and after, and the difference.
-    beside: a second mesh, with panels of its own; pairs: (k, 2) known vertices of both that correspond.  By each
-    distance from these, instead of the distances themselves, predict: where that vertex of the first is on the
-    second; or maps: where all are, in colours, "pairs" for the maps by pairs, or files of others.  views: names or
-    cameras, side by side.  camera: the eleven
+    `SurfacePoint`, `BoundaryLoop`, `Curve` or `SourceSet`, or words such as "12+40"; or a list of these for a row of
+    panels each.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances`
+    like one: "biharmonic - mine".  perturb: what is done to the mesh, such as "noise=0.4,along=normals,seed=1",
+    "pose=FILE", "cut=3+10-20": each distance before and after, and the difference. beside: a second mesh, with panels
+    of its own; pairs: (k, 2) known vertices of both that correspond.  By each distance from these, instead of the
+    distances themselves, predict: where that vertex of the first is on the second; or maps: where all are, in colours,
+    "pairs" for the maps by pairs, or files of others.  views: names or cameras, side by side.  camera: the eleven
     numbers that `--camera` takes, after other views.  up: the axis that points up, "z" or "-z", "auto" for a guess.
     projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
-    with a factor, or with that and a number of steps.  isolines: about how many, at round values;
-    equal_isolines: at so many equal steps from 0 to the maximum; isoline_spacing, isoline_values:
-    where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.  anchors:
-    vertices to be marked, perhaps each with a value; anchor_values: written beside them.  pins: vertices, or places in
-    faces, with numbers, in their order.  extrema: triangles at maxima, and at minima away from
-    the source, that persist over a thousandth of the range.
-    regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin.
-    selections: ids (k,) of vertices that stand out together, or words such as "12,40-77", a colour each.
-    profile: True for the path through the pins, or the points it goes through: vertices, places in faces, "source" and
-    "pin:1"; way: how it goes from one to the next, "auto", "exact", "straightened" or "edges", or by a "section" whose
-    plane holds the direction `across`, "section-longer" or "section-whole".
-    shading: "smooth", "creased" at more than `crease` degrees, or "flat";
-    "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
+    with a factor, or with that and a number of steps.  isolines: about how many, at round values; equal_isolines: at so
+    many equal steps from 0 to the maximum; isoline_spacing, isoline_values: where they are instead; isoline_through:
+    vertices that have one more; bold_isolines: every so many.  anchors: vertices to be marked, perhaps each with a
+    value; anchor_values: written beside them.  pins: vertices, or places in faces, with numbers, in their order.
+    extrema: triangles at maxima, and at minima away from the source, that persist over a thousandth of the range.
+    regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin. selections: ids
+    (k,) of vertices that stand out together, or words such as "12,40-77", a colour each. profile: True for the path
+    through the pins, or the points it goes through: vertices, places in faces, "source" and "pin:1"; way: how it goes
+    from one to the next, "auto", "exact", "straightened" or "edges", or by a "section" whose plane holds the direction
+    `across`, "section-longer" or "section-whole". shading: "smooth", "creased" at more than `crease` degrees, or
+    "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
     the session or recipe whose ends are taken; shared_range: the same as "shared".  size: "85mm", "1680x640", "column",
     "slide", as the command takes it.  title: names as "heading", as "caption" at the colour bars, or "none".  font: a
@@ -181,7 +178,7 @@ def figure(
     sources = tuple(source) if isinstance(source, Sequence | np.ndarray) and not isinstance(source, str) else (source,)
     if not sources:
         raise ParameterError("There is no source in an empty list; name one, or None for the highest vertex.")
-    document, given = given_comparison(mesh, distances, {} if fields is None else fields, sources, areas)
+    document, given = comparison_of_arrays(mesh, distances, {} if fields is None else fields, sources, areas)
     marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
     names = free_names("anchor", len(marked), [point.name for point in document.points])
     chosen = _views(views, camera)
@@ -249,7 +246,7 @@ def figure(
 
 def _with_second(
     document: Document,
-    given: Given,
+    given: ArrayStore,
     beside: Mesh | None,
     pairs: npt.ArrayLike,
     predict: int | None,
@@ -273,7 +270,7 @@ def _with_second(
 def figure_again(recipe: str | os.PathLike[str], progress: Progress | None = None) -> Picture:
     """The figure of a recipe's file, as `bihdist figure --recipe` draws it; BihdistError where it cannot be drawn."""
     read = read_recipe(recipe)
-    given = Given.read(read)
+    given = ArrayStore.read(read)
     document, surfaces = open_document(read, given)
     read = replace(read, document=document)
     figure_of(read, surfaces, [Answer(label="")] * len(document.panels))

@@ -8,7 +8,7 @@ from .canvas import POINT
 from .description import Figure
 from .draw import draw_figure
 from .layout import lay_out
-from .shots import Stage
+from .shots import RenderCache
 from .size import MM_PER_INCH, UNITS_PER_INCH
 
 FINER = 2
@@ -29,7 +29,7 @@ class Preview:
     smallest: float
 
 
-_STAGE: list[Stage] = []
+_STAGE: list[RenderCache] = []
 
 
 def preview(figure: Figure, room: tuple[int, int]) -> Preview:
@@ -38,10 +38,10 @@ def preview(figure: Figure, room: tuple[int, int]) -> Preview:
     For a process of its own: what it needs for the next one is kept.
     """
     if not _STAGE:
-        _STAGE.append(Stage(finer=1, samples=0))
+        _STAGE.append(RenderCache(finer=1, samples=0))
     layout = lay_out(figure)
     share = FINER * min(room[0] / layout.page[0], room[1] / layout.page[1])
-    pixels = draw_figure(figure, stage=_STAGE[0], share=share)
+    pixels = draw_figure(figure, render_cache=_STAGE[0], share=share)
     is_printed = figure.size.unit == "mm"
     size = (layout.width, layout.height) if is_printed else layout.page
     per = MM_PER_INCH / UNITS_PER_INCH if is_printed else 1.0

@@ -14,7 +14,7 @@ from bihdist_core import ParameterError
 from bihdist_core.progress import Progress
 
 from ..session.curves import ProfileCurve, parted
-from .chart_page import USUAL_LOOK, ChartLook, dress, faded, save_chart
+from .chart_page import USUAL_LOOK, ChartLook, faded, save_chart, style_axes
 
 LEAST_ACROSS = 2.8
 """Inches that each of several plots side by side has at least; else they stand below each other."""
@@ -44,7 +44,7 @@ class ProfileKnot:
 class ProfileFigure:
     """arcs: (k,) lengths along the path, in `unit`.
 
-    Curves of one unit share a plot; in_shares: all are drawn as shares of their maxima, in percent.
+    Curves of one unit share a plot; in_shares: all are drawn as fractions of their maxima, in percent.
     """
 
     arcs: np.ndarray
@@ -81,7 +81,7 @@ def _fill(page, figure: ProfileFigure, is_row: bool) -> None:
         _fit(axes, in_shares, any(not curve.is_share for curve in curves))
         is_lowest = is_row or k == len(plots) - 1
         along = f"length along the path ({figure.unit})" if is_lowest else ""
-        dress(axes, figure.look, along, "% of the maximum" if in_shares else unit or "value")
+        style_axes(axes, figure.look, along, "% of the maximum" if in_shares else unit or "value")
         axes.tick_params(labelbottom=is_lowest)
         axes.locator_params(axis="y", nbins=5)
         _mark(axes, figure, is_row or k == 0)

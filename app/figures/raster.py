@@ -27,7 +27,7 @@ Rectangle = tuple[float, float, float, float]
 WHOLE: Rectangle = (-1.0, 1.0, -1.0, 1.0)
 
 
-class Studio:
+class RenderWindow:
     """An off-screen window with one surface in it, to be closed at the end; only one thread may use it.
 
     finer: how many pixels are drawn for each pixel of the picture, along each side; samples: of each of them.

@@ -12,7 +12,7 @@ from bihdist_core.analysis.field_scatter import FieldScatter
 from bihdist_core.progress import Progress
 
 from ..drawing.density import axis_ends, cell_size, density_picture
-from .chart_page import ChartLook, dress, save_chart
+from .chart_page import ChartLook, save_chart, style_axes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -79,7 +79,7 @@ def save_scatter_figure(figure: ScatterFigure, path: str | os.PathLike[str], pro
 
 def _draw(page: Figure, figure: ScatterFigure) -> None:
     look, axes = figure.look, page.add_subplot()
-    dress(axes, look, figure.across.words, figure.up.words)
+    style_axes(axes, look, figure.across.words, figure.up.words)
     scale = 100 if figure.in_shares else 1
     ends = [(scale * axis.low, scale * axis.high) for axis in (figure.across, figure.up)]
     axes.set_xlim(*ends[0])

@@ -22,11 +22,11 @@ from ..drawing.source_lines import SourceLine
 from ..drawing.style import Style
 from .description import Figure, Mark
 from .framing import Framed, shown_surface
+from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
 from .layout import Box, Layout
 from .outlines import outlines
-from .raster import FINER, SAMPLES, Rectangle, Studio
-from .sight import Curve, Sight, contours_seen
+from .raster import FINER, SAMPLES, Rectangle, RenderWindow
 
 LEAST_SEEN = 3.0
 """Units of a line; where less of it is seen, nobody will find it."""
@@ -62,35 +62,35 @@ class Shot:
     course: list[Line] = field(default_factory=list)
 
 
-class Stage:
+class RenderCache:
     """What is kept from one figure to the next: the off-screen window, and surfaces made ready.  Use it as a context.
 
-    finer, samples: see `Studio`.  curves: isolines are exact, found and hidden one by one; otherwise the surface is
-    painted with them, as in the window, which takes a fraction of the time.
+    finer, samples: see `RenderWindow`.  curves: isolines are exact, found and hidden one by one; otherwise the surface
+    is painted with them, as in the window, which takes a fraction of the time.
     """
 
     def __init__(self, finer: int = FINER, samples: int = SAMPLES, curves: bool = True) -> None:
         self._finer, self._samples, self.curves = finer, samples, curves
-        self._studio: Studio | None = None
+        self._render_window: RenderWindow | None = None
         self._meshes: dict[tuple[int, Shading], tuple[Surface, vtkPolyData]] = {}
 
-    def __enter__(self) -> Stage:
+    def __enter__(self) -> RenderCache:
         return self
 
     def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
-        if self._studio is not None:
-            self._studio.close()
-        self._studio = None
+        if self._render_window is not None:
+            self._render_window.close()
+        self._render_window = None
 
-    def studio(self, style: Style) -> Studio:
+    def render_window(self, style: Style) -> RenderWindow:
         """The window for a style."""
-        if self._studio is None or self._studio.shown.style != style:
+        if self._render_window is None or self._render_window.shown.style != style:
             self.close()
-            self._studio = Studio(style, self._finer, self._samples)
-        return self._studio
+            self._render_window = RenderWindow(style, self._finer, self._samples)
+        return self._render_window
 
     def keep(self, surfaces: Iterable[Surface]) -> None:
         """Forget all other surfaces."""
@@ -104,30 +104,32 @@ class Stage:
         return self._meshes[key][1]
 
 
-def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage | None = None) -> list[Shot]:
+def take_shots(
+    figure: Figure, layout: Layout, progress: Progress, render_cache: RenderCache | None = None
+) -> list[Shot]:
     """All pictures, in the order in which they lie on each other."""
     shots: list[Shot] = []
     tops = figure.tops()
     count = sum(len(p.views) + len(p.zooms) for p in figure.panels)
-    sights: dict[Hashable, Sight] = {}
-    with Stage() if stage is None else nullcontext(stage) as stage:
-        stage.keep(panel.surface for panel in figure.panels)
-        studio = stage.studio(figure.style)
+    sights: dict[Hashable, HiddenLineRemoval] = {}
+    with RenderCache() if render_cache is None else nullcontext(render_cache) as render_cache:
+        render_cache.keep(panel.surface for panel in figure.panels)
+        render_window = render_cache.render_window(figure.style)
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
             surface = shown_surface(panel, tops[index])
             shading = panel.shading
-            mesh = stage.mesh(surface, shading) if surface is panel.surface else drawable(surface, shading)
-            studio.shown.show_surface(mesh)
-            studio.shown.show_shading(shading)
-            studio.shown.show_selected(panel.selected)
+            mesh = render_cache.mesh(surface, shading) if surface is panel.surface else drawable(surface, shading)
+            render_window.shown.show_surface(mesh)
+            render_window.shown.show_shading(shading)
+            render_window.shown.show_selected(panel.selected)
             if panel.field is not None:
-                studio.shown.show_field(panel.field, tops[index], panel.signed)
-                studio.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
+                render_window.shown.show_field(panel.field, tops[index], panel.signed)
+                render_window.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
             elif panel.colours is not None:
-                studio.shown.show_colours(panel.colours)
+                render_window.shown.show_colours(panel.colours)
             else:
-                studio.shown.show_bare(is_plain=not panel.failure)
-            curves = stage.curves or panel.isolines.labels  # which stand on curves
+                render_window.shown.show_bare(is_plain=not panel.failure)
+            curves = render_cache.curves or panel.isolines.labels  # which stand on curves
             for number, (view, box, shown) in enumerate(zip(panel.views, cell.views, cell.parts, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 framed = Framed(view, panel, surface, box, shown)
@@ -135,8 +137,8 @@ def take_shots(figure: Figure, layout: Layout, progress: Progress, stage: Stage 
                 # Panels of one surface that are seen alike differ in their fields alone.
                 key = (id(mesh), size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
                 if key not in sights:
-                    sights[key] = Sight(surface, framed.projection, size, outward_faces(mesh))
-                taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, studio, curves)
+                    sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward_faces(mesh))
+                taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
                 for zoom, inset in zip(panel.zooms, cell.insets, strict=True) if number == 0 else ():
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
@@ -159,15 +161,15 @@ class _Taker:
         figure: Figure,
         index: int,
         surface: Surface,
-        sight: Sight,
+        sight: HiddenLineRemoval,
         top: float,
         framed: Framed,
         layout: Layout,
-        studio: Studio,
+        render_window: RenderWindow,
         curves: bool,
     ) -> None:
         self._style, self._panel, self._index = figure.style, figure.panels[index], index
-        self._surface, self._top, self._box, self._studio = surface, top, framed.whole, studio
+        self._surface, self._top, self._box, self._render_window = surface, top, framed.whole, render_window
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
         self._sight, self._curves = sight, curves
@@ -187,8 +189,8 @@ class _Taker:
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
         """A box of the page: what it shows of the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
-        self._studio.shown.show_isolines(Isolines(0) if self._curves else wanted, self._panel.through)
-        image = self._studio.shade(
+        self._render_window.shown.show_isolines(Isolines(0) if self._curves else wanted, self._panel.through)
+        image = self._render_window.shade(
             self._projection,
             (width, height),
             self._scale * self._stroke,

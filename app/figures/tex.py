@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bihdist_core.distances.answers import Answer, with_unit
-from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Place, Source
+from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
 from ..document.page import Recipe
@@ -119,7 +119,7 @@ def _members_in_words(members: Sequence[Member]) -> str:
 
 
 def _in_words(member: Member) -> str:
-    if isinstance(member, Place):
+    if isinstance(member, SurfacePoint):
         return f"the place {short_words_of(member)}"
     if isinstance(member, BoundaryLoop):
         return f"boundary loop {member.number}"

@@ -15,7 +15,7 @@ from ..document.camera import Camera, View
 from ..document.looks import Shading
 from ..drawing.camera import VIEW_ANGLE, Projection, directions, outwards_at, standard_camera, turned
 from ..drawing.drawable import drawable
-from ..drawing.relief import rise
+from ..drawing.height_field import rise
 from .description import Figure
 from .grid import grid_of
 from .layout import lay_out
@@ -45,8 +45,8 @@ def start_and_axis(
 ) -> tuple[Camera, np.ndarray]:
     """The camera of the first frame, whose extent holds the shape while it turns, and the axis (3,) of the turn.
 
-    height: of a relief.  sources: vertices of which, from home, where nobody has chosen, as many are seen as can be.
-    up: which axis is; projection: one of PROJECTIONS.
+    height: of a height field.  sources: vertices of which, from home, where nobody has chosen, as many are seen as can
+    be. up: which axis is; projection: one of PROJECTIONS.
     """
     is_parallel = projection == "orthographic"
     points = surface.vertices[surface.component_of_vertex >= 0]

@@ -66,7 +66,7 @@ def _draw_bar(axes: Axes, page: Composition, bar: Bar) -> None:
     style, panel, box = page.figure.style, page.figure.panels[bar.panel], bar.box
     signed = panel.signed
     if style.coloured:
-        # Where bars are in shares of the maximum, what is drawn still ends there.
+        # Where bars are in fractions of the maximum, what is drawn still ends there.
         top = page.figure.tops()[bar.panel]
         parts = bar_parts(style, band_edges(panel.isolines, top, signed), signed)
         for is_there, way, (_, colour) in zip(bar.goes_beyond, (-1, 1), (parts[0], parts[-1]), strict=True):
@@ -125,7 +125,7 @@ def _draw_lines_on_bar(axes: Axes, page: Composition, bar: Bar) -> None:
     usual, long = shares[~found.is_through], bar.box.height if bar.is_upright else bar.box.width
     room = float(np.diff(usual).min(initial=1.0)) * long
     for share, value, bold, through in zip(shares, found.values, found.is_bold, found.is_through, strict=True):
-        # Where bars are in shares of the maximum, they do not end there.
+        # Where bars are in fractions of the maximum, they do not end there.
         at, width = bar.low + share * (bar.high - bar.low), style.isoline_width * stroke
         if not through and min(share, 1 - share) * long < END_ROOM:
             continue

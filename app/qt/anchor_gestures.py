@@ -12,7 +12,7 @@ from ..document.edits import put_point
 from ..document.quantities import Interpolant
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Met
+    from ..drawing.picking import Hit
 
 
 class AnchorGestures:
@@ -27,12 +27,12 @@ class AnchorGestures:
         shows = self._window.session.document.panel(panel).shows
         return any(isinstance(part, Interpolant) for part in shows.parts)
 
-    def put(self, panel: int, met: "Met") -> None:
+    def put(self, panel: int, hit: "Hit") -> None:
         """An anchor at a vertex, with the value that the panel has there."""
         session = self._window.session
         document, surface = session.document, session.document.panel(panel).surface
         try:
-            changed, name = add_anchor(document, met.vertex, self._value(panel, met.vertex), surface)
+            changed, name = add_anchor(document, hit.vertex, self._value(panel, hit.vertex), surface)
         except ParameterError as error:  # there are too many
             self._window.failed(str(error))
             return
@@ -49,13 +49,13 @@ class AnchorGestures:
             return float(min(len(known), 1))
         return float(f"{field[vertex]:.3g}")
 
-    def offer(self, menu: QtWidgets.QMenu, panel: int, met: "Met") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
         """In a menu: what can be done with the place."""
-        name = self._name_at(panel, met.vertex)
+        name = self._name_at(panel, hit.vertex)
         if name:
             menu.addAction("Remove this anchor", lambda: self.remove([name]))
         else:
-            menu.addAction("Anchor here\tClick", lambda: self.put(panel, met))
+            menu.addAction("Anchor here\tClick", lambda: self.put(panel, hit))
 
     def remove(self, points: list[str]) -> None:
         session = self._window.session
@@ -67,7 +67,7 @@ class AnchorGestures:
         if any(anchor.point == name for anchor in self._window.session.document.anchors):
             self.remove([name])
 
-    def drag(self, panel: int, mark: int, met: "Met") -> None:
+    def drag(self, panel: int, mark: int, hit: "Hit") -> None:
         """One of the anchors is over a place; one that another has is passed."""
         session = self._window.session
         document, surface = session.document, session.document.panel(panel).surface
@@ -78,8 +78,8 @@ class AnchorGestures:
             self._moved = names[mark]
             self._window.docks.choose_anchor(self._moved)
             self._window.gestures.sources.set_off()
-        if not self._name_at(panel, met.vertex):
-            moved = put_point(document, self._moved, met.vertex, surface)
+        if not self._name_at(panel, hit.vertex):
+            moved = put_point(document, self._moved, hit.vertex, surface)
             session.show(moved, key=f"drag of {self._moved}", live=True)
 
     def rest(self) -> None:

@@ -5,7 +5,7 @@
 
 from ..document.document import Anchor, Document, Point
 from ..drawing.style import Style
-from ..session.opened import Opened
+from ..session.loaded_mesh import LoadedMesh
 from .look.canvas import canvas_style
 from .look.look import LOOK
 
@@ -15,7 +15,7 @@ class Changes:
 
     def __init__(self, window) -> None:
         self._window = window
-        self._opened: tuple[Opened | None, ...] = ()  # the surfaces in the panels
+        self._loaded: tuple[LoadedMesh | None, ...] = ()  # the surfaces in the panels
 
     @property
     def _style(self) -> Style:
@@ -26,16 +26,16 @@ class Changes:
         """The session's document, where the one before is shown."""
         window, session, grid = self._window, self._window.session, self._window.grid
         document = session.document
-        opened = tuple(session.opened(mesh.name) for mesh in document.surfaces)
+        loaded = tuple(session.loaded(mesh.name) for mesh in document.surfaces)
         is_dressed = grid.show_style(self._style)  # in other colours
-        is_other = opened != self._opened
+        is_other = loaded != self._loaded
         other_panels = is_other or is_dressed or (document.panels, document.fields) != (before.panels, before.fields)
         if other_panels:
             grid.show_panels(document)
         if is_other:
-            shown, self._opened = self._opened, opened
-            is_remade = _is_remade(shown, opened)
-            (window.surface_remade if is_remade else window.surface_changed)(*opened)
+            shown, self._loaded = self._loaded, loaded
+            is_remade = _is_remade(shown, loaded)
+            (window.surface_remade if is_remade else window.surface_changed)(*loaded)
             grid.show_surface([mesh.name for mesh in document.surfaces[1:]] if is_remade and not is_dressed else None)
         elif is_dressed:
             grid.show_surface()
@@ -64,20 +64,20 @@ class Changes:
         if other_panels or document.selections != before.selections:
             window.docks.brushing.show(document)
 
-    def wear(self) -> None:
+    def apply_theme(self) -> None:
         """Other colours of the window, or another style of the fields."""
         if self._window.grid is not None and self._window.grid.show_style(self._style):
             self.show_all_again()
 
-    def wear_next(self) -> None:
+    def apply_theme_next(self) -> None:
         """The same, with the next change of the document, which then shows all anew."""
         if self._window.grid is not None and self._window.grid.show_style(self._style):
-            self._opened = ()
+            self._loaded = ()
 
     def show_all_again(self) -> None:
         """All that is in the panels, where nothing has changed but how it looks."""
         window, session, grid = self._window, self._window.session, self._window.grid
-        if session.opened() is None:
+        if session.loaded() is None:
             return
         document = session.document
         grid.show_surface()
@@ -91,10 +91,10 @@ class Changes:
         for id in session.shown:
             grid.show_answer(id)
         window.docks.show_again()
-        window.waits.show()
+        window.progress_display.show()
 
 
-def _is_remade(before: tuple[Opened | None, ...], after: tuple[Opened | None, ...]) -> bool:
+def _is_remade(before: tuple[LoadedMesh | None, ...], after: tuple[LoadedMesh | None, ...]) -> bool:
     """Whether the first surface stays, and the others are made from it, or were."""
     others = [*before[1:], *after[1:]]
     return bool(before and after) and before[0] is after[0] and all(o and o.origin is after[0] for o in others)

@@ -113,7 +113,7 @@ class Choices:
         window = self._window
         chosen = map_word(window.page.style, window.session.document.colours)
         window.page = replace(window.page, style=word)
-        window.wear()
+        window.apply_theme()
         if chosen is not None:
             self.colour_map(chosen)
         self.show()

@@ -18,7 +18,7 @@ from .pin_gestures import PinGestures
 from .source_gestures import SourceGestures
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Met
+    from ..drawing.picking import Hit
 
 CLOSER = 2.0
 """By how much "zoom to it" enlarges."""
@@ -39,7 +39,7 @@ class Gestures:
     def __init__(self, window) -> None:
         self._window = window
         self._grid = grid = window.grid
-        self._met: Met | None = None  # what is under the pointer
+        self._met: Hit | None = None  # what is under the pointer
         self._met_in = -1  # in which panel
         self.is_live = self.is_dragging = False
         self._has_followed = False  # the source, since it became live
@@ -71,24 +71,24 @@ class Gestures:
         return None if self._met is None else self._met.vertex
 
     # ------------------------------------------------------------------ the source
-    def _click(self, panel: int, met: "Met") -> None:
-        self._window.picked.emit(panel, met)
+    def _click(self, panel: int, hit: "Hit") -> None:
+        self._window.picked.emit(panel, hit)
         if self._window.docks.picking.is_on:
-            self._window.docks.picking.take(panel, met.vertex)
+            self._window.docks.picking.take(panel, hit.vertex)
         elif self.anchors.are_meant(panel):
-            self.anchors.put(panel, met)
+            self.anchors.put(panel, hit)
         elif self.pairs.are_meant(panel):
-            self.pairs.put(panel, met)
+            self.pairs.put(panel, hit)
         else:
-            self._move(panel, self.sources.at(panel, met))
+            self._move(panel, self.sources.at(panel, hit))
 
     def _move(self, panel: int, at: Source, **how: object) -> None:
         session = self._window.session
         session.show(move_source(session.document, panel, at), **how)
 
-    def _drag(self, panel: int, mark: int, met: "Met") -> None:
+    def _drag(self, panel: int, mark: int, hit: "Hit") -> None:
         self.is_dragging = True
-        (self.anchors if self.anchors.are_meant(panel) else self.sources).drag(panel, mark, met)
+        (self.anchors if self.anchors.are_meant(panel) else self.sources).drag(panel, mark, hit)
 
     def _release(self) -> None:
         """The source has arrived: now all is answered, and what is late is said to be."""
@@ -148,10 +148,10 @@ class Gestures:
             self.anchors.remove_chosen()
 
     # ------------------------------------------------------------------ the pointer
-    def _hover(self, panel: int, met: "Met | None") -> None:
+    def _hover(self, panel: int, hit: "Hit | None") -> None:
         window = self._window
         before, last, last_in = self.hovered, self._met, self._met_in
-        self._met, self._met_in = met, panel
+        self._met, self._met_in = hit, panel
         vertex = self.hovered
         is_beside = vertex is None and before is None and not self._grid.pointing.is_on
         if window.session.surface is None or is_beside:
@@ -167,18 +167,18 @@ class Gestures:
         window.docks.pointed(vertex, self._grid.panel(panel).surface)
         window.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], self._letter(panel))
         is_led = self.is_live and not self.anchors.are_meant(panel)
-        is_elsewhere = last is None or panel != last_in or self._at(panel, met) != self._at(panel, last)
-        if is_led and met is not None and is_elsewhere:
+        is_elsewhere = last is None or panel != last_in or self._at(panel, hit) != self._at(panel, last)
+        if is_led and hit is not None and is_elsewhere:
             self.is_dragging = self._has_followed = True
             self.sources.set_off()
             if self.pairs.are_meant(panel):
-                self.pairs.follow(panel, met)
+                self.pairs.follow(panel, hit)
             else:
-                self._move(panel, self.sources.at(panel, met), key="live", live=True)
+                self._move(panel, self.sources.at(panel, hit), key="live", live=True)
             self._rest_soon.start()
 
-    def _at(self, panel: int, met: "Met | None") -> Source | None:
-        return None if met is None else self.sources.at(panel, met)
+    def _at(self, panel: int, hit: "Hit | None") -> Source | None:
+        return None if hit is None else self.sources.at(panel, hit)
 
     def _letter(self, panel: int) -> str:
         """Of the surface of a panel, where there are two."""
@@ -194,9 +194,9 @@ class Gestures:
         if self._met is not None:
             self._zoom_to(self._met_in, self._met)
 
-    def _zoom_to(self, panel: int, met: "Met") -> None:
+    def _zoom_to(self, panel: int, hit: "Hit") -> None:
         view = self._grid.panel(panel).view
-        view.centre(met.position)
+        view.centre(hit.position)
         view.zoom(CLOSER)
 
     # ------------------------------------------------------------------ what is chosen
@@ -208,21 +208,21 @@ class Gestures:
         key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
         session.show(show_in_row(session.document, panel, shows), key)
 
-    def _open_menu(self, panel: int, met: "Met | None", where: QtCore.QPoint) -> None:
+    def _open_menu(self, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
         """On the surface: what can be done with the place; beside it, with the view."""
         window, actions = self._window, self._window.actions_by_word
         menu = QtWidgets.QMenu(window)
-        if met is not None:
-            view, vertex = self._grid.panel(panel).view, met.vertex
+        if hit is not None:
+            view, vertex = self._grid.panel(panel).view, hit.vertex
             self._grid.pointing.show(panel, vertex)
             if self.anchors.are_meant(panel):
-                self.anchors.offer(menu, panel, met)
+                self.anchors.offer(menu, panel, hit)
             elif self.pairs.are_meant(panel):
-                self.pairs.offer(menu, panel, met)
+                self.pairs.offer(menu, panel, hit)
             else:
-                menu.addAction("Source here\tClick", lambda: self._click(panel, met))
-                self.sources.offer(menu, panel, met)
-            self.pins.offer(menu, panel, met, where)
+                menu.addAction("Source here\tClick", lambda: self._click(panel, hit))
+                self.sources.offer(menu, panel, hit)
+            self.pins.offer(menu, panel, hit, where)
             menu.addSeparator()
             menu.addAction("Isoline through here", lambda: window.choices.isoline.pass_through(panel, vertex))
             if window.session.document.isolines.through:
@@ -230,8 +230,8 @@ class Gestures:
             menu.addAction("Save isolines…", lambda: save_isolines(window, panel))
             menu.addAction("Save field…", lambda: window.field_files.save(panel))
             menu.addSeparator()
-            menu.addAction("Centre the view here\tC", lambda: view.centre(met.position))
-            menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, met))
+            menu.addAction("Centre the view here\tC", lambda: view.centre(hit.position))
+            menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, hit))
             menu.addSeparator()
             menu.addAction(f"Copy vertex id {vertex}", lambda: _copy(str(vertex)))
             menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(panel, vertex))))

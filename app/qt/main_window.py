@@ -14,7 +14,7 @@ from ..document.document import Document
 from ..document.page import Page, Recipe
 from ..drawing.prepared import prepare
 from ..drawing.style import STYLES
-from ..session.opened import Opened
+from ..session.loaded_mesh import LoadedMesh
 from ..session.session import Session
 from . import remembered
 from .actions import Actions
@@ -33,9 +33,9 @@ from .look.look import LOOK
 from .pages.guide import Guide
 from .pages.messages import Notice, tell
 from .preferences import Preferences, fit_to_screen
+from .progress_display import ProgressDisplay
 from .typed_source import TypedSource
 from .views import Views
-from .waits import Waits
 
 if TYPE_CHECKING:
     from .panels.view import View
@@ -56,7 +56,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
     complete = QtCore.Signal()
     refused = QtCore.Signal(str)  # a message the user was shown
-    picked = QtCore.Signal(int, object)  # a panel, and the `Met` that was clicked in it, before the source goes there
+    picked = QtCore.Signal(int, object)  # a panel, and the `Hit` that was clicked in it, before the source goes there
     closed = QtCore.Signal()
     _posted = QtCore.Signal(object)
 
@@ -88,7 +88,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.status = StatusBar(self, ExportChip(self.exports))
         self.setStatusBar(self.status)
         self.views, self.changes = Views(self), Changes(self)
-        self.waits = Waits(self)
+        self.progress_display = ProgressDisplay(self)
         self.notice = Notice()
         self._opening = QtWidgets.QLabel("Opening…")
         self._opening.setProperty("quiet", True)
@@ -104,8 +104,8 @@ class MainWindow(QtWidgets.QMainWindow):
         column.addWidget(self.notice)
         column.addWidget(self._stack, 1)
         self.setCentralWidget(middle)
-        LOOK.dress(self)
-        LOOK.follow(self, self.wear)
+        LOOK.apply_theme(self)
+        LOOK.follow(self, self.apply_theme)
         fit_to_screen(self)
         self.setMinimumSize(320, 240)
         self._allow(False)
@@ -131,10 +131,10 @@ class MainWindow(QtWidgets.QMainWindow):
         self.grid.asked.connect(self.choices.edit_panel)
         self.grid.ended.connect(self.choices.end_at)
         self.grid.looked.connect(self.views.moved)
-        self.grid.cancelled.connect(self.waits.stop)
-        self.grid.retried.connect(self.waits.retry)
+        self.grid.cancelled.connect(self.progress_display.stop)
+        self.grid.retried.connect(self.progress_display.retry)
         self.grid.save_wanted.connect(self.field_files.save)
-        self.wear()
+        self.apply_theme()
         self._scroll = QtWidgets.QScrollArea()
         self._scroll.setWidgetResizable(True)
         self._scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -234,44 +234,44 @@ class MainWindow(QtWidgets.QMainWindow):
         self.choices.show()
         self.docks.document_changed()
         self.status.document_changed()
-        self.waits.expect(before)
+        self.progress_display.expect(before)
         self.session_file.document_changed()
 
     def take_page(self, page: Page) -> None:
         """Look as figures on this page do, from the next change of the document on."""
         if page != self.page:
             self.page = page
-            self.changes.wear_next()
+            self.changes.apply_theme_next()
 
-    def surface_changed(self, opened: Opened, *beside: Opened) -> None:
+    def surface_changed(self, loaded: LoadedMesh, *beside: LoadedMesh) -> None:
         """Another surface comes into the panels, or beside that which is there."""
         self._allow(True)
         self.views.begin()
-        self.surface_remade(opened, *beside)
+        self.surface_remade(loaded, *beside)
         self.leave_boxes()
-        for each in (*beside, opened) if self.remembers else ():
+        for each in (*beside, loaded) if self.remembers else ():
             if each.mesh.path and os.path.exists(each.mesh.path):
                 remembered.remember(each.mesh.path)
 
-    def surface_remade(self, opened: Opened, *beside: Opened) -> None:
+    def surface_remade(self, loaded: LoadedMesh, *beside: LoadedMesh) -> None:
         """The same of surfaces that are made from the first, which stays: whoever made them goes on."""
         self.gestures.begin()
         recipe = Recipe(self.session.document, self.page)
         more = unseen(recipe, STYLES[self.page.style])
-        self.status.show_surface(opened.surface, more, [each.surface for each in beside])
+        self.status.show_surface(loaded.surface, more, [each.surface for each in beside])
 
     def answer_changed(self, panel: int) -> None:
         self.grid.show_answer(panel)
         self.gestures.sources.rate.note()
         self.gestures.pairs.show_meant()
         self.docks.answer_changed(panel)
-        self.waits.note(panel)
+        self.progress_display.note(panel)
         self._say_what_is_inexact()
 
-    def certificate_changed(self, panel: int) -> None:
-        self.grid.show_certificate(panel)
+    def error_estimate_changed(self, panel: int) -> None:
+        self.grid.show_error_estimate(panel)
         self.docks.answer_changed(panel)
-        self.waits.note(panel)
+        self.progress_display.note(panel)
         self._say_what_is_inexact()
         self.announce_soon()
 
@@ -284,12 +284,12 @@ class MainWindow(QtWidgets.QMainWindow):
 
     def progress_changed(self) -> None:
         self._offer_steps()
-        self.waits.progress_changed()
+        self.progress_display.progress_changed()
 
     def failed(self, message: str) -> None:
         self.refused.emit(message)
         if self.session.surface is None and self.grid is not None:
-            self.waits.end()
+            self.progress_display.end()
             self.show_start()
             self._start_page.show_message(message)
         elif not self.quiet:
@@ -333,7 +333,7 @@ class MainWindow(QtWidgets.QMainWindow):
             return
         elif self.session.progress or not self.choices.is_full_screen:
             self.session.cancel()
-            self.waits.show()
+            self.progress_display.show()
             if self.docks is not None:
                 self.docks.show_stopped()
         else:
@@ -350,9 +350,9 @@ class MainWindow(QtWidgets.QMainWindow):
             self.views.see(view)
 
     # ------------------------------------------------------------------ how it looks
-    def wear(self) -> None:
+    def apply_theme(self) -> None:
         """Other colours, or another style of the fields."""
-        self.changes.wear()
+        self.changes.apply_theme()
 
     def _allow(self, has_mesh: bool) -> None:
         self.actions_by_word.allow(has_mesh)

@@ -19,10 +19,10 @@ from ..document.pairing import (
     whole_pairs,
 )
 from ..document.predicting import predicts_in
-from ..session.paired import Candidate, candidate_in
+from ..session.pair_locations import Candidate, candidate_in
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Met
+    from ..drawing.picking import Hit
 
 
 class PairGestures:
@@ -45,9 +45,9 @@ class PairGestures:
         return predicts_in(self._document.panel(panel)) and len(self._document.surfaces) > 1
 
     # ------------------------------------------------------------------ points
-    def put(self, panel: int, met: "Met") -> None:
+    def put(self, panel: int, hit: "Hit") -> None:
         """A point that waits for its partner, or the partner of the one that waits."""
-        self.put_at(panel, met.vertex)
+        self.put_at(panel, hit.vertex)
 
     def put_at(self, panel: int, vertex: int) -> None:
         """The same at a vertex; where a pair has its point already, that pair is chosen."""
@@ -65,13 +65,13 @@ class PairGestures:
         self._window.session.show(changed)
         self.choose("")
 
-    def follow(self, panel: int, met: "Met") -> None:
+    def follow(self, panel: int, hit: "Hit") -> None:
         """The point that waits is where the pointer is, unless it waits for a partner on this surface."""
         document, surface = self._document, self._document.panel(panel).surface
         waiting = waiting_point(document)
-        if (waiting is None or waiting.surface == surface) and self._pair_at(surface, met.vertex) is None:
+        if (waiting is None or waiting.surface == surface) and self._pair_at(surface, hit.vertex) is None:
             with suppress(ParameterError):  # there are too many, which a click says
-                self._window.session.show(place_point(document, surface, met.vertex), key="live", live=True)
+                self._window.session.show(place_point(document, surface, hit.vertex), key="live", live=True)
 
     def _pair_at(self, surface: str, vertex: int) -> Pair | None:
         document = self._document
@@ -131,10 +131,10 @@ class PairGestures:
         """Let the pair of a point stand out, in the list, too."""
         self._window.docks.choose_pair(point)
 
-    def offer(self, menu: QtWidgets.QMenu, panel: int, met: "Met") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
         """In a menu: what can be done with the place."""
         document = self._document
-        pair, half = self._pair_at(document.panel(panel).surface, met.vertex), half_pair(document)
+        pair, half = self._pair_at(document.panel(panel).surface, hit.vertex), half_pair(document)
         if pair is not None:
             number = document.pairs.index(pair) + 1
             menu.addAction(f"Remove pair {number}", lambda: self.remove([pair]))
@@ -142,7 +142,7 @@ class PairGestures:
         waiting = waiting_point(document)
         is_partner = waiting is not None and waiting.surface != document.panel(panel).surface
         words = f"The partner of point {len(document.pairs)} is here" if is_partner else "A point of a pair is here"
-        menu.addAction(f"{words}\tClick", lambda: self.put(panel, met))
+        menu.addAction(f"{words}\tClick", lambda: self.put(panel, hit))
         if half is not None and self.candidate() is not None:
             menu.addAction("Accept the candidate\tEnter", self.accept)
         if half is not None:
@@ -165,17 +165,17 @@ class PairGestures:
     def _has_point(self, pair: Pair, surface: str) -> bool:
         return any(self._document.point(name).surface == surface for name in pair.points)
 
-    def _drag(self, panel: int, number: int, met: "Met") -> None:
+    def _drag(self, panel: int, number: int, hit: "Hit") -> None:
         """All the way is one step; a place that another pair has is passed."""
         session, document = self._window.session, self._document
         surface, pair = document.panel(panel).surface, document.pairs[number - 1]
         names = [name for name in pair.points if document.point(name).surface == surface]
-        if not names or document.point(names[0]).at == met.vertex or self._pair_at(surface, met.vertex) is not None:
+        if not names or document.point(names[0]).at == hit.vertex or self._pair_at(surface, hit.vertex) is not None:
             return
         if not self._is_dragging:
             self._is_dragging = self._window.gestures.is_dragging = True
             self._window.gestures.sources.set_off()
-        session.show(move_pair_point(document, names[0], met.vertex), key=f"drag of {names[0]}", live=True)
+        session.show(move_pair_point(document, names[0], hit.vertex), key=f"drag of {names[0]}", live=True)
 
     def _arrive(self) -> None:
         """Now all is answered, and the next drag is a step of its own."""

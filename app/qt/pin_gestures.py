@@ -12,7 +12,7 @@ from ..document.instruments import Pin
 from ..document.measuring import add_pins, remove_pins
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Met
+    from ..drawing.picking import Hit
     from .source_gestures import SourceGestures
 
 
@@ -26,27 +26,27 @@ class PinGestures:
         self._grid.pin_dragged.connect(self._drag)
         self._grid.pin_released.connect(self._arrive)
 
-    def put(self, panel: int, met: "Met") -> None:
+    def put(self, panel: int, hit: "Hit") -> None:
         """A pin there; one that is there already stays."""
         session = self._window.session
         surface = session.document.panel(panel).surface
         try:
-            session.show(add_pins(session.document, [self._sources.at(panel, met)], surface))
+            session.show(add_pins(session.document, [self._sources.at(panel, hit)], surface))
         except ParameterError as error:  # there are too many
             self._window.failed(str(error))
 
-    def offer(self, menu: QtWidgets.QMenu, panel: int, met: "Met | None", where: QtCore.QPoint) -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
         """In the menu that is opened there: what can be done with the drop under the pointer, or with the place."""
         view = self._grid.panel(panel).view
         number = view.over.pin_at(view.mapFromGlobal(where))
-        if not number and met is not None:
-            number = self._number_at(panel, self._sources.at(panel, met))
+        if not number and hit is not None:
+            number = self._number_at(panel, self._sources.at(panel, hit))
         if number:
             pin = self._pin(number)
             menu.addAction(f"Source at {_name(pin, number)}", lambda: self._move_source(panel, pin.point))
             menu.addAction(f"Remove {_name(pin, number)}", lambda: self._remove(pin.point))
-        elif met is not None:
-            menu.addAction("Pin here\tShift+click", lambda: self.put(panel, met))
+        elif hit is not None:
+            menu.addAction("Pin here\tShift+click", lambda: self.put(panel, hit))
 
     # ------------------------------------------------------------------ what it does
     def _pin(self, number: int) -> Pin:
@@ -70,10 +70,10 @@ class PinGestures:
             where = self._window.session.document.point(pin.point).at
             self._window.say(f"{_name(pin, number).capitalize()}: {_place(where)}")
 
-    def _drag(self, panel: int, number: int, met: "Met") -> None:
+    def _drag(self, panel: int, number: int, hit: "Hit") -> None:
         """All the way is one step; a place that another pin has is passed."""
         session = self._window.session
-        document, at = session.document, self._sources.at(panel, met)
+        document, at = session.document, self._sources.at(panel, hit)
         pin = self._pin(number)
         point = document.point(pin.point)
         if at != point.at and not self._number_at(panel, at):

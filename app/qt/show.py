@@ -26,8 +26,8 @@ from ..document.document import Document, Point
 from ..document.edits import move_source
 from ..document.quantities import Quantity
 from ..drawing.style import map_of
-from ..session.given import Mesh, given_comparison, with_beside
-from ..session.opened import checked_path
+from ..session.array_store import Mesh, comparison_of_arrays, with_beside
+from ..session.loaded_mesh import checked_path
 from ..session.questions import source_at
 from .application import application, check_screen, interrupts_noted, run_until
 from .look.look import LOOK
@@ -35,7 +35,7 @@ from .main_window import MainWindow
 from .preferences import load
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Met
+    from ..drawing.picking import Hit
 
 
 WAKE_MS = 100
@@ -47,9 +47,9 @@ class Pick:
     """A click on the surface.
 
     panel: the id of the panel that was clicked.  vertex: the nearest corner of the face.  position: (3,) where the face
-    was met, in mesh units (of a relief, on the raised surface), and weights: (3,) of its corners there.  values: by
-    panel of that surface, what it showed at the vertex when that was clicked, before the source went there; NaN where
-    that is nothing.
+    was met, in mesh units (of a height field, on the raised surface), and weights: (3,) of its corners there.  values:
+    by panel of that surface, what it showed at the vertex when that was clicked, before the source went there; NaN
+    where that is nothing.
     """
 
     panel: int
@@ -99,17 +99,17 @@ class Viewer:
     def source(self) -> Source | None:
         """Where the first panel's field starts; None if it starts nowhere.  Set, it moves there.
 
-        A vertex, or a `Place`, `BoundaryLoop`, `Curve` or `SourceSet`; words such as "12+40" do, too.  VertexError or
-        ParameterError for one that there is not.
+        A vertex, or a `SurfacePoint`, `BoundaryLoop`, `Curve` or `SourceSet`; words such as "12+40" do, too.
+        VertexError or ParameterError for one that there is not.
         """
         started = self._started
-        return None if started is None else source_at(started.at, self._session.opened(started.surface).surface)
+        return None if started is None else source_at(started.at, self._session.loaded(started.surface).surface)
 
     @source.setter
     def source(self, source: Source | str) -> None:
         started = self._started
-        opened = self._session.opened(None if started is None else started.surface)
-        source = source_at(checked_source(source), opened.surface)
+        loaded = self._session.loaded(None if started is None else started.surface)
+        source = source_at(checked_source(source), loaded.surface)
         with_source = [panel.id for panel in self.document.panels if panel.shows.points]
         if not with_source:
             raise BihdistError("No panel shows a field that starts anywhere.")
@@ -218,15 +218,15 @@ class Viewer:
         if not arrived:
             raise BihdistError("It was stopped, or something else was opened meanwhile.")
 
-    def _picked(self, panel: int, met: "Met") -> None:
+    def _picked(self, panel: int, hit: "Hit") -> None:
         if self._on_pick is None:
             return
         fields = {id: shown.answer.field for id, shown in self._session.shown.items()}
         of_surface = self.document.panels_of(self.document.panel(panel).surface)
         shown = [fields.get(each.id) for each in of_surface]
-        values = [float("nan") if field is None else float(field[met.vertex]) for field in shown]
+        values = [float("nan") if field is None else float(field[hit.vertex]) for field in shown]
         ids = [each.id for each in of_surface]
-        pick = Pick(panel, met.vertex, met.position, met.face, met.weights, dict(zip(ids, values, strict=True)))
+        pick = Pick(panel, hit.vertex, hit.position, hit.face, hit.weights, dict(zip(ids, values, strict=True)))
         # After the click has been dealt with: it may close the window, or show something else.
         QtCore.QTimer.singleShot(0, lambda: self._tell(pick))
 
@@ -286,7 +286,7 @@ def show(
     """
     if on_pick is not None and not callable(on_pick):
         raise ParameterError(f"on_pick is a function, not {on_pick!r}.")
-    document, given = given_comparison(mesh, distances, {} if fields is None else fields, (source,), areas)
+    document, given = comparison_of_arrays(mesh, distances, {} if fields is None else fields, (source,), areas)
     document = replace(document, up=up)
     if beside is not None:
         document = with_beside(document, given, beside)
@@ -294,7 +294,7 @@ def show(
         checked_path(each)
     check_screen()
     shell = _ipython()
-    waits = block if block is not None else shell is None and not hasattr(sys, "ps1")
+    progress_display = block if block is not None else shell is None and not hasattr(sys, "ps1")
     app = application()
     viewer = None
     try:
@@ -310,14 +310,14 @@ def show(
             # It is painted before the imports, which take a moment.
             app.processEvents()
             window.build_panels()
-            if shell is not None and not waits:
+            if shell is not None and not progress_display:
                 _share_event_loop(shell)
             viewer._show(document)
     except BaseException:
         if viewer is not None:
             viewer.close()
         raise
-    if waits:
+    if progress_display:
         try:
             run_until(lambda: not viewer.is_open)
         except KeyboardInterrupt:

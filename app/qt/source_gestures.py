@@ -10,16 +10,16 @@ from qtpy import QtWidgets
 
 from bihdist_core.sources.boundary import boundary_loops
 from bihdist_core.sources.pieces import pieces_of
-from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Place, Source
+from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
 from ..document.edits import move_source, source_name
 from ..document.sourcing import members_of, place_at, place_in, points_of, with_member, with_moved, without_member
-from ..session.drawn import drawn_source
+from ..session.stroke_sources import source_from_strokes
 from .live_rate import LiveRate
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Met
+    from ..drawing.picking import Hit
 
 NEAR = 24.0
 """Pixels from the pointer to a member of the source, or to a boundary, that a menu means."""
@@ -39,7 +39,7 @@ class SourceGestures:
         self.is_drawing = False
         self.rate = LiveRate(window)
         self._moved: tuple[str, Source, Member] | None = None  # a point, what it was, and which member moves
-        self._strokes: list[list[Place]] = []
+        self._strokes: list[list[SurfacePoint]] = []
         self._is_beside = True  # the pointer is not on the surface, or the button was up
         self._grid.added.connect(self.add_or_remove)
         self._grid.stroked.connect(self._draw)
@@ -56,12 +56,12 @@ class SourceGestures:
         """Whether the source is put on vertices."""
         return self._window.session.document.snap
 
-    def at(self, panel: int, met: "Met") -> Source:
+    def at(self, panel: int, hit: "Hit") -> Source:
         """The source that a place in a panel means."""
         if self.is_snapping:
-            return met.vertex
+            return hit.vertex
         faces = self._window.session.surface_in(panel).faces
-        return place_at(faces[met.face], met.face, met.weights)
+        return place_at(faces[hit.face], hit.face, hit.weights)
 
     def set_snapping(self, is_snapping: bool) -> None:
         """Whether the source is put on vertices, or anywhere in faces, also at the next start."""
@@ -70,7 +70,7 @@ class SourceGestures:
         where = "on vertices" if is_snapping else "anywhere in faces"
         self._window.say(f"A click puts the source {where}")
 
-    def drag(self, panel: int, mark: int, met: "Met") -> None:
+    def drag(self, panel: int, mark: int, hit: "Hit") -> None:
         """One of the marks of a panel's source is over a place."""
         session = self._window.session
         if self._moved is None:
@@ -85,7 +85,7 @@ class SourceGestures:
             self._moved = marked[mark]
             self.set_off()
         name, whole, member = self._moved
-        moved = with_moved(session.document, name, whole, member, self.at(panel, met))
+        moved = with_moved(session.document, name, whole, member, self.at(panel, hit))
         session.show(moved, key=f"drag in {panel}", live=True)
 
     def set_off(self) -> None:
@@ -100,9 +100,9 @@ class SourceGestures:
         self._grid.marks.keep_steps(False)
 
     # ------------------------------------------------------------------ members
-    def add_or_remove(self, panel: int, met: "Met") -> None:
+    def add_or_remove(self, panel: int, hit: "Hit") -> None:
         """Ctrl and a click: a place joins the source, a member that is there leaves it."""
-        member, at = self._member_at(panel, met), self.at(panel, met)
+        member, at = self._member_at(panel, hit), self.at(panel, hit)
         if member is None and at in self._members(panel):
             member = at
         if member is not None:
@@ -147,54 +147,54 @@ class SourceGestures:
         name = source_name(document, panel)
         return members_of(document.point(name).at) if name else ()
 
-    def _member_at(self, panel: int, met: "Met") -> Member | None:
+    def _member_at(self, panel: int, hit: "Hit") -> Member | None:
         """The member of the source next to a place, if it is near."""
         members = self._members(panel)
         if not members:
             return None
-        nearest = [self._nearest_of(panel, member, met) for member in members]
-        best = int(np.argmin([np.linalg.norm(x - met.position) for x in nearest]))
-        return members[best] if self._is_near(panel, nearest[best], met, NEAR / 2) else None
+        nearest = [self._nearest_of(panel, member, hit) for member in members]
+        best = int(np.argmin([np.linalg.norm(x - hit.position) for x in nearest]))
+        return members[best] if self._is_near(panel, nearest[best], hit, NEAR / 2) else None
 
-    def _nearest_of(self, panel: int, member: Member, met: "Met") -> np.ndarray:
+    def _nearest_of(self, panel: int, member: Member, hit: "Hit") -> np.ndarray:
         """(3,) the point of a member that is nearest to a place."""
         pieces = pieces_of(member, self._window.session.surface_in(panel))
         start, stop = pieces.positions(self._grid.panel(panel).positions)
         way = stop - start
-        share = np.einsum("kx,kx->k", met.position - start, way) / np.maximum(np.einsum("kx,kx->k", way, way), 1e-300)
+        share = np.einsum("kx,kx->k", hit.position - start, way) / np.maximum(np.einsum("kx,kx->k", way, way), 1e-300)
         points = start + np.clip(share, 0, 1)[:, None] * way
-        return points[np.linalg.norm(points - met.position, axis=1).argmin()]
+        return points[np.linalg.norm(points - hit.position, axis=1).argmin()]
 
-    def _is_near(self, panel: int, point: np.ndarray, met: "Met", pixels: float) -> bool:
+    def _is_near(self, panel: int, point: np.ndarray, hit: "Hit", pixels: float) -> bool:
         view = self._grid.panel(panel).view
-        away = view.place_of(point) - view.place_of(met.position)
+        away = view.place_of(point) - view.place_of(hit.position)
         return float(np.hypot(away.x(), away.y())) <= pixels
 
     # ------------------------------------------------------------------ the menu
-    def offer(self, menu: QtWidgets.QMenu, panel: int, met: "Met") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
         """What can be done to the source at a place."""
-        member, members = self._member_at(panel, met), self._members(panel)
+        member, members = self._member_at(panel, hit), self._members(panel)
         if member is None:
-            menu.addAction("Add to the source\tCtrl+click", lambda: self.add(panel, self.at(panel, met)))
+            menu.addAction("Add to the source\tCtrl+click", lambda: self.add(panel, self.at(panel, hit)))
         elif len(members) > 1:
             menu.addAction("Remove from the source\tCtrl+click", lambda: self.remove(panel, member))
         if isinstance(member, Curve):
             menu.addAction("Save this curve…", lambda: self._window.curve_files.choose_and_save(member))
-        loop = self._loop_near(panel, met)
+        loop = self._loop_near(panel, hit)
         if loop is not None:
             menu.addAction("This boundary as source", lambda: self.put(panel, loop))
             if members and loop not in members:
                 menu.addAction("Add this boundary to the source", lambda: self.add(panel, loop))
 
-    def _loop_near(self, panel: int, met: "Met") -> BoundaryLoop | None:
+    def _loop_near(self, panel: int, hit: "Hit") -> BoundaryLoop | None:
         surface, positions = self._window.session.surface_in(panel), self._grid.panel(panel).positions
         edges = surface.boundary_edges
         if not len(edges):
             return None
         middles = positions[edges].mean(axis=1)
-        nearest = int(np.linalg.norm(middles - met.position, axis=1).argmin())
+        nearest = int(np.linalg.norm(middles - hit.position, axis=1).argmin())
         ends = positions[edges[nearest]]
-        if not any(self._is_near(panel, point, met, NEAR) for point in (*ends, middles[nearest])):
+        if not any(self._is_near(panel, point, hit, NEAR) for point in (*ends, middles[nearest])):
             return None
         loops = boundary_loops(surface)
         return BoundaryLoop(next(number for number, rows in enumerate(loops) if nearest in rows))
@@ -207,11 +207,11 @@ class SourceGestures:
         self._grid.marks.draw_on(is_drawing)
         self._window.say("Drag over the surface: a curve as source (with Ctrl it is added); Esc ends" * is_drawing)
 
-    def _draw(self, panel: int, met: "Met | None") -> None:
-        if met is None:
+    def _draw(self, panel: int, hit: "Hit | None") -> None:
+        if hit is None:
             self._is_beside = True
             return
-        place = place_in(met.face, met.weights)
+        place = place_in(hit.face, hit.weights)
         if self._is_beside:
             self._strokes.append([])
             self._is_beside = False
@@ -226,7 +226,7 @@ class SourceGestures:
             return
         away = np.linalg.norm(ends - ends[0], axis=1)
         is_closed = len(ends) > 3 and away[-1] < CLOSING and away.max() > 2 * CLOSING
-        drawn = drawn_source(strokes, self._window.session.surface_in(panel), bool(is_closed))
+        drawn = source_from_strokes(strokes, self._window.session.surface_in(panel), bool(is_closed))
         (self.add if has_ctrl else self.put)(panel, drawn)
 
     def _on_view(self, panel: int) -> np.ndarray:

@@ -44,7 +44,7 @@ class TypedSource:
         document = session.document
         name = next((name for panel in document.panels for name in panel.shows.points), "")
         sources = [document.point(name).at] if name else []
-        opened = session.opened(document.point(name).surface) if name else session.opened()
-        surface = None if opened is None else opened.surface
+        loaded = session.loaded(document.point(name).surface) if name else session.loaded()
+        surface = None if loaded is None else loaded.surface
         known = source_at(sources[0], surface) if surface is not None and sources else None
         self._box.show_source(known, 0 if surface is None else len(surface.vertices))

@@ -48,7 +48,7 @@ class Views:
         self._offer()
 
     def document_changed(self, before: Document, is_other: bool, is_raised: bool) -> None:
-        """Let the camera see what the document says.  is_other: another mesh is there; is_raised: a relief changed."""
+        """Let the camera see what the document says.  is_other: another mesh is there; is_raised: the height is."""
         window, document = self._window, self._window.session.document
         if window.remembers and not is_other and document.up != before.up:
             remember_up(document.surfaces[0].sha256, document.up)

@@ -5,14 +5,14 @@ import math
 from bihdist_core.distances.answers import Answer
 
 from ..document.document import Document
-from .opened import Opened
+from .loaded_mesh import LoadedMesh
 from .questions import vertex_at
 
 
-def anchors_on(document: Document, surface: str, opened: Opened) -> list[tuple[int, float | None]]:
+def anchors_on(document: Document, surface: str, loaded: LoadedMesh) -> list[tuple[int, float | None]]:
     """The vertices of those on a surface of the document, with their values."""
     points = [(anchor, document.point(anchor.point)) for anchor in document.anchors]
-    return [(vertex_at(p.at, opened.surface), a.value) for a, p in points if p.surface == surface]
+    return [(vertex_at(p.at, loaded.surface), a.value) for a, p in points if p.surface == surface]
 
 
 def anchor_value(value: float | None, vertex: int, answer: Answer | None) -> float:

@@ -12,9 +12,9 @@ from bihdist_core import SolverError
 from bihdist_core.distances.answers import Answer, failed
 from bihdist_core.progress import Progress, part
 
-from .kept import KeptAnswers
-from .lane import Lane
-from .opened import Opened
+from .answer_cache import AnswerCache
+from .latest_request_worker import LatestRequestWorker
+from .loaded_mesh import LoadedMesh
 from .questions import Question, are_about_the_same
 
 MUCH_LONGER, AT_LEAST = 4.0, 0.2
@@ -29,7 +29,7 @@ class AnswerView(Protocol):
     """Who is told, on the view's thread, by the ids of the panels."""
 
     def answer_changed(self, panel: int) -> None: ...
-    def certificate_changed(self, panel: int) -> None: ...
+    def error_estimate_changed(self, panel: int) -> None: ...
     def progress_changed(self) -> None: ...
 
 
@@ -51,7 +51,7 @@ class _Request:
     """A question for a lane.  live: a drag goes on, so a stand-in will do and nobody is in the way of the next."""
 
     question: Question
-    opened: Opened
+    loaded: LoadedMesh
     serial: int
     live: bool
 
@@ -70,18 +70,18 @@ class Answering:
         self._view = view
         self._post = post
         self._asked: dict[int, Question] = {}
-        self._kept = KeptAnswers()
+        self._kept = AnswerCache()
         self._serial = 0
-        self._lanes: dict[int, Lane[_Request]] = {}
+        self._workers: dict[int, LatestRequestWorker[_Request]] = {}
         self._took: dict[int, float] = {}  # seconds, of what was answered last in a drag
 
     # ------------------------------------------------------------------ asking
-    def ask(self, asked: Mapping[int, tuple[Question, Opened]], live: bool) -> None:
+    def ask(self, asked: Mapping[int, tuple[Question, LoadedMesh]], live: bool) -> None:
         """The questions of all panels, each with its surface: from now on nobody wants any others.
 
         live: a drag goes on; stand-ins will do, and what is computed is shown though it is late.
         """
-        for id, (question, opened) in asked.items():
+        for id, (question, loaded) in asked.items():
             self._serial += 1
             self.stopped.discard(id)
             if self.is_answered(id) and self.shown[id].answer.is_final:
@@ -94,9 +94,9 @@ class Answering:
                 self._stop(id)
                 self._show(id, Shown(question, known, self._serial))
                 continue
-            if id not in self._lanes:
-                self._lanes[id] = self._new_lane(id)
-            self._lanes[id].submit(_Request(question, opened, self._serial, live))
+            if id not in self._workers:
+                self._workers[id] = self._new_worker(id)
+            self._workers[id].submit(_Request(question, loaded, self._serial, live))
 
     def keep(self, question: Question, answer: Answer) -> None:
         """What somebody else has found out, on any thread."""
@@ -105,8 +105,8 @@ class Answering:
     def expect(self, asked: Mapping[int, Question]) -> None:
         """These are the panels and their questions now; what is shown of other panels or meshes is forgotten."""
         self._asked = dict(asked)
-        for id in self._lanes.keys() - asked.keys():
-            self._lanes.pop(id).end()
+        for id in self._workers.keys() - asked.keys():
+            self._workers.pop(id).end()
             self.progress.pop(id, None)
         self.stopped &= asked.keys()
         self.shown = {id: s for id, s in self.shown.items() if id in asked and s.asked.mesh == asked[id].mesh}
@@ -123,37 +123,37 @@ class Answering:
 
     def cancel(self, panel: int | None = None) -> None:
         """Stop what is going on for a panel, for all if none is named; what is asked next is answered."""
-        for id in self._lanes if panel is None else {panel} & self._lanes.keys():
+        for id in self._workers if panel is None else {panel} & self._workers.keys():
             if not (self.is_answered(id) and self.shown[id].answer.is_final):
                 self.stopped.add(id)
             self._stop(id)
 
     def end(self) -> None:
         """Stop everything, and soon the threads."""
-        for lane in self._lanes.values():
-            lane.end()
+        for worker in self._workers.values():
+            worker.end()
 
     def close(self) -> None:
         """The same, and wait for it."""
-        for lane in self._lanes.values():
-            lane.close()
+        for worker in self._workers.values():
+            worker.close()
 
     def _stop(self, id: int) -> None:
-        if id in self._lanes:
-            self._lanes[id].submit(None)
+        if id in self._workers:
+            self._workers[id].submit(None)
 
     # ------------------------------------------------------------------ answering
-    def _new_lane(self, id: int) -> "Lane[_Request]":
-        return Lane(
+    def _new_worker(self, id: int) -> "LatestRequestWorker[_Request]":
+        return LatestRequestWorker(
             f"panel {id}",
-            lambda request, lane: self._work(id, request, lane),
+            lambda request, worker: self._work(id, request, worker),
             self._reporter(id),
             lambda request, error: self._deliver(id, request, failed(str(request.question), error)),
             leaves=True,
         )
 
-    def _work(self, id: int, request: _Request, lane: Lane[_Request]) -> None:
-        question, opened = request.question, request.opened
+    def _work(self, id: int, request: _Request, worker: LatestRequestWorker[_Request]) -> None:
+        question, loaded = request.question, request.loaded
         begun, took = time.monotonic(), self._took.get(id)
 
         def is_wanted(latest: _Request) -> bool:
@@ -172,13 +172,13 @@ class Answering:
             self._deliver(id, request, known)
             return
         # The source may move while the distance is made ready: then the next question has it.
-        preparing = lane.progress(lambda latest: are_about_the_same(latest.question, question))
-        asking = lane.progress(is_wanted)
+        preparing = worker.progress(lambda latest: are_about_the_same(latest.question, question))
+        asking = worker.progress(is_wanted)
         for spec in question.specs:
-            opened.distances(question.areas).get(spec, part(preparing, 0, 0.9))
+            loaded.distances(question.areas).get(spec, part(preparing, 0, 0.9))
         asking(0.9, str(question))
-        at_hand = opened.is_at_hand(question)
-        stand_ins = (opened.distances(question.areas).stand_in(spec) or spec for spec in question.specs)
+        at_hand = loaded.is_at_hand(question)
+        stand_ins = (loaded.distances(question.areas).stand_in(spec) or spec for spec in question.specs)
         quick = question.with_specs(tuple(stand_ins))
         if (
             quick != question
@@ -189,7 +189,7 @@ class Answering:
         ):
             self._took[id] = time.monotonic() - begun
             return
-        answer = opened.answer(question, asking, at_once=lambda first: self._deliver(id, request, first))
+        answer = loaded.answer(question, asking, at_once=lambda first: self._deliver(id, request, first))
         self._kept.put(question, answer)
         self._deliver(id, request, answer)
         if request.live:
@@ -199,8 +199,8 @@ class Answering:
 
     def _is_quicker(self, id: int, request: _Request, quick: Question) -> bool:
         """Whether stand-ins come before the answer: at first, on a small surface, not if they have to be made."""
-        distances = request.opened.distances(quick.areas)
-        is_small = len(request.opened.surface.vertices) <= SMALL
+        distances = request.loaded.distances(quick.areas)
+        is_small = len(request.loaded.surface.vertices) <= SMALL
         is_next = request.live or id in self.shown
         return is_next or not is_small or all(distances.is_ready(spec) for spec in quick.specs)
 
@@ -210,10 +210,10 @@ class Answering:
         if answer is None:
             try:
                 for spec in question.specs:
-                    request.opened.distances(question.areas).get(spec, preparing)
+                    request.loaded.distances(question.areas).get(spec, preparing)
             except (SolverError, MemoryError):
                 return False
-            answer = request.opened.answer(question, asking)
+            answer = request.loaded.answer(question, asking)
             self._kept.put(question, answer)
         if not answer.failure:
             self._deliver(id, request, answer, is_preview=True)
@@ -239,7 +239,7 @@ class Answering:
         self.shown[id] = new
         same_field = old is not None and new.answer.field is not None and old.answer.field is new.answer.field
         if same_field and old is not None and old.is_preview == new.is_preview:
-            self._view.certificate_changed(id)
+            self._view.error_estimate_changed(id)
         else:
             self._view.answer_changed(id)
 
@@ -249,7 +249,7 @@ class Answering:
             def note() -> None:
                 if fraction is None:
                     self.progress.pop(id, None)
-                elif id in self._lanes:
+                elif id in self._workers:
                     self.progress[id] = (fraction, text)
                 self._view.progress_changed()
 

@@ -9,11 +9,11 @@ from bihdist_core.distances.answers import Answer
 from ..document.changing import partner
 from ..document.document import Document
 from .answering import Shown
-from .opened import Opened
+from .loaded_mesh import LoadedMesh
 
 
 def bar_end(
-    document: Document, shown: Mapping[int, Shown], id: int, opened: Callable[[str], Opened | None]
+    document: Document, shown: Mapping[int, Shown], id: int, loaded: Callable[[str], LoadedMesh | None]
 ) -> float | None:
     """Of a panel, by its id and by what all of them show; None for the field's own maximum.
 
@@ -22,7 +22,7 @@ def bar_end(
     answers = {other: each.answer for other, each in shown.items()}
     answer = answers[id]
     if document.range == "own":
-        return own_end(document, answers, id, opened)
+        return own_end(document, answers, id, loaded)
     if not is_shared(document, answer):
         return None
     kind = (answer.unit, answer.signs is None)
@@ -46,7 +46,7 @@ def typed_end(document: Document, id: int, answer: Answer) -> float | None:
 
 
 def own_end(
-    document: Document, answers: Mapping[int, Answer], id: int, opened: Callable[[str], Opened | None]
+    document: Document, answers: Mapping[int, Answer], id: int, loaded: Callable[[str], LoadedMesh | None]
 ) -> float | None:
     """The same where each panel has its own: what a distance is before and after a change has one end.
 
@@ -61,14 +61,14 @@ def own_end(
         return typed_end(document, id, answers[id])
     if other.maximum is not None:
         return None  # one that was typed is meant for its panel alone
-    return max(_old_maximum(answers[each.id], opened(each.surface)) for each in (panel, other)) or None
+    return max(_old_maximum(answers[each.id], loaded(each.surface)) for each in (panel, other)) or None
 
 
-def _old_maximum(answer: Answer, opened: Opened | None) -> float:
+def _old_maximum(answer: Answer, loaded: LoadedMesh | None) -> float:
     """At the vertices that the surface has from what it is made from."""
-    if answer.field is None or opened is None or opened.origin is None:
+    if answer.field is None or loaded is None or loaded.origin is None:
         return answer.maximum
-    return float(np.nanmax(answer.field[opened.ids >= 0], initial=0.0))
+    return float(np.nanmax(answer.field[loaded.ids >= 0], initial=0.0))
 
 
 def ends_with(document: Document, shown: Mapping[int, Shown], id: int) -> list[int]:

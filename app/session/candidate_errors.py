@@ -11,7 +11,7 @@ from ..document.document import Document
 from ..document.map_colours import Truth
 from ..document.pairing import other_side, waiting_point
 from .judging import KeptGeodesics, right_places
-from .opened import Opened
+from .loaded_mesh import LoadedMesh
 from .questions import vertex_at
 
 
@@ -22,8 +22,8 @@ class CandidatesAsked:
     candidates: on the other surface, by the ids of panels.
     """
 
-    one: Opened
-    two: Opened
+    one: LoadedMesh
+    two: LoadedMesh
     areas: str
     truth: Truth
     vertex: int
@@ -36,7 +36,7 @@ class CandidatesAsked:
         return id(self.one.surface), id(self.two.surface), self.areas, self.truth, self.vertex, self.is_on_first
 
     @property
-    def there(self) -> Opened:
+    def there(self) -> LoadedMesh:
         """The surface of the candidates."""
         return self.two if self.is_on_first else self.one
 
@@ -53,7 +53,7 @@ class CandidatesJudged:
 
 
 def candidates_asked(
-    document: Document, one: Opened, two: Opened, candidates: dict[int, int]
+    document: Document, one: LoadedMesh, two: LoadedMesh, candidates: dict[int, int]
 ) -> CandidatesAsked | None:
     """None where nothing waits."""
     point = waiting_point(document)

@@ -30,9 +30,9 @@ from ..document.document import Document
 from ..document.map_colours import SAME_IDS, MapColours, MapFile, Truth
 from ..document.pairing import whole_pairs
 from ..document.quantities import Prediction
-from .mapped import map_in
-from .opened import Opened
-from .predicted import correspondence
+from .loaded_mesh import LoadedMesh
+from .map_answers import map_in
+from .prediction_answers import correspondence
 
 MOST_KEPT = 40_000_000
 """Numbers of four bytes that are kept of geodesic distances: from 400 vertices of a surface of 100,000."""
@@ -139,8 +139,8 @@ class KeptGeodesics:
 class Asked:
     """Which maps are to be judged, between which surfaces, by which truth."""
 
-    one: Opened
-    two: Opened
+    one: LoadedMesh
+    two: LoadedMesh
     areas: str
     maps: tuple[Map, ...]
     pairs: tuple[tuple[Source | None, Source | None], ...]
@@ -152,7 +152,7 @@ class Asked:
         return id(self.one.surface), id(self.two.surface), self.areas, self.maps, self.pairs, self.truth
 
 
-def asked_of(document: Document, one: Opened, two: Opened) -> Asked:
+def asked_of(document: Document, one: LoadedMesh, two: LoadedMesh) -> Asked:
     """What a document asks of its two surfaces."""
     pairs = tuple((document.point(pair.first).at, document.point(pair.second).at) for pair in whole_pairs(document))
     return Asked(one, two, document.areas, maps_of(document), pairs, document.truth)

@@ -15,15 +15,15 @@ from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.distances.geodesic import EXACT_UP_TO
 from bihdist_core.errors import ParameterError, SolverError
 from bihdist_core.progress import Progress, silent
-from bihdist_core.sources.source import Place, Source
+from bihdist_core.sources.source import Source, SurfacePoint
 from bihdist_core.sources.words import words_of
 from bihdist_core.surface import Surface
 
 from ..document.document import Document
 from ..document.instruments import SECTIONS
 from ..document.measuring import points_along
-from .lane import Lane
-from .opened import Opened
+from .latest_request_worker import LatestRequestWorker
+from .loaded_mesh import LoadedMesh
 
 FEW = "A profile goes from point to point: pin two points, or choose its ends above."
 
@@ -39,7 +39,7 @@ class PathWanted:
     """
 
     surface: Surface
-    places: tuple[int | Place, ...]
+    places: tuple[int | SurfacePoint, ...]
     way: str
     across: tuple[float, float, float] | None = None
 
@@ -85,7 +85,7 @@ def wanted_path(
     return PathWanted(surface, places, profile.way, across)
 
 
-def path_of(document: Document, surfaces: Mapping[str, Opened]) -> tuple[str, SurfacePath]:
+def path_of(document: Document, surfaces: Mapping[str, LoadedMesh]) -> tuple[str, SurfacePath]:
     """The path of a document's profile, waited for, and the name of its surface; the last of each surface is kept.
 
     Raises ParameterError, as `wanted_path` does, and what making the path raises.
@@ -106,8 +106,8 @@ def point_words(document: Document, name: str) -> str:
     return name if name in shown or at is None else f"vertex {at}" if isinstance(at, int) else words_of(at)
 
 
-def _place(at: Source | None, name: str) -> int | Place:
-    if isinstance(at, int | Place):
+def _place(at: Source | None, name: str) -> int | SurfacePoint:
+    if isinstance(at, int | SurfacePoint):
         return at
     raise ParameterError(f"A profile goes through vertices and places in faces; {name!r} is neither.")
 
@@ -136,10 +136,10 @@ class PathMaker:
         return self._paths.path(wanted.places, wanted.way, progress)
 
 
-_makers: WeakKeyDictionary[Opened, PathMaker] = WeakKeyDictionary()
+_makers: WeakKeyDictionary[LoadedMesh, PathMaker] = WeakKeyDictionary()
 
 
-class PathLane:
+class PathWorker:
     """Computes the latest path that was asked for, on a thread of its own.
 
     found: called by way of `post` with what was wanted and a `SurfacePath`, or a sentence that says why there is none;
@@ -159,38 +159,38 @@ class PathLane:
         self._wanted: PathWanted | None = None
         self._maker = PathMaker()
         self._before: PathWanted | None = None  # on the lane's thread
-        self._lane: Lane[PathWanted] | None = None
+        self._worker: LatestRequestWorker[PathWanted] | None = None
 
     def ask(self, wanted: PathWanted | None) -> None:
         """Compute this path; None for none."""
         self._wanted = wanted
-        if wanted is not None and self._lane is None:
-            self._lane = Lane("profile", self._work, self._report, self._failed)
-        if self._lane is not None:
-            self._lane.submit(wanted)
+        if wanted is not None and self._worker is None:
+            self._worker = LatestRequestWorker("profile", self._work, self._report, self._failed)
+        if self._worker is not None:
+            self._worker.submit(wanted)
 
     def close(self) -> None:
         """For good; a path on its way is given up."""
         self._wanted = None
-        if self._lane is not None:
-            self._lane.end()
+        if self._worker is not None:
+            self._worker.end()
 
     # ------------------------------------------------------------------ on the lane's thread
-    def _work(self, wanted: PathWanted, lane: Lane[PathWanted]) -> None:
+    def _work(self, wanted: PathWanted, worker: LatestRequestWorker[PathWanted]) -> None:
         is_moving, self._before = wanted.is_alike(self._before), wanted
         is_quick = wanted.way != "exact" and (wanted.way != "auto" or len(wanted.surface.vertices) > EXACT_UP_TO)
         if is_quick:
-            self._make(wanted, lane.progress(wanted.is_alike))
+            self._make(wanted, worker.progress(wanted.is_alike))
             return
         if is_moving and wanted.way == "auto":
             with suppress(ParameterError, SolverError):
-                self._make(wanted, lane.progress(wanted.is_alike), "straightened")
+                self._make(wanted, worker.progress(wanted.is_alike), "straightened")
         end = time.monotonic() + (REST if is_moving else 0)
         while time.monotonic() < end and self._wanted is wanted:
             time.sleep(0.02)
         # To give an exact path up, its process is ended: the next would wait for another.
         if self._wanted is wanted:
-            self._make(wanted, lane.progress(lambda latest: latest is wanted))
+            self._make(wanted, worker.progress(lambda latest: latest is wanted))
 
     def _make(self, wanted: PathWanted, progress: Progress, way: str = "") -> None:
         path = self._maker.path(replace(wanted, way=way or wanted.way), progress)

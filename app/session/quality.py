@@ -32,8 +32,8 @@ from bihdist_core.sources.source import Source
 from bihdist_core.surface import Surface
 
 from .extrema import start_of
-from .lane import Lane
-from .opened import Opened
+from .latest_request_worker import LatestRequestWorker
+from .loaded_mesh import LoadedMesh
 from .questions import DifferenceQuestion, DistanceQuestion, FieldQuestion, Question, vertex_at
 
 GEODESIC = Spec.of("geodesic")
@@ -75,17 +75,17 @@ class _Judgeable:
     """A question's surface and field (n,)."""
 
     question: Question
-    opened: Opened
+    loaded: LoadedMesh
     field: np.ndarray
     only_extrema: bool
 
     @property
     def surface(self) -> Surface:
-        return self.opened.surface
+        return self.loaded.surface
 
 
 _Request = Mapping[Question, _Judgeable]
-_Distances = Mapping[Question, Opened]
+_Distances = Mapping[Question, LoadedMesh]
 
 
 class Quality:
@@ -99,26 +99,28 @@ class Quality:
         self._components: OrderedDict[Hashable, int] = OrderedDict()
         self._near: tuple[DistanceQuestion, np.ndarray] | None = None
         self._lock = threading.Lock()
-        self._fields: Lane[_Request] = Lane("quality", self._judge, _silent, _unheard)
-        self._triangles: Lane[_Distances] = Lane("triangles", self._sample, _silent, _unheard)
+        self._fields: LatestRequestWorker[_Request] = LatestRequestWorker("quality", self._judge, _silent, _unheard)
+        self._triangles: LatestRequestWorker[_Distances] = LatestRequestWorker(
+            "triangles", self._sample, _silent, _unheard
+        )
 
     def ask(
         self,
-        asked: Mapping[Question, tuple[Opened, Answer]],
+        asked: Mapping[Question, tuple[LoadedMesh, Answer]],
         only_extrema: bool = False,
-        on_its_way: Mapping[Question, Opened] | None = None,
+        on_its_way: Mapping[Question, LoadedMesh] | None = None,
     ) -> None:
         """Find out about these answers, and about no others; perhaps nothing but the extrema.
 
         on_its_way: questions without an answer yet, whose triangles go on meanwhile.
         """
         request = {
-            question: _Judgeable(question, opened, answer.field, only_extrema)
-            for question, (opened, answer) in asked.items()
+            question: _Judgeable(question, loaded, answer.field, only_extrema)
+            for question, (loaded, answer) in asked.items()
             if answer.field is not None
         }
         self._fields.submit(request or None)
-        distances = {question: each.opened for question, each in request.items()} | dict(on_its_way or {})
+        distances = {question: each.loaded for question, each in request.items()} | dict(on_its_way or {})
         self._triangles.submit(None if only_extrema else distances or None)
 
     def found(self, question: Question) -> Found:
@@ -141,16 +143,16 @@ class Quality:
 
     def close(self) -> None:
         """Stop, and wait for it."""
-        for lane in (self._fields, self._triangles):
-            lane.end()
-        for lane in (self._fields, self._triangles):
-            lane.close()
+        for worker in (self._fields, self._triangles):
+            worker.end()
+        for worker in (self._fields, self._triangles):
+            worker.close()
 
     # ------------------------------------------------------------------ on the lanes
-    def _judge(self, request: _Request, lane: Lane[_Request]) -> None:
+    def _judge(self, request: _Request, worker: LatestRequestWorker[_Request]) -> None:
         for stage in (self._find_extrema, self._find_whole):
             for each in request.values():
-                stage(each, request, _wanted(lane, each.question))
+                stage(each, request, _wanted(worker, each.question))
 
     def _find_extrema(self, each: _Judgeable, request: _Request, progress: Progress) -> None:
         found = self.found(each.question)
@@ -189,11 +191,11 @@ class Quality:
         if asked in request:
             return request[asked].field
         if self._near is None or self._near[0] != asked:
-            distance = each.opened.distances(asked.areas).get(GEODESIC, progress)
+            distance = each.loaded.distances(asked.areas).get(GEODESIC, progress)
             self._near = (asked, distance.from_source(source, progress))
         return self._near[1]
 
-    def _sample(self, request: _Distances, lane: Lane[_Distances]) -> None:
+    def _sample(self, request: _Distances, worker: LatestRequestWorker[_Distances]) -> None:
         distances = [question for question in request if isinstance(question, DistanceQuestion)]
         # Exact geodesic distances are slow.
         for question in sorted(distances, key=lambda question: question.spec.word == "geodesic"):
@@ -204,7 +206,7 @@ class Quality:
                 continue  # its answer says so
             self._note(question, component)
             if not self.found(question).is_sampled:
-                self._sample_one(question, component, request[question], _wanted_about(lane, question.about))
+                self._sample_one(question, component, request[question], _wanted_about(worker, question.about))
 
     def _note(self, question: DistanceQuestion, component: int) -> None:
         with self._lock:
@@ -217,12 +219,12 @@ class Quality:
         if component != before:
             self._post(self._told)
 
-    def _sample_one(self, question: DistanceQuestion, component: int, opened: Opened, wanted: Progress) -> None:
+    def _sample_one(self, question: DistanceQuestion, component: int, loaded: LoadedMesh, wanted: Progress) -> None:
         wanted(0.0, "triangles")
         key = (question.about, component)
-        last = min(TRIANGLE_POINTS, int((opened.surface.component_of_vertex == component).sum()))
+        last = min(TRIANGLE_POINTS, int((loaded.surface.component_of_vertex == component).sum()))
         try:
-            distance = opened.distances(question.areas).get(question.spec, wanted)
+            distance = loaded.distances(question.areas).get(question.spec, wanted)
             for points, sample in triangle_samples(distance, component=component, progress=wanted):
                 wanted(0.0, "triangles")
                 self._learn(key, Found(triangles=sample, points=points, is_sampled=points == last))
@@ -244,13 +246,13 @@ class Quality:
         self._post(self._told)
 
 
-def _wanted(lane: Lane[_Request], question: Question) -> Progress:
+def _wanted(worker: LatestRequestWorker[_Request], question: Question) -> Progress:
     """Work on a question goes on as long as it is among those asked last."""
-    return lane.progress(lambda latest: question in latest)
+    return worker.progress(lambda latest: question in latest)
 
 
-def _wanted_about(lane: Lane[_Distances], about: Hashable) -> Progress:
-    return lane.progress(lambda latest: any(question.about == about for question in latest))
+def _wanted_about(worker: LatestRequestWorker[_Distances], about: Hashable) -> Progress:
+    return worker.progress(lambda latest: any(question.about == about for question in latest))
 
 
 def _silent(fraction: float | None, text: str) -> None:

@@ -14,7 +14,7 @@ from bihdist_core.whole_file import check_output, whole_file
 from ..document.document import Document
 from ..document.file import is_recipe, read_recipe, recipe_text, with_meshes_from
 from ..document.page import FORMATS, Recipe
-from .given import Given, is_archive, is_given
+from .array_store import ArrayStore, holds_arrays, is_archive
 
 
 def recipe_paths(figure: str | os.PathLike[str]) -> tuple[Path, Path]:
@@ -79,7 +79,7 @@ def _without_format(recipe: Recipe, path: Path) -> Recipe:
 def check_recipe_output(document: Document, path: str | os.PathLike[str]) -> None:
     """Before long work: that a recipe of the document can be written there; OutputError if not."""
     check_output(path, (".json",))
-    if is_given(document):
+    if holds_arrays(document):
         arrays = _archive_of(path)
         check_output(arrays, (".npz",))
         if arrays.exists() and not is_archive(arrays):
@@ -88,7 +88,7 @@ def check_recipe_output(document: Document, path: str | os.PathLike[str]) -> Non
 
 @contextmanager
 def recipe_written(
-    recipe: Recipe, given: Given, path: str | os.PathLike[str], version: str, stays: bool = False, format: str = ""
+    recipe: Recipe, given: ArrayStore, path: str | os.PathLike[str], version: str, stays: bool = False, format: str = ""
 ) -> Iterator[None]:
     """Write a recipe, and the arrays it names; they are there when the block ends, and if that fails, neither is.
 
@@ -98,7 +98,7 @@ def recipe_written(
     check_recipe_output(recipe.document, path)
     page = replace(recipe.page, format=format)
     recipe = replace(recipe if stays else with_meshes_from(recipe, path), page=page, arrays="")
-    archive = _archive_of(path) if is_given(recipe.document) else None
+    archive = _archive_of(path) if holds_arrays(recipe.document) else None
     with ExitStack() as files:
         # The last that is begun is the first that is in its place: the arrays, before anything names them.
         text = files.enter_context(whole_file(path))

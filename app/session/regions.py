@@ -21,8 +21,8 @@ from bihdist_core.sources.source import Source
 
 from ..document.document import Document, MeshFile
 from ..document.quantities import DistanceFrom
-from .lane import Lane
-from .opened import Opened
+from .latest_request_worker import LatestRequestWorker
+from .loaded_mesh import LoadedMesh
 
 MEMORY = 512_000_000
 """Bytes of pins' fields that are kept: 640 of 100,000 vertices."""
@@ -66,18 +66,18 @@ def regions_questions(document: Document) -> dict[int, RegionsQuestion]:
     return found
 
 
-def regions_of(question: RegionsQuestion, opened: Opened) -> Regions:
+def regions_of(question: RegionsQuestion, loaded: LoadedMesh) -> Regions:
     """The answer, waited for; of each surface, the last of each distance is kept.  BihdistError where there is none."""
-    kept = _last.setdefault(opened, {})
+    kept = _last.setdefault(loaded, {})
     known = kept.get(question.about)
     if known is None or known[0] != question:
-        distance = opened.distances(question.areas).get(question.spec)
-        known = question, voronoi_regions(opened.surface, distance.from_sources(list(question.places)))
+        distance = loaded.distances(question.areas).get(question.spec)
+        known = question, voronoi_regions(loaded.surface, distance.from_sources(list(question.places)))
         kept[question.about] = known
     return known[1]
 
 
-_last: WeakKeyDictionary[Opened, dict[Hashable, tuple[RegionsQuestion, Regions]]] = WeakKeyDictionary()
+_last: WeakKeyDictionary[LoadedMesh, dict[Hashable, tuple[RegionsQuestion, Regions]]] = WeakKeyDictionary()
 
 
 def pinned(document: Document, surface: str) -> list[Source | None]:
@@ -86,7 +86,7 @@ def pinned(document: Document, surface: str) -> list[Source | None]:
     return [point.at for point in points if point.surface == surface]
 
 
-_Request = Mapping[int, tuple[RegionsQuestion, Opened]]
+_Request = Mapping[int, tuple[RegionsQuestion, LoadedMesh]]
 
 
 class Dividing:
@@ -97,9 +97,9 @@ class Dividing:
         self._asked: dict[int, RegionsQuestion] = {}
         self._divided: dict[int, Divided] = {}
         self._fields: OrderedDict[Hashable, np.ndarray] = OrderedDict()
-        self._lane: Lane[_Request] | None = None
+        self._worker: LatestRequestWorker[_Request] | None = None
 
-    def ask(self, asked: Mapping[int, tuple[RegionsQuestion, Opened]]) -> None:
+    def ask(self, asked: Mapping[int, tuple[RegionsQuestion, LoadedMesh]]) -> None:
         """Of these panels, and no others."""
         before, self._asked = self._asked, {id: question for id, (question, _) in asked.items()}
         for id in [id for id in self._divided if not self._is_about(id, self._divided[id].question)]:
@@ -107,10 +107,10 @@ class Dividing:
             self._told(id)
         if self._asked == before:
             return
-        if self._lane is None and asked:
-            self._lane = Lane("regions", self._divide, lambda *_: None, _unheard)
-        if self._lane is not None:
-            self._lane.submit(dict(asked) or None)
+        if self._worker is None and asked:
+            self._worker = LatestRequestWorker("regions", self._divide, lambda *_: None, _unheard)
+        if self._worker is not None:
+            self._worker.submit(dict(asked) or None)
 
     def divided(self, panel: int) -> Divided | None:
         """What is shown of a panel: the answer to its question, or, while that is on its way, to the one before."""
@@ -127,39 +127,39 @@ class Dividing:
 
     def close(self) -> None:
         """Stop, and wait for it."""
-        if self._lane is not None:
-            self._lane.close()
+        if self._worker is not None:
+            self._worker.close()
 
     def _is_about(self, panel: int, question: RegionsQuestion) -> bool:
         return panel in self._asked and self._asked[panel].about == question.about
 
     # ------------------------------------------------------------------ on the lane
-    def _divide(self, request: _Request, lane: Lane[_Request]) -> None:
+    def _divide(self, request: _Request, worker: LatestRequestWorker[_Request]) -> None:
         # Panels with the same distance have the same regions.
         known: dict[RegionsQuestion, Divided] = {}
-        for id, (question, opened) in request.items():
+        for id, (question, loaded) in request.items():
             if question not in known:
                 # A pin that is dragged is elsewhere before this is done; what is late is shown.
-                known[question] = self._answer(question, opened, _wanted(lane, question.about))
+                known[question] = self._answer(question, loaded, _wanted(worker, question.about))
             self._deliver(id, known[question])
 
-    def _answer(self, question: RegionsQuestion, opened: Opened, progress: Progress) -> Divided:
+    def _answer(self, question: RegionsQuestion, loaded: LoadedMesh, progress: Progress) -> Divided:
         try:
-            columns = self._columns(question, opened, progress)
-            regions = voronoi_regions(opened.surface, columns)
-            return Divided(question, regions, tuple(region_boundaries(opened.surface, regions)), columns)
+            columns = self._columns(question, loaded, progress)
+            regions = voronoi_regions(loaded.surface, columns)
+            return Divided(question, regions, tuple(region_boundaries(loaded.surface, regions)), columns)
         except Cancelled:
             raise
         except Exception as error:
             return Divided(question, failure=failure_in_words(error))
 
-    def _columns(self, question: RegionsQuestion, opened: Opened, progress: Progress) -> np.ndarray:
+    def _columns(self, question: RegionsQuestion, loaded: LoadedMesh, progress: Progress) -> np.ndarray:
         """(n, k) the fields from the places."""
         keys = [(question.about, at) for at in question.places]
         missing = [at for key, at in zip(keys, question.places, strict=True) if key not in self._fields]
         if missing:
             progress(0.0, "regions")
-            distance = opened.distances(question.areas).get(question.spec, progress)
+            distance = loaded.distances(question.areas).get(question.spec, progress)
             fields = distance.from_sources(missing, progress)
             for at, field in zip(missing, fields.T, strict=True):
                 self._fields[question.about, at] = np.ascontiguousarray(field)
@@ -180,8 +180,8 @@ class Dividing:
             self._told(panel)
 
 
-def _wanted(lane: Lane[_Request], about: Hashable) -> Progress:
-    return lane.progress(lambda latest: any(question.about == about for question, _ in latest.values()))
+def _wanted(worker: LatestRequestWorker[_Request], about: Hashable) -> Progress:
+    return worker.progress(lambda latest: any(question.about == about for question, _ in latest.values()))
 
 
 def _unheard(request: _Request, error: Exception) -> None:

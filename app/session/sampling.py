@@ -13,8 +13,8 @@ from bihdist_core.progress import part
 from bihdist_core.sources.source import Source
 
 from ..document.document import MeshFile
-from .lane import Lane
-from .opened import Opened
+from .latest_request_worker import LatestRequestWorker
+from .loaded_mesh import LoadedMesh
 
 
 @dataclass(frozen=True)
@@ -49,18 +49,18 @@ class Sampling:
     ) -> None:
         self._post, self._told, self._going = post, told, going
         self._asked: SamplesQuestion | None = None
-        self._lane: Lane[tuple[SamplesQuestion, Opened]] | None = None
+        self._worker: LatestRequestWorker[tuple[SamplesQuestion, LoadedMesh]] | None = None
 
-    def ask(self, question: SamplesQuestion, opened: Opened) -> None:
+    def ask(self, question: SamplesQuestion, loaded: LoadedMesh) -> None:
         self._asked = question
-        if self._lane is None:
-            self._lane = Lane("samples", self._sample, self._report, lambda *_: None)
-        self._lane.submit((question, opened))
+        if self._worker is None:
+            self._worker = LatestRequestWorker("samples", self._sample, self._report, lambda *_: None)
+        self._worker.submit((question, loaded))
 
     def cancel(self) -> None:
         self._asked = None
-        if self._lane is not None:
-            self._lane.submit(None)
+        if self._worker is not None:
+            self._worker.submit(None)
 
     @property
     def is_going(self) -> bool:
@@ -68,15 +68,19 @@ class Sampling:
 
     def close(self) -> None:
         """Stop, and wait for it."""
-        if self._lane is not None:
-            self._lane.close()
+        if self._worker is not None:
+            self._worker.close()
 
-    def _sample(self, request: tuple[SamplesQuestion, Opened], lane: Lane[tuple[SamplesQuestion, Opened]]) -> None:
-        question, opened = request
-        progress = lane.progress(lambda latest: latest is request)
+    def _sample(
+        self,
+        request: tuple[SamplesQuestion, LoadedMesh],
+        worker: LatestRequestWorker[tuple[SamplesQuestion, LoadedMesh]],
+    ) -> None:
+        question, loaded = request
+        progress = worker.progress(lambda latest: latest is request)
         try:
-            starts = starts_of(question.at, opened.surface)
-            distance = opened.distances(question.areas).get(question.spec, part(progress, 0, 0.5))
+            starts = starts_of(question.at, loaded.surface)
+            distance = loaded.distances(question.areas).get(question.spec, part(progress, 0, 0.5))
             found = farthest_points(distance, starts, question.count, part(progress, 0.5, 1))
             sampled = Sampled(question, found)
         except Cancelled:

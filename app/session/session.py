@@ -23,9 +23,9 @@ from ..document.document import Document, MeshFile, Point, starting_points
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
 from .answering import Answering, AnswerView, Shown
-from .changed import answers_ahead, led
-from .given import Given
-from .opened import Opened, started_alike
+from .array_store import ArrayStore
+from .loaded_mesh import LoadedMesh, started_alike
+from .perturbed_meshes import answers_ahead, led
 from .questions import asks_of, questions
 from .surfaces import LoadingView, Opening, Surfaces
 
@@ -57,7 +57,7 @@ class Session:
         known_up: Callable[[str], str] = lambda sha256: "",
     ) -> None:
         self.view = view
-        self.given = Given()
+        self.given = ArrayStore()
         self.history = History(document or Document())
         self._answering = Answering(view, post)
         self._surfaces = Surfaces(view, post, self.given, prepare, known_up, self._present, self._load_programs)
@@ -153,7 +153,7 @@ class Session:
             # Until now the user went on with what is shown.
             self._change(change_mesh(self.document, change), key)
 
-        def ahead(found: Sequence[Opened], progress: Progress) -> None:
+        def ahead(found: Sequence[LoadedMesh], progress: Progress) -> None:
             for question, answer in answers_ahead(document, found, tuple(self._surfaces), progress):
                 self._answering.keep(question, answer)
 
@@ -211,9 +211,9 @@ class Session:
     def retry(self, panel: int) -> None:
         """Ask again what was stopped for a panel."""
         asked = questions(self.document).get(panel)
-        opened = None if asked is None else self._surfaces.found(asked.mesh)
-        if asked is not None and opened is not None:
-            self._answering.ask({panel: (asked, opened)}, live=False)
+        loaded = None if asked is None else self._surfaces.found(asked.mesh)
+        if asked is not None and loaded is not None:
+            self._answering.ask({panel: (asked, loaded)}, live=False)
 
     def close(self) -> None:
         self._surfaces.end()
@@ -227,7 +227,7 @@ class Session:
         """What is shown."""
         return self.history.present
 
-    def opened(self, name: str | None = None) -> Opened | None:
+    def loaded(self, name: str | None = None) -> LoadedMesh | None:
         """A surface of the document, the first if no name is given; None before there is one."""
         meshes = [mesh for mesh in self.document.surfaces if name in (None, mesh.name)]
         return self._surfaces.found(meshes[0]) if meshes and self._is_begun else None
@@ -235,18 +235,18 @@ class Session:
     @property
     def surface(self) -> Surface | None:
         """The first surface of the document; None before there is one."""
-        opened = self.opened()
-        return None if opened is None else opened.surface
+        loaded = self.loaded()
+        return None if loaded is None else loaded.surface
 
-    def opened_in(self, panel: int) -> Opened | None:
+    def opened_in(self, panel: int) -> LoadedMesh | None:
         """The surface of a panel; None before it is there, and where there is no such panel."""
         name = next((each.surface for each in self.document.panels if each.id == panel), None)
-        return None if name is None else self.opened(name)
+        return None if name is None else self.loaded(name)
 
     def surface_in(self, panel: int) -> Surface | None:
         """The same."""
-        opened = self.opened_in(panel)
-        return None if opened is None else opened.surface
+        loaded = self.opened_in(panel)
+        return None if loaded is None else loaded.surface
 
     @property
     def can_undo(self) -> bool:
@@ -340,20 +340,20 @@ class Session:
         """With the checksums of the surfaces that are there, and points where there is a vertex."""
         first = self._surfaces.found(document.surfaces[0]) if document.surfaces else None
         for mesh in document.surfaces:
-            opened = self._surfaces.found(mesh)
-            if opened is not None and first is not None:
-                document = started_alike(document, mesh.name, first, opened)
-            if opened is not None:
-                document = opened.settled(document)
+            loaded = self._surfaces.found(mesh)
+            if loaded is not None and first is not None:
+                document = started_alike(document, mesh.name, first, loaded)
+            if loaded is not None:
+                document = loaded.settled(document)
         return document
 
     # ------------------------------------------------------------------ asking
     def _change(self, document: Document, key: str = "") -> None:
         """A step of the history; the first document that can be shown is its beginning."""
         for mesh in document.surfaces if self._is_begun else ():
-            opened = self._surfaces.found(mesh) if mesh.change is not None else None
-            if opened is not None:
-                document = led(document, self.document, opened)
+            loaded = self._surfaces.found(mesh) if mesh.change is not None else None
+            if loaded is not None:
+                document = led(document, self.document, loaded)
         document = self._settled(document)
         if not self._is_begun:
             self.history, self._is_begun = History(document), True
@@ -376,13 +376,13 @@ class Session:
 
     def _ask(self, live: bool) -> None:
         asked = {id: (each, self._surfaces.found(each.mesh)) for id, each in questions(self.document).items()}
-        there = {id: (question, opened) for id, (question, opened) in asked.items() if opened is not None}
+        there = {id: (question, loaded) for id, (question, loaded) in asked.items() if loaded is not None}
         self._answering.ask(there, live)
-        for opened in self._surfaces:
+        for loaded in self._surfaces:
             wanted = {
                 spec
                 for question, surface in there.values()
-                if opened in (surface, surface.origin) or asks_of(question, opened.mesh)
+                if loaded in (surface, surface.origin) or asks_of(question, loaded.mesh)
                 for spec in question.specs
             }
-            opened.keep(self.document.areas, wanted)
+            loaded.keep(self.document.areas, wanted)

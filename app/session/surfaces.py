@@ -15,9 +15,9 @@ from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress, part
 
 from ..document.document import Document, MeshFile
-from .given import Given
-from .lane import Lane
-from .opened import Opened, is_same, open_mesh
+from .array_store import ArrayStore
+from .latest_request_worker import LatestRequestWorker
+from .loaded_mesh import LoadedMesh, is_same, open_mesh
 
 SPARED = 120_000
 """Surfaces no longer shown are kept up to so many vertices in all, for undo; with their factors these take 0.4 GB."""
@@ -45,7 +45,7 @@ class Opening:
     arrived: Callable[[], None] = lambda: None
     is_wanted: Callable[[], bool] = lambda: True
     steps: int = 0
-    ahead: Callable[[Sequence[Opened], Progress], None] | None = None
+    ahead: Callable[[Sequence[LoadedMesh], Progress], None] | None = None
 
 
 class Surfaces:
@@ -60,7 +60,7 @@ class Surfaces:
         self,
         view: LoadingView,
         post: Callable[[Callable[[], None]], None],
-        given: Given,
+        given: ArrayStore,
         prepare: Callable[[Surface], Any],
         known_up: Callable[[str], str],
         present: Callable[[Callable[[], object]], bool],
@@ -69,18 +69,20 @@ class Surfaces:
         self._view, self._post, self._given = view, post, given
         self._prepare, self._known_up = prepare, known_up
         self._present, self._loaded = present, loaded
-        self._opened: list[Opened] = []  # those shown last come last
+        self._opened: list[LoadedMesh] = []  # those shown last come last
         self.on_their_way: Opening | None = None
         self.progress: tuple[float, str] | None = None
         self.tried = False  # whether surfaces have been asked for
-        self._lane: Lane[Opening] = Lane("load", self._load, self._report, self._failed, leaves=True)
+        self._worker: LatestRequestWorker[Opening] = LatestRequestWorker(
+            "load", self._load, self._report, self._failed, leaves=True
+        )
 
-    def __iter__(self) -> Iterator[Opened]:
+    def __iter__(self) -> Iterator[LoadedMesh]:
         return iter(self._opened)
 
-    def found(self, mesh: MeshFile) -> Opened | None:
+    def found(self, mesh: MeshFile) -> LoadedMesh | None:
         """The surface of a mesh; None before it is there."""
-        return next((opened for opened in reversed(self._opened) if is_same(mesh, opened.mesh)), None)
+        return next((loaded for loaded in reversed(self._opened) if is_same(mesh, loaded.mesh)), None)
 
     def missing(self, document: Document) -> tuple[MeshFile, ...]:
         """Surfaces that have to be read; where any content will do, what the file holds now."""
@@ -89,7 +91,7 @@ class Surfaces:
     def start(self, opening: Opening) -> None:
         """Read meshes, and nothing else that is on its way."""
         self.on_their_way, self.tried = opening, True
-        self._lane.submit(opening)
+        self._worker.submit(opening)
 
     def drop(self) -> None:
         """What is on its way is no longer wanted; its reading may go on."""
@@ -98,49 +100,49 @@ class Surfaces:
     def cancel(self) -> None:
         """The same, and the reading stops."""
         self.drop()
-        self._lane.submit(None)
+        self._worker.submit(None)
 
     def forget(self, document: Document) -> None:
         """Surfaces that are no longer shown, the oldest first; asked for again they are opened again.
 
         Those that are shown know each other.
         """
-        latest = {opened.mesh: opened for opened in self._opened}.values()  # of a file that was read again
-        shown = [opened for opened in latest if any(is_same(mesh, opened.mesh) for mesh in document.surfaces)]
-        others = [opened for opened in latest if opened not in shown]
-        made = [opened for opened in others if opened.origin is not None]
+        latest = {loaded.mesh: loaded for loaded in self._opened}.values()  # of a file that was read again
+        shown = [loaded for loaded in latest if any(is_same(mesh, loaded.mesh) for mesh in document.surfaces)]
+        others = [loaded for loaded in latest if loaded not in shown]
+        made = [loaded for loaded in others if loaded.origin is not None]
         # Of those that a slider has passed none is come back to.
-        others = [opened for opened in others if opened not in made[:-SPARED_MADE]]
-        while others and sum(len(opened.surface.vertices) for opened in others) > SPARED:
+        others = [loaded for loaded in others if loaded not in made[:-SPARED_MADE]]
+        while others and sum(len(loaded.surface.vertices) for loaded in others) > SPARED:
             others.pop(0)
         self._opened = [*others, *shown]
-        for opened in self._opened:
-            opened.beside = tuple(shown) if opened in shown else ()
+        for loaded in self._opened:
+            loaded.beside = tuple(shown) if loaded in shown else ()
 
     def end(self) -> None:
         """Stop reading, and soon the thread."""
-        self._lane.end()
+        self._worker.end()
 
     def close(self) -> None:
         """The same, and wait for it."""
-        self._lane.close()
+        self._worker.close()
 
-    def _load(self, opening: Opening, lane: Lane[Opening]) -> None:
+    def _load(self, opening: Opening, worker: LatestRequestWorker[Opening]) -> None:
         # The first report comes before the reading, which has no others.
-        report = lane.progress(lambda latest: latest is opening, quiet=0)
-        found: list[Opened] = []
+        report = worker.progress(lambda latest: latest is opening, quiet=0)
+        found: list[LoadedMesh] = []
         for k, mesh in enumerate(opening.meshes):
             word = "reading" if mesh.change is None else "changing"
             report(k / len(opening.meshes), f"{word} {os.path.basename(mesh.path) or mesh.name}")
             making = part(report, k / len(opening.meshes), (k + 0.5) / len(opening.meshes))
-            opened = open_mesh(mesh, self._given, there=[*self._opened, *found], progress=making)
-            report((k + 0.5) / len(opening.meshes), f"assembling {opened.surface.name}")
-            opened.prepared = self._prepare(opened.surface)
-            opened.up = self._known_up(opened.mesh.sha256) or opened.up
-            opened.first_look(opened.up)
+            loaded = open_mesh(mesh, self._given, there=[*self._opened, *found], progress=making)
+            report((k + 0.5) / len(opening.meshes), f"assembling {loaded.surface.name}")
+            loaded.prepared = self._prepare(loaded.surface)
+            loaded.up = self._known_up(loaded.mesh.sha256) or loaded.up
+            loaded.first_look(loaded.up)
             # Told by the view, for whose thread going over all faces would take too long.
-            surface_notes(opened.surface)
-            found.append(opened)
+            surface_notes(loaded.surface)
+            found.append(loaded)
         if opening.ahead is not None:
             opening.ahead(found, part(report, 0.5, 1))
         report(1, "")
@@ -149,7 +151,7 @@ class Surfaces:
         if any(mesh.change is not None for mesh in opening.meshes):
             _give_back()  # of one after another, as a slider moves, nobody else would
 
-    def _take(self, opening: Opening, found: list[Opened]) -> None:
+    def _take(self, opening: Opening, found: list[LoadedMesh]) -> None:
         if opening is not self.on_their_way:
             return  # cancelled, or another mesh was asked for, while it was on its way here
         self.on_their_way = None

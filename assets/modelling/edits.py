@@ -12,14 +12,14 @@ import numpy as np
 from .fields import unit
 from .triangles import adjacency, best_at_vertices, edge_lengths, edges_and_sides, face_normals, used_only
 
-Wanted = Callable[[np.ndarray], np.ndarray]
+WorkOrder = Callable[[np.ndarray], np.ndarray]
 
 LONG, SHORT = 4 / 3, 0.8
 """Split above, collapse below these multiples of the wanted length: a split edge is never short at once."""
 
 
 def split_long(
-    points: np.ndarray, faces: np.ndarray, fixed: np.ndarray, wanted: Wanted
+    points: np.ndarray, faces: np.ndarray, fixed: np.ndarray, wanted: WorkOrder
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Halve each inner edge that is too long and the longest of both its faces."""
     edges, sides = edges_and_sides(faces)
@@ -42,7 +42,7 @@ def split_long(
 
 
 def collapse_short(
-    points: np.ndarray, faces: np.ndarray, fixed: np.ndarray, wanted: Wanted, rng: np.random.Generator
+    points: np.ndarray, faces: np.ndarray, fixed: np.ndarray, wanted: WorkOrder, rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Draw the ends of short inner edges together, where that folds nothing and keeps the surface's shape."""
     n = len(points)
@@ -77,7 +77,7 @@ def collapse_short(
 
 
 def _spoils(
-    points: np.ndarray, faces: np.ndarray, stays: np.ndarray, goes: np.ndarray, target: np.ndarray, wanted: Wanted
+    points: np.ndarray, faces: np.ndarray, stays: np.ndarray, goes: np.ndarray, target: np.ndarray, wanted: WorkOrder
 ) -> np.ndarray:
     """(k,) whether a collapse would turn a surviving face by more than 60 degrees or leave it too long."""
     moved, of_vertex = points.copy(), np.full(len(points), -1)

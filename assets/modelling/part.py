@@ -1,6 +1,6 @@
 """The sample `part`: a spur gear as CAD programs tessellate it; millimetres, axis along z, the hub's foot on z = 0.
 
-Flat faces have corners on their outlines only, walls and chamfers are strips of long triangles: angles go down to
+Degenerate faces have corners on their outlines only, walls and chamfers are strips of long triangles: angles go down to
 about 0.8 degrees.
 """
 
@@ -69,7 +69,7 @@ class Solid:
         return rings[0], rings[-1]
 
     def flat(self, rings: Sequence[Ring], up: bool) -> None:
-        """The flat face between rings at one height."""
+        """The degenerate face between rings at one height."""
         ids, space = np.concatenate(rings), np.concatenate(self.points)
         edges = np.stack([ids, np.concatenate([np.roll(ring, -1) for ring in rings])], 1)
         plane = space[ids, :2]

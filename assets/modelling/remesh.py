@@ -7,7 +7,7 @@ faces, and bring it back to the surface, which here is known exactly: it is wher
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .edits import Wanted, collapse_short, flip, split_long
+from .edits import WorkOrder, collapse_short, flip, split_long
 from .fields import Field, unit
 from .triangles import adjacency, corner_angles, edges_and_sides, face_normals, incidence, without_pinches
 
@@ -19,7 +19,13 @@ THIN = 30
 
 
 def remesh(
-    points: np.ndarray, faces: np.ndarray, field: Field, wanted: Wanted, edge: float, rounds: int = 40, polish: int = 25
+    points: np.ndarray,
+    faces: np.ndarray,
+    field: Field,
+    wanted: WorkOrder,
+    edge: float,
+    rounds: int = 40,
+    polish: int = 25,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Remeshed (n, 3) points and (m, 3) faces; `wanted(points)` is the edge length there, `edge` a typical one."""
     rng = np.random.default_rng(0)
@@ -46,7 +52,7 @@ def remesh(
 
 
 def relax(
-    points: np.ndarray, faces: np.ndarray, fixed: np.ndarray, field: Field, wanted: Wanted, edge: float
+    points: np.ndarray, faces: np.ndarray, fixed: np.ndarray, field: Field, wanted: WorkOrder, edge: float
 ) -> np.ndarray:
     """Each vertex moved along the surface most of the way to the weighted middle of its faces."""
     normals, middle = face_normals(points, faces), points[faces].mean(axis=1)
@@ -72,7 +78,7 @@ def to_surface(points: np.ndarray, field: Field, fixed: np.ndarray, edge: float,
 
 
 def cut_open(
-    points: np.ndarray, faces: np.ndarray, field: Field, wanted: Wanted, edge: float, height: float, rounds: int = 40
+    points: np.ndarray, faces: np.ndarray, field: Field, wanted: WorkOrder, edge: float, height: float, rounds: int = 40
 ) -> tuple[np.ndarray, np.ndarray]:
     """Remove what lies below z = `height` and settle the rim as a smooth curve on that plane."""
     points, faces = without_pinches(points, faces[(points[faces][:, :, 2] > height).all(axis=1)])
@@ -94,6 +100,6 @@ def cut_open(
     return points, faces
 
 
-def _longer_near(places: cKDTree, wanted: Wanted, radius: float) -> Wanted:
+def _longer_near(places: cKDTree, wanted: WorkOrder, radius: float) -> WorkOrder:
     """Edges wanted a little longer near the places, and elsewhere so short that none is collapsed."""
     return lambda p: np.where(places.query(p)[0] < radius, 1.15, 0.7) * wanted(p)

@@ -8,7 +8,7 @@ import pyvista as pv
 import vtk
 from scipy.spatial import cKDTree
 
-from .edits import Wanted
+from .edits import WorkOrder
 from .fields import Field, unit
 from .triangles import (
     adjacency,
@@ -90,7 +90,7 @@ class Scanners:
         share, at, inside, part, cell = vtk.mutable(0.0), [0.0] * 3, [0.0] * 3, vtk.mutable(0), vtk.mutable(0)
         return bool(self._locator.IntersectWithLine(start, end, 1e-9, share, at, inside, part, cell))
 
-    def wanted(self, step: float, finest: float, coarsest: float) -> Wanted:
+    def wanted(self, step: float, finest: float, coarsest: float) -> WorkOrder:
         """Edge lengths as these scanners space their samples, `step` radians apart: longer afar and at an angle."""
         edges = edges_and_sides(self._faces)[0]
         n = len(self._points)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .edits import Wanted
+from .edits import WorkOrder
 from .fields import Field
 from .polygonise import polygonise
 from .remesh import remesh
@@ -24,7 +24,7 @@ class Sculpture:
     high: Sequence[float]
     grid: float
     edge: float
-    wanted: Wanted
+    wanted: WorkOrder
 
     def mesh(self) -> tuple[np.ndarray, np.ndarray]:
         """(n, 3) points and (m, 3) faces, facing outwards."""

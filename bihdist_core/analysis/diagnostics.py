@@ -54,7 +54,7 @@ def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
     """How far the gradient jumps across each edge of two faces; NaN next to values that are not finite.
 
     A continuous field's gradient can only jump across an edge, by the sum of the two slopes away from the faces'
-    insides.  Flat faces and edges of another number of faces are left out.
+    insides.  Degenerate faces and edges of another number of faces are left out.
     """
     f, faces, x = np.asarray(field, np.float64), surface.faces, surface.vertices
     if f.shape != (len(x),):
@@ -62,7 +62,7 @@ def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
             f"A field is a real number for each of {len(x):,} vertices, not an array of shape {f.shape}."
         )
     proper = np.ones(len(faces), bool)
-    proper[surface.flat_faces] = False
+    proper[surface.degenerate_faces] = False
     faces, area = faces[proper], surface.face_areas[proper]
     sides, slopes, lengths = [], [], np.zeros(len(faces))
     for k in range(3):

@@ -22,7 +22,7 @@ from ..distances.geodesic import EXACT_UP_TO
 from ..errors import ParameterError, SolverError
 from ..progress import REPORT_EVERY, Progress, part, silent, turn
 from ..solver.child_process import ChildProcess, mesh_message
-from ..sources.source import Place
+from ..sources.source import SurfacePoint
 from ..sources.splitting import Split
 from ..surface import Surface
 from .places import Places, component_of, place_words
@@ -57,14 +57,14 @@ class GeodesicPaths:
         self._stars: tuple[Surface, Stars] | None = None
 
     def path(
-        self, places: Sequence[int | Place | str], method: str = "auto", progress: Progress | None = None
+        self, places: Sequence[int | SurfacePoint | str], method: str = "auto", progress: Progress | None = None
     ) -> SurfacePath:
         """The path through two or more vertices or places in faces, or their words, in order.
 
         Its `method` and `label` say how each of its parts was made.
 
         method: "exact"; "straightened"; "edges"; or "auto": the first of these that the mesh allows, exact up to 20,000
-        vertices and without flat faces, the first two where it is manifold (and, for the second, its faces are
+        vertices and without degenerate faces, the first two where it is manifold (and, for the second, its faces are
         consistently oriented).
 
         Raises VertexError for a bad vertex; ParameterError for a bad place or method, fewer than two places, the same
@@ -114,8 +114,8 @@ class GeodesicPaths:
     def _made(self, split: Split, method: str, progress: Progress) -> SurfacePath:
         if method == "auto":
             allowed = split.whole.is_manifold
-            # Beside flat faces pygeodesic may go on for ever.
-            quick = len(split.whole.vertices) <= EXACT_UP_TO and not len(split.surface.flat_faces)
+            # Beside degenerate faces pygeodesic may go on for ever.
+            quick = len(split.whole.vertices) <= EXACT_UP_TO and not len(split.surface.degenerate_faces)
             for each in ("exact", "straightened"):
                 if allowed and (quick or each != "exact") and not _missing(each):
                     try:

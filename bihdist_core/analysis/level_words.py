@@ -1,4 +1,4 @@
-"""Values of a field as they are typed: numbers, or shares of its maximum."""
+"""Values of a field as they are typed: numbers, or fractions of its maximum."""
 
 import math
 

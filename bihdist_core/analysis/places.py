@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from ..errors import ParameterError
 from ..sources.pieces import points_on
-from ..sources.source import Place, checked_source
+from ..sources.source import SurfacePoint, checked_source
 from ..sources.splitting import Split, split_at
 from ..sources.words import short_words_of
 from ..surface import Surface
@@ -29,7 +29,7 @@ class Places:
     weights: np.ndarray
 
     @classmethod
-    def of(cls, surface: Surface, places: Sequence[int | Place | str]) -> "Places":
+    def of(cls, surface: Surface, places: Sequence[int | SurfacePoint | str]) -> "Places":
         """Vertices and places in faces, or their words, checked.
 
         Raises VertexError for a bad vertex; ParameterError for other sources, and for a face that does not exist.
@@ -58,12 +58,12 @@ def weighted(at: np.ndarray, corners: np.ndarray, weights: np.ndarray) -> np.nda
     return (w * np.where(w > 0, at[corners], 0)).sum(axis=1)
 
 
-def place_words(place: int | Place | str) -> str:
+def place_words(place: int | SurfacePoint | str) -> str:
     """How a sentence names a place."""
     return short_words_of(checked_source(place))
 
 
-def component_of(surface: Surface, places: Sequence[int | Place | str], found: Places) -> int:
+def component_of(surface: Surface, places: Sequence[int | SurfacePoint | str], found: Places) -> int:
     """The component that places are on, as they were given and as found; ParameterError if they are on several."""
     label = surface.component_of_vertex[found.corners[:, 0]]
     if (label != label[0]).any():

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ParameterError
-from ..sources.source import Place
+from ..sources.source import SurfacePoint
 from ..sources.splitting import Split
 from ..surface import Surface
 from .isoline_tracing import Isoline, isolines
@@ -24,7 +24,7 @@ PARTS = {
 
 
 def plane_section(
-    surface: Surface, places: Sequence[int | Place | str], direction: npt.ArrayLike, part: str = "shorter"
+    surface: Surface, places: Sequence[int | SurfacePoint | str], direction: npt.ArrayLike, part: str = "shorter"
 ) -> SurfacePath:
     """The parts of the surface's sections that join two or more places in order.
 

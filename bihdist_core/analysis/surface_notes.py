@@ -35,7 +35,7 @@ def surface_notes(surface: Surface) -> SurfaceNotes:
             "vertex where faces touch in a point",
             "vertices where faces touch in a point",
         ),
-        (len(surface.flat_faces), f"face {HELD}", f"faces {HELD}"),
+        (len(surface.degenerate_faces), f"face {HELD}", f"faces {HELD}"),
         (parts if parts > 1 else 0, "", "components, with no distance from one to another (grey, NaN)"),
     ]
     said, warned = ([counted(*each) for each in some if each[0]] for some in (facts, warnings))

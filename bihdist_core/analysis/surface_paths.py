@@ -140,7 +140,7 @@ class Stars:
         """
         x, triangles = self.surface.vertices, self.surface.faces
         tolerance = OFF * self.surface.mean_edge_length
-        # Beside flat faces the ends may be reached through a side in the same place.
+        # Beside degenerate faces the ends may be reached through a side in the same place.
         q, around, faces = np.concatenate([polyline[:1], polyline, polyline[-1:]]), self[start], []
         for k in range(len(q) - 1):
             if k == len(q) - 2:

@@ -1,4 +1,4 @@
-"""How far from exact a distance may be: an estimate from what rounding and flat faces can do to its operator.
+"""How far from exact a distance may be: an estimate from what rounding and degenerate faces can do to its operator.
 
 With L y = e_i - e_j, y centred by area and z = G A y, a change dL of the stiffness matrix changes the biharmonic
 d(i, j)^2 by -2 y^T dL z, the commute-time distance's by -y^T dL y, an eigenvalue by phi^T dL phi.  dL consists of
@@ -6,12 +6,13 @@ d(i, j)^2 by -2 y^T dL z, the commute-time distance's by -y^T dL y, an eigenvalu
 - the rounding of each weight, and of each diagonal entry, which then holds on to a value instead of to a difference;
 - the rounding of a face's height h, which changes all of the face's energy by a share of about eps l / h (l is its
   longest side);
-- for a flat face what its spring lacks (see `flat_faces`): a share 1 - h / (FLAT l) of its energy, to first order.
+- for a degenerate face what its spring lacks (see `degenerate_faces`): a share 1 - h / (FLAT l) of its energy, to first
+  order.
 
-Roundings are as good as random, so their squares are added; the springs of flat faces have one sign and add up.  A
-residual r of a solve counts as z^T r, and what else the solver makes of it is found by computing the same distances in
-another way.  All this is done for a few pairs of vertices where it is worst: at the flattest face, from there to where
-the distance is largest, and at the shortest edge.
+Roundings are as good as random, so their squares are added; the springs of degenerate faces have one sign and add up.
+A residual r of a solve counts as z^T r, and what else the solver makes of it is found by computing the same distances
+in another way.  All this is done for a few pairs of vertices where it is worst: at the flattest face, from there to
+where the distance is largest, and at the shortest edge.
 """
 
 import math
@@ -31,7 +32,7 @@ Effect = Callable[[int], np.ndarray]
 Squares = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 POOR = 1e-3
-"""What may be further off than this, as a share of its maximum, is warned of; what need not be is not given."""
+"""What may be further off than this, as a fraction of its maximum, is warned of; what need not be is not given."""
 
 EPS = float(np.finfo(float).eps)
 ROUNDINGS = 8
@@ -40,16 +41,16 @@ SPARE = 6
 """By how much an error found at the places that were tried may be exceeded elsewhere; what is added up, and not as good
 as random, by half as much."""
 SPRINGS = 16
-"""How many springs of flat faces are looked at to find where they matter most."""
+"""How many springs of degenerate faces are looked at to find where they matter most."""
 BLOCK = 8192
 """Faces at a time, so that the temporary arrays stay in the processor's cache."""
 
 
 @dataclass(frozen=True)
-class Certificate:
+class ErrorEstimate:
     """An accuracy in words, empty where there is none, and whether it is so poor that a user should be warned.
 
-    share: the accuracy, as a share of the maximum.
+    share: the accuracy, as a fraction of the maximum.
     """
 
     text: str = ""
@@ -57,13 +58,13 @@ class Certificate:
     share: float | None = None
 
     @classmethod
-    def of(cls, accuracy: float, text: str = "") -> "Certificate":
-        """Of a share of the maximum; text: for more to be said than that."""
+    def of(cls, accuracy: float, text: str = "") -> "ErrorEstimate":
+        """Of a fraction of the maximum; text: for more to be said than that."""
         return cls(text or accurate_to(accuracy), accuracy > POOR, accuracy)
 
     @classmethod
-    def of_difference(cls, one: "Certificate", other: "Certificate") -> "Certificate":
-        """Of the difference of two fields in shares of their maxima; empty where one is not known."""
+    def of_difference(cls, one: "ErrorEstimate", other: "ErrorEstimate") -> "ErrorEstimate":
+        """Of the difference of two fields in fractions of their maxima; empty where one is not known."""
         if one.share is not None and other.share is not None:
             off = one.share + other.share
             return cls.of(off, f"accurate to {rounded_up(off)} of both maxima")
@@ -110,7 +111,7 @@ class Perturbation:
     def of(self, y: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """About the largest |y^T dL z| there can be, for the columns of y and z (m, k), 0 at the pinned vertex.
 
-        (k,) by rounding and (k,) by the springs of flat faces.
+        (k,) by rounding and (k,) by the springs of degenerate faces.
         """
         held = self._diagonal[:, None] * y
         held *= z

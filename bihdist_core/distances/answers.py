@@ -16,7 +16,7 @@ from ..laplacian import Laplacian
 from ..progress import Progress, part, silent, turn
 from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
-from .accuracy import Certificate
+from .accuracy import ErrorEstimate
 from .difference import PERCENTAGE_POINTS, difference_in_unit, scale_of
 from .distance import ELSEWHERE, Distance
 from .kinds import Spec
@@ -38,7 +38,7 @@ class Answer:
     unit: str = ""
     field: np.ndarray | None = None
     failure: str = ""
-    certificate: Certificate | None = None
+    error_estimate: ErrorEstimate | None = None
     is_signed: bool = False
     is_distance: bool = False
     signs: tuple[str, str] | None = None
@@ -77,12 +77,12 @@ class Answer:
     @property
     def is_final(self) -> bool:
         """Whether nothing more is to come: it failed, or its accuracy is known."""
-        return bool(self.failure) or self.certificate is not None
+        return bool(self.failure) or self.error_estimate is not None
 
     @property
-    def accuracy(self) -> Certificate:
+    def accuracy(self) -> ErrorEstimate:
         """The certificate, or an empty one."""
-        return self.certificate or Certificate()
+        return self.error_estimate or ErrorEstimate()
 
 
 def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Answer:
@@ -99,14 +99,14 @@ def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Ans
     except ParameterError as error:
         return failed(label, error)
     field.flags.writeable = False
-    certificate = None
-    if minuend.certificate is not None and subtrahend.certificate is not None:
-        certificate = Certificate.of_difference(minuend.certificate, subtrahend.certificate)
+    error_estimate = None
+    if minuend.error_estimate is not None and subtrahend.error_estimate is not None:
+        error_estimate = ErrorEstimate.of_difference(minuend.error_estimate, subtrahend.error_estimate)
     return Answer(
         label=label,
         unit=unit,
         field=field,
-        certificate=certificate,
+        error_estimate=error_estimate,
         is_signed=True,
         signs=_signs(minuend, subtrahend),
     )
@@ -251,7 +251,7 @@ class Distances:
                 at_once(answer)
                 # Whoever has a newer question need not wait for the certificate of this one.
                 (progress or silent)(1.0, distance.label)
-            return replace(answer, certificate=distance.certificate(components))
+            return replace(answer, error_estimate=distance.error_estimate(components))
         except (Cancelled, VertexError):
             raise
         except BihdistError as error:

@@ -12,8 +12,9 @@ from .embedding import Embedding, biharmonic_embedding
 
 SMALL_SET = 64
 NEAR, NEAR_BY_HEIGHT, MOST_NEAR = 1e-5, 1e-9, 16
-"""Distances below this share of the maximum, or, on a mesh with thin faces, the second over the height of the thinnest,
-are computed again as pairs, up to so many of them: there a difference of the Green's function has few digits left."""
+"""Distances below this fraction of the maximum, or, on a mesh with thin faces, the second over the height of the
+thinnest, are computed again as pairs, up to so many of them: there a difference of the Green's function has few digits
+left."""
 
 
 class BiharmonicDistance(Distance):

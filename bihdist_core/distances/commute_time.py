@@ -9,7 +9,7 @@ from .accuracy import accuracy_of_pairs
 from .distance import Distance, root
 
 NEAR = 0.4
-"""Below this share of the maximum it shows what the springs of flat faces lack (it is a share FLAT of the square)."""
+"""Below this fraction of the maximum it shows what springs of degenerate faces lack (a fraction FLAT of the square)."""
 MOST_NEAR, MOST_SPRINGS = 128, 256
 """So many distances are corrected at most, with so many springs: many more lie so near only where all are far apart."""
 
@@ -40,7 +40,7 @@ class CommuteTimeDistance(Distance):
         return distances
 
     def _with_exact_springs(self, component: Component, source: int, field: np.ndarray) -> None:
-        """Put exact springs in place for the smallest distances (m,), where those of flat faces show most.
+        """Put exact springs in place for the smallest distances (m,), where those of degenerate faces show most.
 
         By the formula of Sherman, Morrison and Woodbury, as G with few springs more.
         """

@@ -20,15 +20,15 @@ TOLERANCE, COARSEST = 1e-7, 1e-4
 MOST_PAIRS = 3000
 """More eigenpairs than this are not computed: at 100,000 vertices they fill 2.4 GB."""
 STEP = 1.02
-"""By what share of the largest eigenvalue at a time it is tried how many more would do."""
+"""By what fraction of the largest eigenvalue at a time it is tried how many more would do."""
 
 
 class DiffusionDistance(SpectralDistance):
     """d(i, j)^2 = sum_k exp(-t lambda_k / lambda_1) (phi_k(i) - phi_k(j))^2; unit 1 / length.
 
-    tolerance: how far any distance may be off because eigenpairs are left out, as a share of the maximum of the field
-    it stands in; the sum takes as many as are proven to be enough.  None means `TOLERANCE`, or where that takes more
-    than `MOST_PAIRS` eigenpairs what these give, down to `COARSEST`.  lambda_1 is that of the component.  Raises
+    tolerance: how far any distance may be off because eigenpairs are left out, as a fraction of the maximum of the
+    field it stands in; the sum takes as many as are proven to be enough.  None means `TOLERANCE`, or where that takes
+    more than `MOST_PAIRS` eigenpairs what these give, down to `COARSEST`.  lambda_1 is that of the component.  Raises
     ParameterError if t or the tolerance is not positive, or if they need more than `MOST_PAIRS` eigenpairs.
     """
 

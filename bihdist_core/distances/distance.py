@@ -10,10 +10,10 @@ from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress, part, silent
 from ..sources.pieces import Pieces, pieces_of, points_on
-from ..sources.source import BoundaryLoop, Curve, Place, Source, SourceSet, checked_source
+from ..sources.source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint, checked_source
 from ..sources.words import short_words_of
 from ..surface import Surface
-from .accuracy import POOR, Certificate, accurate_to, rounded_up
+from .accuracy import POOR, ErrorEstimate, accurate_to, rounded_up
 from .in_faces import blocks, squares_from
 from .place_pairs import Pair, are_of_places, are_same, has_places, squares_of_pairs
 
@@ -24,7 +24,7 @@ SOURCES = 32
 """From so many sources at a time pairs are computed, which bounds the memory."""
 
 
-ELSEWHERE = Place | BoundaryLoop | Curve | SourceSet
+ELSEWHERE = SurfacePoint | BoundaryLoop | Curve | SourceSet
 """Sources that are no vertex."""
 
 
@@ -63,7 +63,7 @@ class Distance(ABC):
 
     @property
     def accuracy(self) -> float | None:
-        """How far a field may be from what `label` says, as a share of its maximum: an estimate on the safe side.
+        """How far a field may be from what `label` says, as a fraction of its maximum: an estimate on the safe side.
 
         It holds for the components that were asked about (the largest, if none was) and is made when first wanted,
         in less than a tenth of the time the distance took to construct.  None for geodesic distances.
@@ -78,7 +78,7 @@ class Distance(ABC):
         known = [self._accuracy_on(self.laplacian.components[index]) for index in components]
         return None if None in known else max(a for a in known if a is not None)
 
-    def certificate(self, components: Sequence[int] | None = None) -> Certificate:
+    def error_estimate(self, components: Sequence[int] | None = None) -> ErrorEstimate:
         """The accuracy in words, on components with these numbers, or on those that were asked about.
 
         SolverError if it is worse than a thousandth: then answers there should not be used.
@@ -86,13 +86,13 @@ class Distance(ABC):
         components = self._those(components)
         accuracy = self._accuracy_of(components)
         if accuracy is None:
-            return Certificate()
+            return ErrorEstimate()
         if accuracy > POOR:
             off = "by any amount" if accuracy == np.inf else f"by {rounded_up(accuracy)} of its maximum"
             raise SolverError(
                 f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy(components)}"
             )
-        return Certificate.of(accuracy, self._said_of(accuracy, components))
+        return ErrorEstimate.of(accuracy, self._said_of(accuracy, components))
 
     def _said_of(self, accuracy: float, components: Sequence[int]) -> str:
         """The accuracy in words, with what it is the accuracy of where that is not the distance itself."""
@@ -235,7 +235,7 @@ class Distance(ABC):
         One of them may be any source if the other is a vertex.  ParameterError for what this distance does not know.
         """
         u, v = (checked_source(each) if isinstance(each, str) else each for each in (u, v))
-        are_single = [isinstance(each, Place) or not isinstance(each, ELSEWHERE) for each in (u, v)]
+        are_single = [isinstance(each, SurfacePoint) or not isinstance(each, ELSEWHERE) for each in (u, v)]
         if all(are_single):
             return float(self.pairwise([u, v])[0, 1])
         if not isinstance(v, ELSEWHERE):

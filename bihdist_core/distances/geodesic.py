@@ -11,7 +11,7 @@ from ..progress import Progress, part
 from ..sources.pieces import Pieces
 from ..sources.splitting import along, split_at
 from ..surface import Surface
-from .accuracy import Certificate
+from .accuracy import ErrorEstimate
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
 from .exact_geodesic import ExactGeodesic
@@ -71,9 +71,9 @@ class GeodesicDistance(Distance):
             else:
                 self._solvers[component.index] = EdgeGeodesic(component.surface)
 
-    def certificate(self, components: Sequence[int] | None = None) -> Certificate:
+    def error_estimate(self, components: Sequence[int] | None = None) -> ErrorEstimate:
         """What is typical of the method, with a warning; nothing for the exact one."""
-        return Certificate(TYPICALLY[self.method], True) if self.method in TYPICALLY else Certificate()
+        return ErrorEstimate(TYPICALLY[self.method], True) if self.method in TYPICALLY else ErrorEstimate()
 
     def is_judged(self, component: int) -> bool:
         return True

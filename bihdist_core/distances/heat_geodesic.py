@@ -158,8 +158,8 @@ class _FaceFlow:
     With sides e1, e2 from corner 0 and differences d1, d2 of u along them, c = d1 e2 - d2 e1 is grad u turned by a
     right angle within the face and scaled by twice its area.  So c / |c| is X turned, and the integrals of
     grad(hat_k) . X are -e2 . c / (2 |c|) for corner 1, e1 . c / (2 |c|) for corner 2 and minus their sum for corner 0:
-    no division by an area.  Of a flat face the direction is that of the field that its spring gives, hence with the
-    spring's height; the integrals are those of the true face.
+    no division by an area.  Of a degenerate face the direction is that of the field that its spring gives, hence with
+    the spring's height; the integrals are those of the true face.
     """
 
     def __init__(self, surface: Surface) -> None:
@@ -167,7 +167,7 @@ class _FaceFlow:
         _, back, self._e1 = face_sides(surface)
         self._e2 = np.negative(back, out=back)
         self._true1, self._true2 = self._e1, self._e2
-        if len(surface.flat_faces):
+        if len(surface.degenerate_faces):
             _, back, self._true1 = face_sides(surface, true=True)
             self._true2 = np.negative(back, out=back)
 

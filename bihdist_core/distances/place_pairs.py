@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import ParameterError
 from ..sources.pieces import Pieces
-from ..sources.source import Place, Source
+from ..sources.source import Source, SurfacePoint
 from ..surface import Surface
 
 Point = Source | str
@@ -17,7 +17,7 @@ Pair = tuple[Point, Point]
 
 def has_places(points: object) -> TypeGuard[Sequence[Point]]:
     """Whether a sequence of points holds other than vertex ids: places in faces, or words."""
-    return isinstance(points, Sequence) and any(isinstance(each, Place | str) for each in points)
+    return isinstance(points, Sequence) and any(isinstance(each, SurfacePoint | str) for each in points)
 
 
 def are_of_places(pairs: object) -> TypeGuard[Sequence[Pair]]:

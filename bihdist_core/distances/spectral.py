@@ -115,13 +115,13 @@ class SpectralDistance(Distance):
         return errors + np.sqrt(vectors**2 @ (weights * (self._slopes(values) * change / 2) ** 2))
 
     def _inaccuracies(self, component: Component, spectrum: Spectrum, count: int) -> tuple[float, np.ndarray]:
-        """By what share rounding and flat faces change the eigenvalues, and the residuals (count,) with that."""
+        """By what share rounding and degenerate faces change the eigenvalues, and the residuals (count,) with that."""
         values, residuals = spectrum.eigenvalues[:count], spectrum.residuals[:count]
         perturbation = Perturbation(component)
         few = np.unique([0, count // 2, count - 1])
         some = spectrum.eigenvectors[:, few]
         change = float((sum(perturbation.of(some, some)) / values[few]).max())
-        # Beside flat faces residuals are large by rounding, and stiff: G makes little of them.
+        # Beside degenerate faces residuals are large by rounding, and stiff: G makes little of them.
         again = component.centred(component.solve(component.areas[:, None] * some)) * values[few]
         missed = np.sqrt(component.areas @ (again - some) ** 2)
         seen = SPARE * float((missed / np.maximum(residuals[few], 1e-300)).max())
@@ -170,7 +170,7 @@ class PowerDistance(SpectralDistance):
         return super()._remedy(components)
 
     def beyond(self, components: Sequence[int] | None = None) -> float:
-        """How far a field may be from the sum of all eigenpairs, as a share of its maximum: a proven bound.
+        """How far a field may be from the sum of all eigenpairs, as a fraction of its maximum: a proven bound.
 
         components: their numbers; those that were asked about if there are none.  The sum of all is the biharmonic
         distance for alpha = 2.

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..laplacian import Component
-from ..once import once
+from ..locked_cached_property import locked_cached_property
 from ..solver.tall import over_rows, point_distances
 
 LANDMARKS = 3
@@ -55,7 +55,7 @@ class Cloud:
         self.maxima = np.maximum(np.sqrt(squares + mean), point_distances(points, points[far]).max(axis=1))
         self._first = points[:, :TOLD_APART_BY]
 
-    @once
+    @locked_cached_property
     def nearest(self) -> np.ndarray:
         # Distances near 1, as squares of small ones would be 0.
         scale = float(np.abs(self._first).max())

@@ -11,7 +11,7 @@ from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
-from ..sources.source import Place
+from ..sources.source import SurfacePoint
 from ._stated_claims import ROUNDING
 from .double_points import DoublePoint, double_point
 from .parts import Parts
@@ -103,7 +103,7 @@ def _doubles(laplacian: Laplacian, progress: Progress) -> Table:
         # The farthest apart that are confused within rounding, or else the nearest images.
         found = next((each for each in every if each.gap <= ROUNDING * largest), min(every, key=_gap, default=None))
         if found is not None:
-            places = [Place(int(f), tuple(w)) for f, w in zip(found.faces, found.weights.tolist(), strict=True)]
+            places = [SurfacePoint(int(f), tuple(w)) for f, w in zip(found.faces, found.weights.tolist(), strict=True)]
             there = biharmonic.between(*places) / float(biharmonic.from_source(int(surface.faces[0, 0])).max())
             way = float(along[tuple(surface.faces[found.faces, 0])]) / unit
             rows.append((count, found.gap / largest, there, way, *(_words(place) for place in places)))
@@ -118,7 +118,7 @@ def _doubles(laplacian: Laplacian, progress: Progress) -> Table:
     return Table("two different points", columns, tuple(rows))
 
 
-def _words(place: Place) -> str:
+def _words(place: SurfacePoint) -> str:
     return f"face {place.face}: {', '.join(f'{w:.3f}' for w in place.weights)}"
 
 

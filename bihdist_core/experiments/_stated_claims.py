@@ -17,10 +17,10 @@ again."""
 SAME_TIME = 1.25
 """The paper's "practically does not depend"."""
 ROUNDING = 1e-7
-"""A distance below this share of the largest is 0 within rounding: it is the root of a difference of squares, which
+"""A distance below this fraction of the largest is 0 within rounding: it is the root of a difference of squares, which
 are known to 1e-15."""
 FOUND_EQUAL = 1e-6
-"""A sum over all eigenpairs and a direct solution agree within this share of the maximum."""
+"""A sum over all eigenpairs and a direct solution agree within this fraction of the maximum."""
 
 EXPONENTS = "The exponent is judged with its interval, where a bound of 1.25 or 2.3 was enough."
 PROCESSOR = (

@@ -157,7 +157,7 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
     """
     word, _, parameters = kind.partition(" ")
     made = Distances(laplacian).get(Spec.parse(f"{word}({parameters})"), progress)
-    made.certificate()
+    made.error_estimate()
     return made
 
 

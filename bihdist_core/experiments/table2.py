@@ -41,7 +41,7 @@ PAPER = {
 """Seconds printed in the paper: biharmonic and Dijkstra for M = 2, 100, 400, diffusion (t = 0.125) for all three."""
 
 
-Among = Callable[[np.ndarray], np.ndarray]
+PairwiseDistances = Callable[[np.ndarray], np.ndarray]
 Found = dict[tuple[int, int, str], list[Time]]
 
 
@@ -103,7 +103,7 @@ def distances_among(surface: Surface, vertices: np.ndarray, method: str) -> np.n
     return _set_up(surface, method)(vertices)
 
 
-def _set_up(surface: Surface, method: str) -> Among:
+def _set_up(surface: Surface, method: str) -> PairwiseDistances:
     """What gives the (m, m) distances among vertices (m,)."""
     if method == "Dijkstra":
         edges = EdgeGeodesic(surface)

@@ -23,8 +23,8 @@ from .worker_threads import Job
 SINGULAR = 1e-14
 """A pivot below this share of its diagonal entry is nothing but rounding."""
 STIFF = 3e-2
-"""If one falls below this share, K has lost digits that matter: beside a flat face, of height h, rows have entries of
-size 1 / h, and what K lacks comes back in S = Q + N R^T magnified by as much once more."""
+"""If one falls below this share, K has lost digits that matter: beside a degenerate face, of height h, rows have
+entries of size 1 / h, and what K lacks comes back in S = Q + N R^T magnified by as much once more."""
 
 
 @dataclass

@@ -102,8 +102,8 @@ def _graph(i: np.ndarray, j: np.ndarray, order: np.ndarray) -> sp.csr_matrix:
 def _edges_of(graph: sp.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
     """Two (e,) arrays: the ends of each edge, ascending by the first."""
     tail = np.repeat(np.arange(graph.shape[0]), np.diff(graph.indptr))
-    once = np.flatnonzero(tail < graph.indices)
-    return tail[once], graph.indices[once].astype(np.int64)
+    locked_cached_property = np.flatnonzero(tail < graph.indices)
+    return tail[locked_cached_property], graph.indices[locked_cached_property].astype(np.int64)
 
 
 def _hop_coordinates(graph: sp.csr_matrix, progress: Progress) -> list[np.ndarray]:

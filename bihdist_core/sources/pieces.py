@@ -13,7 +13,7 @@ from ..surface import Surface
 from .boundary import boundary_loops
 from .edge_faces import edge_faces
 from .plane_walk import PlaneWalk, joined
-from .source import BoundaryLoop, Curve, Place, Source, SourceSet, checked_source
+from .source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint, checked_source
 from .words import short_words_of
 
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray, bool]
@@ -115,7 +115,7 @@ def points_on(surface: Surface, points: Sequence[Source | str]) -> Pieces:
     found = []
     for each in points:
         source = checked_source(each)
-        if not isinstance(source, int | Place):
+        if not isinstance(source, int | SurfacePoint):
             raise ParameterError(f"A vertex or a place in a face is one point; {short_words_of(source)} is not.")
         found.append(pieces_of(source, surface))
     faces, corners, weights = (
@@ -127,7 +127,7 @@ def points_on(surface: Surface, points: Sequence[Source | str]) -> Pieces:
 def _pieces(source: Source, surface: Surface) -> Pieces:
     members = source.members if isinstance(source, SourceSet) else (source,)
     rows: list[Rows] = []
-    vertices = [each for each in members if not isinstance(each, Place | BoundaryLoop | Curve)]
+    vertices = [each for each in members if not isinstance(each, SurfacePoint | BoundaryLoop | Curve)]
     if vertices:
         ids = surface.check_vertices(vertices)
         # Any face of each: the last that is written.
@@ -137,7 +137,7 @@ def _pieces(source: Source, surface: Surface) -> Pieces:
         rows.append((face[ids], weights, weights, False))
     loops = None
     for member in members:
-        if isinstance(member, Place):
+        if isinstance(member, SurfacePoint):
             _check_face(member, surface)
             at = np.array([member.weights])
             rows.append((np.array([member.face]), at, at, False))
@@ -152,7 +152,7 @@ def _pieces(source: Source, surface: Surface) -> Pieces:
     return Pieces(faces, surface.faces[faces], start, stop, along)
 
 
-def _check_face(place: Place, surface: Surface) -> None:
+def _check_face(place: SurfacePoint, surface: Surface) -> None:
     count = len(surface.faces)
     if place.face >= count:
         raise ParameterError(f"{surface.name} has no face {place.face}; faces run from 0 to {count - 1}.")

@@ -5,7 +5,7 @@ import numpy as np
 from ..errors import ParameterError
 from ..surface import Surface
 from .edge_faces import edge_faces
-from .source import Place
+from .source import SurfacePoint
 
 FURTHEST = 10
 """A way may be so many times as long as the straight line."""
@@ -23,7 +23,7 @@ class PlaneWalk:
         self._surface = surface
         self._edges = edge_faces(surface)
 
-    def between(self, start: Place, stop: Place) -> list[Step] | None:
+    def between(self, start: SurfacePoint, stop: SurfacePoint) -> list[Step] | None:
         """The shorter of the ways in the plane through both that is upright on the surface.
 
         Where there is none, or only one that is far longer than the straight line, the shortest in other planes; None
@@ -48,7 +48,7 @@ class PlaneWalk:
         return min(ways, key=lambda each: each[1])[0]
 
     def _in_plane(
-        self, start: Place, stop: Place, first: list[int], last: list[int], normal: np.ndarray
+        self, start: SurfacePoint, stop: SurfacePoint, first: list[int], last: list[int], normal: np.ndarray
     ) -> tuple[list[Step] | None, float]:
         """The shortest way in a plane with this normal, and its length."""
         p, q = self._position(start), self._position(stop)
@@ -62,7 +62,14 @@ class PlaneWalk:
         return shortest, length if shortest else np.inf
 
     def _way(
-        self, start: Place, stop: Place, face: int, corner: int, last: set[int], heights: "_Heights", most: float
+        self,
+        start: SurfacePoint,
+        stop: SurfacePoint,
+        face: int,
+        corner: int,
+        last: set[int],
+        heights: "_Heights",
+        most: float,
     ) -> tuple[list[Step] | None, float]:
         """Out of a face over the side from a corner to the next, and on until a face of the end is met; how far."""
         faces, steps, at = self._surface.faces, [], self._weights(start, face)
@@ -94,7 +101,7 @@ class PlaneWalk:
             )
         return None, far
 
-    def _faces_at(self, place: Place) -> list[int]:
+    def _faces_at(self, place: SurfacePoint) -> list[int]:
         """The faces that hold a place: one, two at an edge, all around a vertex."""
         corners = self._surface.faces[place.face][np.array(place.weights) > 0]
         if len(corners) == 3:
@@ -103,7 +110,7 @@ class PlaneWalk:
             return self._edges.at(*corners)
         return [int(face) for face in np.flatnonzero((self._surface.faces == corners[0]).any(axis=1))]
 
-    def _weights(self, place: Place, face: int) -> np.ndarray:
+    def _weights(self, place: SurfacePoint, face: int) -> np.ndarray:
         """(3,) the weights of a place in a face that holds it."""
         weights = np.zeros(3)
         for corner, weight in zip(self._surface.faces[place.face], place.weights, strict=True):
@@ -111,7 +118,7 @@ class PlaneWalk:
                 weights[self._surface.faces[face] == corner] = weight
         return weights
 
-    def _position(self, place: Place) -> np.ndarray:
+    def _position(self, place: SurfacePoint) -> np.ndarray:
         return np.array(place.weights) @ self._surface.vertices[self._surface.faces[place.face]]
 
     def _normal(self, faces: list[int]) -> np.ndarray:
@@ -135,7 +142,7 @@ class _Heights(dict[int, float]):
         return height
 
 
-def joined(walk: PlaneWalk, start: Place, stop: Place, name: str) -> list[Step]:
+def joined(walk: PlaneWalk, start: SurfacePoint, stop: SurfacePoint, name: str) -> list[Step]:
     """The way between two places; ParameterError, with the name of the way, if there is none."""
     way = walk.between(start, stop)
     if way is None:

@@ -1,7 +1,7 @@
 """What a distance may start from, as frozen values that know no surface; no numpy is imported here.
 
-A source is a vertex id, a `Place` in a face, a `BoundaryLoop`, a `Curve`, or a `SourceSet` of these, whose distance is
-the least of its members'.
+A source is a vertex id, a `SurfacePoint` in a face, a `BoundaryLoop`, a `Curve`, or a `SourceSet` of these, whose
+distance is the least of its members'.
 """
 
 import math
@@ -18,7 +18,7 @@ MOST_PARTS = 100_000
 
 
 @dataclass(frozen=True)
-class Place:
+class SurfacePoint:
     """A place in a face: its corners' weights, which are at least 0 and add up to 1."""
 
     face: int
@@ -40,7 +40,7 @@ class Place:
         object.__setattr__(self, "weights", weights)
 
     @staticmethod
-    def of(face: int, first: float, second: float) -> "Place":
+    def of(face: int, first: float, second: float) -> "SurfacePoint":
         """From the weights of the first two corners; the third's is the rest.  ParameterError if none is left."""
         # 0.2 and 0.2 leave 0.6, not 0.6000000000000001.
         rest = round(1 - first - second, 15)
@@ -53,7 +53,7 @@ class Place:
         if max(first, second, third) > 1 - 1e-15:
             # What differs from a corner by rounding alone is the corner.
             first, second, third = (float(weight > 0.5) for weight in (first, second, third))
-        return Place(face, (first, second, third))
+        return SurfacePoint(face, (first, second, third))
 
 
 @dataclass(frozen=True)
@@ -79,20 +79,22 @@ class Curve:
     where that does not lead from one to the other.
     """
 
-    places: tuple[Place, ...]
+    places: tuple[SurfacePoint, ...]
     closed: bool = False
 
     def __post_init__(self) -> None:
         for place in self.places:
-            if not isinstance(place, Place):
+            if not isinstance(place, SurfacePoint):
                 raise ParameterError(f"A curve goes through places in faces, not through {place!r}.")
         # The third weight is the rest to the last bit, as in what is written.
-        object.__setattr__(self, "places", tuple(Place.of(place.face, *place.weights[:2]) for place in self.places))
+        object.__setattr__(
+            self, "places", tuple(SurfacePoint.of(place.face, *place.weights[:2]) for place in self.places)
+        )
         if not 2 <= len(self.places) <= MOST_PARTS:
             raise ParameterError(f"A curve has from 2 to {MOST_PARTS:,} points, not {len(self.places)}.")
 
 
-Member = int | Place | BoundaryLoop | Curve
+Member = int | SurfacePoint | BoundaryLoop | Curve
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,7 @@ class SourceSet:
             raise ParameterError(f"A set of sources has from 1 to {MOST_PARTS:,} members, not {len(members)}.")
 
 
-Source = int | Place | BoundaryLoop | Curve | SourceSet
+Source = int | SurfacePoint | BoundaryLoop | Curve | SourceSet
 """Where a distance starts; an int is a vertex id."""
 
 
@@ -132,7 +134,7 @@ def whole_number(value: Any, what: str) -> int:
 
 
 def _member(value: Any) -> Member:
-    if isinstance(value, Place | BoundaryLoop | Curve):
+    if isinstance(value, SurfacePoint | BoundaryLoop | Curve):
         return value
     if isinstance(value, SourceSet):
         raise ParameterError("A set of sources has no sets among its members; name all of them in one.")
@@ -140,7 +142,8 @@ def _member(value: Any) -> Member:
         vertex = whole_number(value, "A vertex id")
     except ParameterError:
         raise ParameterError(
-            f"A source is a vertex id, a Place, a BoundaryLoop, a Curve, a SourceSet, or words such as '12+40', not "
+            f"A source is a vertex id, a SurfacePoint, a BoundaryLoop, a Curve, a SourceSet, or words such as '12+40', "
+            f"not "
             f"{value!r}."
         ) from None
     if vertex < 0:

@@ -14,7 +14,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ..errors import ParameterError
-from .source import BoundaryLoop, Curve, Member, Place, Source, SourceSet
+from .source import BoundaryLoop, Curve, Member, Source, SourceSet, SurfacePoint
 
 HOW = "write a vertex (12), several (12+40+7), a place in a face (f311:0.2,0.5), a boundary loop (loop:0) or a curve's "
 HOW += "file (curve.json)"
@@ -68,7 +68,7 @@ def _member(word: str, whole: str) -> Member:
             first = second = math.nan
         if not (math.isfinite(first) and math.isfinite(second)):
             raise ParameterError(f"{_shown(word)} has weights that are no numbers; write f311:0.2,0.5.")
-        return Place.of(int(found[1]), first, second)
+        return SurfacePoint.of(int(found[1]), first, second)
     if _is_file(word):
         return read_curve(word)
     among = "" if word == whole else f" in {_shown(whole)}"
@@ -98,7 +98,7 @@ def words_of(source: Source, files: Mapping[Curve, str] = NONE) -> str:
     """The words that mean a source, which give it back; of a curve its file, or what it is where none is known."""
     if isinstance(source, SourceSet):
         return "+".join(words_of(member, files) for member in source.members)
-    if isinstance(source, Place):
+    if isinstance(source, SurfacePoint):
         return f"f{source.face}:{source.weights[0]!r},{source.weights[1]!r}"
     if isinstance(source, BoundaryLoop):
         return f"loop:{source.number}"
@@ -109,7 +109,7 @@ def words_of(source: Source, files: Mapping[Curve, str] = NONE) -> str:
 
 def short_words_of(source: Source) -> str:
     """The same for a heading: weights with three digits, and of a large set how many it has."""
-    if isinstance(source, Place):
+    if isinstance(source, SurfacePoint):
         return f"f{source.face}:{source.weights[0]:.3g},{source.weights[1]:.3g}"
     if isinstance(source, SourceSet):
         named = "+".join(short_words_of(member) for member in source.members[:SHORTEST])
@@ -141,18 +141,18 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
         raise ParameterError(f"{path}: {error}") from None
 
 
-def places_from(rows: Any, where: str) -> tuple[Place, ...]:
+def places_from(rows: Any, where: str) -> tuple[SurfacePoint, ...]:
     """Places from a list of [face, b0, b1]; ParameterError that begins with the row's place for what is none."""
     if not isinstance(rows, list):
         raise ParameterError(f"{where} must be a list of [face, b0, b1], not {_shown(rows)}.")
     return tuple(_row(row, f"{where}[{k}]") for k, row in enumerate(rows))
 
 
-def _row(row: Any, where: str) -> Place:
+def _row(row: Any, where: str) -> SurfacePoint:
     if not isinstance(row, list) or len(row) != 3 or not _is_whole(row[0]) or not all(map(_is_number, row[1:])):
         raise ParameterError(f"{where} must be a face and two weights, [face, b0, b1], not {_shown(row)}.")
     try:
-        return Place.of(row[0], float(row[1]), float(row[2]))
+        return SurfacePoint.of(row[0], float(row[1]), float(row[2]))
     except ParameterError as error:
         raise ParameterError(f"{where}: {error}") from None
 

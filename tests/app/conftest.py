@@ -24,7 +24,7 @@ class RecordingView:
     def answer_changed(self, panel):
         self.told.append(f"answer {panel}")
 
-    def certificate_changed(self, panel):
+    def error_estimate_changed(self, panel):
         pass
 
     def progress_changed(self):
@@ -69,7 +69,7 @@ class Desk:
         """Ask for a mesh with the desk's distances, and do not wait."""
         self.session.show(comparison(path, self.specs, (source,)))
 
-    def opened(self, path, source=None):
+    def loaded(self, path, source=None):
         self.show(path, source)
         return self.complete()
 

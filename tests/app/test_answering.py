@@ -11,8 +11,8 @@ import pytest
 from app.document.document import MeshFile
 from app.document.edits import add_panel
 from app.document.quantities import DistanceFrom
-from app.session import opened
-from app.session.kept import KeptAnswers
+from app.session import loaded_mesh
+from app.session.answer_cache import AnswerCache
 from app.session.questions import DistanceQuestion
 from bihdist_core import BiharmonicDistance, Cancelled
 from bihdist_core.distances.answers import Answer
@@ -145,7 +145,7 @@ def test_closing_stops_everything(slow_desk):
 
 def test_an_answer_that_comes_late_is_dropped(desk, mesh_file):
     d = desk([BIHARMONIC])
-    d.opened(mesh_file(bumpy(200)), source=1)
+    d.loaded(mesh_file(bumpy(200)), source=1)
     kept, after = d.post_later()
     d.click(2)
     d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
@@ -161,7 +161,7 @@ def test_an_answer_that_comes_late_is_dropped(desk, mesh_file):
 
 def test_an_answer_that_comes_after_a_stop_is_not_shown_until_it_is_asked_again(desk, mesh_file):
     d = desk([BIHARMONIC])
-    d.opened(mesh_file(bumpy(200)), source=1)
+    d.loaded(mesh_file(bumpy(200)), source=1)
     kept, after = d.post_later()
     d.click(2)
     d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
@@ -210,7 +210,7 @@ def test_nobody_waits_behind_what_was_given_up_and_asks_nobody(deaf_desk, stop):
 
 def test_a_file_whose_reading_asks_nobody_does_not_hold_up_the_next(desk, mesh_file, monkeypatch):
     d = desk([BIHARMONIC])
-    begun, gate, read = threading.Event(), threading.Event(), opened.read_surface
+    begun, gate, read = threading.Event(), threading.Event(), loaded_mesh.read_surface
 
     def held(path):
         if "long" in path:
@@ -218,8 +218,8 @@ def test_a_file_whose_reading_asks_nobody_does_not_hold_up_the_next(desk, mesh_f
             assert gate.wait(60)
         return read(path)
 
-    monkeypatch.setattr(opened, "read_surface", held)
-    d.opened(mesh_file(bumpy(60)))
+    monkeypatch.setattr(loaded_mesh, "read_surface", held)
+    d.loaded(mesh_file(bumpy(60)))
     d.session.open(mesh_file(bumpy(80), "long.off"))
     assert begun.wait(60)
     d.until(lambda: "load" in d.session.progress)
@@ -238,14 +238,14 @@ def test_an_error_nobody_foresaw_is_told(desk, mesh_file, monkeypatch):
 
     monkeypatch.setattr(Spec, "build", broken)
     d = desk([BIHARMONIC])
-    d.opened(mesh_file(bumpy(200)))
+    d.loaded(mesh_file(bumpy(200)))
     assert "ZeroDivisionError" in d.answers[0].failure
 
 
 # ---------------------------------------------------------------------- a drag
 def test_in_a_drag_what_was_computed_is_shown_though_the_source_has_moved_on(desk, mesh_file):
     d = desk([BIHARMONIC])
-    d.opened(mesh_file(bumpy(200)), source=1)
+    d.loaded(mesh_file(bumpy(200)), source=1)
     kept, after = d.post_later()
     d.click(2, key="drag", live=True)
     d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
@@ -264,7 +264,7 @@ def test_in_a_drag_what_was_computed_is_shown_though_the_source_has_moved_on(des
 
 def test_a_drag_hands_on_what_it_computes_in_order_and_is_one_step(desk, mesh_file):
     d = desk([BIHARMONIC, Spec.of("diffusion")])
-    session = d.opened(mesh_file(bumpy(3000)), source=0)
+    session = d.loaded(mesh_file(bumpy(3000)), source=0)
     seen = []
     answer_changed = d.view.answer_changed
     d.view.answer_changed = lambda id: (answer_changed(id), seen.append((id, session.shown[id].asked.at)))
@@ -286,7 +286,7 @@ def test_a_drag_hands_on_what_it_computes_in_order_and_is_one_step(desk, mesh_fi
 
 def test_in_a_drag_what_gets_stuck_gives_way_to_the_next(desk, mesh_file, monkeypatch):
     d = desk([BIHARMONIC])
-    d.opened(mesh_file(bumpy(200)), source=1)
+    d.loaded(mesh_file(bumpy(200)), source=1)
     d.click(4, key="drag", live=True)
     d.until(lambda: d.sources_shown == [4])
     from_source, asked, is_made = BiharmonicDistance.from_source, [], threading.Event()
@@ -311,7 +311,7 @@ def test_in_a_drag_what_gets_stuck_gives_way_to_the_next(desk, mesh_file, monkey
 
 def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh_file, monkeypatch):
     d = desk([Spec.of("geodesic", method="exact")])
-    session = d.opened(mesh_file(bumpy(200)), source=0)
+    session = d.loaded(mesh_file(bumpy(200)), source=0)
     started = []
     popen = subprocess.Popen
     monkeypatch.setattr(subprocess, "Popen", lambda *a, **k: started.append(a) or popen(*a, **k))
@@ -328,7 +328,7 @@ def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh
 
 def test_a_drag_that_comes_back_shows_the_field_it_began_with(desk, mesh_file):
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(200)), source=1)
+    session = d.loaded(mesh_file(bumpy(200)), source=1)
     kept, after = d.post_later()
     d.click(2, key="drag", live=True)
     d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
@@ -344,7 +344,7 @@ def test_a_drag_that_comes_back_shows_the_field_it_began_with(desk, mesh_file):
 
 def test_drags_are_steps_of_their_own(desk, mesh_file):
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(60)), source=0)
+    session = d.loaded(mesh_file(bumpy(60)), source=0)
     for vertices in ((1, 2, 3), (4, 5)):
         for vertex in vertices:
             d.click(vertex, key="drag", live=True)
@@ -356,7 +356,7 @@ def test_drags_are_steps_of_their_own(desk, mesh_file):
 
 
 def test_answers_are_kept_within_a_memory():
-    kept = KeptAnswers(memory=2500)
+    kept = AnswerCache(memory=2500)
     asked = [DistanceQuestion(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(4)]
     for question in asked:
         kept.put(question, Answer(label="", field=np.zeros(100)))

@@ -12,7 +12,7 @@ from app.document.edits import add_panel, move_panel, move_source, open_mesh, pu
 from app.document.form import document_data, document_from
 from app.document.history import LONGEST, History
 from app.document.quantities import DistanceFrom, quantity
-from bihdist_core import ParameterError, Place
+from bihdist_core import ParameterError, SurfacePoint
 from bihdist_core.distances.kinds import Spec
 
 FRONT = Camera((0.0, 0.0, 5.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.5, 0.5))
@@ -56,7 +56,7 @@ def test_documents_hash_pickle_and_compare(document):
         (lambda d: Anchor("source", float("nan")), "value of an anchor"),
         (lambda d: Zoom(3, 1.0), "more than 1"),
         (lambda d: Zoom(3, 2.0, "middle"), "no corner 'middle'"),
-        (lambda d: Place(0, (0.5, 0.6, 0.1)), "add up to 1"),
+        (lambda d: SurfacePoint(0, (0.5, 0.6, 0.1)), "add up to 1"),
         (lambda d: Point("source", -1), "start at 0"),
     ],
 )

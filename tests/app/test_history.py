@@ -20,7 +20,7 @@ def is_read(kept):
 # ---------------------------------------------------------------------- history
 def test_what_comes_back_by_undo_is_there_at_once(desk, mesh_file):
     d = desk()
-    session = d.opened(mesh_file(bumpy(200)), source=1)
+    session = d.loaded(mesh_file(bumpy(200)), source=1)
     first = d.answers
     d.click(2)
     d.complete()
@@ -36,7 +36,7 @@ def test_what_comes_back_by_undo_is_there_at_once(desk, mesh_file):
 
 def test_undo_brings_back_the_mesh_before(desk, mesh_file):
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session = d.loaded(mesh_file(bumpy(60)), source=5)
     before = session.document
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
     d.until(lambda: session.surface.name == "other.off" and session.is_complete)
@@ -49,7 +49,7 @@ def test_undo_brings_back_the_mesh_before(desk, mesh_file):
 def test_undo_to_a_mesh_that_is_gone_is_refused_and_nothing_changes(desk, mesh_file, tmp_path, monkeypatch):
     monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session = d.loaded(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
     d.until(lambda: session.surface.name == "other.off" and session.is_complete)
     before = session.document
@@ -63,7 +63,7 @@ def test_undo_to_a_mesh_that_is_gone_is_refused_and_nothing_changes(desk, mesh_f
 def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
     monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session = d.loaded(mesh_file(bumpy(60)), source=5)
     first = session.document
     d.click(9)
     second = session.document
@@ -94,7 +94,7 @@ def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
 def test_a_step_back_on_its_way_counts_no_more_once_something_was_done(desk, mesh_file, monkeypatch):
     monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session = d.loaded(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
     d.until(lambda: session.surface.name == "other.off" and session.is_complete)
     session.undo()
@@ -108,7 +108,7 @@ def test_a_step_back_on_its_way_counts_no_more_once_something_was_done(desk, mes
 
 def test_of_two_documents_from_files_the_later_is_shown_though_its_mesh_is_there(desk, mesh_file):
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session = d.loaded(mesh_file(bumpy(60)), source=5)
     other = comparison(mesh_file(bumpy(5000), "other.off"), (BIHARMONIC,), (7,))
     arrived = []
     session.show_instead(other, lambda: None, lambda: arrived.append("other"))
@@ -122,7 +122,7 @@ def test_of_two_documents_from_files_the_later_is_shown_though_its_mesh_is_there
 def test_a_click_while_the_mesh_of_an_undone_step_is_read_takes_its_place(desk, mesh_file, monkeypatch):
     monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session = d.loaded(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
     d.until(lambda: session.surface.name == "other.off" and session.is_complete)
     kept, after = d.post_later()
@@ -168,7 +168,7 @@ def test_of_two_meshes_the_later_is_shown_with_its_own_source(desk, mesh_file):
 
 def test_a_click_while_another_mesh_is_read_does_not_keep_it_away(desk, mesh_file):
     d = desk([BIHARMONIC])
-    session = d.opened(mesh_file(bumpy(60)), source=5)
+    session = d.loaded(mesh_file(bumpy(60)), source=5)
     kept, after = d.post_later()
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
     d.until(lambda: is_read(kept))

@@ -15,7 +15,7 @@ from app.document.pairing import add_pairs, place_point
 from app.document.predicting import predict
 from app.figures.draw import save_figure
 from app.figures.export import compute, figure_of, open_document
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from app.session.judging import Judging, asked_of, maps_of, partners_of, right_places, truth_of
 from bihdist_core import (
     BiharmonicDistance,
@@ -36,7 +36,7 @@ PLACES = [(3, 3), (150, 150), (250, 250), (90, 90)]
 
 
 @pytest.fixture
-def opened(tmp_path):
+def loaded(tmp_path):
     """A document of a shape and the same with a little noise, with pairs, and both surfaces."""
     s = bumpy(300)
     write_mesh(tmp_path / "a.off", s)
@@ -44,7 +44,7 @@ def opened(tmp_path):
     shown = open_beside(
         comparison(str(tmp_path / "a.off"), (BIHARMONIC, GEODESIC)), MeshFile("", str(tmp_path / "b.off"))
     )
-    document, surfaces = open_document(Recipe(predict(add_pairs(shown, PLACES))), Given())
+    document, surfaces = open_document(Recipe(predict(add_pairs(shown, PLACES))), ArrayStore())
     return document, surfaces["A"], surfaces["B"]
 
 
@@ -60,8 +60,8 @@ def slow(one, two, truth, ids):
     return distances[truth[ids], found[ids]] / np.sqrt(two.surface.face_areas.sum())
 
 
-def test_the_curve_is_that_of_a_slow_reference(opened):
-    document, one, two = opened
+def test_the_curve_is_that_of_a_slow_reference(loaded):
+    document, one, two = loaded
     truth = np.arange(300)
     whole = last(Judging(), document, one, two)
     assert (whole.known, whole.wanted, whole.vertices) == (300, 300, 300)
@@ -74,8 +74,8 @@ def test_the_curve_is_that_of_a_slow_reference(opened):
     assert sampled.curves[BIHARMONIC].errors == pytest.approx(np.sort(slow(one, two, truth, ids)), abs=1e-6)
 
 
-def test_it_comes_bit_by_bit_and_each_part_is_right(opened, monkeypatch):
-    document, one, two = opened
+def test_it_comes_bit_by_bit_and_each_part_is_right(loaded, monkeypatch):
+    document, one, two = loaded
     monkeypatch.setattr(judging, "EVERY", 0.0)
     document = replace(document, truth=Truth(samples=40))
     found = list(Judging().judge(asked_of(document, one, two)))
@@ -85,8 +85,8 @@ def test_it_comes_bit_by_bit_and_each_part_is_right(opened, monkeypatch):
     assert found[1].curves[BIHARMONIC].errors == pytest.approx(np.sort(expected), abs=1e-6)
 
 
-def test_another_pair_costs_no_geodesic_distance(opened):
-    document, one, two = opened
+def test_another_pair_costs_no_geodesic_distance(loaded):
+    document, one, two = loaded
     document = replace(document, truth=Truth(samples=40))
     judge = Judging()
     before = last(judge, document, one, two)
@@ -100,8 +100,8 @@ def test_another_pair_costs_no_geodesic_distance(opened):
     assert found[0].curves[BIHARMONIC].mean != before.curves[BIHARMONIC].mean
 
 
-def test_what_is_kept_is_bounded(opened, monkeypatch):
-    document, one, two = opened
+def test_what_is_kept_is_bounded(loaded, monkeypatch):
+    document, one, two = loaded
     monkeypatch.setattr(judging, "MOST_KEPT", 300 * 25)
     judge = Judging()
     assert last(judge, document, one, two).wanted == 25
@@ -109,8 +109,8 @@ def test_what_is_kept_is_bounded(opened, monkeypatch):
     assert len(judge._kept._columns) == 25
 
 
-def test_a_map_of_a_file_is_judged_beside_the_others(opened, tmp_path):
-    document, one, two = opened
+def test_a_map_of_a_file_is_judged_beside_the_others(loaded, tmp_path):
+    document, one, two = loaded
     write_map(tmp_path / "ours.txt", np.roll(np.arange(300), 7))
     document = replace(document, maps=(MapFile(str(tmp_path / "ours.txt")),))
     assert maps_of(document) == (BIHARMONIC, GEODESIC, document.maps[0])
@@ -124,8 +124,8 @@ def test_a_map_of_a_file_is_judged_beside_the_others(opened, tmp_path):
     assert "gone.npy" in next(iter(last(Judging(), gone, one, two).failures.values()))
 
 
-def test_symmetric_partners_count_where_they_are_to(opened, tmp_path):
-    document, one, two = opened
+def test_symmetric_partners_count_where_they_are_to(loaded, tmp_path):
+    document, one, two = loaded
     partners = np.roll(np.arange(300), 150)
     write_map(tmp_path / "half.npy", partners)
     half = MapFile(str(tmp_path / "half.npy"))
@@ -136,8 +136,8 @@ def test_symmetric_partners_count_where_they_are_to(opened, tmp_path):
     assert counted.curves[half].mean == 0
 
 
-def test_same_ids_are_the_truth_where_the_faces_are_the_same(opened, tmp_path):
-    _, one, two = opened
+def test_same_ids_are_the_truth_where_the_faces_are_the_same(loaded, tmp_path):
+    _, one, two = loaded
     assert np.array_equal(truth_of(Truth(), one.surface, two.surface), np.arange(300))
     assert truth_of(Truth("none"), one.surface, two.surface) is None
     assert truth_of(Truth(), one.surface, bumpy(200)) is None
@@ -148,14 +148,14 @@ def test_same_ids_are_the_truth_where_the_faces_are_the_same(opened, tmp_path):
     assert np.array_equal(truth_of(there, one.surface, two.surface), np.roll(np.arange(300), 1))
 
 
-def test_without_a_truth_there_is_nothing(opened):
-    document, one, two = opened
+def test_without_a_truth_there_is_nothing(loaded):
+    document, one, two = loaded
     assert list(Judging().judge(asked_of(replace(document, truth=Truth("none")), one, two))) == []
     assert list(Judging().judge(asked_of(replace(document, panels=()), one, two))) == []
 
 
-def test_where_a_vertex_belongs_on_either_surface(opened, tmp_path):
-    _, one, two = opened
+def test_where_a_vertex_belongs_on_either_surface(loaded, tmp_path):
+    _, one, two = loaded
     right, partners = np.roll(np.arange(300), 1), np.roll(np.arange(300), 150)
     right[5] = -1
     write_map(tmp_path / "t.npy", right)
@@ -173,8 +173,8 @@ def test_where_a_vertex_belongs_on_either_surface(opened, tmp_path):
     assert right_places(Truth("none"), *surfaces, 4, False) == []
 
 
-def test_it_stops_when_nobody_wants_it(opened):
-    document, one, two = opened
+def test_it_stops_when_nobody_wants_it(loaded):
+    document, one, two = loaded
     seen = []
 
     def cancelled(share, text):
@@ -187,15 +187,15 @@ def test_it_stops_when_nobody_wants_it(opened):
     assert seen == sorted(seen)
 
 
-def test_maps_are_those_of_predictions_and_full_maps(opened):
-    document, _, _ = opened
+def test_maps_are_those_of_predictions_and_full_maps(loaded):
+    document, _, _ = loaded
     assert maps_of(document) == maps_of(show_maps(document)) == (BIHARMONIC, GEODESIC)
     with pytest.raises(ParameterError, match="-1"):
         Truth(samples=-1)
 
 
-def test_a_figure_has_a_cross_where_the_point_belongs_and_says_how_far_off_the_candidate_is(opened, tmp_path):
-    document, one, two = opened
+def test_a_figure_has_a_cross_where_the_point_belongs_and_says_how_far_off_the_candidate_is(loaded, tmp_path):
+    document, one, two = loaded
     document = place_point(document, "A", 170)
     surfaces = {"A": one, "B": two}
     answers = compute(document, surfaces)
@@ -221,7 +221,7 @@ def test_vertices_of_no_face_are_left_out(tmp_path):
     write_map(tmp_path / "t.txt", np.concatenate([np.arange(60), [3], np.arange(60, 120)]))
     shown = open_beside(comparison(str(tmp_path / "a.off"), (BIHARMONIC,)), MeshFile("", str(tmp_path / "b.off")))
     shown = replace(shown, truth=Truth("file", MapFile(str(tmp_path / "t.txt"))))
-    document, surfaces = open_document(Recipe(predict(add_pairs(shown, [(3, 3), (101, 100)]))), Given())
+    document, surfaces = open_document(Recipe(predict(add_pairs(shown, [(3, 3), (101, 100)]))), ArrayStore())
     found = last(Judging(), document, surfaces["A"], surfaces["B"])
     assert (found.wanted, found.failures) == (120, {})
     assert len(found.curves[BIHARMONIC].errors) == 120

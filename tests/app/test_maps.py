@@ -18,8 +18,8 @@ from app.document.predicting import predict
 from app.document.quantities import Difference, DistanceFrom, quantity
 from app.figures.export import compute, open_document
 from app.main import main
-from app.session.given import Given
-from app.session.mapped import map_file
+from app.session.array_store import ArrayStore
+from app.session.map_answers import map_file
 from bihdist_core import (
     BiharmonicDistance,
     Correspondence,
@@ -62,7 +62,7 @@ def two(meshes):
 
 
 def answers(document):
-    document, surfaces = open_document(Recipe(document), Given())
+    document, surfaces = open_document(Recipe(document), ArrayStore())
     return document, compute(document, surfaces)
 
 

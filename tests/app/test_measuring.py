@@ -24,8 +24,8 @@ from app.document.measuring import (
     vertices_of,
 )
 from app.document.quantities import OwnField
-from app.session.pinned import pinned_on
-from bihdist_core import BoundaryLoop, ParameterError, Place
+from app.session.pin_locations import located_pins
+from bihdist_core import BoundaryLoop, ParameterError, SurfacePoint
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import grid
 
@@ -158,8 +158,8 @@ def test_selected_vertices_in_words():
 
 def test_a_pin_on_a_side_has_its_value_whatever_the_third_corner_has():
     surface = grid(3, 3)
-    document = add_pins(comparison("mesh.off", ()), [4, Place.of(2, 0.25, 0.75)])
-    vertex, place = pinned_on(document, "A", surface)
+    document = add_pins(comparison("mesh.off", ()), [4, SurfacePoint.of(2, 0.25, 0.75)])
+    vertex, place = located_pins(document, "A", surface)
     i, j, k = surface.faces[2]
     field = np.arange(16.0)
     field[k] = np.nan

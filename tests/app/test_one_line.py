@@ -21,7 +21,7 @@ from app.document.page import Page, Recipe
 from app.document.profile_words import shows_path, with_profile
 from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
 from app.document.starts import curves_in
-from bihdist_core import BoundaryLoop, Curve, ParameterError, Place, SourceSet
+from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, SurfacePoint
 from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.words import curve_text
@@ -30,8 +30,8 @@ from tests.shapes import bumpy
 COUNT = 60
 BIHARMONIC, DIFFUSION = Spec.of("biharmonic"), Spec.of("diffusion", t=1 / 15)
 GEODESIC = Spec.of("geodesic", method="heat")
-PLACE = Place.of(3, 0.2, 0.2)
-CURVE = Curve((PLACE, Place.of(9, 0.2, 0.2)))
+PLACE = SurfacePoint.of(3, 0.2, 0.2)
+CURVE = Curve((PLACE, SurfacePoint.of(9, 0.2, 0.2)))
 CAMERA = Camera((0.1, 2.0, 1 / 3), (0.0, -1e-9, 0.0), (0.0, 1.0, 0.1), (0.4, 0.30000000000000004))
 
 
@@ -125,10 +125,10 @@ EXAMPLES = {
         p,
     ),
     "Document.extrema": lambda d, p: (replace(d, extrema=True), p),
-    "Document.pins": lambda d, p: (add_pins(d, [9, Place.of(3, 0.2, 0.5)]), p),
+    "Document.pins": lambda d, p: (add_pins(d, [9, SurfacePoint.of(3, 0.2, 0.5)]), p),
     "Document.regions": lambda d, p: (divide(add_pins(d, [9, 3]), "all"), p),
     "Document.selections": lambda d, p: (select_instead(d, [((3, 3), (5, 9)), ((20, 22),)]), p),
-    "Document.profile": lambda d, p: (with_profile(d, ["source", Place.of(3, 0.2, 0.5), 9]), p),
+    "Document.profile": lambda d, p: (with_profile(d, ["source", SurfacePoint.of(3, 0.2, 0.5), 9]), p),
     "Document.docks": lambda d, p: (replace(add_pins(d, [9, 3]), docks=("profile",)), p),
     "Profile.points": lambda d, p: (with_profile(add_pins(d, [9, 3, 4]), ["pin:3", "pin:1"]), p),
     "Profile.way": lambda d, p: (with_profile(d, ["source", 9], "edges"), p),
@@ -263,7 +263,11 @@ def test_what_no_line_can_hold_is_said_in_words(mesh):
         (replace(document, surfaces=(*document.surfaces, MeshFile("B", mesh))), "2 meshes"),
         (replace(document, panels=()), "no panels"),
         (
-            replace(document, points=(*document.points, Point("a", Place(3, (0.2, 0.2, 0.6)))), anchors=(Anchor("a"),)),
+            replace(
+                document,
+                points=(*document.points, Point("a", SurfacePoint(3, (0.2, 0.2, 0.6)))),
+                anchors=(Anchor("a"),),
+            ),
             "no vertex",
         ),
         (
@@ -324,7 +328,7 @@ QUANTITIES = st.one_of(
     SPECS.map(DistanceFrom), st.builds(Difference, SPECS.map(DistanceFrom), SPECS.map(DistanceFrom), st.booleans())
 )
 VERTICES = st.integers(0, COUNT - 1)
-PLACES = st.builds(Place.of, VERTICES, st.floats(0, 0.5), st.floats(0, 0.5))
+PLACES = st.builds(SurfacePoint.of, VERTICES, st.floats(0, 0.5), st.floats(0, 0.5))
 MEMBERS = st.one_of(VERTICES, PLACES, st.builds(BoundaryLoop, st.integers(0, 9)))
 SOURCES = st.one_of(MEMBERS, st.lists(MEMBERS, min_size=2, max_size=4, unique=True).map(tuple).map(SourceSet))
 CAMERAS = st.builds(

@@ -30,8 +30,8 @@ from app.document.pairing import (
 from app.document.predicting import predict, predicts, show_distances
 from app.document.quantities import Prediction, quantity
 from app.figures.export import compute, open_document
-from app.session.given import Given
-from app.session.predicted import NO_OTHER, SPARE, KnownColumns, candidate_of
+from app.session.array_store import ArrayStore
+from app.session.prediction_answers import NO_OTHER, SPARE, KnownColumns, candidate_of
 from bihdist_core import BiharmonicDistance, Correspondence, ParameterError, write_mesh
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, two_pieces
@@ -163,7 +163,7 @@ def test_pairs_go_with_either_surface():
 
 
 def answered(document):
-    return compute(*open_document(Recipe(document, Page()), Given()))
+    return compute(*open_document(Recipe(document, Page()), ArrayStore()))
 
 
 def test_panels_show_the_misfit_of_the_other_surface_to_the_point_that_waits(meshes):
@@ -212,7 +212,7 @@ def test_a_new_pair_costs_a_solve_and_another_point_none(desk, meshes):
     work.until(lambda: session.surface is not None)
 
     def solved():
-        return tuple(session.opened(name).columns_of_pairs.solved for name in "AB")
+        return tuple(session.loaded(name).columns_of_pairs.solved for name in "AB")
 
     session.show(place_point(add_pairs(session.document, PAIRS), "A", 44))
     work.complete()
@@ -229,17 +229,17 @@ def test_a_new_pair_costs_a_solve_and_another_point_none(desk, meshes):
 def test_what_the_other_surface_alone_is_asked_is_kept(desk, meshes):
     work = desk(specs=(EDGES,))
     session = work.session
-    work.opened(meshes[0])
+    work.loaded(meshes[0])
     session.open_beside(meshes[1])
     work.until(lambda: len(session.document.surfaces) == 2)
     panels = [Panel(0, Prediction(EDGES), "A"), Panel(1, Prediction(BIHARMONIC), "B")]
     session.show(replace(session.document, panels=tuple(panels)))
     session.show(place_point(add_pairs(session.document, PAIRS), "B", 44))
     work.complete()
-    before = [session.opened(name).columns_of_pairs.solved for name in "AB"]
+    before = [session.loaded(name).columns_of_pairs.solved for name in "AB"]
     session.show(place_point(session.document, "B", 45))
     work.complete()
-    assert [session.opened(name).columns_of_pairs.solved for name in "AB"] == before == [4, 4]
+    assert [session.loaded(name).columns_of_pairs.solved for name in "AB"] == before == [4, 4]
 
 
 def test_columns_of_what_is_dragged_are_forgotten():

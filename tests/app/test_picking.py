@@ -14,17 +14,17 @@ SIZE = 300
 """Pixels of the picture, across and up."""
 
 
-def first_met(surface, start, end):
+def first_hit(surface, start, end):
     """The face met first and the point, by solving start + t way = a + u (b - a) + v (c - a) for each face."""
     a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
     way = np.broadcast_to(end - start, a.shape)
     matrix = np.stack([way, a - b, a - c], axis=2)
     solvable = np.flatnonzero(np.abs(np.linalg.det(matrix)) > 1e-14)
     t, u, v = np.linalg.solve(matrix[solvable], (a - start)[solvable, :, None])[..., 0].T
-    met = np.flatnonzero((u >= 0) & (v >= 0) & (u + v <= 1) & (t >= 0) & (t <= 1))
-    if not len(met):
+    hit = np.flatnonzero((u >= 0) & (v >= 0) & (u + v <= 1) & (t >= 0) & (t <= 1))
+    if not len(hit):
         return None
-    best = met[t[met].argmin()]
+    best = hit[t[hit].argmin()]
     return int(solvable[best]), start + t[best] * (end - start)
 
 
@@ -41,17 +41,17 @@ def ways(surface, count, seed=0):
 @pytest.mark.parametrize("surface", [bumpy(800), torus(), grid(4, 6), fin(), two_pieces(), slivers()], ids=str)
 def test_a_way_meets_the_face_that_looking_at_all_of_them_finds(surface):
     blocks = FaceBlocks(surface)
-    met = 0
+    hit = 0
     for start, end in ways(surface, 300):
-        expected, found = first_met(surface, start, end), blocks.first_met(start, end)
+        expected, found = first_hit(surface, start, end), blocks.first_hit(start, end)
         assert (found is None) == (expected is None)
         if found:
-            met += 1
+            hit += 1
             assert found[0] == expected[0]
             # Rounding, made larger where a way only just is not along the face.
             assert np.allclose(found[2], expected[1], rtol=0, atol=1e-9)
             assert np.allclose(found[1] @ surface.vertices[surface.faces[found[0]]], found[2])
-    assert met > 10
+    assert hit > 10
 
 
 def test_the_order_of_the_faces_does_not_matter():
@@ -60,7 +60,7 @@ def test_the_order_of_the_faces_does_not_matter():
     order = np.random.default_rng(1).permutation(len(surface.faces))
     one, other = FaceBlocks(surface), FaceBlocks(Surface(surface.vertices, surface.faces[order]))
     for start, end in ways(surface, 50):
-        found, again = one.first_met(start, end), other.first_met(start, end)
+        found, again = one.first_hit(start, end), other.first_hit(start, end)
         assert (found is None) == (again is None)
         if found:
             assert found[0] == order[again[0]]
@@ -75,7 +75,7 @@ def test_no_way_slips_through_at_vertices_and_edges(size, away):
     edges = surface.vertices[surface.edges]
     # Seen from its middle every point of the surface is in front.
     for target in [*surface.vertices, *edges.mean(axis=1), *(0.3 * edges[:, 0] + 0.7 * edges[:, 1])]:
-        *_, where = blocks.first_met(middle, middle + 3 * (target - middle))
+        *_, where = blocks.first_hit(middle, middle + 3 * (target - middle))
         # Rounding of the coordinates, which the surface may be far away with.
         assert np.linalg.norm(where - target) <= 1e-14 * (100 * size + 10 * away)
 
@@ -83,12 +83,12 @@ def test_no_way_slips_through_at_vertices_and_edges(size, away):
 def test_a_way_ends_at_its_end_and_faces_edge_on_are_not_met():
     blocks = FaceBlocks(grid(3, 3))
     start = np.array([0.6, 0.3, 1.0])
-    assert blocks.first_met(start, start * [1, 1, 0.01]) is None
-    assert blocks.first_met(start, start) is None
-    face, _, where = blocks.first_met(start, start * [1, 1, -0.01])
+    assert blocks.first_hit(start, start * [1, 1, 0.01]) is None
+    assert blocks.first_hit(start, start) is None
+    face, _, where = blocks.first_hit(start, start * [1, 1, -0.01])
     assert face == 0
     assert np.allclose(where, [0.6, 0.3, 0], rtol=0, atol=1e-15)
-    assert blocks.first_met(np.array([-1.0, 0.5, 0]), np.array([9.0, 0.7, 0])) is None
+    assert blocks.first_hit(np.array([-1.0, 0.5, 0]), np.array([9.0, 0.7, 0])) is None
 
 
 @pytest.fixture
@@ -123,16 +123,16 @@ def test_a_pixel_has_the_nearest_corner_of_the_face_in_front(renderer, parallel)
     beside = 0
     # Everywhere in the picture: through the hole, at the rims, where one side of the ring hides the other.
     for x, y in np.random.default_rng(0).uniform(0, SIZE, (400, 2)):
-        found, met = picker.met_at(renderer, x, y), first_met(surface, *ray(renderer, x, y))
-        if met is None:
+        found, hit = picker.pick(renderer, x, y), first_hit(surface, *ray(renderer, x, y))
+        if hit is None:
             beside += 1
             assert found is None
         else:
-            corners = surface.faces[met[0]]
-            distances = np.linalg.norm(surface.vertices[corners] - met[1], axis=1)
+            corners = surface.faces[hit[0]]
+            distances = np.linalg.norm(surface.vertices[corners] - hit[1], axis=1)
             assert found.vertex == corners[distances.argmin()]
-            assert found.face == met[0]
-            assert np.allclose(found.position, met[1], atol=1e-9)
+            assert found.face == hit[0]
+            assert np.allclose(found.position, hit[1], atol=1e-9)
             assert found.weights.min() >= 0
             assert np.isclose(found.weights.sum(), 1)
             assert np.allclose(found.weights @ surface.vertices[corners], found.position)
@@ -148,9 +148,9 @@ def test_a_vertex_in_front_is_found_where_it_is_seen_and_one_behind_is_not(rende
         renderer.SetWorldPoint(*point, 1)
         renderer.WorldToDisplay()
         x, y, _ = renderer.GetDisplayPoint()
-        met = picker.met_at(renderer, x, y)
-        found = met and met.vertex
-        _, where = first_met(surface, position, position + 0.999 * (point - position)) or (0, point)
+        hit = picker.pick(renderer, x, y)
+        found = hit and hit.vertex
+        _, where = first_hit(surface, position, position + 0.999 * (point - position)) or (0, point)
         if np.linalg.norm(where - point) > 0.01 or not _faces_towards(surface, vertex, position).any():
             behind += 1
             assert found != vertex

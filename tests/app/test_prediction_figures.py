@@ -7,7 +7,7 @@ import app as bihdist
 from app.document.file import read_recipe
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from bihdist_core import BiharmonicDistance, Correspondence, ParameterError, write_mesh
 from bihdist_core.formats.vertex_maps import read_pairs, write_pairs
 from tests.shapes import bumpy
@@ -39,7 +39,7 @@ def test_the_best_is_said_and_marked_and_a_recipe_draws_it_again(named, tmp_path
     assert drawn(named, ["--recipe", str(tmp_path / "one.json")], tmp_path / "two.png") == 0
     assert (tmp_path / "two.png").read_bytes() == (tmp_path / "one.png").read_bytes()
     recipe = read_recipe(tmp_path / "one.json")
-    document, surfaces = open_document(recipe, Given())
+    document, surfaces = open_document(recipe, ArrayStore())
     first, second = figure_of(recipe, surfaces, compute(document, surfaces)).panels
     assert [mark.vertex for mark in first.marks] == [3, 20, 60, 130, 44]
     (candidate,) = [mark for mark in second.marks if mark.is_candidate]

@@ -16,7 +16,7 @@ from app.session.sampling import SamplesQuestion, Sampling
 from app.session.session import Session
 from bihdist_core import difference_quality, farthest_points, field_quality, triangle_sample, voronoi_regions
 from bihdist_core.distances.kinds import Spec
-from bihdist_core.sources.source import BoundaryLoop, Place, SourceSet
+from bihdist_core.sources.source import BoundaryLoop, SourceSet, SurfacePoint
 
 SHOWN = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
 
@@ -32,7 +32,7 @@ class Watching:
 
     def document_changed(self, before): ...
     def answer_changed(self, panel): ...
-    def certificate_changed(self, panel): ...
+    def error_estimate_changed(self, panel): ...
     def progress_changed(self): ...
 
     def failed(self, message):
@@ -45,10 +45,10 @@ class Watching:
     @property
     def asked(self):
         shown = [self.session.shown[id] for id in sorted(self.session.shown)]  # answers come in any order
-        return {s.asked: (self.session.opened(), s.answer) for s in shown}
+        return {s.asked: (self.session.loaded(), s.answer) for s in shown}
 
     def distance(self, spec):
-        return self.session.opened().distances("voronoi").get(spec)
+        return self.session.loaded().distances("voronoi").get(spec)
 
 
 @pytest.fixture
@@ -135,7 +135,7 @@ def test_triangles_are_those_of_the_component_of_the_source(tmp_path):
     w.session.close()
 
 
-@pytest.mark.parametrize("at", [Place(3, (0.2, 0.5, 0.3)), SourceSet((3, 200))], ids=["place", "set"])
+@pytest.mark.parametrize("at", [SurfacePoint(3, (0.2, 0.5, 0.3)), SourceSet((3, 200))], ids=["place", "set"])
 def test_sources_that_are_no_vertex_are_judged_too(watching, at):
     w = watching(at)
     quality, _ = judged(w)
@@ -144,7 +144,7 @@ def test_sources_that_are_no_vertex_are_judged_too(watching, at):
         assert not found.failure
         assert len(found.extrema.minima) == 0 or question.spec.word == "diffusion"
         # Around several places there are no circles.
-        assert bool(found.whole.circles) == isinstance(at, Place)
+        assert bool(found.whole.circles) == isinstance(at, SurfacePoint)
 
 
 def shown_instead(w, *shows, **fields):
@@ -202,7 +202,7 @@ def test_triangles_go_on_while_a_source_moves(watching):
     w = watching(7)
     asked = w.asked
     quality = Quality(w.posted.put, lambda: None)
-    quality.ask({}, on_its_way={question: opened for question, (opened, _) in asked.items()})
+    quality.ask({}, on_its_way={question: loaded for question, (loaded, _) in asked.items()})
     w.until(lambda: all(quality.found(question).is_sampled for question in asked))
     assert all(quality.found(question).extrema is None for question in asked)
     quality.close()
@@ -226,9 +226,9 @@ def test_figures_mark_the_extrema_where_the_document_says_so(watching):
 
     w = watching(7)
     quality, _ = judged(w)
-    opened, answers = w.session.opened(), [w.session.shown[k].answer for k in range(3)]
-    plain = figure_of(Recipe(w.session.document, Page()), {"A": opened}, answers)
-    marked = figure_of(Recipe(mark_extrema(w.session.document), Page()), {"A": opened}, answers)
+    loaded, answers = w.session.loaded(), [w.session.shown[k].answer for k in range(3)]
+    plain = figure_of(Recipe(w.session.document, Page()), {"A": loaded}, answers)
+    marked = figure_of(Recipe(mark_extrema(w.session.document), Page()), {"A": loaded}, answers)
     for question, before, after in zip(w.asked, plain.panels, marked.panels, strict=True):
         found = quality.found(question).extrema
         assert not any(mark.extremum for mark in before.marks)
@@ -240,10 +240,10 @@ def test_figures_mark_the_extrema_where_the_document_says_so(watching):
 
 def test_why_there_is_no_quality_is_said(watching):
     w = watching(7)
-    (question, (opened, answer)), *_ = w.asked.items()
+    (question, (loaded, answer)), *_ = w.asked.items()
     flat = replace(answer, field=np.zeros(len(answer.field)))
     quality = Quality(w.posted.put, lambda: None)
-    quality.ask({question: (opened, flat)})
+    quality.ask({question: (loaded, flat)})
     w.until(lambda: quality.found(question).is_complete)
     quality.close()
     assert "values that differ" in quality.found(question).failure
@@ -251,8 +251,8 @@ def test_why_there_is_no_quality_is_said(watching):
 
 def divided(w, dividing):
     document = w.session.document
-    opened = w.session.opened()
-    dividing.ask({id: (question, opened) for id, question in regions_questions(document).items()})
+    loaded = w.session.loaded()
+    dividing.ask({id: (question, loaded) for id, question in regions_questions(document).items()})
     w.until(lambda: dividing.is_complete)
 
 
@@ -287,7 +287,7 @@ def test_regions_that_cannot_be_had_say_why(watching):
     w.session.show(show_regions(w.session.document, 0))
     (question,) = regions_questions(w.session.document).values()
     bad = replace(question, places=(BoundaryLoop(0),))
-    dividing.ask({0: (bad, w.session.opened())})
+    dividing.ask({0: (bad, w.session.loaded())})
     w.until(lambda: dividing.is_complete)
     assert "boundary" in dividing.divided(0).failure
     dividing.close()
@@ -308,15 +308,15 @@ def test_samples_are_those_of_python(watching):
     w = watching(7)
     told = []
     sampling = Sampling(w.posted.put, told.append, lambda *_: None)
-    document, opened = w.session.document, w.session.opened()
+    document, loaded = w.session.document, w.session.loaded()
     question = SamplesQuestion(document.mesh(), "voronoi", SHOWN[0], 7, 9)
-    sampling.ask(question, opened)
+    sampling.ask(question, loaded)
     w.until(lambda: not sampling.is_going)
     assert told[0].vertices.tolist() == farthest_points(w.distance(SHOWN[0]), 7, 9).tolist()
-    sampling.ask(replace(question, at=Place(3, (0.2, 0.5, 0.3))), opened)
+    sampling.ask(replace(question, at=SurfacePoint(3, (0.2, 0.5, 0.3))), loaded)
     w.until(lambda: not sampling.is_going)
     assert "choose a vertex" in told[1].failure
-    sampling.ask(question, opened)
+    sampling.ask(question, loaded)
     sampling.cancel()
     sampling.close()
     while not w.posted.empty():
@@ -331,13 +331,13 @@ def test_figures_draw_the_boundaries_that_the_window_draws(watching):
     w = watching(7)
     w.session.show(add_pins(w.session.document, [7, 90, 300]))
     w.session.show(show_regions(w.session.document, 1))
-    opened, document = w.session.opened(), w.session.document
-    figure = figure_of(Recipe(document, Page()), {"A": opened}, [w.session.shown[k].answer for k in range(3)])
+    loaded, document = w.session.loaded(), w.session.document
+    figure = figure_of(Recipe(document, Page()), {"A": loaded}, [w.session.shown[k].answer for k in range(3)])
     assert [bool(panel.regions) for panel in figure.panels] == [False, True, False]
-    found = voronoi_regions(opened.surface, w.distance(SHOWN[1]).from_sources([7, 90, 300]))
+    found = voronoi_regions(loaded.surface, w.distance(SHOWN[1]).from_sources([7, 90, 300]))
     length = 0.0
     for line in figure.panels[1].regions:
-        points = line.positions(opened.surface.vertices)
+        points = line.positions(loaded.surface.vertices)
         points = np.vstack([points, points[:1]]) if line.is_closed else points
         length += np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
     assert length == pytest.approx(found.lengths.sum(), rel=1e-9)

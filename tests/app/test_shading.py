@@ -12,7 +12,7 @@ from app.drawing.creases import face_normals as normals_of_faces
 from app.drawing.drawable import copies_of, drawable, has_backs, poly_data
 from app.drawing.style import PAPER
 from app.drawing.winding import winding
-from app.figures.raster import Studio
+from app.figures.raster import RenderWindow
 from app.samples import mesh_path, sample_names
 from bihdist_core import Surface, read_surface
 from tests.shapes import MESHES, bumpy, fin, grid, needs_meshes, slivers, sphere, torus, two_pieces
@@ -184,13 +184,13 @@ def test_sheets_have_two_equal_sides():
 # ---------------------------------------------------------------------- pictures
 def picture(surface, shading=AS_IT_IS, field=None, view="front", side=240, steps=0, style=PAPER):
     """(side, side, 4) of a field, of the height if none is given."""
-    with closing(Studio(style)) as studio:
-        studio.shown.show_surface(drawable(surface, shading))
-        studio.shown.show_shading(shading)
-        studio.shown.show_field(np.full(len(surface.vertices), 0.3) if field is None else field, 1.0)
-        studio.shown.show_isolines(Isolines(steps))
+    with closing(RenderWindow(style)) as render_window:
+        render_window.shown.show_surface(drawable(surface, shading))
+        render_window.shown.show_shading(shading)
+        render_window.shown.show_field(np.full(len(surface.vertices), 0.3) if field is None else field, 1.0)
+        render_window.shown.show_isolines(Isolines(steps))
         camera = standard_camera(surface.vertices, 1.0, view)
-        return studio.shade(Projection(camera, 1.0, surface.vertices, 0.03), (side, side), 1.0)
+        return render_window.shade(Projection(camera, 1.0, surface.vertices, 0.03), (side, side), 1.0)
 
 
 def warm(pixels: np.ndarray) -> np.ndarray:
@@ -228,11 +228,13 @@ def test_faces_whose_normals_lean_away_are_lit_as_if_they_leant_towards_the_eye(
     shades = []
     for depth in (0.8, -0.8):
         normals = np.tile(np.float32([0.0, -0.6, depth]), (4, 1))
-        with closing(Studio(PAPER)) as studio:
-            studio.shown.show_surface(poly_data(surface.vertices, surface.faces, normals))
-            studio.shown.show_field(np.full(4, 0.5), 1.0)
+        with closing(RenderWindow(PAPER)) as render_window:
+            render_window.shown.show_surface(poly_data(surface.vertices, surface.faces, normals))
+            render_window.shown.show_field(np.full(4, 0.5), 1.0)
             camera = standard_camera(surface.vertices, 1.0, "front")
-            shades.append(studio.shade(Projection(camera, 1.0, surface.vertices, 0.0), (40, 40), 1.0)[20, 20, :3])
+            shades.append(
+                render_window.shade(Projection(camera, 1.0, surface.vertices, 0.0), (40, 40), 1.0)[20, 20, :3]
+            )
     assert np.abs(shades[1].astype(int) - shades[0]).max() <= 4  # seen in perspective, straight on only in the middle
     assert shades[0].min() > 100
 

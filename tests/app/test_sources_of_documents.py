@@ -21,8 +21,8 @@ from bihdist_core import (
     BoundaryLoop,
     Curve,
     ParameterError,
-    Place,
     SourceSet,
+    SurfacePoint,
     VertexError,
     read_surface,
 )
@@ -30,11 +30,11 @@ from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid, two_pieces
 
 BIHARMONIC = Spec.of("biharmonic")
-PLACE = Place.of(17, 0.2, 0.5)
-CURVE = Curve((Place.of(3, 0.2, 0.3), Place.of(40, 0.3, 0.3)))
+PLACE = SurfacePoint.of(17, 0.2, 0.5)
+CURVE = Curve((SurfacePoint.of(3, 0.2, 0.3), SurfacePoint.of(40, 0.3, 0.3)))
 KINDS = [PLACE, SourceSet((3, 40, PLACE)), BoundaryLoop(0), CURVE, SourceSet((BoundaryLoop(0), CURVE))]
 
-PLACES = st.builds(Place.of, st.integers(0, 99), st.floats(0, 0.5), st.floats(0, 0.5))
+PLACES = st.builds(SurfacePoint.of, st.integers(0, 99), st.floats(0, 0.5), st.floats(0, 0.5))
 MEMBERS = st.one_of(
     st.integers(0, 99),
     PLACES,
@@ -92,7 +92,7 @@ def test_a_vertex_stands_for_each_of_them():
         assert source_at(source, g) is source
         assert vertex_at(source, g) in pieces_at(source, g).corners
     assert vertex_at(SourceSet((31, 4)), g) == 31
-    assert vertex_at(Place.of(17, 0.1, 0.7), g) == g.faces[17, 1]
+    assert vertex_at(SurfacePoint.of(17, 0.1, 0.7), g) == g.faces[17, 1]
     for source, error in [(BoundaryLoop(1), ParameterError), (SourceSet((1, 99)), VertexError)]:
         with pytest.raises(error):
             source_at(source, g)
@@ -100,7 +100,7 @@ def test_a_vertex_stands_for_each_of_them():
 
 def test_a_session_answers_from_all_of_them(desk, mesh_file):
     path, d = mesh_file(grid(8, 6)), desk((BIHARMONIC,))
-    session = d.opened(path, 3)
+    session = d.loaded(path, 3)
     distance = BiharmonicDistance(read_surface(path))
     for source in KINDS:
         session.show(put_point(session.document, "source", source))
@@ -110,7 +110,7 @@ def test_a_session_answers_from_all_of_them(desk, mesh_file):
 
 def test_a_source_that_is_not_there_leaves_what_is_shown(desk, mesh_file):
     d = desk((BIHARMONIC,))
-    session = d.opened(mesh_file(bumpy(100)), 3)
+    session = d.loaded(mesh_file(bumpy(100)), 3)
     session.show(put_point(session.document, "source", BoundaryLoop(0)))
     d.until_told("this mesh is closed")
     assert session.document.point().at == 3

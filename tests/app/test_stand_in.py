@@ -5,9 +5,9 @@ import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from app.document.looks import Shading
-from app.drawing.board import Board
 from app.drawing.drawable import drawable, faces_of, has_backs
 from app.drawing.field_actor import UNDEFINED
+from app.drawing.offscreen_renderer import OffscreenRenderer
 from app.drawing.stand_in import stand_in
 from bihdist_core import Surface
 from bihdist_core.applications.carrying import position_colours
@@ -123,9 +123,9 @@ def test_an_inside_that_can_be_seen_is_seen(ball):
 def test_a_scene_draws_it_only_while_it_is_told_to():
     surface = bumpy(20_000)
     mesh = drawable(surface, SMOOTH)
-    board = Board()
+    offscreen = OffscreenRenderer()
     try:
-        scene = board.new_scene()
+        scene = offscreen.new_scene()
         scene.show_surface(mesh, mesh.GetBounds())
         scene.show_field(surface.vertices[:, 2] + 2)
         scene.show_stand_in(True)  # there is none yet
@@ -133,7 +133,7 @@ def test_a_scene_draws_it_only_while_it_is_told_to():
         scene.renderer.ResetCamera(*scene.bounds)
 
         def picture():
-            return board.picture(scene, (300, 300)).astype(int)
+            return offscreen.picture(scene, (300, 300)).astype(int)
 
         full = picture()
         scene.take_stand_in(stand_in(mesh, CLUSTERS))
@@ -157,15 +157,15 @@ def test_a_scene_draws_it_only_while_it_is_told_to():
         assert not scene.is_stand_in
         assert not scene.can_stand_in
     finally:
-        board.close()
+        offscreen.close()
 
 
 def test_colours_of_vertices_are_drawn_in_means_too():
     surface = bumpy(20_000)
     mesh = drawable(surface, SMOOTH)
-    board = Board()
+    offscreen = OffscreenRenderer()
     try:
-        scene = board.new_scene()
+        scene = offscreen.new_scene()
         scene.show_surface(mesh, mesh.GetBounds())
         scene.renderer.ResetCamera(*scene.bounds)
         scene.take_stand_in(stand_in(mesh, CLUSTERS))
@@ -173,7 +173,7 @@ def test_colours_of_vertices_are_drawn_in_means_too():
         def picture(colours=None):
             if colours is not None:
                 scene.show_colours(colours)
-            return board.picture(scene, (300, 300)).astype(int)
+            return offscreen.picture(scene, (300, 300)).astype(int)
 
         scene.show_bare()
         bare = picture()
@@ -193,4 +193,4 @@ def test_colours_of_vertices_are_drawn_in_means_too():
         scene.show_field(surface.vertices[:, 2] + 2)
         assert np.abs(picture() - full).mean() > 6
     finally:
-        board.close()
+        offscreen.close()

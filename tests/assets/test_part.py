@@ -7,7 +7,7 @@ from bihdist_core import GeodesicDistance, Surface
 from tests.assets.test_samples import corner_angles, edge_lengths, sample, volume
 
 HEIGHTS = [0, 8, 16, 24, 32, 40]
-"""Hub, rim, web, web, rim, hub: where its flat faces lie."""
+"""Hub, rim, web, web, rim, hub: where its degenerate faces lie."""
 
 
 def slopes(surface: Surface) -> np.ndarray:

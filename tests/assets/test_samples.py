@@ -16,7 +16,7 @@ ASSETS = Path(__file__).resolve().parents[2] / "assets"
 
 
 @dataclass(frozen=True)
-class Wanted:
+class WorkOrder:
     """Limits of the vertex count, the topology, and what no angle is below, in degrees."""
 
     fewest: int
@@ -28,19 +28,19 @@ class Wanted:
 
 
 TABLE = {
-    "figure": Wanted(9_000, 15_000),
-    "figure_pose2": Wanted(9_000, 15_000),
-    "animal": Wanted(8_000, 12_000),
-    "beast": Wanted(8_000, 9_200),
-    "beast_pose2": Wanted(8_000, 9_200, angle=20),
-    "elephant": Wanted(8_000, 9_200, genus=1),
-    "octopus": Wanted(8_000, 9_200),
-    "hand": Wanted(6_000, 10_000, loops=1),
-    "genus3": Wanted(5_000, 8_000, genus=3),
-    "domain": Wanted(5_000, 8_000, loops=2),
-    "part": Wanted(6_000, 8_000, genus=13, angle=0.5),
-    "scan": Wanted(8_000, 12_000, loops=26),
-    "hare": Wanted(7_500, 9_200, loops=20, components=7, angle=1),
+    "figure": WorkOrder(9_000, 15_000),
+    "figure_pose2": WorkOrder(9_000, 15_000),
+    "animal": WorkOrder(8_000, 12_000),
+    "beast": WorkOrder(8_000, 9_200),
+    "beast_pose2": WorkOrder(8_000, 9_200, angle=20),
+    "elephant": WorkOrder(8_000, 9_200, genus=1),
+    "octopus": WorkOrder(8_000, 9_200),
+    "hand": WorkOrder(6_000, 10_000, loops=1),
+    "genus3": WorkOrder(5_000, 8_000, genus=3),
+    "domain": WorkOrder(5_000, 8_000, loops=2),
+    "part": WorkOrder(6_000, 8_000, genus=13, angle=0.5),
+    "scan": WorkOrder(8_000, 12_000, loops=26),
+    "hare": WorkOrder(7_500, 9_200, loops=20, components=7, angle=1),
 }
 CLOSED = ["figure", "figure_pose2", "animal", "beast", "beast_pose2", "elephant", "octopus", "genus3", "part"]
 

@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import pytest
 
-from app.batch.doing import PARTS
 from app.batch.drive import drive, found_meshes, tasks_for
 from app.batch.engines import Processes
+from app.batch.execution import PARTS
 from app.batch.task import Part, Report, refused
-from app.batch.wanted import Wanted
+from app.batch.work_order import WorkOrder
 from app.commands import batch as command
 from bihdist_core import write_mesh
 from tests.batch.runs import ROOT, batch, rows
@@ -102,7 +102,7 @@ def test_processes_leave_an_interruption_to_the_one_that_began_them(folder, tmp_
             os.kill(process, signal.SIGINT)
         time.sleep(0.1)
 
-    tasks, _ = tasks_for(found_meshes(str(folder)), Wanted(("fields",)), str(tmp_path), "1")
+    tasks, _ = tasks_for(found_meshes(str(folder)), WorkOrder(("fields",)), str(tmp_path), "1")
     try:
         outcome = drive(tasks, engine, interrupt)
     finally:
@@ -156,7 +156,7 @@ def test_an_interrupted_set_of_figures_says_which_are_missing(folder, tmp_path, 
 
 
 def test_what_has_no_room_is_said_of_its_part_alone(folder, tmp_path):
-    (task, *_), _ = tasks_for(found_meshes(str(folder)), Wanted(("fields", "eigen")), str(tmp_path), "1")
+    (task, *_), _ = tasks_for(found_meshes(str(folder)), WorkOrder(("fields", "eigen")), str(tmp_path), "1")
     part = replace(task, part=Part("fields", "biharmonic", 0, 10, 150))
     found = {each: refused(Report(each, needs=3 * 10**9), 10**9).failures for each in (task, part)}
     assert [(each.work, each.distance) for each in found[task]] == [("fields", "biharmonic"), ("eigen", "")]

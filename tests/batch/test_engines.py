@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 from app.batch import engines, memory
-from app.batch.doing import do
 from app.batch.drive import drive, found_meshes, tasks_for
 from app.batch.engines import Processes
+from app.batch.execution import do
 from app.batch.storage import Folder
 from app.batch.task import done_before
-from app.batch.wanted import Sources, Wanted
+from app.batch.work_order import Sources, WorkOrder
 from app.main import main
 from bihdist_core import BiharmonicDistance, read_surface, write_mesh
 from tests.shapes import bumpy, torus
@@ -174,7 +174,7 @@ def driven(tasks, engine):
 
 
 def test_a_process_that_is_killed_costs_nothing(folder, done, tmp_path):
-    wanted = Wanted(("fields", "eigen"), sources=Sources("farthest", count=30), eigenpairs=60)
+    wanted = WorkOrder(("fields", "eigen"), sources=Sources("farthest", count=30), eigenpairs=60)
     engine = Processes(2)
     tasks = tasks_of(folder, tmp_path, wanted)
 
@@ -194,7 +194,7 @@ def test_a_process_that_is_killed_costs_nothing(folder, done, tmp_path):
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_process_that_ends_between_two_tasks_costs_nothing(folder, tmp_path, workers):
     engine = Processes(workers)
-    tasks = tasks_of(folder, tmp_path, Wanted(("fields",)))
+    tasks = tasks_of(folder, tmp_path, WorkOrder(("fields",)))
 
     def kill(report, done, of) -> None:
         if done == 1:
@@ -213,7 +213,7 @@ def test_a_process_that_ends_between_two_tasks_costs_nothing(folder, tmp_path, w
 
 def test_what_ends_its_process_again_and_again_is_named(folder, tmp_path, monkeypatch):
     monkeypatch.setattr(engines, "do", _do_or_die)
-    outcome = driven(tasks_of(folder, tmp_path, Wanted(("fields",))), Processes(2))
+    outcome = driven(tasks_of(folder, tmp_path, WorkOrder(("fields",))), Processes(2))
     (failure,) = outcome.failures
     assert failure.name == "bumpy3"
     assert "ended twice" in failure.reason
@@ -228,7 +228,7 @@ def _do_or_die(task):
 
 def test_what_needs_more_memory_than_there_is_is_refused_in_words(folder, tmp_path, monkeypatch):
     monkeypatch.setattr(memory, "available", lambda: 10**8)
-    (task, *_) = tasks_of(folder, tmp_path, Wanted(("fields",)))
+    (task, *_) = tasks_of(folder, tmp_path, WorkOrder(("fields",)))
     report = do(task)
     assert report.needs > 10**8
     (failure,) = engines.refused(report, 10**8).failures
@@ -244,7 +244,7 @@ def test_tasks_begin_when_there_is_room_for_them(folder, tmp_path, monkeypatch):
         most.append(sum(map(self._bytes, self._under_way.values())))
 
     monkeypatch.setattr(Processes, "_start", counted)
-    outcome = driven(tasks_of(folder, tmp_path, Wanted(("fields",))), engine)
+    outcome = driven(tasks_of(folder, tmp_path, WorkOrder(("fields",))), engine)
     assert not outcome.failures
     assert len(outcome.rows) == 7
     assert len(most) == 14  # each begins twice: only a look at the mesh says what it needs
@@ -252,22 +252,22 @@ def test_tasks_begin_when_there_is_room_for_them(folder, tmp_path, monkeypatch):
 
 
 def test_what_has_no_room_even_alone_is_refused(folder, tmp_path):
-    outcome = driven(tasks_of(folder, tmp_path, Wanted(("fields",))), Processes(2, 10**8))
+    outcome = driven(tasks_of(folder, tmp_path, WorkOrder(("fields",))), Processes(2, 10**8))
     assert not outcome.rows
     assert {each.reason[:48] for each in outcome.failures} == {"It needs about 0.3 GB of memory, and there are 0"}
 
 
 def test_all_pairs_and_what_is_joined_in_memory_count():
     asked = {
-        (work, arrays): memory.needed(5_500, Wanted((work,), sources=Sources("all"), arrays=arrays))
+        (work, arrays): memory.needed(5_500, WorkOrder((work,), sources=Sources("all"), arrays=arrays))
         for work in ("fields", "pairs")
         for arrays in ("npy", "mat")
     }
     assert asked["pairs", "npy"] > 1.57e9  # measured, in a process of its own
     assert asked["fields", "npy"] > 0.35e9
-    large = Wanted(("pairs",), sources=Sources("all"), arrays="mat")
+    large = WorkOrder(("pairs",), sources=Sources("all"), arrays="mat")
     assert memory.needed(20_000, large) > 20_000**2 * 8
-    assert memory.needed(20_000, large) > 1.5 * memory.needed(20_000, Wanted(("pairs",), sources=Sources("all")))
+    assert memory.needed(20_000, large) > 1.5 * memory.needed(20_000, WorkOrder(("pairs",), sources=Sources("all")))
 
 
 def test_more_memory_is_asked_for_than_is_used(tmp_path):
@@ -279,7 +279,7 @@ def test_more_memory_is_asked_for_than_is_used(tmp_path):
     )
     for n in (3_000, 40_000):
         peak = int(subprocess.check_output([sys.executable, "-c", script, str(n)], cwd=ROOT))
-        asked = memory.needed(n, Wanted(("fields",), sources=Sources("farthest", count=100)))
+        asked = memory.needed(n, WorkOrder(("fields",), sources=Sources("farthest", count=100)))
         assert peak < asked < 4 * peak
 
 
@@ -288,8 +288,8 @@ def test_more_memory_is_asked_for_than_is_used(tmp_path):
 def test_parts_of_a_large_mesh_are_put_together(folder, tmp_path, monkeypatch, arrays):
     if arrays == "zarr":
         zarr = pytest.importorskip("zarr")
-    monkeypatch.setattr("app.batch.doing.PART_BYTES", 8 * 128 * 30)
-    wanted = Wanted(("fields", "pairs"), sources=Sources("all"), arrays=arrays)
+    monkeypatch.setattr("app.batch.execution.PART_BYTES", 8 * 128 * 30)
+    wanted = WorkOrder(("fields", "pairs"), sources=Sources("all"), arrays=arrays)
     (task,) = [t for t in tasks_of(folder, tmp_path, wanted) if t.name == "ring"]
     outcome = driven([task], InTurn())
     assert {row.work for row in outcome.rows} == {"fields", "pairs"}
@@ -306,10 +306,10 @@ def test_parts_of_a_large_mesh_are_put_together(folder, tmp_path, monkeypatch, a
 
 
 def test_parcels_of_a_large_mesh_are_added_up(folder, tmp_path, monkeypatch):
-    monkeypatch.setattr("app.batch.doing.PART_COLUMNS", 50)
+    monkeypatch.setattr("app.batch.execution.PART_COLUMNS", 50)
     labels = tmp_path / "labels.npy"
     np.save(labels, np.arange(128) % 3)
-    wanted = Wanted(("pairs",), labels=str(labels))
+    wanted = WorkOrder(("pairs",), labels=str(labels))
     (task,) = [t for t in tasks_of(folder, tmp_path, wanted) if t.name == "ring"]
     counted = InTurn()
     assert not driven([task], counted).failures
@@ -347,7 +347,7 @@ def test_what_killed_processes_left_half_written_is_swept_away(tmp_path):
 
 # ---------------------------------------------------------------------- elsewhere
 def test_results_go_wherever_fsspec_reaches(folder):
-    wanted = Wanted(("fields", "eigen"), eigenpairs=5)
+    wanted = WorkOrder(("fields", "eigen"), eigenpairs=5)
     tasks = tasks_of(folder, "memory://results", wanted)
     outcome = driven(tasks, InTurn())
     assert not outcome.failures

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from app.batch.doing import do
 from app.batch.drive import found_meshes, tasks_for
+from app.batch.execution import do
 from app.batch.task import done_before
-from app.batch.wanted import Sources, Wanted
+from app.batch.work_order import Sources, WorkOrder
 from bihdist_core import BiharmonicDistance, Surface, write_mesh
 from tests.shapes import bumpy
 
@@ -23,7 +23,7 @@ def mesh(tmp_path_factory):
 
 
 def report(mesh, out, *works, **options):
-    (task,), failures = tasks_for(found_meshes(str(mesh)), Wanted(works, **options), str(out), "1")
+    (task,), failures = tasks_for(found_meshes(str(mesh)), WorkOrder(works, **options), str(out), "1")
     assert not failures
     return do(task)
 
@@ -129,5 +129,5 @@ def test_a_change_of_a_file_is_one_of_what_reads_it_alone(mesh, tmp_path):
     written(path, [4, 3])
     found = {row.work: row.is_new for row in report(mesh, tmp_path, "fields", "eigen", **options).rows}
     assert found == {"fields": True, "eigen": False}
-    (task,), _ = tasks_for(found_meshes(str(mesh)), Wanted(("fields", "eigen"), **options), str(tmp_path), "1")
+    (task,), _ = tasks_for(found_meshes(str(mesh)), WorkOrder(("fields", "eigen"), **options), str(tmp_path), "1")
     assert done_before(task) is not None

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
-from app.batch.doing import do
 from app.batch.drive import found_meshes, tasks_for
-from app.batch.wanted import ARRAYS, LAYOUTS, Sources, Wanted, slug
+from app.batch.execution import do
+from app.batch.work_order import ARRAYS, LAYOUTS, Sources, WorkOrder, slug
 from bihdist_core import (
     BiharmonicDistance,
     DiffusionDistance,
@@ -36,14 +36,14 @@ def mesh(tmp_path_factory):
 
 
 def made(mesh, out, **options):
-    (task,), failures = tasks_for(found_meshes(str(mesh.parent)), Wanted(**options), str(out), "1.2")
+    (task,), failures = tasks_for(found_meshes(str(mesh.parent)), WorkOrder(**options), str(out), "1.2")
     report = do(task)
     assert not failures
     assert not report.failures
     return {row.work: row.facts for row in report.rows}
 
 
-def opened(path):
+def loaded(path):
     """The arrays of a result by name; a single one by none."""
     if path.suffix == ".zarr":
         zarr = pytest.importorskip("zarr")
@@ -79,14 +79,14 @@ def test_every_result_has_beside_it_what_it_is(mesh, tmp_path, format, dtype):
             assert said["distance"].startswith("diffusion(t=1/4")
             assert said["parameters"]["t"] == 0.25
             assert said["unit"] == "1 / mesh units"
-        arrays = opened(tmp_path / said["file"])
+        arrays = loaded(tmp_path / said["file"])
         first = arrays.get("", arrays.get(FIRST[work]))
         assert list(first.shape) == said["shape"]
         if work in expected:
             np.testing.assert_allclose(first, expected[work], rtol=1e-9 if dtype == "float64" else 1e-6)
         if work in ("fields", "pairs"):
             assert first.dtype == dtype
-    assert opened(tmp_path / facts["nearest"]["file"])["distances"].dtype == dtype
+    assert loaded(tmp_path / facts["nearest"]["file"])["distances"].dtype == dtype
 
 
 def expectations(mesh):
@@ -131,7 +131,7 @@ def test_layouts_say_what_they_are_too(mesh, tmp_path, layout):
     assert said["file"] == f"{layout}/bumpy.mat"
     assert json.loads((tmp_path / f"bumpy.pairs.{layout}.json").read_text()) == said
     assert (said["distance"], said["unit"], said["normalisation"]) == ("biharmonic", "mesh units", "none")
-    found = opened(tmp_path / said["file"])
+    found = loaded(tmp_path / said["file"])
     assert found[layout].shape == (128, 128)
 
 
@@ -164,10 +164,10 @@ def test_benchmarks_read_their_layouts_as_errors_over_the_root_of_the_area(mesh,
     of_geodist = read_by_geomfmaps, read_by_geomfmaps_on_shrec, read_by_duo_fm, read_by_attentive_fmaps
     for layout, normalise, readers in (("geodist", "", of_geodist), ("dist", "area", (read_by_ulrssm,))):
         out = tmp_path / layout
-        wanted = Wanted(("pairs",), **options, layout=layout, normalise=normalise)
+        wanted = WorkOrder(("pairs",), **options, layout=layout, normalise=normalise)
         tasks, _ = tasks_for(found_meshes(str(mesh.parent)), wanted, str(out), "1")
         if in_parts:
-            monkeypatch.setattr("app.batch.doing.PART_BYTES", 8 * 128 * 50)
+            monkeypatch.setattr("app.batch.execution.PART_BYTES", 8 * 128 * 50)
             parts = do(tasks[0]).more
             assert len(parts) == 3
             tasks = [*parts, replace(parts[0], part=replace(parts[0].part, is_whole=True))]
@@ -187,7 +187,7 @@ def test_normalised_results_are_those_of_the_mesh_scaled_to_area_1(mesh, tmp_pat
     words = ("biharmonic", "diffusion(t=1/4)")
     options = {"distances": words, "sources": Sources("farthest", count=9), "eigenpairs": 7, "arrays": "npz"}
     (task,), _ = tasks_for(
-        found_meshes(str(mesh.parent)), Wanted(WORKS, **options, normalise="area"), str(tmp_path), "1"
+        found_meshes(str(mesh.parent)), WorkOrder(WORKS, **options, normalise="area"), str(tmp_path), "1"
     )
     sources = np.load(tmp_path / "bumpy.fps.biharmonic.npz")["vertices"] if not do(task).failures else None
     fields = {word: np.load(tmp_path / f"bumpy.fields.{slug(word)}.npz")["fields"] for word in words}
@@ -223,16 +223,16 @@ def test_other_files_have_checksums_of_their_own(mesh, tmp_path):
 
 
 def test_neighbours_of_a_large_mesh_are_put_together(mesh, tmp_path, monkeypatch):
-    monkeypatch.setattr("app.batch.doing.PART_COLUMNS", 50)
+    monkeypatch.setattr("app.batch.execution.PART_COLUMNS", 50)
     (task,), _ = tasks_for(
-        found_meshes(str(mesh.parent)), Wanted(("nearest",), sources=Sources("all"), nearest=5), str(tmp_path), "1"
+        found_meshes(str(mesh.parent)), WorkOrder(("nearest",), sources=Sources("all"), nearest=5), str(tmp_path), "1"
     )
     parts = do(task).more
     assert [(each.part.begin, each.part.end) for each in parts] == [(0, 50), (50, 100), (100, 128)]
     for part in parts:
         do(part)
     (row,) = do(replace(parts[-1], part=replace(parts[-1].part, is_whole=True))).rows
-    found = opened(tmp_path / row.facts["file"])
+    found = loaded(tmp_path / row.facts["file"])
     indices, values = nearest(BiharmonicDistance(read_surface(mesh)), k=5)
     np.testing.assert_array_equal(found["indices"], indices)
     np.testing.assert_allclose(found["distances"], values, rtol=1e-9)

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.batch.doing import do
 from app.batch.drive import found_meshes, tasks_for
+from app.batch.execution import do
 from app.batch.figures import length_power, shared_ends
 from app.batch.pages import write_pages
 from app.batch.storage import Folder
 from app.batch.task import Failure
-from app.batch.wanted import MAXIMA, RANGES, Wanted
+from app.batch.work_order import MAXIMA, RANGES, WorkOrder
 from app.document.camera import Camera
 from app.document.document import comparison
 from app.document.file import recipe_text
@@ -45,7 +45,7 @@ def drawn(meshes, out, range, document):
     # Of meshes of other sizes, round values would be elsewhere.
     document = replace(document, isolines=Isolines(round=False))
     recipe = recipe_text(Recipe(document), "1")
-    wanted = Wanted((MAXIMA,), recipe=recipe, range=range)
+    wanted = WorkOrder((MAXIMA,), recipe=recipe, range=range)
 
     def rows(asked):
         tasks, _ = tasks_for(found_meshes(str(meshes)), asked, str(out), "1")

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.batch import doing
-from app.batch.doing import do, opened
+from app.batch import execution
 from app.batch.drive import found_meshes, tasks_for
+from app.batch.execution import do, mesh_of
 from app.batch.maps import found_maps
 from app.batch.memory import needed
 from app.batch.storage import Folder
 from app.batch.task import done_before
-from app.batch.wanted import Sources, Wanted
+from app.batch.work_order import Sources, WorkOrder
 from bihdist_core import GeodesicDistance, read_surface, write_mesh
 from tests.shapes import bumpy, torus
 
@@ -30,13 +30,13 @@ def mesh(tmp_path):
 def task_for(mesh, out, *works, **options):
     listed = mesh.parent / "list.txt"
     listed.write_text(f"{mesh}\n")
-    (task,), failures = tasks_for(found_meshes(str(listed)), Wanted(works, **options), str(out), "1")
+    (task,), failures = tasks_for(found_meshes(str(listed)), WorkOrder(works, **options), str(out), "1")
     assert not failures
     return task
 
 
 def in_parts(monkeypatch):
-    monkeypatch.setattr(doing, "PART_BYTES", 8 * 128 * 30)
+    monkeypatch.setattr(execution, "PART_BYTES", 8 * 128 * 30)
 
 
 def finish(report):
@@ -95,7 +95,7 @@ def test_threads_of_a_worker_have_each_their_own_mesh(tmp_path):
         write_mesh(tmp_path / f"m{k}.off", bumpy(40 + k))
     asked = [task_for(tmp_path / f"m{k}.off", tmp_path / "out", "fields") for k in range(4)]
     with ThreadPoolExecutor(4) as pool:
-        names = list(pool.map(lambda k: opened(asked[k % 4]).name, range(200)))
+        names = list(pool.map(lambda k: mesh_of(asked[k % 4]).name, range(200)))
     assert names == [f"m{k % 4}" for k in range(200)]
 
 
@@ -166,8 +166,8 @@ def test_zarr_is_whole_or_absent(tmp_path):
 
 # ---------------------------------------------------------------------- memory
 def test_landmarks_count_as_sources():
-    wanted = Wanted(("fields",), sources=Sources("landmarks", file="x"), arrays="npz")
-    farthest = Wanted(("fields",), sources=Sources("farthest", count=5000), arrays="npz")
+    wanted = WorkOrder(("fields",), sources=Sources("landmarks", file="x"), arrays="npz")
+    farthest = WorkOrder(("fields",), sources=Sources("farthest", count=5000), arrays="npz")
     assert needed(20_000, wanted, 5000) == needed(20_000, farthest) > needed(20_000, wanted)
 
 
@@ -175,6 +175,6 @@ def test_a_task_with_many_landmarks_asks_for_their_memory(mesh, tmp_path, monkey
     marks = tmp_path / "marks.txt"
     marks.write_text("".join(f"{k}\n" for k in range(100)))
     asked = []
-    monkeypatch.setattr(doing, "needed", lambda n, wanted, landmarks: asked.append((n, landmarks)) or 0)
+    monkeypatch.setattr(execution, "needed", lambda n, wanted, landmarks: asked.append((n, landmarks)) or 0)
     do(task_for(mesh, tmp_path / "out", "fields", sources=Sources("landmarks", file=str(marks))))
     assert asked == [(128, 100)]

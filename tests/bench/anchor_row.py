@@ -22,22 +22,22 @@ TOLERANCE = 1e-12
 def anchor_moved(size: Size) -> Iterator[Line]:
     """The whole field with another value at one of the anchors, as a share of one column of distances."""
     from app.document.document import MeshFile
-    from app.session.opened import open_mesh
+    from app.session.loaded_mesh import open_mesh
     from app.session.questions import InterpolantQuestion
 
     case = main_case(size)
     with mesh_file(*case.arrays) as path:
-        opened = open_mesh(MeshFile("A", path))
+        loaded = open_mesh(MeshFile("A", path))
     spec = Spec.of("biharmonic")
     random = np.random.default_rng(2)
     vertices = random.choice(len(case.arrays[0]), ANCHORS, replace=False).tolist()
     values = np.linspace(0, 1, ANCHORS)
-    distance = opened.distances("voronoi").get(spec)
+    distance = loaded.distances("voronoi").get(spec)
 
     def moved() -> np.ndarray:
         values[3] = random.random()
         anchors = tuple(zip(vertices, values.tolist(), strict=True))
-        field = opened.answer(InterpolantQuestion(opened.mesh, "voronoi", spec, anchors, INVERSE_DISTANCES)).field
+        field = loaded.answer(InterpolantQuestion(loaded.mesh, "voronoi", spec, anchors, INVERSE_DISTANCES)).field
         assert field is not None
         return field
 

@@ -44,7 +44,7 @@ def _drag(count: int, specs: tuple[Spec, ...]) -> tuple[int, int, int, int]:
     """Answers computed, shown, and shown though older than the one before; processes started."""
     from app.document.document import comparison
     from app.document.edits import move_source
-    from app.session.opened import Opened
+    from app.session.loaded_mesh import LoadedMesh
     from app.session.session import Session
 
     view = Viewless()
@@ -56,18 +56,18 @@ def _drag(count: int, specs: tuple[Spec, ...]) -> tuple[int, int, int, int]:
         session.show(comparison(path, specs, (0,)))
         while not session.is_complete:
             view.posted.get(timeout=PATIENCE)()
-    answer, popen = Opened.answer, subprocess.Popen
+    answer, popen = LoadedMesh.answer, subprocess.Popen
 
-    def counted(self: Opened, question: Any, *arguments: Any, **options: Any) -> Any:
+    def counted(self: LoadedMesh, question: Any, *arguments: Any, **options: Any) -> Any:
         found = answer(self, question, *arguments, **options)
         computed.append(question.at)
         return found
 
-    def opened(*arguments: Any, **options: Any) -> Any:
+    def loaded(*arguments: Any, **options: Any) -> Any:
         started.append(arguments)
         return popen(*arguments, **options)
 
-    Opened.answer, subprocess.Popen = counted, opened  # type: ignore[method-assign,misc]
+    LoadedMesh.answer, subprocess.Popen = counted, loaded  # type: ignore[method-assign,misc]
     view.answer_changed = lambda panel: shown.append((panel, session.shown[panel].serial))  # type: ignore[assignment]
     begun = time.perf_counter()
     for move in range(MOVES):

@@ -52,7 +52,7 @@ def _live(count: int, in_faces: bool) -> tuple[int, float, float]:
     from app.document.document import comparison
     from app.document.edits import move_source
     from app.session.session import Session
-    from bihdist_core import Place
+    from bihdist_core import SurfacePoint
 
     view = Viewless()
     session = Session(view, view.posted.put)
@@ -69,7 +69,7 @@ def _live(count: int, in_faces: bool) -> tuple[int, float, float]:
     begun, move = time.perf_counter(), 0
     while time.perf_counter() < begun + SECONDS:
         move += 1
-        at = Place.of(10 + move, 0.25, 0.5) if in_faces else 10 + move
+        at = SurfacePoint.of(10 + move, 0.25, 0.5) if in_faces else 10 + move
         session.show(move_source(session.document, 0, at), key="drag", live=True)
         _until_followed(view, shown, len(shown) + len(LIVE))
     seconds = time.perf_counter() - begun

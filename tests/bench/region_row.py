@@ -21,20 +21,20 @@ LABELLED = 1e-12
 def regions(size: Size) -> Iterator[Line]:
     """One field, and the regions of all."""
     from app.document.document import MeshFile
-    from app.session.opened import open_mesh
+    from app.session.loaded_mesh import open_mesh
     from app.session.regions import Divided, Dividing, RegionsQuestion
 
     case, view = main_case(size), Viewless()
     dividing = Dividing(view.posted.put, lambda panel: None)
     with mesh_file(*case.arrays) as path:
-        opened = open_mesh(MeshFile("A", path))
+        loaded = open_mesh(MeshFile("A", path))
     spec = Spec.of("biharmonic")
     places = iter(np.random.default_rng(2).permutation(len(case.arrays[0])).tolist())
     pins = [next(places) for _ in range(PINS)]
 
     def divided() -> Divided:
         pins[0] = next(places)
-        dividing.ask({0: (RegionsQuestion(opened.mesh, "voronoi", spec, tuple(pins)), opened)})
+        dividing.ask({0: (RegionsQuestion(loaded.mesh, "voronoi", spec, tuple(pins)), loaded)})
         while not dividing.is_complete:
             view.posted.get(timeout=PATIENCE)()
         found = dividing.divided(0)
@@ -48,7 +48,7 @@ def regions(size: Size) -> Iterator[Line]:
     finally:
         dividing.close()
     found = result.answer
-    brute = opened.distances("voronoi").get(spec).from_sources(list(found.question.places)).argmin(axis=1)
+    brute = loaded.distances("voronoi").get(spec).from_sources(list(found.question.places)).argmin(axis=1)
     yield compared(
         17,
         f"regions of {PINS} pins after moving one, {case.count}",

@@ -44,7 +44,7 @@ class Viewless:
 
     def document_changed(self, before: Any) -> None: ...
     def answer_changed(self, panel: int) -> None: ...
-    def certificate_changed(self, panel: int) -> None: ...
+    def error_estimate_changed(self, panel: int) -> None: ...
     def progress_changed(self) -> None: ...
 
     def failed(self, message: str) -> None:
@@ -142,7 +142,7 @@ def drawing(size: Size) -> Iterator[Line]:
     if not has_display():
         yield Line(13, "click to three panels painted", bound=CLICK_BOUND, note="skipped: there is no display")
         return
-    ours, peer, ratio, drawn, drawn_by_pointing, met, vertices = in_child(_drawing, size)
+    ours, peer, ratio, drawn, drawn_by_pointing, hit, vertices = in_child(_drawing, size)
     yield Line(
         13,
         f"click to three panels painted, {vertices:,}",
@@ -158,7 +158,7 @@ def drawing(size: Size) -> Iterator[Line]:
         f"pictures drawn while pointing at {POINTED} places",
         value=drawn_by_pointing,
         bound=0,
-        note=f"{met} of them on the surface",
+        note=f"{hit} of them on the surface",
     )
 
 
@@ -183,37 +183,37 @@ def _drawing(size: Size) -> tuple[float, float, float, int, int, int, int]:
     vertices, faces = bumpy_sphere(size.window[0])
     with mesh_file(vertices, faces) as path, _window(path) as (application, window):
         _wait(application, lambda: window.session.is_complete)
-        board, panels = window.grid.board, window.grid.panels
+        offscreen, panels = window.grid.offscreen, window.grid.panels
         view, paints = panels[0].view, _Paints([panel.view for panel in panels])
         places = [_place(view, 0.5 + x, 0.5) for x in (-0.1, 0.1)]
         for place in places:
-            view.clicked.emit(view.met_at(place))
+            view.clicked.emit(view.pick(place))
             _wait(application, lambda: window.session.is_complete)
         _wait_a_while(application, STILL)
         turn = iter(range(10_000))
 
         def click() -> None:
             paints.begin()
-            view.clicked.emit(view.met_at(places[next(turn) % 2]))
+            view.clicked.emit(view.pick(places[next(turn) % 2]))
             _wait(application, paints.are_done)
 
         def draw() -> None:
             for panel in panels:
-                board.picture(panel.view.scene, panel.view.pixels)
+                offscreen.picture(panel.view.scene, panel.view.pixels)
 
         def pictures_of(work: Callable[[], None]) -> int:
-            before = board.pictures
+            before = offscreen.pictures
             work()
             _wait_a_while(application, STILL)
-            return board.pictures - before
+            return offscreen.pictures - before
 
         click()
         result = alternate(click, draw, 3 * size.rounds, size.repeat)
         _wait_a_while(application, STILL)
         drawn = max(pictures_of(click) for _ in range(4))
-        met: set[int | None] = set()
-        drawn_by_pointing = pictures_of(lambda: met.update(_point(application, window, view)))
-    return result.our_time, result.peer_time, result.ratio, drawn, drawn_by_pointing, len(met - {None}), len(vertices)
+        hit: set[int | None] = set()
+        drawn_by_pointing = pictures_of(lambda: hit.update(_point(application, window, view)))
+    return result.our_time, result.peer_time, result.ratio, drawn, drawn_by_pointing, len(hit - {None}), len(vertices)
 
 
 class _Paints:
@@ -280,7 +280,7 @@ def _stalls(size: Size) -> tuple[float, float, int]:
         timer = QtCore.QTimer(interval=TICK_MS)
         timer.timeout.connect(tick)
         # From the first picture on, for which VTK also compiles its shaders.
-        rendering.watch(window.grid.board)
+        rendering.watch(window.grid.offscreen)
         timer.start()
         last[0] = time.perf_counter()
         _wait(application, lambda: window.session.is_complete)
@@ -294,8 +294,8 @@ class _Stopwatch:
     def __init__(self) -> None:
         self.longest = self._sum = 0.0
 
-    def watch(self, board: Any) -> None:
-        picture = board.picture
+    def watch(self, offscreen: Any) -> None:
+        picture = offscreen.picture
 
         def measured(*how: Any) -> np.ndarray:
             seconds, pixels = timed(lambda: picture(*how))
@@ -303,7 +303,7 @@ class _Stopwatch:
             self.longest = max(self.longest, seconds)
             return pixels
 
-        board.picture = measured
+        offscreen.picture = measured
 
     def taken(self) -> float:
         """Seconds since this was asked last."""

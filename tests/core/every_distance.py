@@ -9,8 +9,8 @@ from bihdist_core import (
     Curve,
     DiffusionDistance,
     GeodesicDistance,
-    Place,
     PowerDistance,
+    SurfacePoint,
     TruncatedBiharmonicDistance,
 )
 from tests import dense_reference
@@ -31,8 +31,8 @@ every_geodesic = pytest.mark.parametrize("make", GEODESIC.values(), ids=GEODESIC
 every_distance = pytest.mark.parametrize("make", {**QUADRATIC, **GEODESIC}.values(), ids={**QUADRATIC, **GEODESIC})
 
 BUMPY = bumpy(200)
-INSIDE, ON_EDGE, CORNER = Place.of(17, 0.2, 0.5), Place.of(17, 0.3, 0.7), Place.of(17, 0, 1)
-CURVE = Curve((Place.of(3, 0.2, 0.3), Place.of(40, 0.3, 0.3), Place.of(77, 0.1, 0.2)))
+INSIDE, ON_EDGE, CORNER = SurfacePoint.of(17, 0.2, 0.5), SurfacePoint.of(17, 0.3, 0.7), SurfacePoint.of(17, 0, 1)
+CURVE = Curve((SurfacePoint.of(3, 0.2, 0.3), SurfacePoint.of(40, 0.3, 0.3), SurfacePoint.of(77, 0.1, 0.2)))
 
 
 def points(make, surface):

@@ -17,7 +17,7 @@ from bihdist_core import (
     Surface,
     TruncatedBiharmonicDistance,
 )
-from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.operators import stiffness
 from bihdist_core.solver.spectrum import smallest_eigenpairs
 from tests.dense_reference import full_spectrum
@@ -55,7 +55,7 @@ def known(name: str) -> tuple[Laplacian, np.ndarray, np.ndarray]:
 
 
 def worst(distance, points: np.ndarray) -> float:
-    """The largest error of any distance, as a share of the maximum of the field it stands in."""
+    """The largest error of any distance, as a fraction of the maximum of the field it stands in."""
     exact = cdist(points, points)
     fields = distance.from_sources(np.arange(len(points)))
     return float((np.abs(fields - exact).max(axis=0) / exact.max(axis=0)).max())
@@ -108,7 +108,7 @@ def test_sums_are_as_accurate_as_they_say_or_refused(name):
         if values[k] - values[k - 1] < 1e-9 * values[k]:
             assert distance.accuracy > 1e-3
             with pytest.raises(SolverError, match=f"it is open which eigenpairs are the first {k}"):
-                distance.certificate()
+                distance.error_estimate()
         else:
             assert distance.accuracy < 1e-7
         assert worst(distance, vectors * values ** (-alpha / 2)) <= 1.001 * distance.beyond(), (alpha, k)
@@ -117,16 +117,16 @@ def test_sums_are_as_accurate_as_they_say_or_refused(name):
 def test_words_say_what_the_accuracy_of_a_sum_is_of():
     surface = bumpy(300)
     distance = TruncatedBiharmonicDistance(surface, k=30)
-    said, _, beyond = distance.certificate().text.rpartition(" ")
+    said, _, beyond = distance.error_estimate().text.rpartition(" ")
     assert said.endswith("of the maximum as a sum of 30 eigenpairs; all of them would change it by at most")
     exact = BiharmonicDistance(surface).from_sources(np.arange(300))
     fields = distance.from_sources(np.arange(300))
     off = (np.abs(fields - exact).max(axis=0) / fields.max(axis=0)).max()
     assert float(beyond) / 4 < off < float(beyond)
     whole = TruncatedBiharmonicDistance(surface, k=299)
-    assert "sum" not in whole.certificate().text
+    assert "sum" not in whole.error_estimate().text
     assert whole.beyond() < 1e-10
-    assert DiffusionDistance(surface).certificate().text.endswith("of the maximum")
+    assert DiffusionDistance(surface).error_estimate().text.endswith("of the maximum")
 
 
 def test_eigenvectors_that_have_not_converged_are_told(monkeypatch):
@@ -165,12 +165,12 @@ def test_what_takes_too_many_eigenpairs_is_less_accurate_before_it_is_refused(mo
 
 def test_methods_that_are_not_exact_say_so_and_what_is_made_of_them():
     surface = bumpy(150)
-    heat_method = GeodesicDistance(surface, "heat").certificate()
+    heat_method = GeodesicDistance(surface, "heat").error_estimate()
     assert heat_method.is_poor
     assert heat_method.text == "accurate to 4 % of the maximum typically, and worse on coarse meshes and thin faces"
-    assert GeodesicDistance(surface, "exact").certificate() == Certificate()
-    nine = Certificate.of(9e-6)
+    assert GeodesicDistance(surface, "exact").error_estimate() == ErrorEstimate()
+    nine = ErrorEstimate.of(9e-6)
     assert not nine.is_poor
-    assert Certificate.of_difference(nine, heat_method) == heat_method
-    assert Certificate.of_difference(Certificate(), nine) == Certificate()
-    assert Certificate.of_difference(nine, Certificate.of(1e-3)).is_poor
+    assert ErrorEstimate.of_difference(nine, heat_method) == heat_method
+    assert ErrorEstimate.of_difference(ErrorEstimate(), nine) == ErrorEstimate()
+    assert ErrorEstimate.of_difference(nine, ErrorEstimate.of(1e-3)).is_poor

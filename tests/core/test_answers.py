@@ -26,7 +26,7 @@ def test_an_answer_is_a_field_with_its_words_and_certificate():
     answer = Distances(Laplacian(surface)).answer(BIHARMONIC, 7)
     assert np.array_equal(answer.field, BiharmonicDistance(surface).from_source(7))
     assert (answer.label, answer.unit, answer.failure) == ("biharmonic, exact", "mesh units", "")
-    assert answer.certificate.text.startswith("accurate to ")
+    assert answer.error_estimate.text.startswith("accurate to ")
     assert answer.is_final
     assert not answer.field.flags.writeable
 

@@ -61,7 +61,7 @@ def test_fields_are_interpolated_and_faces_keep_their_sense(rough, field):
 def test_values_at_vertices_make_no_flat_faces():
     plane = grid(4, 4)
     part = band(plane, plane.vertices[:, 0] - plane.vertices[:, 1], -1, 2)
-    assert not len(part.surface.flat_faces)
+    assert not len(part.surface.degenerate_faces)
     assert not part.surface.repairs
     assert (part.parameters == 0).all()
 

@@ -1,10 +1,10 @@
-"""Differences of fields: shares of the maxima or values."""
+"""Differences of fields: fractions of the maxima or values."""
 
 import numpy as np
 import pytest
 
 from bihdist_core import ParameterError, difference
-from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, difference_of, plain
 from bihdist_core.distances.difference import difference_in_unit
 
@@ -27,11 +27,11 @@ def test_fields_of_other_shapes_are_refused():
 
 def test_the_accuracy_of_a_difference_is_at_most_the_sum():
     one, other = (
-        Answer(label=label, unit="mesh units", field=np.array([0.0, 1.0]), certificate=Certificate.of(share))
+        Answer(label=label, unit="mesh units", field=np.array([0.0, 1.0]), error_estimate=ErrorEstimate.of(share))
         for label, share in (("a", 3e-10), ("b", 4e-10))
     )
     both = difference_of(one, other)
-    assert both.certificate.share == pytest.approx(7e-10)
+    assert both.error_estimate.share == pytest.approx(7e-10)
     assert both.label == "a − b"
     assert difference_of(one, Answer(label="b", failure="It broke.")).failure == "It broke."
 

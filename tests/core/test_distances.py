@@ -20,7 +20,7 @@ from bihdist_core import (
     TruncatedBiharmonicDistance,
     VertexError,
 )
-from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.distance import root
 from bihdist_core.laplacian import Component, as_laplacian, eigenpairs
 from tests.shapes import bumpy, components_apart, fin, grid, slivers, spike, tetrahedron, torus, two_pieces
@@ -265,7 +265,7 @@ def test_a_spike_without_end_gives_our_errors_or_an_accuracy(n, length):
         with contextlib.suppress(SolverError):
             distance = make(s)
             distance.from_source(3)
-            distance.certificate()
+            distance.error_estimate()
 
 
 def test_a_broken_operator_is_noticed():
@@ -293,22 +293,22 @@ def test_every_distance_tells_its_accuracy_or_that_it_has_none(make, surface):
     distance = make(surface)
     if isinstance(distance, GeodesicDistance):
         assert distance.accuracy is None
-        assert distance.certificate().is_poor == (distance.method != "exact")
-        assert distance.certificate().share is None
+        assert distance.error_estimate().is_poor == (distance.method != "exact")
+        assert distance.error_estimate().share is None
     else:
         assert 0 < distance.accuracy < 1e-2  # a cut between equal eigenvalues of a symmetric shape leaves much open
 
 
 def test_a_certificate_in_words():
     distance = BiharmonicDistance(bumpy(150))
-    assert re.fullmatch(r"accurate to \de-1[1-5] of the maximum", distance.certificate().text)
-    assert not distance.certificate().is_poor
-    assert Certificate.of(1.01e-6) == Certificate("accurate to 2e-06 of the maximum", False, 1.01e-6)
-    assert Certificate.of(1.01e-3) == Certificate("accurate to 2e-03 of the maximum", True, 1.01e-3)
-    assert Certificate.of(9.6e-11).text == "accurate to 1e-10 of the maximum"
+    assert re.fullmatch(r"accurate to \de-1[1-5] of the maximum", distance.error_estimate().text)
+    assert not distance.error_estimate().is_poor
+    assert ErrorEstimate.of(1.01e-6) == ErrorEstimate("accurate to 2e-06 of the maximum", False, 1.01e-6)
+    assert ErrorEstimate.of(1.01e-3) == ErrorEstimate("accurate to 2e-03 of the maximum", True, 1.01e-3)
+    assert ErrorEstimate.of(9.6e-11).text == "accurate to 1e-10 of the maximum"
     distance._accuracies[0] = 2e-3
     with pytest.raises(SolverError, match=r"biharmonic, exact on bumpy may be off by 2e-03 .* remeshing would help"):
-        distance.certificate()
+        distance.error_estimate()
 
 
 def test_a_cut_between_equal_eigenvalues_is_told_and_what_to_choose():
@@ -317,9 +317,9 @@ def test_a_cut_between_equal_eigenvalues_is_told_and_what_to_choose():
     with pytest.raises(
         SolverError, match=r"Eigenvalues 1 and 2 differ by .* it is open which eigenpairs are the first 1"
     ):
-        distance.certificate()
+        distance.error_estimate()
     with pytest.raises(SolverError, match="choose another k, such as 2"):
-        TruncatedBiharmonicDistance(torus(24, 12), k=3).certificate()
+        TruncatedBiharmonicDistance(torus(24, 12), k=3).error_estimate()
 
 
 def test_accuracy_is_of_the_components_that_were_asked():

@@ -98,7 +98,7 @@ def test_symmetric_and_scales_like_length():
 def test_flat_faces_do_no_harm():
     corners = np.array([[0, 0, 0], [2, 0, 0], [1, 0, 0], [1, 1, 0], [1, -1, 0]], float)
     surface = Surface(corners, [[0, 1, 2], [0, 2, 3], [2, 1, 3], [1, 0, 4]])
-    assert len(surface.flat_faces) == 1
+    assert len(surface.degenerate_faces) == 1
     expected = np.linalg.norm(corners - corners[4], axis=1)
     np.testing.assert_allclose(ExactGeodesic(surface).distances(4), expected, atol=ROUNDING * 2)
 

@@ -21,7 +21,7 @@ SURFACES = [bumpy(300), grid(9, 7), torus(), tetrahedron(), fin()]
 
 
 def error(d, reference):
-    """Largest difference as a share of the largest distance."""
+    """Largest difference as a fraction of the largest distance."""
     return np.nanmax(np.abs(d - reference)) / np.nanmax(reference)
 
 

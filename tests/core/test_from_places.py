@@ -9,8 +9,8 @@ from bihdist_core import (
     BiharmonicDistance,
     Laplacian,
     ParameterError,
-    Place,
     Surface,
+    SurfacePoint,
     read_surface,
 )
 from bihdist_core.sources.splitting import split_at
@@ -45,7 +45,7 @@ def test_a_place_stands_where_the_eigenfunctions_interpolated_are(make, place):
 @given(face=st.integers(0, 100), b0=st.floats(0, 1), share=st.floats(0, 1))
 def test_the_formula(make, face, b0, share):
     distance = _KNOWN.setdefault(make, make(BUMPY))
-    place = Place.of(face, b0, (1 - b0) * share)
+    place = SurfacePoint.of(face, b0, (1 - b0) * share)
     b, corners = np.array(place.weights), BUMPY.faces[face]
     squares = distance.from_sources(corners) ** 2
     expected = squares @ b - b @ distance.pairwise(corners) ** 2 @ b / 2
@@ -62,7 +62,7 @@ _KNOWN: dict = {}
 def test_a_place_at_a_corner_is_the_vertex(make):
     distance = make(BUMPY)
     for k in range(3):
-        place = Place(17, tuple(float(k == c) for c in range(3)))
+        place = SurfacePoint(17, tuple(float(k == c) for c in range(3)))
         assert np.array_equal(distance.from_source(place), distance.from_source(int(BUMPY.faces[17, k])))
 
 
@@ -74,7 +74,7 @@ def test_a_place_on_an_edge_is_the_same_in_both_faces(make):
     for face in np.flatnonzero(np.isin(BUMPY.faces, [i, j]).sum(axis=1) == 2):
         corners = BUMPY.faces[face]
         weights = np.where(corners == i, 0.25, np.where(corners == j, 0.75, 0.0))
-        fields.append(distance.from_source(Place(int(face), tuple(weights))))
+        fields.append(distance.from_source(SurfacePoint(int(face), tuple(weights))))
     assert len(fields) == 2
     assert np.abs(fields[0] - fields[1]).max() <= SMALL * fields[0].max()
 
@@ -88,7 +88,7 @@ def test_the_difference_from_a_divided_face_is_that_of_the_discretization(shape)
     1.6e-4 where each face is divided in four; 1.0e-3, 4.5e-4, 2.1e-4 from 3,301 on.
     """
     surface = bumpy(500) if shape == "closed" else grid(21, 21)
-    place = Place.of(77, 1 / 3, 1 / 3)
+    place = SurfacePoint.of(77, 1 / 3, 1 / 3)
     worst, mean = [], []
     for _ in range(3):
         split = split_at(surface, np.array([place.face]), np.array([place.weights]))
@@ -96,7 +96,7 @@ def test_the_difference_from_a_divided_face_is_that_of_the_discretization(shape)
         apart = np.abs(BiharmonicDistance(surface).from_source(place) - expected) / expected.max()
         worst.append(apart.max())
         mean.append(apart.mean())
-        surface, place = in_four(surface), Place.of(3 * len(surface.faces) + place.face, 1 / 3, 1 / 3)
+        surface, place = in_four(surface), SurfacePoint.of(3 * len(surface.faces) + place.face, 1 / 3, 1 / 3)
     assert worst[0] < 1e-2
     assert np.all(np.divide(worst[1:], worst[:-1]) < 0.6)
     assert np.all(np.divide(mean[1:], mean[:-1]) < 0.4)
@@ -121,7 +121,7 @@ def test_towards_a_corner_a_place_becomes_the_vertex(corner):
     for share in (1e-3, 1e-6, 0.0):
         weights = np.full(3, share / 2)
         weights[corner] = 1 - share
-        field = distance.from_source(Place(face, tuple(weights.tolist())))
+        field = distance.from_source(SurfacePoint(face, tuple(weights.tolist())))
         apart.append(np.abs(field - there).max() / there.max())
     assert apart[0] < 1e-3
     assert apart[1] < 1e-6
@@ -132,7 +132,7 @@ def test_towards_a_corner_a_place_becomes_the_vertex(corner):
 def test_near_a_corner_the_distance_to_it_has_all_its_digits(size):
     distance = BiharmonicDistance(BUMPY)
     corner, other, _ = BUMPY.faces[17]
-    field = distance.from_source(Place.of(17, 1 - size, size))
+    field = distance.from_source(SurfacePoint.of(17, 1 - size, size))
     assert field[corner] == pytest.approx(size * distance.between(corner, other), rel=1e-3, abs=0)
 
 
@@ -142,7 +142,7 @@ def test_dividing_the_face_there_gives_nearly_the_same(name):
     s = read_surface(MESHES / name)
     distance = BiharmonicDistance(s)
     for face in np.random.default_rng(0).integers(len(s.faces), size=3):
-        place = Place.of(int(face), 0.3, 0.45)
+        place = SurfacePoint.of(int(face), 0.3, 0.45)
         split = split_at(s, np.array([place.face]), np.array([place.weights]))
         divided, ids = split.surface, split.vertices
         expected = BiharmonicDistance(divided).from_source(int(ids[0]))[: len(s.vertices)]
@@ -156,7 +156,7 @@ def test_the_certificate_holds_for_places_too():
     distance = BiharmonicDistance(Laplacian(s))
     component = distance.laplacian.components[0]
     for face in (int(s.face_heights.argmin()), 5000):
-        place = Place.of(face, 0.2, 0.3)
+        place = SurfacePoint.of(face, 0.2, 0.3)
         field = distance.from_source(place)
         targets = np.unique([*s.faces[face], *np.argsort(field)[:20], *range(0, len(field), 999)])
         b = np.zeros((len(field), len(targets)))
@@ -170,7 +170,7 @@ def test_the_certificate_holds_for_places_too():
 @every_quadratic
 def test_between_places(make):
     distance, of_vertices = make(BUMPY), points(make, BUMPY)
-    places = [INSIDE, ON_EDGE, Place.of(90, 0.1, 0.1)]
+    places = [INSIDE, ON_EDGE, SurfacePoint.of(90, 0.1, 0.1)]
     at = [np.array(p.weights) @ of_vertices[BUMPY.faces[p.face]] for p in places]
     for one, x in zip(places, at, strict=True):
         for other, y in zip(places, at, strict=True):
@@ -188,4 +188,4 @@ def test_between_places(make):
 def test_between_places_of_two_components_nothing_is_known():
     s = two_pieces()
     distance = BiharmonicDistance(s)
-    assert np.isnan(distance.between(Place.of(0, 0.2, 0.2), Place.of(len(s.faces) - 1, 0.2, 0.2)))
+    assert np.isnan(distance.between(SurfacePoint.of(0, 0.2, 0.2), SurfacePoint.of(len(s.faces) - 1, 0.2, 0.2)))

@@ -10,9 +10,9 @@ from bihdist_core import (
     GeodesicDistance,
     Laplacian,
     ParameterError,
-    Place,
     SourceSet,
     Surface,
+    SurfacePoint,
     VertexError,
 )
 from bihdist_core.distances.answers import Distances
@@ -39,7 +39,7 @@ from tests.shapes import grid, two_pieces
 @every_distance
 def test_a_set_is_the_nearest_of_its_members(make):
     distance = make(BUMPY)
-    members = (5, 80, INSIDE, Place.of(90, 0.1, 0.1))
+    members = (5, 80, INSIDE, SurfacePoint.of(90, 0.1, 0.1))
     expected = distance.from_sources(members).min(axis=1)
     field = distance.from_source(SourceSet(members))
     # The exact method starts from all at once, and the divided faces of others are in its way by rounding.
@@ -60,9 +60,9 @@ def test_a_large_set_in_blocks(make):
 def test_a_set_reaches_the_components_of_its_members(make):
     s = two_pieces()
     distance, last = make(s), len(s.faces) - 1
-    both = distance.from_source(SourceSet((3, Place.of(last, 0.2, 0.2))))
+    both = distance.from_source(SourceSet((3, SurfacePoint.of(last, 0.2, 0.2))))
     assert np.array_equal(np.isnan(both), np.arange(65) == 60)
-    one = distance.from_source(Place.of(last, 0.2, 0.2))
+    one = distance.from_source(SurfacePoint.of(last, 0.2, 0.2))
     assert np.isnan(one[:61]).all()
     assert np.array_equal(both[61:], one[61:])
 
@@ -112,7 +112,7 @@ def straight_from(place, surface=FLAT):
     return np.linalg.norm(surface.vertices - at, axis=1)
 
 
-@pytest.mark.parametrize("place", [Place.of(700, 0.2, 0.5), Place.of(700, 0.3, 0.7)])
+@pytest.mark.parametrize("place", [SurfacePoint.of(700, 0.2, 0.5), SurfacePoint.of(700, 0.3, 0.7)])
 def test_geodesics_from_a_place(place):
     expected = straight_from(place)
     assert GeodesicDistance(FLAT, "exact").from_source(place) == pytest.approx(expected, rel=1e-9, abs=1e-5)
@@ -124,7 +124,7 @@ def test_geodesics_from_a_place(place):
 
 
 def test_geodesics_from_a_line():
-    curve = Curve((Place.of(685, 0.3, 0.3), Place.of(705, 0.3, 0.3)))
+    curve = Curve((SurfacePoint.of(685, 0.3, 0.3), SurfacePoint.of(705, 0.3, 0.3)))
     y = FLAT.vertices[:, 1]
     start, stop = pieces_of(curve, FLAT).positions(FLAT.vertices)
     x = np.clip(FLAT.vertices[:, 0], start[0, 0], stop[-1, 0])
@@ -140,10 +140,10 @@ def test_geodesics_from_a_line():
 
 
 def test_a_curve_that_stays_in_one_place():
-    curve = Curve((Place.of(700, 0.3, 0.3), Place.of(700, 0.3, 0.3)))
+    curve = Curve((SurfacePoint.of(700, 0.3, 0.3), SurfacePoint.of(700, 0.3, 0.3)))
     for make in (*QUADRATIC.values(), *GEODESIC.values()):
         distance = make(FLAT)
-        expected = distance.from_source(Place.of(700, 0.3, 0.3))
+        expected = distance.from_source(SurfacePoint.of(700, 0.3, 0.3))
         assert np.abs(distance.from_source(curve) - expected).max() <= 1e-6 * expected.max()
 
 
@@ -174,7 +174,7 @@ def test_a_distance_that_knows_vertices_only_says_so():
 def test_sources_that_are_not_there(make):
     distance = make(two_pieces())
     for source, error, said in [
-        (Place.of(10**6, 0, 0), ParameterError, "has no face 1000000"),
+        (SurfacePoint.of(10**6, 0, 0), ParameterError, "has no face 1000000"),
         ("loop:0", ParameterError, "is closed"),
         ("3+60", VertexError, "belongs to no face"),
         ("lop:0", ParameterError, "did you mean"),
@@ -188,10 +188,10 @@ def test_sources_that_are_not_there(make):
 def test_answers_have_the_words_and_the_certificate_of_all_components():
     s = two_pieces()
     distances, last = Distances(Laplacian(s)), len(s.faces) - 1
-    source = SourceSet((3, Place.of(last, 0.2, 0.2)))
+    source = SourceSet((3, SurfacePoint.of(last, 0.2, 0.2)))
     answer = distances.answer(Spec.of("biharmonic"), source)
     distance = distances.get(Spec.of("biharmonic"))
-    assert answer.certificate == distance.certificate([0, 1])
+    assert answer.error_estimate == distance.error_estimate([0, 1])
     assert np.array_equal(answer.field, distance.from_source(source), equal_nan=True)
     loop = Distances(Laplacian(grid(3, 3))).answer(Spec.of("geodesic", method="exact"), BoundaryLoop(0))
     assert loop.label == "geodesic, exact, from points along the line"
@@ -216,7 +216,7 @@ def test_surfaces_are_not_kept_for_their_sources():
     import weakref
 
     s = Surface(BUMPY.vertices, BUMPY.faces)
-    assert pieces_of(INSIDE, s) is pieces_of(Place(*(INSIDE.face, INSIDE.weights)), s)
+    assert pieces_of(INSIDE, s) is pieces_of(SurfacePoint(*(INSIDE.face, INSIDE.weights)), s)
     known = weakref.ref(s)
     del s
     gc.collect()

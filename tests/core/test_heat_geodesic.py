@@ -60,7 +60,7 @@ def test_square_converges_to_euclidean():
 @needs_oracle
 @pytest.mark.parametrize(
     ("name", "mean"),
-    # Measured means over the sources, in shares of the maximum, and some room.
+    # Measured means over the sources, in fractions of the maximum, and some room.
     [("hand_lowres_boundary", 0.02), ("pelvis_genus1", 0.035), ("spot", 0.0125), ("lilium_boundary", 0.005)],
 )
 def test_mean_error_against_exact_distances(name, mean):
@@ -157,7 +157,7 @@ def test_a_flat_face_changes_little():
         [np.delete(whole.faces, face, 0), [[i, middle, opposite], [middle, j, opposite], [i, j, middle]]]
     )
     cracked = Surface(vertices, faces)
-    assert len(cracked.flat_faces) == 1
+    assert len(cracked.degenerate_faces) == 1
     d = heat_method(cracked).distances(0)
     # Within the method's own error on this grid, a third of its edge of 1/12.
     np.testing.assert_allclose(d[:-1], heat_method(whole).distances(0), atol=0.03)
@@ -195,5 +195,5 @@ def test_a_spread_source_is_shifted_by_how_far_its_vertices_are():
     away = near > 0
     assert farther[away] - near[away] == pytest.approx(0.25, rel=1e-9)
     # The load at 70 counts once, however it is told.
-    once = method.distances_with(np.array([70, 71, 84]), np.array([0.5, 0.2, 0.1]), np.zeros(3))
-    assert once == pytest.approx(near, rel=1e-9, abs=1e-12)
+    locked_cached_property = method.distances_with(np.array([70, 71, 84]), np.array([0.5, 0.2, 0.1]), np.zeros(3))
+    assert locked_cached_property == pytest.approx(near, rel=1e-9, abs=1e-12)

@@ -38,7 +38,7 @@ def test_weights_of_a_right_angle_square():
 def test_vertex_areas_are_positive_and_sum_to_the_area(surface, kind):
     areas = vertex_areas(surface, kind)
     with_area = np.zeros(len(areas), bool)
-    with_area[np.delete(surface.faces, surface.flat_faces, axis=0)] = True
+    with_area[np.delete(surface.faces, surface.degenerate_faces, axis=0)] = True
     assert (areas[with_area] > 0).all()
     assert (areas[~with_area] == 0).all()
     assert areas.sum() == pytest.approx(surface.face_areas.sum(), rel=1e-12)

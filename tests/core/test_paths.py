@@ -12,9 +12,9 @@ from bihdist_core import (
     GeodesicDistance,
     OutputError,
     ParameterError,
-    Place,
     SolverError,
     Surface,
+    SurfacePoint,
     VertexError,
     isolines,
     read_surface,
@@ -85,7 +85,7 @@ def test_is_as_long_as_geodesic_distance(rough, paths, method):
 
 @pytest.mark.parametrize("method", ["exact", "straightened", "edges"])
 def test_leads_through_places_in_faces_and_on_edges(rough, paths, method):
-    places = [5, Place.of(10, 0.2, 0.5), Place.of(300, 0.5, 0.5), Place.of(300, 0.2, 0.2), 77]
+    places = [5, SurfacePoint.of(10, 0.2, 0.5), SurfacePoint.of(300, 0.5, 0.5), SurfacePoint.of(300, 0.2, 0.2), 77]
     path = paths.path(places, method)
     check(rough, path)
     assert np.allclose(path.points[path.knots], Places.of(rough, places).values(rough.vertices), 0, 1e-12)
@@ -96,8 +96,8 @@ def test_leads_through_places_in_faces_and_on_edges(rough, paths, method):
 
 def test_on_a_plane_the_path_is_the_segment():
     plane = grid(5, 4)
-    path = GeodesicPaths(plane).path([Place.of(0, 0.3, 0.3), 29], "exact")
-    a = Places.of(plane, [Place.of(0, 0.3, 0.3)]).values(plane.vertices)[0]
+    path = GeodesicPaths(plane).path([SurfacePoint.of(0, 0.3, 0.3), 29], "exact")
+    a = Places.of(plane, [SurfacePoint.of(0, 0.3, 0.3)]).values(plane.vertices)[0]
     assert path.length == pytest.approx(np.linalg.norm(plane.vertices[29] - a), rel=ROUNDING)
     # A linear field is linear in arc length.
     assert np.allclose(path.along(plane.vertices[:, 0]), a[0] + path.arcs / path.length * (5 - a[0]), 0, 1e-6)
@@ -126,11 +126,11 @@ def test_a_split_surface_is_the_same_shape(rough):
         rough,
         [
             4,
-            Place.of(7, 0.2, 0.3),
-            Place.of(7, 0.5, 0.5),
-            Place.of(7, 0.1, 0.1),
-            Place.of(7, 0.2, 0.3),
-            Place.of(9, 0, 0.25),
+            SurfacePoint.of(7, 0.2, 0.3),
+            SurfacePoint.of(7, 0.5, 0.5),
+            SurfacePoint.of(7, 0.1, 0.1),
+            SurfacePoint.of(7, 0.2, 0.3),
+            SurfacePoint.of(9, 0, 0.25),
         ],
     )
     split = places.split(rough)
@@ -146,7 +146,7 @@ def test_a_split_surface_is_the_same_shape(rough):
 
 
 def test_profiles_are_written_and_read_back(rough, paths, tmp_path):
-    path, field = paths.path([3, Place.of(10, 0.2, 0.5), 200], "straightened"), rough.vertices[:, 0]
+    path, field = paths.path([3, SurfacePoint.of(10, 0.2, 0.5), 200], "straightened"), rough.vertices[:, 0]
     for name in ("a.csv", "a.npy", "a.json", "a.vtp"):
         write_profile(tmp_path / name, path, {"x of it": field})
     table = np.loadtxt(tmp_path / "a.csv", delimiter=",", skiprows=1)
@@ -216,11 +216,11 @@ def test_bad_requests_are_refused(paths):
         ([3], "two places or more; 1"),
         ([], "two places or more; 0"),
         ([3, 5, 5], "places 1 and 2 of a path are the same, 5"),
-        ([3, (1, 0.5)], "A source is a vertex id, a Place"),
+        ([3, (1, 0.5)], "A source is a vertex id, a SurfacePoint"),
         ([3, "loop:0"], "one point; loop:0 is not"),
-        ([3, Place.of(99999, 0.2, 0.2)], "no face 99999"),
+        ([3, SurfacePoint.of(99999, 0.2, 0.2)], "no face 99999"),
         ([3, "f0:0.7,0.7"], "0.7 and 0.7 leave -0.4"),
-        ([3, "f17:0.2,0.5", Place.of(17, 0.2, 0.5)], "places 1 and 2 of a path are the same, f17:0.2,0.5"),
+        ([3, "f17:0.2,0.5", SurfacePoint.of(17, 0.2, 0.5)], "places 1 and 2 of a path are the same, f17:0.2,0.5"),
     ]:
         with pytest.raises(ParameterError, match=match):
             paths.path(places)
@@ -270,7 +270,7 @@ def test_what_takes_for_ever_is_given_up(monkeypatch, rough):
 
 
 def test_a_section_lies_in_its_plane_and_ends_in_its_places(rough):
-    places = [Place.of(8, 0.2, 0.3), 250]
+    places = [SurfacePoint.of(8, 0.2, 0.3), 250]
     path = plane_section(rough, places, [0.3, 0.2, 1])
     check(rough, path)
     ends = Places.of(rough, places).values(rough.vertices)
@@ -294,7 +294,7 @@ def test_a_section_through_vertices_of_a_plane():
 
 
 def test_both_ways_of_a_section_make_the_whole(rough):
-    places = [Place.of(8, 0.2, 0.3), 250]
+    places = [SurfacePoint.of(8, 0.2, 0.3), 250]
     short, long, whole = (plane_section(rough, places, [0.3, 0.2, 1], part) for part in ("shorter", "longer", "whole"))
     ends = Places.of(rough, places).values(rough.vertices)
     normal = np.cross(ends[1] - ends[0], [0.3, 0.2, 1])
@@ -319,7 +319,7 @@ def test_the_whole_of_an_open_section_goes_from_end_to_end():
 
 
 def test_sections_are_led_from_place_to_place(rough):
-    places, d = [3, Place.of(8, 0.2, 0.3), 250, 120], [0.3, 0.2, 1]
+    places, d = [3, SurfacePoint.of(8, 0.2, 0.3), 250, 120], [0.3, 0.2, 1]
     path = plane_section(rough, places, d)
     check(rough, path)
     assert np.allclose(path.points[path.knots], Places.of(rough, places).values(rough.vertices), 0, 1e-12)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bihdist_core import BoundaryLoop, Curve, ParameterError, Place, SourceSet, Surface, VertexError
+from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, Surface, SurfacePoint, VertexError
 from bihdist_core.sources.boundary import boundary_loops
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.splitting import along, split_at
@@ -55,8 +55,12 @@ def test_what_is_not_there_is_said():
         (torus(), BoundaryLoop(0), "no boundary loop 0: this mesh is closed"),
         (grid(3, 3), BoundaryLoop(1), "its only one is loop:0"),
         (holes(), SourceSet((1, BoundaryLoop(4))), "from loop:0 to loop:3, the longest first"),
-        (grid(3, 3), Place.of(18, 0.1, 0.1), "no face 18; faces run from 0 to 17"),
-        (grid(3, 3), Curve((Place.of(1, 0, 0), Place.of(99, 0, 0))), "Point 1 of the curve: grid has no face 99"),
+        (grid(3, 3), SurfacePoint.of(18, 0.1, 0.1), "no face 18; faces run from 0 to 17"),
+        (
+            grid(3, 3),
+            Curve((SurfacePoint.of(1, 0, 0), SurfacePoint.of(99, 0, 0))),
+            "Point 1 of the curve: grid has no face 99",
+        ),
     ]:
         with pytest.raises(ParameterError, match=said):
             pieces_of(source, s)
@@ -76,7 +80,7 @@ def connects(pieces, surface):
 @given(st.integers(0, 95), st.integers(0, 95), st.floats(0, 0.5), st.floats(0, 0.5))
 def test_on_a_flat_surface_a_curve_is_straight(one, other, b0, b1):
     g = grid(8, 6)
-    places = (Place.of(one, b0, b1), Place.of(other, b1, 0.25))
+    places = (SurfacePoint.of(one, b0, b1), SurfacePoint.of(other, b1, 0.25))
     pieces = pieces_of(Curve(places), g)
     ends = [np.array(p.weights) @ g.vertices[g.faces[p.face]] for p in places]
     assert length(pieces, g) == pytest.approx(np.linalg.norm(ends[1] - ends[0]), rel=1e-9, abs=1e-12)
@@ -88,7 +92,7 @@ def test_on_a_flat_surface_a_curve_is_straight(one, other, b0, b1):
 
 def test_curves_from_corners_and_edges_and_closed_ones():
     g = grid(8, 6)
-    corner, edge, inside = Place.of(0, 1, 0), Place.of(20, 0.5, 0.5), Place.of(60, 0.3, 0.3)
+    corner, edge, inside = SurfacePoint.of(0, 1, 0), SurfacePoint.of(20, 0.5, 0.5), SurfacePoint.of(60, 0.3, 0.3)
     pieces = pieces_of(Curve((corner, edge, inside), closed=True), g)
     at = [np.array(p.weights) @ g.vertices[g.faces[p.face]] for p in (corner, edge, inside)]
     assert length(pieces, g) == pytest.approx(sum(np.linalg.norm(at[k] - at[k - 1]) for k in range(3)), rel=1e-12)
@@ -100,7 +104,7 @@ def test_curves_from_corners_and_edges_and_closed_ones():
 def test_a_way_on_a_sphere_is_that_of_a_great_circle():
     s = bumpy(4000)
     s = Surface(s.vertices / np.linalg.norm(s.vertices, axis=1)[:, None], s.faces)
-    one, other = Place.of(17, 0.3, 0.3), Place.of(3000, 0.2, 0.5)
+    one, other = SurfacePoint.of(17, 0.3, 0.3), SurfacePoint.of(3000, 0.2, 0.5)
     pieces = pieces_of(Curve((one, other)), s)
     ends = [pieces.positions(s.vertices)[k][at] for k, at in ((0, 0), (1, -1))]
     angle = np.arccos(np.clip(ends[0] @ ends[1] / np.prod([np.linalg.norm(e) for e in ends]), -1, 1))
@@ -112,7 +116,7 @@ def test_places_of_two_components_are_not_joined():
     s = two_pieces()
     last = len(s.faces) - 1
     with pytest.raises(ParameterError, match=r"Points 0 and 1 of the curve \(faces 0 and \d+\) cannot be joined"):
-        pieces_of(Curve((Place.of(0, 0.3, 0.3), Place.of(last, 0.3, 0.3))), s)
+        pieces_of(Curve((SurfacePoint.of(0, 0.3, 0.3), SurfacePoint.of(last, 0.3, 0.3))), s)
 
 
 @needs_meshes
@@ -122,7 +126,7 @@ def test_ways_across_a_real_shape():
     s = read_surface(MESHES / "hand_lowres.obj")
     rng = np.random.default_rng(1)
     for one, other in rng.integers(len(s.faces), size=(30, 2)):
-        pieces = pieces_of(Curve((Place.of(one, 0.3, 0.3), Place.of(other, 0.3, 0.3))), s)
+        pieces = pieces_of(Curve((SurfacePoint.of(one, 0.3, 0.3), SurfacePoint.of(other, 0.3, 0.3))), s)
         assert connects(pieces, s)
 
 
@@ -131,7 +135,7 @@ def test_ways_across_a_real_shape():
 @given(st.lists(st.tuples(st.integers(0, 7), st.sampled_from([0, 0.2, 0.25, 0.5]), st.sampled_from([0, 0.3, 0.5]))))
 def test_a_divided_surface_has_the_same_shape_with_vertices_at_the_places(rows):
     g = grid(2, 2)
-    source = SourceSet((0, *(Place.of(*row) for row in rows)))
+    source = SourceSet((0, *(SurfacePoint.of(*row) for row in rows)))
     points = pieces_of(source, g)
     split = split_at(g, points.faces, points.start)
     divided, ids = split.surface, split.vertices
@@ -147,7 +151,7 @@ def test_a_divided_surface_has_the_same_shape_with_vertices_at_the_places(rows):
 
 def test_a_divided_line_consists_of_edges():
     g = grid(5, 4)
-    pieces = pieces_of(Curve((Place.of(0, 0.4, 0.3), Place.of(33, 0.2, 0.4))), g)
+    pieces = pieces_of(Curve((SurfacePoint.of(0, 0.4, 0.3), SurfacePoint.of(33, 0.2, 0.4))), g)
     points = along(pieces, 0.2, g)
     split = split_at(g, points.faces, points.start)
     divided, ids = split.surface, split.vertices

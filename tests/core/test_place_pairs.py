@@ -3,14 +3,21 @@
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, Place, PowerDistance, VertexError
+from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, PowerDistance, SurfacePoint, VertexError
 from bihdist_core.distances.distance import Distance
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.splitting import split_at
 from tests.core.every_distance import BUMPY, SLACK, SMALL, every_distance, every_geodesic, every_quadratic, points
 from tests.shapes import bumpy, two_pieces
 
-AT = (5, Place.of(17, 0.2, 0.5), Place.of(40, 0.3, 0.3), 77, Place.of(17, 0.3, 0.7), Place.of(90, 0.0, 1.0))
+AT = (
+    5,
+    SurfacePoint.of(17, 0.2, 0.5),
+    SurfacePoint.of(40, 0.3, 0.3),
+    77,
+    SurfacePoint.of(17, 0.3, 0.7),
+    SurfacePoint.of(90, 0.0, 1.0),
+)
 
 
 @every_quadratic
@@ -42,7 +49,7 @@ def test_a_matrix_has_what_pairs_have(make):
 
 def test_exact_geodesics_are_those_of_the_divided_surface():
     distance = GeodesicDistance(BUMPY, "exact")
-    places = [Place.of(17, 0.2, 0.5), Place.of(40, 0.3, 0.3), Place.of(120, 0.1, 0.8)]
+    places = [SurfacePoint.of(17, 0.2, 0.5), SurfacePoint.of(40, 0.3, 0.3), SurfacePoint.of(120, 0.1, 0.8)]
     pieces = _joined([pieces_of(place, BUMPY) for place in places])
     split = split_at(BUMPY, pieces.faces, pieces.start)
     divided, ids = split.surface, split.vertices
@@ -54,7 +61,7 @@ def test_exact_geodesics_are_those_of_the_divided_surface():
 
 @every_geodesic
 def test_within_a_face_the_way_is_straight(make):
-    one, other = Place.of(17, 0.2, 0.5), Place.of(17, 0.6, 0.3)
+    one, other = SurfacePoint.of(17, 0.2, 0.5), SurfacePoint.of(17, 0.6, 0.3)
     x, y = (np.array(each.weights) @ BUMPY.vertices[BUMPY.faces[17]] for each in (one, other))
     assert make(BUMPY).between(one, other) == pytest.approx(np.linalg.norm(x - y), rel=1e-12)
     # Also to a corner of it.
@@ -64,7 +71,7 @@ def test_within_a_face_the_way_is_straight(make):
 
 
 def test_the_heat_method_is_near_the_exact_one():
-    places = [Place.of(17, 0.2, 0.5), Place.of(40, 0.3, 0.3), Place.of(120, 0.1, 0.8)]
+    places = [SurfacePoint.of(17, 0.2, 0.5), SurfacePoint.of(40, 0.3, 0.3), SurfacePoint.of(120, 0.1, 0.8)]
     finer = bumpy(2000)
     exact, heat = (GeodesicDistance(finer, method).pairwise(places) for method in ("exact", "heat"))
     assert np.abs(heat - exact).max() <= 0.05 * exact.max()  # 0.032, and 0.028 at the nearest vertices
@@ -73,7 +80,7 @@ def test_the_heat_method_is_near_the_exact_one():
 def test_between_components_there_is_none():
     surface = two_pieces()
     other = int(np.flatnonzero(surface.component_of_vertex[surface.faces[:, 0]] == 1)[0])
-    places = [Place.of(0, 0.2, 0.5), Place.of(other, 0.2, 0.5), Place.of(other, 0.6, 0.2)]
+    places = [SurfacePoint.of(0, 0.2, 0.5), SurfacePoint.of(other, 0.2, 0.5), SurfacePoint.of(other, 0.6, 0.2)]
     for distance in (BiharmonicDistance(surface), GeodesicDistance(surface, "dijkstra")):
         found = distance.pairwise(places)
         assert np.isnan(found[0, 1:]).all()
@@ -87,9 +94,9 @@ def test_what_is_no_pair_of_points_is_refused():
     with pytest.raises(ParameterError, match="two each"):
         distance.of_pairs([("f17:0.2,0.5", 3, 4)])
     with pytest.raises(ParameterError, match="no face 99999"):
-        distance.pairwise([Place.of(99999, 0.2, 0.5), 3])
+        distance.pairwise([SurfacePoint.of(99999, 0.2, 0.5), 3])
     with pytest.raises(VertexError):
-        distance.pairwise([Place.of(17, 0.2, 0.5), 10**6])
+        distance.pairwise([SurfacePoint.of(17, 0.2, 0.5), 10**6])
 
 
 def test_a_distance_of_vertices_only_says_so():
@@ -98,7 +105,7 @@ def test_a_distance_of_vertices_only_says_so():
 
     distance: Distance = Own(BUMPY, alpha=1.5, k=30)
     with pytest.raises(ParameterError, match="between vertices only"):
-        distance.pairwise([Place.of(17, 0.2, 0.5), 3])
+        distance.pairwise([SurfacePoint.of(17, 0.2, 0.5), 3])
 
 
 def _joined(pieces):

@@ -8,9 +8,9 @@ from bihdist_core import (
     DiffusionDistance,
     GeodesicDistance,
     ParameterError,
-    Place,
     SourceSet,
     Surface,
+    SurfacePoint,
     VertexError,
     apparent_source,
     difference_quality,
@@ -248,7 +248,7 @@ def test_sources_of_several_places_have_no_circles(ball, geodesic):
     assert np.isnan(found.isotropy)
     assert len(found.minima) == 0
     # The centre of a face is as round as a vertex.
-    place = Place(40, (1 / 3, 1 / 3, 1 / 3))
+    place = SurfacePoint(40, (1 / 3, 1 / 3, 1 / 3))
     near = GeodesicDistance(ball, "heat").from_source(place)
     found = field_quality(ball, BiharmonicDistance(ball).from_source(place), near, place)
     assert len(found.circles) == 10

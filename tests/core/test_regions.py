@@ -51,7 +51,7 @@ def test_areas_are_those_of_a_fine_subdivision(k):
     found = voronoi_regions(surface, fields)
     check(surface, fields, found)
     assert np.array_equal(found.labels, fields.argmin(axis=1))
-    # The middle decides wrongly only in small faces that a boundary crosses; halves of them by chance.
+    # The middle decides wrongly only in small faces that a boundary crosses; halves of them at random.
     assert np.allclose(found.areas, finely(surface, fields, 24), 0, 1e-3 * surface.face_areas.sum())
     assert len(found.meetings) > 0 or k == 2
 

@@ -128,7 +128,7 @@ def test_spectral_distances_of_thin_faces(kind, height):
 
 @pytest.mark.parametrize("height", [1e-8, 1e-10, 1e-13, 0.0])
 def test_spectral_distances_of_flat_faces(height):
-    """Against the limit: the apexes held to their feet, the flat faces left out; in it no number is large."""
+    """Against the limit: the apexes held to their feet, the degenerate faces left out; in it no number is large."""
     s = bumpy(60)
     surface = caps(s, height, every=4, at=0.4)
     old = len(s.vertices)
@@ -152,16 +152,16 @@ def test_the_heat_method_does_not_feel_how_flat_a_face_is(kind):
 
 def test_where_no_face_is_flat_nothing_is_done():
     s = bumpy(300)
-    assert len(s.flat_faces) == 0
+    assert len(s.degenerate_faces) == 0
     thin = caps(s, 2e-7, every=50)
-    assert len(thin.flat_faces) == 0
-    assert len(caps(s, 0.5e-7, every=50).flat_faces) == 12
+    assert len(thin.degenerate_faces) == 0
+    assert len(caps(s, 0.5e-7, every=50).degenerate_faces) == 12
 
 
 def test_a_certificate_knows_what_it_does_not_know(monkeypatch):
-    """Where flat faces are left as they are, and the elimination loses digits, distances are wrong, and so it says."""
+    """Where degenerate faces are left as they are the elimination loses digits, distances are wrong, and it says so."""
     surface, pairs = cases("caps", "bumpy", 1e-7)
-    for module in ("surface", "flat_faces", "distances.accuracy", "distances.biharmonic"):
+    for module in ("surface", "degenerate_faces", "distances.accuracy", "distances.biharmonic"):
         monkeypatch.setattr(f"bihdist_core.{module}.FLAT", 1e-14)
     monkeypatch.setattr("bihdist_core.solver.elimination.STIFF", 0.0)
     distance = BiharmonicDistance(Surface(surface.vertices, surface.faces))
@@ -173,7 +173,7 @@ def test_a_certificate_knows_what_it_does_not_know(monkeypatch):
 
 
 def chain(count: int, height: float) -> Surface:
-    """An edge divided into many on one side only, the other side closed by as many flat faces around one end."""
+    """An edge divided into many on one side only, the other side closed by as many degenerate faces around one end."""
     t = np.linspace(0, 1, count + 2)
     inner = height * np.random.default_rng(1).random(count + 2) * (t * (1 - t) > 0)
     x = np.concatenate([np.stack([t, inner, 0 * t], 1), [[0.4, 1, 0], [0.6, -1, 0.3]]])

@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bihdist_core import BoundaryLoop, Curve, ParameterError, Place, SourceSet, source_from_words
+from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, SurfacePoint, source_from_words
 from bihdist_core.sources.source import checked_source
 from bihdist_core.sources.words import curve_text, read_curve, short_words_of, words_of
 
-A, B = Place.of(3, 0.25, 0.5), Place.of(9, 0.1, 0.2)
+A, B = SurfacePoint.of(3, 0.25, 0.5), SurfacePoint.of(9, 0.1, 0.2)
 
 VERTICES = st.integers(0, 10**9)
-PLACES = st.builds(Place.of, st.integers(0, 10**9), st.floats(0, 0.5), st.floats(0, 0.5))
+PLACES = st.builds(SurfacePoint.of, st.integers(0, 10**9), st.floats(0, 0.5), st.floats(0, 0.5))
 MEMBERS = st.one_of(VERTICES, PLACES, st.builds(BoundaryLoop, st.integers(0, 99)))
 SOURCES = st.one_of(MEMBERS, st.lists(MEMBERS, min_size=2, max_size=6, unique=True).map(tuple).map(SourceSet))
 CURVES = st.builds(Curve, st.lists(PLACES, min_size=2, max_size=6).map(tuple), st.booleans())
@@ -57,7 +57,7 @@ def test_words_that_are_known_mean_what_they_mean():
 def test_words_as_they_are_typed(tmp_path):
     assert source_from_words(" 12 ") == 12
     assert source_from_words("12+40 + 7") == SourceSet((12, 40, 7))
-    assert source_from_words("f311:0.2,0.5") == Place(311, (0.2, 0.5, 0.3))
+    assert source_from_words("f311:0.2,0.5") == SurfacePoint(311, (0.2, 0.5, 0.3))
     assert source_from_words("loop:0") == BoundaryLoop(0)
     assert source_from_words("12+f3:0.25,.5+loop:1") == SourceSet((12, A, BoundaryLoop(1)))
     (tmp_path / "c.json").write_text('{"points": [[3, 0.25, 0.5], [9, 0.1, 0.2]], "closed": true}')
@@ -66,7 +66,7 @@ def test_words_as_they_are_typed(tmp_path):
 
 
 def test_headings_are_short():
-    assert short_words_of(Place.of(3, 1 / 3, 0.1)) == "f3:0.333,0.1"
+    assert short_words_of(SurfacePoint.of(3, 1 / 3, 0.1)) == "f3:0.333,0.1"
     assert short_words_of(SourceSet((1, 2, 3, 4, 5))) == "1+2+3 and 2 more"
     assert short_words_of(Curve((A, B), True)) == "a closed curve of 2 points"
 
@@ -125,12 +125,12 @@ def test_files_that_are_no_curves_are_named_with_the_element_and_its_value(conte
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: Place(-1, (1, 0, 0)), "numbered from 0"),
-        (lambda: Place(1.5, (1, 0, 0)), "whole number"),
-        (lambda: Place(0, (0.5, 0.6, 0.1)), "add up to 1"),
-        (lambda: Place(0, (0.5, 0.5)), "three weights"),
-        (lambda: Place(0, "abc"), "three weights"),
-        (lambda: Place(0, (float("nan"), 0.5, 0.5)), "three weights"),
+        (lambda: SurfacePoint(-1, (1, 0, 0)), "numbered from 0"),
+        (lambda: SurfacePoint(1.5, (1, 0, 0)), "whole number"),
+        (lambda: SurfacePoint(0, (0.5, 0.6, 0.1)), "add up to 1"),
+        (lambda: SurfacePoint(0, (0.5, 0.5)), "three weights"),
+        (lambda: SurfacePoint(0, "abc"), "three weights"),
+        (lambda: SurfacePoint(0, (float("nan"), 0.5, 0.5)), "three weights"),
         (lambda: BoundaryLoop(-1), "numbered from 0"),
         (lambda: BoundaryLoop(True), "whole number"),
         (lambda: Curve((A,)), "from 2 to"),
@@ -160,6 +160,6 @@ def test_curves_are_written_as_json_reads_them():
 def test_a_place_beside_a_corner_by_rounding_is_the_corner(corner):
     tiny = 2.0**-53
     near = [abs(weight - tiny) for weight in corner]
-    assert Place.of(3, *near) == Place.of(3, *corner)
-    assert Place.of(3, *near).weights == (*corner, 1 - sum(corner))
-    assert Place.of(3, 1e-9, 0.5).weights == (1e-9, 0.5, 0.499999999)
+    assert SurfacePoint.of(3, *near) == SurfacePoint.of(3, *corner)
+    assert SurfacePoint.of(3, *near).weights == (*corner, 1 - sum(corner))
+    assert SurfacePoint.of(3, 1e-9, 0.5).weights == (1e-9, 0.5, 0.499999999)

@@ -90,7 +90,7 @@ def test_what_is_not_manifold_is_counted_and_has_no_genus():
 
 
 def test_flat_faces_are_found_and_thin_ones_are_not():
-    assert slivers().flat_faces.tolist() == [18]
+    assert slivers().degenerate_faces.tolist() == [18]
 
 
 def test_measures():
@@ -100,7 +100,7 @@ def test_measures():
 
 def test_a_surface_from_a_pickle_is_as_it_was():
     surface = pickle.loads(pickle.dumps(slivers()))
-    assert surface.flat_faces.tolist() == [18]
+    assert surface.degenerate_faces.tolist() == [18]
     for array in (surface.vertices, surface.faces):
         with pytest.raises(ValueError, match="read-only"):
             array[0, 0] = 1

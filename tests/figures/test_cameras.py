@@ -24,8 +24,8 @@ from app.drawing.camera import Projection, directions, frame, outwards_at, stand
 from app.drawing.drawable import drawable
 from app.drawing.style import PAPER
 from app.figures.draw import Figure, FigurePanel, draw_figure
-from app.figures.raster import Studio
-from app.figures.sight import Sight
+from app.figures.hidden_lines import HiddenLineRemoval
+from app.figures.raster import RenderWindow
 from app.figures.turning import start_and_axis
 from app.figures.worker import Worker
 from app.main import main
@@ -112,7 +112,7 @@ def test_the_view_from_the_source_has_it_in_front():
             camera = standard_camera(surface.vertices, 1.0, "source", up=up, outwards=outwards)
             assert np.allclose(frame(camera)[:, 2], outwards)
             assert frame(camera)[:, 1] @ axis_of(up) >= 0
-            sight = Sight(surface, Projection(camera, 1.0, surface.vertices), (300, 300))
+            sight = HiddenLineRemoval(surface, Projection(camera, 1.0, surface.vertices), (300, 300))
             assert sight.sees(surface.vertices[vertex])
     top = directions("source", "z", np.array([0.0, 0, 1]))
     assert np.allclose(top, directions("top", "z"))
@@ -141,11 +141,11 @@ def test_pixels_and_curves_agree_on_where_things_are(view):
     for is_parallel in (False, True):
         camera = standard_camera(surface.vertices, 1.0, view, is_parallel=is_parallel)
         projection = Projection(camera, 1.0, surface.vertices, 0.03, is_parallel)
-        with closing(Studio(PAPER)) as studio:
-            studio.shown.show_surface(drawable(surface))
-            alpha = studio.shade(projection, (side, side), 1.0)[..., 3]
+        with closing(RenderWindow(PAPER)) as render_window:
+            render_window.shown.show_surface(drawable(surface))
+            alpha = render_window.shade(projection, (side, side), 1.0)[..., 3]
         rows, columns = np.flatnonzero(alpha.any(axis=1)), np.flatnonzero(alpha.any(axis=0))
-        at = Sight(surface, projection, (side, side)).pixels(surface.vertices)
+        at = HiddenLineRemoval(surface, projection, (side, side)).pixels(surface.vertices)
         ends = [*at[:, :2].min(axis=0), *at[:, :2].max(axis=0)]
         # A pixel either way, for those that are only touched.
         assert np.allclose([columns[0], rows[0], columns[-1] + 1, rows[-1] + 1], ends, atol=1.01)

@@ -10,11 +10,11 @@ from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from app.document.looks import Colours, Isolines
 from app.drawing.bands import band_edges, bar_parts, beyond
-from app.drawing.board import Board
 from app.drawing.colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened
 from app.drawing.drawable import drawable
 from app.drawing.field_actor import FieldActor
 from app.drawing.levels import levels
+from app.drawing.offscreen_renderer import OffscreenRenderer
 from app.drawing.oklab import oklab, srgb
 from app.drawing.style import DARK, INK, LINES, PAPER, STYLES, WHITE, line_on, style_of
 from bihdist_core import ParameterError
@@ -162,7 +162,7 @@ def painted(style, values, edges, width=1000):
     actor.show_field(np.array([low, high, high, low]), 1.0, low < 0)
     actor.show_bands(edges)
     actor.show_isolines(Isolines(0))
-    Board().close()  # which finds out what can be drawn with here
+    OffscreenRenderer().close()  # which finds out what can be drawn with here
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.AddActor(actor.actor)
     window.SetOffScreenRendering(True)

@@ -11,10 +11,10 @@ from app.document.edits import stand
 from app.document.page import Recipe
 from app.drawing.camera import Projection, directions, standard_camera
 from app.figures.export import open_document
+from app.figures.hidden_lines import HiddenLineRemoval
 from app.figures.picture import figure
-from app.figures.sight import Sight
 from app.samples import mesh_path, sample_names
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from app.session.questions import first_source
 from bihdist_core import Surface, read_surface
 from bihdist_core.analysis.first_view import first_look
@@ -49,7 +49,7 @@ def is_seen(surface, vertex, view, up, aspects=(1.6, 1.0, 0.7)):
     found = []
     for aspect in aspects:
         camera = standard_camera(surface.vertices, aspect, view, up=up)
-        sight = Sight(surface, Projection(camera, aspect, surface.vertices), (round(500 * aspect), 500))
+        sight = HiddenLineRemoval(surface, Projection(camera, aspect, surface.vertices), (round(500 * aspect), 500))
         found.append(bool(sight.sees(surface.vertices[vertex])))
     return all(found)
 
@@ -149,23 +149,23 @@ def test_sources_of_samples_and_of_shared_meshes_are_seen(name):
 def test_figures_start_where_sessions_do(tmp_path):
     path = written(truck(), tmp_path / "truck.obj")
     drawn = figure(path, ["geodesic"], size="80x80").document
-    opened, surfaces = open_document(Recipe(comparison(path)), Given())
+    loaded, surfaces = open_document(Recipe(comparison(path)), ArrayStore())
     surface = surfaces["A"].surface
-    assert (drawn.up, drawn.camera, drawn.points[0].at) == (opened.up, opened.camera, opened.points[0].at)
+    assert (drawn.up, drawn.camera, drawn.points[0].at) == (loaded.up, loaded.camera, loaded.points[0].at)
     assert first_look(surface, "y") == surfaces["A"].first_look("y")
-    assert (opened.camera, opened.points[0].at) == (first_look(surface).view, first_source(surface))
+    assert (loaded.camera, loaded.points[0].at) == (first_look(surface).view, first_source(surface))
 
 
 def test_what_a_document_says_wins(tmp_path):
     path = written(turned(guitar(), QUARTER), tmp_path / "guitar.obj")
-    assert open_document(Recipe(comparison(path)), Given())[0].camera == "home-right"
+    assert open_document(Recipe(comparison(path)), ArrayStore())[0].camera == "home-right"
     # As recipes say that were written when all was seen from home.
     for camera in ("home", "back"):
         said = replace(comparison(path), camera=camera, up="z")
-        found = open_document(Recipe(said), Given())[0]
+        found = open_document(Recipe(said), ArrayStore())[0]
         assert (found.camera, found.up) == (camera, "z")
-    up = stand(open_document(Recipe(comparison(path)), Given())[0], "x")
-    assert open_document(Recipe(up), Given())[0].camera == first_look(read_surface(path), "x").view
+    up = stand(open_document(Recipe(comparison(path)), ArrayStore())[0], "x")
+    assert open_document(Recipe(up), ArrayStore())[0].camera == first_look(read_surface(path), "x").view
 
 
 def test_names_turn_about_what_is_up():

@@ -16,9 +16,9 @@ from app.drawing.style import STYLES
 from app.figures import canvas
 from app.figures.description import Figure, FigurePanel
 from app.figures.frames import drawn_frames
+from app.figures.hidden_lines import HiddenLineRemoval
 from app.figures.layout import lay_out
 from app.figures.movie import Movie, route, write_movie
-from app.figures.sight import Sight
 from app.figures.size import Size
 from app.figures.turning import fitted_size, start_and_axis
 from app.figures.worker import Worker
@@ -204,7 +204,7 @@ def test_the_source_is_seen_in_the_first_frame():
     surface = bumpy(400)
     for vertex in range(0, 400, 37):
         camera, axis = start_and_axis("home", surface, 360.0, 0.0, [vertex])
-        sight = Sight(surface, Projection(camera, 1.0, surface.vertices), (300, 300))
+        sight = HiddenLineRemoval(surface, Projection(camera, 1.0, surface.vertices), (300, 300))
         away = abs(surface.vertices[vertex] @ axis) / np.linalg.norm(surface.vertices[vertex])
         assert sight.sees(surface.vertices[vertex]) or away > 0.9  # from above the poles alone
     front = start_and_axis("front", surface, 360.0, 0.0, [5])[0]

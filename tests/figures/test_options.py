@@ -10,7 +10,7 @@ from app.figures import raster
 from app.figures.draw import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
 from app.figures.layout import lay_out
 from app.figures.size import Size
-from bihdist_core import Curve, ParameterError, Place, Surface
+from bihdist_core import Curve, ParameterError, Surface, SurfacePoint
 from bihdist_core.sources.pieces import pieces_of
 from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces
 
@@ -176,7 +176,7 @@ def test_a_hidden_mark_is_a_ghost_and_is_spoken_of(ball, tmp_path):
 
 def test_a_line_that_is_hidden_all_along_is_spoken_of(ball, tmp_path):
     nearest = np.argsort(-ball.vertices[ball.faces].mean(axis=1)[:, 2])[:20]
-    curve = Curve((Place.of(int(nearest[0]), 0.3, 0.3), Place.of(int(nearest[-1]), 0.3, 0.3)))
+    curve = Curve((SurfacePoint.of(int(nearest[0]), 0.3, 0.3), SurfacePoint.of(int(nearest[-1]), 0.3, 0.3)))
     lines = tuple(source_lines(pieces_of(curve, ball), "The curve of 2 points"))
     field = ball.vertices[:, 1] + 2
     for views, said in (

@@ -11,7 +11,7 @@ from app.document.page import Recipe
 from app.document.profile_words import profile_words, with_profile, words_in
 from app.figures.draw import FIGURE_FORMATS
 from app.main import main
-from bihdist_core import ParameterError, Place, Surface
+from bihdist_core import ParameterError, Surface, SurfacePoint
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from tests.shapes import bumpy, two_pieces
 
@@ -117,7 +117,9 @@ def test_where_there_is_none_a_sentence_says_why(mesh_file, tmp_path, capsys):
 
 def test_the_words_of_a_path(ball):
     assert words_in("source,pin:2 f3:0.2,0.5,40") == ["source", "pin:2", "f3:0.2,0.5", "40"]
-    picture = app.figure("hand", ["biharmonic"], source=12, pins=[9, 40], profile=["pin:2", 7, Place.of(3, 0.2, 0.5)])
+    picture = app.figure(
+        "hand", ["biharmonic"], source=12, pins=[9, 40], profile=["pin:2", 7, SurfacePoint.of(3, 0.2, 0.5)]
+    )
     document = picture._recipe.document
     assert isinstance(picture._recipe, Recipe)
     assert profile_words(document) == ["pin:2", 7, "f3:0.2,0.5"]

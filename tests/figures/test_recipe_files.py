@@ -10,7 +10,7 @@ from app.document.document import comparison
 from app.document.file import checksum, read_recipe
 from app.document.page import Recipe
 from app.main import main
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from app.session.recipe_file import recipe_written
 from bihdist_core.distances.kinds import Spec
 from tests.figures.recipes import SMALL, refused
@@ -89,7 +89,7 @@ def test_a_recipe_of_two_figures_is_kept_for_the_one_that_is_not_drawn_anew(mesh
 
 def test_a_session_is_not_replaced_by_a_figure_of_its_name(mesh, tmp_path, capsys):
     session = tmp_path / "f.json"
-    with recipe_written(Recipe(comparison(mesh, (Spec.of("biharmonic"),), (4,))), Given(), session, "0.1"):
+    with recipe_written(Recipe(comparison(mesh, (Spec.of("biharmonic"),), (4,))), ArrayStore(), session, "0.1"):
         pass
     before = session.read_bytes()
     (tmp_path / "f.png").write_bytes(b"a picture from elsewhere")

@@ -12,7 +12,7 @@ from app.document.file import read_recipe, recipe_text
 from app.document.instruments import Pin, Profile, Scatter, Selection
 from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page, Recipe
-from bihdist_core import Place
+from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
 from tests.figures.recipes import anchors, of_version_0_1, refused
 
@@ -26,7 +26,9 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
         Spec.of("geodesic", method="heat"),
         Spec.of("commute-time"),
     )
-    document = put_point(comparison("mesh.off", specs, (3, None), "barycentric"), "tip", Place(3, (0.25, 0.5, 0.25)))
+    document = put_point(
+        comparison("mesh.off", specs, (3, None), "barycentric"), "tip", SurfacePoint(3, (0.25, 0.5, 0.25))
+    )
     document = replace(
         document,
         surfaces=(MeshFile("A", "mesh.off", "ab" * 32),),

@@ -11,8 +11,8 @@ from app.document.looks import Isolines
 from app.drawing.camera import Camera, Projection, standard_camera
 from app.drawing.drawable import drawable, outward_faces
 from app.drawing.levels import levels
+from app.figures.hidden_lines import Curve, HiddenLineRemoval
 from app.figures.outlines import outlines
-from app.figures.sight import Curve, Sight
 from app.figures.simplified import simplified
 from bihdist_core import Surface
 from bihdist_core.analysis.isoline_tracing import isolines
@@ -24,7 +24,7 @@ PIXELS = 600
 
 def sight_of(surface, camera=None):
     camera = camera or standard_camera(surface.vertices, 1.0, "home")
-    return Sight(surface, Projection(camera, 1.0, surface.vertices), (PIXELS, PIXELS))
+    return HiddenLineRemoval(surface, Projection(camera, 1.0, surface.vertices), (PIXELS, PIXELS))
 
 
 def seen(surface, field, values, camera=None):
@@ -128,7 +128,9 @@ def test_insides_that_have_a_colour_of_their_own_show_no_isolines():
         camera = Camera((0, 0, z), (0, 0, 0), (0, 1, 0), (0.25, 0.25))
         projection = Projection(camera, 1.0, bowl.vertices)
         curves = [Curve(line.points, line.edges, line.closed) for line in lines]
-        both = [Sight(bowl, projection, (PIXELS, PIXELS), faces).visible(curves) for faces in (None, outward)]
+        both = [
+            HiddenLineRemoval(bowl, projection, (PIXELS, PIXELS), faces).visible(curves) for faces in (None, outward)
+        ]
         whole, rest = (sum(sampled(parts)[1].sum() for parts in found) for found in both)
         assert whole > 100
         assert rest == pytest.approx(whole if z < 0 else 0.0, abs=0.01 * whole)

@@ -35,7 +35,7 @@ def test_contracts_are_kept():
     ("module", "line", "contract"),
     [
         ("app/document/edits.py", "from ..session import lane", "The layers of the application"),
-        ("app/session/lane.py", "import vtkmodules.vtkCommonCore", "Only these folders draw"),
+        ("app/session/latest_request_worker.py", "import vtkmodules.vtkCommonCore", "Only these folders draw"),
         ("app/figures/draw.py", "from qtpy import QtCore", "Only the window knows Qt"),
         ("app/paper/page.py", "from ..qt import look", "The layers of the application"),
         ("app/new/thing.py", "", "The layers of the application"),

@@ -74,3 +74,19 @@ def test_counts_are_written_with_separators_and_ids_without():
         if is_wrong(*each)
     ]
     assert wrong == []
+
+
+def test_names_are_those_of_the_table():
+    """The names in the first column of the words of CONTRIBUTING.md are not those of a module, class or function."""
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (.+?) \| .+ \|$", text.partition("## Words")[2].partition("\n## ")[0], flags=re.MULTILINE)
+    gone = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
+    assert len(gone) > 15
+    named = set()
+    for folder in ("app", "bihdist_core"):
+        for path in (ROOT / folder).rglob("*.py"):
+            named.add(path.stem)
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.ClassDef | ast.FunctionDef):
+                    named.add(node.name)
+    assert gone & named == set()

@@ -58,7 +58,7 @@ def seen(s, panel=0):
     """A vertex near the middle of a panel's view, and where."""
     view = s.panels[panel].view
     at = QtCore.QPoint(view.width() // 2, view.height() // 2)
-    return view.met_at(at).vertex, at
+    return view.pick(at).vertex, at
 
 
 def check(s, expected):
@@ -66,8 +66,8 @@ def check(s, expected):
     assert replace(change_of(s), pose_sha256="") == expected
     before = s.session.surface
     after, ids = perturbed(before, expected)
-    assert np.array_equal(s.session.opened("B").surface.vertices, after.vertices)
-    assert np.array_equal(s.session.opened("B").surface.faces, after.faces)
+    assert np.array_equal(s.session.loaded("B").surface.vertices, after.vertices)
+    assert np.array_equal(s.session.loaded("B").surface.faces, after.faces)
     start, there = s.document.point("source").at, s.document.point("source after").at
     assert ids[there] >= 0
     for row, kind in enumerate(KINDS):

@@ -108,11 +108,11 @@ class Screen:
         view = shown.view
         for x in range(3, 18):
             for y in range(3, 18):
-                met = view.met_at(QPoint(view.width() * x // 20, view.height() * y // 20))
-                at = None if met is None else self.point_of(shown, met.vertex)
-                again = None if at is None or view.over.drop_at(at) is not None else view.met_at(at)
-                if again is not None and again.vertex == met.vertex:
-                    found[met.vertex] = met.position
+                hit = view.pick(QPoint(view.width() * x // 20, view.height() * y // 20))
+                at = None if hit is None else self.point_of(shown, hit.vertex)
+                again = None if at is None or view.over.drop_at(at) is not None else view.pick(at)
+                if again is not None and again.vertex == hit.vertex:
+                    found[hit.vertex] = hit.position
         ids = list(found)
         chosen = [ids[0]]
         while len(chosen) < count:

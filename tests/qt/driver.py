@@ -101,7 +101,7 @@ class Driver:
         view = self.window.grid.panels[panel].view
         for step in range(40):
             x, y = 0.5 + 0.011 * step * (-1) ** step, 0.5 + 0.007 * step
-            if view.met_at(QtCore.QPoint(round(x * view.width()), round(y * view.height()))) is not None:
+            if view.pick(QtCore.QPoint(round(x * view.width()), round(y * view.height()))) is not None:
                 self.point(panel, x, y)
                 return
 

@@ -52,7 +52,7 @@ def _untrue(hands: Hands) -> list[str]:
     for panel in document.panels:
         widget, shown = window.grid.panel(panel.id), session.shown[panel.id]
         answer, reading = widget.answer, widget.bar._reading
-        top = bar_end(document, session.shown, panel.id, session.opened) or answer.maximum
+        top = bar_end(document, session.shown, panel.id, session.loaded) or answer.maximum
         facts = {
             "answer": answer is shown.answer and shown.asked == asked[panel.id] and not shown.is_preview,
             "head": widget.head.shows == panel.shows
@@ -68,10 +68,10 @@ def _untrue(hands: Hands) -> list[str]:
         found += [f"panel {panel.id} {panel.shows}: {fact}" for fact, holds in facts.items() if not holds]
     starting = [name for panel in document.panels for name in panel.shows.points]
     points = [document.point(name) for name in starting[:1]]
-    known = "".join(words_of(source_at(point.at, session.opened(point.surface).surface)) for point in points)
+    known = "".join(words_of(source_at(point.at, session.loaded(point.surface).surface)) for point in points)
     if window.source_box.text() != known:
         found.append(f"the box says {window.source_box.text()!r}, the document {known}")
-    names = ", ".join(dict.fromkeys(session.opened(mesh.name).surface.name for mesh in document.surfaces))
+    names = ", ".join(dict.fromkeys(session.loaded(mesh.name).surface.name for mesh in document.surfaces))
     path = window.session_file.path
     title = f"{Path(path).name}[*] - {names}" if path else f"{names}[*]"
     if window.windowTitle() != f"{title} - Biharmonic distance":
@@ -94,7 +94,7 @@ def _stale(hands: Hands) -> list[str]:
     found += _differing("shown again", before, _pictures(window))
     other = hands.new_window(type(window), window.session.document)
     other.page = window.page
-    other.wear()
+    other.apply_theme()
     other.resize(window.size())
     other.show_document(window.session.document)
     hands.until(lambda: other.session.is_complete)
@@ -118,7 +118,7 @@ def _pictures(window: object) -> list[np.ndarray]:
 
 def _start(panel, document, session, vertex_at) -> int | None:
     names = panel.shows.points
-    return vertex_at(document.point(names[0]).at, session.opened(panel.surface).surface) if names else None
+    return vertex_at(document.point(names[0]).at, session.loaded(panel.surface).surface) if names else None
 
 
 def _plain(panel, session) -> str:
@@ -127,7 +127,7 @@ def _plain(panel, session) -> str:
 
     answer = session.shown[panel.id].answer
     alone = [other for other in session.document.panels_of(panel.surface) if predicts_in(other)] == [panel]
-    return session.opened(panel.surface).surface.name if alone and answer.field is None and not answer.failure else ""
+    return session.loaded(panel.surface).surface.name if alone and answer.field is None and not answer.failure else ""
 
 
 def _differing(when: str, before: list, after: list, slack: float = 0.0) -> list[str]:

@@ -56,12 +56,12 @@ class InstrumentHands(Hands):
     def _dock(self):
         """One that is open, or is now."""
         docks = self.window.docks
-        opened = self.window.session.document.docks
-        if not opened or (len(opened) < 3 and self.chance.random() < 0.5):
-            docks.toggle(self.chance.choice([word for word in docks.words() if word not in opened]))
+        loaded = self.window.session.document.docks
+        if not loaded or (len(loaded) < 3 and self.chance.random() < 0.5):
+            docks.toggle(self.chance.choice([word for word in docks.words() if word not in loaded]))
             self.spin(0.05)
-        opened = self.window.session.document.docks
-        return docks._docks[self.chance.choice(opened)] if opened else None
+        loaded = self.window.session.document.docks
+        return docks._docks[self.chance.choice(loaded)] if loaded else None
 
     def toggle_dock(self) -> None:
         self.window.docks.toggle(self.chance.choice(list(self.window.docks.words())))
@@ -179,7 +179,7 @@ class InstrumentHands(Hands):
         way = self.chance.choice(["eye", "keys", "slide", "samples", "delete"])
         self.done[-1] += f" {way}"
         if way == "eye":
-            row.eye.opened.emit()
+            row.eye.loaded.emit()
         elif way == "keys":
             row.slider.setFocus()
             self.tool("key", self.chance.choice(["Down", "Up", "Left", "Right", "Delete"]))

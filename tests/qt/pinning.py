@@ -21,7 +21,7 @@ def seen_vertices(s, count):
     for x in np.linspace(0.35, 0.65, count):
         point = view.rect().center()
         point.setX(round(x * view.width()))
-        found.append(view.met_at(point).vertex)
+        found.append(view.pick(point).vertex)
     assert len(set(found)) == count
     return found
 

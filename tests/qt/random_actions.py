@@ -191,7 +191,7 @@ class RandomHands(InstrumentHands):
             self.window.actions_by_word[way].trigger()
 
     def export_dialog(self) -> None:
-        """Opened, changed here and there, and closed; what is drawn meanwhile nobody waits for."""
+        """LoadedMesh, changed here and there, and closed; what is drawn meanwhile nobody waits for."""
         from app.qt.files.export_dialog import ExportDialog
 
         self.window.actions_by_word["figure"].trigger()

@@ -23,7 +23,7 @@ BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen((BIHARMONIC, GEODESIC))
     s.open(mesh_file(bumpy(700)))
     s.settle()
@@ -63,8 +63,8 @@ def check(s):
         assert s.answers[panel].field == pytest.approx(expected(s, panel, kind), abs=1e-9)
 
 
-def test_clicks_put_anchors_and_every_panel_interpolates_by_its_distance(opened):
-    s = opened
+def test_clicks_put_anchors_and_every_panel_interpolates_by_its_distance(loaded):
+    s = loaded
     assert all(isinstance(panel.shows, Interpolant) for panel in s.document.panels)
     assert "no anchor" in s.answers[0].failure
     vertices = s.seen(3)
@@ -82,8 +82,8 @@ def test_clicks_put_anchors_and_every_panel_interpolates_by_its_distance(opened)
     assert np.array_equal(s.answers[0].field, before)
 
 
-def test_values_are_typed_slid_and_left_out_and_undone(opened):
-    s = opened
+def test_values_are_typed_slid_and_left_out_and_undone(loaded):
+    s = loaded
     for vertex in s.seen(3):
         click(s, 0, vertex)
     rows = list(dock_of(s).rows.values())
@@ -114,8 +114,8 @@ def test_values_are_typed_slid_and_left_out_and_undone(opened):
     check(s)
 
 
-def test_letters_for_a_value_are_refused(opened):
-    s = opened
+def test_letters_for_a_value_are_refused(loaded):
+    s = loaded
     click(s, 0, s.seen(1)[0])
     (row,) = dock_of(s).rows.values()
     row.box.setFocus()
@@ -126,8 +126,8 @@ def test_letters_for_a_value_are_refused(opened):
     assert s.document.anchors[0].value == 0
 
 
-def test_an_anchor_is_dragged_over_the_surface(opened):
-    s = opened
+def test_an_anchor_is_dragged_over_the_surface(loaded):
+    s = loaded
     start, stop, other = s.seen(3)
     click(s, 0, start)
     click(s, 0, other)
@@ -154,8 +154,8 @@ def move(view, place):
     QtWidgets.QApplication.sendEvent(view, event)
 
 
-def test_weights_and_extrema_are_those_of_the_library(opened):
-    s = opened
+def test_weights_and_extrema_are_those_of_the_library(loaded):
+    s = loaded
     for vertex in s.seen(4):
         click(s, 0, vertex)
     dock = dock_of(s)
@@ -175,8 +175,8 @@ def test_weights_and_extrema_are_those_of_the_library(opened):
         assert int(at_tips) + int(elsewhere) == len(found)
 
 
-def test_extrema_are_marked_on_interpolants_only(opened):
-    s = opened
+def test_extrema_are_marked_on_interpolants_only(loaded):
+    s = loaded
     document = s.document
     for k in range(12):
         document, _ = add_anchor(document, 60 * k, float(k % 3))
@@ -211,8 +211,8 @@ def test_extrema_are_marked_on_interpolants_only(opened):
     assert not any(len(each.positions) for each in marks)
 
 
-def test_anchors_are_saved_and_read_and_kept_in_sessions(opened, tmp_path):
-    s = opened
+def test_anchors_are_saved_and_read_and_kept_in_sessions(loaded, tmp_path):
+    s = loaded
     for vertex in s.seen(3):
         click(s, 0, vertex)
     rows = list(dock_of(s).rows.values())
@@ -237,8 +237,8 @@ def test_anchors_are_saved_and_read_and_kept_in_sessions(opened, tmp_path):
     assert np.array_equal(s.answers[0].field, field)
 
 
-def test_panels_go_back_to_distances(opened):
-    s = opened
+def test_panels_go_back_to_distances(loaded):
+    s = loaded
     click(s, 0, s.seen(1)[0])
     dock_of(s).end_tool()
     complete(s)
@@ -247,8 +247,8 @@ def test_panels_go_back_to_distances(opened):
     assert dock_of(s).start.isVisible()
 
 
-def test_up_and_down_go_through_the_list_and_delete_removes(opened):
-    s = opened
+def test_up_and_down_go_through_the_list_and_delete_removes(loaded):
+    s = loaded
     for vertex in s.seen(3):
         click(s, 0, vertex)
     rows, keys = list(dock_of(s).rows.values()), QtCore.Qt.Key
@@ -266,8 +266,8 @@ def test_up_and_down_go_through_the_list_and_delete_removes(opened):
     assert [a.point for a in s.document.anchors] == [rows[0].point]
 
 
-def test_samples_are_farthest_from_the_anchors_and_change_no_value_there(opened):
-    s = opened
+def test_samples_are_farthest_from_the_anchors_and_change_no_value_there(loaded):
+    s = loaded
     first, second = s.seen(2)
     click(s, 0, first)
     click(s, 0, second)
@@ -282,11 +282,11 @@ def test_samples_are_farthest_from_the_anchors_and_change_no_value_there(opened)
     assert [a.value for a in s.document.anchors[2:]] == pytest.approx(field[expected[2:]], abs=5e-4)
 
 
-def test_a_value_is_followed_without_a_solve_even_while_it_moves(opened):
-    s = opened
+def test_a_value_is_followed_without_a_solve_even_while_it_moves(loaded):
+    s = loaded
     for vertex in s.seen(3):
         click(s, 0, vertex)
-    columns = s.session.opened().columns
+    columns = s.session.loaded().columns
     row = list(dock_of(s).rows.values())[2]
     row.slider.setSliderDown(True)
     for step in (200, 400, 600):
@@ -295,7 +295,7 @@ def test_a_value_is_followed_without_a_solve_even_while_it_moves(opened):
         assert "heat" not in s.answers[1].label
     row.slider.setSliderDown(False)
     complete(s)
-    assert s.session.opened().columns == columns
+    assert s.session.loaded().columns == columns
     assert "no solve" in s.window.status.message.text
 
 

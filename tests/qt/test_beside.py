@@ -136,7 +136,7 @@ def test_the_second_mesh_can_be_closed_undone_and_replaced(two, mesh_file):
     beside(s, mesh_file(grid(4, 4), "third.off"))
     assert [panel.surface for panel in s.document.panels] == ["A", "B"]
     assert len(s.answers[1].field) == 25
-    assert s.document.up_of("B") == s.session.opened("B").up
+    assert s.document.up_of("B") == s.session.loaded("B").up
 
 
 def test_a_session_of_two_meshes_is_opened_again_and_drawn(two, screen, tmp_path):

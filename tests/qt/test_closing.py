@@ -18,7 +18,7 @@ from app.document.measuring import add_pins, select
 from app.document.page import Recipe
 from app.document.pairing import place_point
 from bihdist_core.applications.changes import Perturbation
-from bihdist_core.sources.source import Curve, Place
+from bihdist_core.sources.source import Curve, SurfacePoint
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -53,7 +53,7 @@ WORK = {
 
 
 def curve():
-    return Curve(tuple(Place.of(0, *weights) for weights in ((0.2, 0.3), (0.6, 0.3))))
+    return Curve(tuple(SurfacePoint.of(0, *weights) for weights in ((0.2, 0.3), (0.6, 0.3))))
 
 
 def test_closing_asks_where_work_would_be_lost_that_was_never_saved(screen, mesh_file, tmp_path):

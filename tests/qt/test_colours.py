@@ -15,7 +15,7 @@ from app.document.page import Recipe
 from app.document.quantities import quantity
 from app.drawing.colour_maps import MAPS
 from app.drawing.style import STYLES
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from app.session.recipe_file import recipe_written
 from tests.shapes import bumpy
 
@@ -96,7 +96,7 @@ def test_styles_and_maps_have_names_of_their_own_and_lines_have_no_map(shown):
 
 def test_the_style_that_is_a_map_of_another_is_shown_as_that_map(shown):
     shown.window.page = replace(shown.window.page, style="uniform")
-    shown.window.wear()
+    shown.window.apply_theme()
     shown.window.choices.show()
     assert ticked(shown) == ["White ground", "Uniform"]
     assert shown.window.tools["colours"].accessibleDescription() == "Uniform"
@@ -198,7 +198,7 @@ def test_shares_are_read_on_the_bar_and_colour_as_before(shown):
 
 def saved(shown, tmp_path, **more):
     path = tmp_path / "other.json"
-    with recipe_written(Recipe(shown.document), Given(), path, "test"):
+    with recipe_written(Recipe(shown.document), ArrayStore(), path, "test"):
         pass
     return path
 

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from bihdist_core import BoundaryLoop, Curve, Place, SourceSet
+from bihdist_core import BoundaryLoop, Curve, SourceSet, SurfacePoint
 from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
@@ -14,7 +14,7 @@ from tests.qt.sourcing import check_fields, click, drag, open_file, typed, where
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     return open_file(screen(), mesh_file(bumpy(2000)), 5)
 
 
@@ -64,12 +64,12 @@ def test_the_boundary_under_the_pointer_becomes_the_source(sheet, tmp_path):
     assert s.source == 84
 
 
-def test_what_is_drawn_on_the_surface_becomes_a_curve(opened, tmp_path):
+def test_what_is_drawn_on_the_surface_becomes_a_curve(loaded, tmp_path):
     from qtpy import QtCore, QtTest
 
     from bihdist_core.sources.words import curve_text
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     camera = view.camera.GetPosition()
     s.activate()
     s.settle()
@@ -143,12 +143,12 @@ def read_again(line):
     return chosen_recipe(parser.parse_args(shlex.split(line)[2:])).document.sources
 
 
-def test_a_drawn_curve_is_saved_and_the_copied_lines_name_its_file(opened, tmp_path, monkeypatch):
+def test_a_drawn_curve_is_saved_and_the_copied_lines_name_its_file(loaded, tmp_path, monkeypatch):
     from app.qt import remembered
     from bihdist_core import source_from_words
 
     monkeypatch.setattr(remembered, "folder", lambda: tmp_path / "kept")
-    s = opened
+    s = loaded
     draw(s)
     curve = s.source
     assert isinstance(curve, Curve)
@@ -180,10 +180,10 @@ def test_a_loop_stands_in_the_copied_lines(sheet):
     assert "source='loop:0+7'" in copied(s, "python")
 
 
-def test_a_quick_stroke_follows_the_pointer_and_is_parted_beside_the_surface(opened):
+def test_a_quick_stroke_follows_the_pointer_and_is_parted_beside_the_surface(loaded):
     from qtpy import QtCore
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     s.window.actions_by_word["draw source"].setChecked(True)
     s.window.gestures.sources.set_drawing(True)
     middle = view.rect().center()
@@ -191,7 +191,7 @@ def test_a_quick_stroke_follows_the_pointer_and_is_parted_beside_the_surface(ope
     assert isinstance(s.source, Curve)
     assert len(s.source.places) > 15, "between two of the pointer's places, too"
     beside = QtCore.QPoint(view.width() - 2, middle.y())
-    assert view.met_at(beside) is None
+    assert view.pick(beside) is None
     drag(s, [middle, beside, middle + QtCore.QPoint(0, 60)])
     one, two = s.source.members
     places = [np.array(p.weights) @ s.session.surface.vertices[s.session.surface.faces[p.face]] for p in one.places]
@@ -201,10 +201,10 @@ def test_a_quick_stroke_follows_the_pointer_and_is_parted_beside_the_surface(ope
     assert s.refusals == []
 
 
-def test_a_ring_that_is_drawn_is_closed_and_a_click_is_a_place(opened):
+def test_a_ring_that_is_drawn_is_closed_and_a_click_is_a_place(loaded):
     from qtpy import QtCore, QtTest
 
-    s, view = opened, opened.panels[2].view
+    s, view = loaded, loaded.panels[2].view
     s.activate()
     s.settle()
     QtTest.QTest.keyClick(view, QtCore.Qt.Key.Key_D)
@@ -214,4 +214,4 @@ def test_a_ring_that_is_drawn_is_closed_and_a_click_is_a_place(opened):
     assert isinstance(s.source, Curve)
     assert s.source.closed
     click(s, middle, 2)
-    assert isinstance(s.source, Place | int)
+    assert isinstance(s.source, SurfacePoint | int)

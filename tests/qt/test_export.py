@@ -9,7 +9,7 @@ import pytest
 from app.document.document import Point, comparison
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
-from bihdist_core import Place
+from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 
@@ -180,13 +180,13 @@ def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, m
     document = replace(
         document,
         surfaces=(replace(document.mesh(), name="M"),),
-        points=(Point("source", Place(3, (0.2, 0.2, 0.6)), "M"),),
+        points=(Point("source", SurfacePoint(3, (0.2, 0.2, 0.6)), "M"),),
         panels=(replace(document.panels[0], surface="M"),),
     )
     opened_recipe(s, tmp_path, document)
     s.until(lambda: s.session.is_complete)
     s.settle()
-    assert s.window.source_box.value() == Place(3, (0.2, 0.2, 0.6))
+    assert s.window.source_box.value() == SurfacePoint(3, (0.2, 0.2, 0.6))
     assert s.pictures()[0].std() > 20
     s.window.grid.pointing.show(s.panels[0].id, 5)
     assert s.panels[0].bar.accessibleDescription()

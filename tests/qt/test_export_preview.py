@@ -12,7 +12,7 @@ import pytest
 from app.document.document import Anchor, Panel, Point, Zoom
 from app.document.page import Page
 from app.document.quantities import DistanceFrom
-from bihdist_core import Place
+from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 
@@ -174,7 +174,7 @@ def other_panels(s):
 
 
 def marked(s):
-    points = (Point("source", Place(3, (0.2, 0.2, 0.6))), Point("a", 40))
+    points = (Point("source", SurfacePoint(3, (0.2, 0.2, 0.6))), Point("a", 40))
     document = replace(s.document, points=points, anchors=(Anchor("a", 0.1),), zooms=(Zoom(5, 2.5),))
     s.session.show(replace(document, panels=document.panels[:1]))
 

@@ -50,7 +50,7 @@ def small(application, mesh_file):
         def nothing(self, *_):
             """The session tells; this window shows nothing of it."""
 
-        document_changed = answer_changed = certificate_changed = progress_changed = nothing
+        document_changed = answer_changed = error_estimate_changed = progress_changed = nothing
 
     window = Small()
     window.show()

@@ -12,7 +12,7 @@ from app.document.map_colours import MapColours
 from app.document.quantities import quantity
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.formats.field_output import FIELD_FORMATS
-from bihdist_core.sources.source import Place, SourceSet
+from bihdist_core.sources.source import SourceSet, SurfacePoint
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -69,7 +69,7 @@ def test_every_panel_saves_what_the_command_writes_in_every_format(screen, mesh_
     assert asked[0] == ("Save the field", "mesh-field-biharmonic-from-5")
     assert asked[-1] == ("Save the field", "mesh-field-biharmonic-minus-geodesic-percent-from-5")
     # By the menu Panels that of the active panel, from a source of several parts.
-    s.session.show(move_source(s.document, 0, SourceSet((7, Place(12, (0.2, 0.5, 0.3))))))
+    s.session.show(move_source(s.document, 0, SourceSet((7, SurfacePoint(12, (0.2, 0.5, 0.3))))))
     s.until(lambda: s.session.is_complete)
     s.window.grid.activate(s.document.panels[0].id)
     answers.append("again.csv")
@@ -86,9 +86,9 @@ def test_the_menu_at_the_pointer_offers_it_on_the_surface_and_beside_it(screen, 
     s.open(mesh_file(bumpy(300)), 5)
     answers, _ = paths
     view = s.panels[1].view
-    for met in (view.met_at(view.rect().center()), None):
+    for hit in (view.pick(view.rect().center()), None):
         answers.append("at.npy")
-        view.menu_wanted.emit(met, QtCore.QPoint(5, 5))
+        view.menu_wanted.emit(hit, QtCore.QPoint(5, 5))
         menu = QtWidgets.QApplication.activePopupWidget()
         entry(menu, "Save field…")
         menu.close()

@@ -10,7 +10,7 @@ pytest.importorskip("qtpy")
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(2000)), 5)
     return s
@@ -19,7 +19,7 @@ def opened(screen, mesh_file):
 def front(s):
     """A vertex in the middle of what is seen."""
     view = s.panels[0].view
-    return view.met_at(view.rect().center()).vertex
+    return view.pick(view.rect().center()).vertex
 
 
 def key(s, name, panel=0):
@@ -34,14 +34,14 @@ def key(s, name, panel=0):
 def drawn(s):
     """How many pictures have been drawn, once all that is queued is done."""
     s.settle(0.1)
-    return s.window.grid.board.pictures
+    return s.window.grid.offscreen.pictures
 
 
 # ---------------------------------------------------------------------- one picture a change
-def test_a_click_draws_each_panel_once_and_pointing_draws_nothing(opened):
+def test_a_click_draws_each_panel_once_and_pointing_draws_nothing(loaded):
     from qtpy import QtCore, QtTest
 
-    s, view = opened, opened.panels[1].view
+    s, view = loaded, loaded.panels[1].view
     place = s.point_of(s.panels[1], front(s))
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
     s.until(lambda: s.session.is_complete)
@@ -63,43 +63,43 @@ def test_a_click_draws_each_panel_once_and_pointing_draws_nothing(opened):
 def test_nothing_is_drawn_before_there_is_a_mesh(screen):
     s = screen()
     s.settle(0.2)
-    assert s.window.grid.board.pictures == 0
+    assert s.window.grid.offscreen.pictures == 0
 
 
 # ---------------------------------------------------------------------- the camera
-def test_the_wheel_keeps_what_is_under_the_pointer_there_and_the_value_fresh(opened):
+def test_the_wheel_keeps_what_is_under_the_pointer_there_and_the_value_fresh(loaded):
     from qtpy import QtCore
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     place = QtCore.QPoint(round(0.6 * view.width()), round(0.45 * view.height()))
-    met, distance = view.met_at(place), view.camera.GetDistance()
+    hit, distance = view.pick(place), view.camera.GetDistance()
     view.zoom(2.0, place)
     s.settle(0.05)
     assert view.camera.GetDistance() == pytest.approx(distance / 2)
-    now = view.place_of(met.position)
+    now = view.place_of(hit.position)
     assert abs(now.x() - place.x() - 0.5) < 1
     assert abs(now.y() - place.y() - 0.5) < 1
 
 
-def test_what_is_centred_comes_into_the_middle_and_is_turned_about(opened):
+def test_what_is_centred_comes_into_the_middle_and_is_turned_about(loaded):
     from qtpy import QtTest
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     at = view.rect().center() + view.rect().center() / 8
     QtTest.QTest.mouseMove(view, at)
     s.settle(0.05)
-    met = view.met_at(at)
+    hit = view.pick(at)
     s.window.actions_by_word["centre"].trigger()
     for after in (None, "Left", "Up"):
         if after:
             key(s, after)
-        place = view.place_of(met.position)
+        place = view.place_of(hit.position)
         assert abs(place.x() - view.width() / 2) < 1
         assert abs(place.y() - view.height() / 2) < 1
 
 
-def test_keys_turn_move_and_zoom_all_panels(opened):
-    s = opened
+def test_keys_turn_move_and_zoom_all_panels(loaded):
+    s = loaded
     camera = s.window.grid.eye.camera
 
     def state():
@@ -121,8 +121,8 @@ def test_keys_turn_move_and_zoom_all_panels(opened):
     assert len({id(panel.view.camera) for panel in s.panels}) == 1
 
 
-def test_tab_goes_from_panel_to_panel_and_shows_where_the_keys_are(opened):
-    s = opened
+def test_tab_goes_from_panel_to_panel_and_shows_where_the_keys_are(loaded):
+    s = loaded
     s.activate()
     s.panels[0].view.setFocus()
     for panel in (1, 2, 0):
@@ -134,8 +134,8 @@ def test_tab_goes_from_panel_to_panel_and_shows_where_the_keys_are(opened):
 
 
 # ---------------------------------------------------------------------- the source
-def test_the_source_goes_along_edges_where_the_keys_point(opened):
-    s = opened
+def test_the_source_goes_along_edges_where_the_keys_point(loaded):
+    s = loaded
     begun = front(s)
     s.window.typed_source.choose(begun)
     s.until(lambda: s.session.is_complete)
@@ -153,8 +153,8 @@ def test_the_source_goes_along_edges_where_the_keys_point(opened):
     assert s.source == begun, "steps in a row are one of the history"
 
 
-def test_steps_that_follow_fast_are_a_drag_that_ends_exact(opened):
-    s, live = opened, []
+def test_steps_that_follow_fast_are_a_drag_that_ends_exact(loaded):
+    s, live = loaded, []
     show = s.session.show
     s.session.show = lambda document, key="", live_=live, **how: (
         live_.append(how.get("live", False)),
@@ -170,10 +170,10 @@ def test_steps_that_follow_fast_are_a_drag_that_ends_exact(opened):
     assert s.source == 5
 
 
-def test_a_held_key_lets_the_source_follow_and_a_tap_switches_that_on(opened):
+def test_a_held_key_lets_the_source_follow_and_a_tap_switches_that_on(loaded):
     from qtpy import QtTest
 
-    s, view, live = opened, opened.panels[0].view, opened.window.actions_by_word["live"]
+    s, view, live = loaded, loaded.panels[0].view, loaded.window.actions_by_word["live"]
     s.activate()
     view.setFocus()
     s.until(view.hasFocus)
@@ -193,10 +193,10 @@ def test_a_held_key_lets_the_source_follow_and_a_tap_switches_that_on(opened):
     key.mouseMove(view, view.rect().topLeft())  # where the next move is one
 
 
-def test_a_live_source_follows_the_pointer_until_escape(opened):
+def test_a_live_source_follows_the_pointer_until_escape(loaded):
     from qtpy import QtTest
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     s.window.actions_by_word["live"].trigger()
     target = front(s)
     QtTest.QTest.mouseMove(view, s.point_of(s.panels[0], target))
@@ -212,10 +212,10 @@ def test_a_live_source_follows_the_pointer_until_escape(opened):
 
 
 # ---------------------------------------------------------------------- the menu
-def test_the_menu_of_a_place_offers_what_can_be_done_there(opened):
+def test_the_menu_of_a_place_offers_what_can_be_done_there(loaded):
     from qtpy import QtCore, QtTest, QtWidgets
 
-    s, view = opened, opened.panels[1].view
+    s, view = loaded, loaded.panels[1].view
     target = front(s)
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.RightButton, pos=s.point_of(s.panels[1], target))
     s.settle()
@@ -263,8 +263,8 @@ def test_a_live_source_that_rests_is_answered_everywhere_without_a_further_move(
     assert s.source not in (None, 5)
 
 
-def test_the_button_of_views_follows_the_camera(opened):
-    s = opened
+def test_the_button_of_views_follows_the_camera(loaded):
+    s = loaded
     button = s.window.tools["views"]
     assert button.accessibleDescription() == "Home"
     key(s, "Left")
@@ -273,10 +273,10 @@ def test_the_button_of_views_follows_the_camera(opened):
     assert button.accessibleDescription() == "Top"
 
 
-def test_letters_typed_into_the_source_box_are_no_shortcuts(opened):
+def test_letters_typed_into_the_source_box_are_no_shortcuts(loaded):
     from qtpy import QtTest
 
-    s = opened
+    s = loaded
     s.activate()
     s.window.source_box.setFocus()
     s.window.source_box.selectAll()
@@ -285,8 +285,8 @@ def test_letters_typed_into_the_source_box_are_no_shortcuts(opened):
     assert not s.window.gestures.is_live
 
 
-def test_views_before_and_after_are_offered_where_there_are_some(opened):
-    s = opened
+def test_views_before_and_after_are_offered_where_there_are_some(loaded):
+    s = loaded
     before, after = (s.window.actions_by_word[word] for word in ("view before", "view after"))
     s.until(lambda: not s.window.views._still.isActive())
     assert (before.isEnabled(), after.isEnabled()) == (False, False)
@@ -302,10 +302,10 @@ def rings(s):
     return [panel.view.over.pointed is not None for panel in s.panels]
 
 
-def test_the_ring_goes_with_the_pointer_also_if_it_came_by_a_menu(opened):
+def test_the_ring_goes_with_the_pointer_also_if_it_came_by_a_menu(loaded):
     from qtpy import QtCore, QtTest
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.RightButton, pos=s.point_of(s.panels[0], front(s)))
     assert all(rings(s))
     s.application.activePopupWidget().close()
@@ -314,10 +314,10 @@ def test_the_ring_goes_with_the_pointer_also_if_it_came_by_a_menu(opened):
     assert not s.window.status.vertex.text
 
 
-def test_the_ring_goes_from_all_meshes_where_one_of_them_is_made_anew(opened):
+def test_the_ring_goes_from_all_meshes_where_one_of_them_is_made_anew(loaded):
     from qtpy import QtCore
 
-    s = opened
+    s = loaded
     s.session.change_mesh(Perturbation(noise=0.1))
     s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
     s.settle()

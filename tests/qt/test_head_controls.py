@@ -148,12 +148,12 @@ def test_every_control_is_reached_by_tab_and_has_a_name(head):
 @pytest.mark.parametrize("key", ["Key_Space", "Key_Return", "Key_Down"])
 def test_menus_and_sheets_open_by_keyboard(head, key):
     h = head("geodesic")
-    opened = []
+    loaded = []
     for button in (h.name, shown(h)[0], h.more):
         menu = button.menu()
-        menu.aboutToShow.connect(lambda menu=menu: opened.append(menu) or QtCore.QTimer.singleShot(0, menu.close))
+        menu.aboutToShow.connect(lambda menu=menu: loaded.append(menu) or QtCore.QTimer.singleShot(0, menu.close))
         QtTest.QTest.keyClick(button, getattr(QtCore.Qt.Key, key))
-    assert opened == [h.name.menu(), shown(h)[0].menu(), h.more.menu()]
+    assert loaded == [h.name.menu(), shown(h)[0].menu(), h.more.menu()]
     QtTest.QTest.keyClick(h.info, getattr(QtCore.Qt.Key, key))
     assert h._sheet.isVisible()
     h._sheet.close()

@@ -67,13 +67,13 @@ def colour_at(panel, pixel):
 
 def facing(s):
     """A vertex in the middle of what is seen."""
-    return met(s.panels[0], 0.55).vertex
+    return hit(s.panels[0], 0.55).vertex
 
 
-def met(panel, height):
+def hit(panel, height):
     """What is seen in the middle, at a share of the view's height."""
     width, top = panel.view.pixels
-    return panel.view.picker.met_at(panel.view.renderer, width / 2, height * top)
+    return panel.view.picker.pick(panel.view.renderer, width / 2, height * top)
 
 
 # ---------------------------------------------------------------------- insets
@@ -167,7 +167,7 @@ def test_a_flat_surface_becomes_a_relief_of_each_panels_field_and_flat_again(sho
         assert np.allclose(panel.positions[:, 2], raised)
         # A click finds the vertices where they are now.
         vertex = int(np.abs(surface.vertices - surface.vertices.mean(axis=0)).sum(axis=1).argmin())
-        assert panel.view.picker.met_at(panel.view.renderer, *seen_at(panel, vertex)).vertex == vertex
+        assert panel.view.picker.pick(panel.view.renderer, *seen_at(panel, vertex)).vertex == vertex
     s.session.show(replace(s.document, height=0.0))
     s.settle()
     assert all(np.array_equal(panel.positions, surface.vertices) for panel in s.panels)
@@ -257,7 +257,7 @@ def test_an_inset_at_a_vertex_that_there_is_not_is_refused_and_nothing_changes(s
 def test_the_mark_of_the_source_is_not_held_through_an_inset_over_it(shown):
     s = shown(bumpy(2000))
     panel = s.panels[0]
-    vertex = met(panel, 0.75).vertex
+    vertex = hit(panel, 0.75).vertex
     s.session.show(move_source(s.document, s.document.panels[0].id, vertex))
     s.settle()
     s.until(lambda: s.session.is_complete)

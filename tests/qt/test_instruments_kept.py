@@ -16,7 +16,7 @@ from app.document.form import document_data
 from app.document.instruments import PinList, Profile, Scatter
 from app.document.measuring import add_pins, change_pin, select, show_regions
 from bihdist_core.distances.kinds import Spec
-from bihdist_core.sources.source import Curve, Place, SourceSet
+from bihdist_core.sources.source import Curve, SourceSet, SurfacePoint
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -30,8 +30,8 @@ SIZE = (1500, 950)
 def everything(s):
     """Pins, a profile, a scatter with selections, regions, extrema, a source of several parts, docks here and there."""
     surface, document = s.session.surface, s.document
-    along = [Place(face, (0.2, 0.3, 0.5)) for face in (0, *_neighbours(surface.faces, 0))]
-    document = move_source(document, 0, SourceSet((5, Place(40, (0.2, 0.5, 0.3)), Curve(tuple(along)))))
+    along = [SurfacePoint(face, (0.2, 0.3, 0.5)) for face in (0, *_neighbours(surface.faces, 0))]
+    document = move_source(document, 0, SourceSet((5, SurfacePoint(40, (0.2, 0.5, 0.3)), Curve(tuple(along)))))
     document = add_pins(document, [7, 90, 200, 300])
     document = change_pin(document, replace(document.pins[1], name="tip", colour=6))
     document = select(select(document, "ear", np.arange(30)), "tail", np.arange(100, 160))

@@ -259,15 +259,15 @@ def test_labels_say_the_values_of_the_lines_they_stand_on(s):
     assert len(found) >= 4
     for label in found:
         assert label.text == value_text(label.value)
-        met = panel.view.met_at(QtCore.QPoint(round(label.middle[0] - 0.5), round(label.middle[1] - 0.5)))
-        there = field[s.session.surface.faces[met.face]] @ met.weights
+        hit = panel.view.pick(QtCore.QPoint(round(label.middle[0] - 0.5), round(label.middle[1] - 0.5)))
+        there = field[s.session.surface.faces[hit.face]] @ hit.weights
         # A label may stand a few pixels beside its line, which is one of twenty steps.
         assert abs(there - label.value) < 0.3 * field.max() / 20
 
 
 def test_an_inset_has_a_number_of_its_own(s):
     panel = s.panels[0]
-    vertex = panel.view.met_at(panel.view.rect().center()).vertex
+    vertex = panel.view.pick(panel.view.rect().center()).vertex
     s.window.choices.isoline.equal(True)
     s.session.show(replace(s.document, zooms=(Zoom(vertex, 3.0, "top left"),)))
     s.settle()

@@ -140,7 +140,7 @@ def test_the_process_ends_well_with_windows_open(tmp_path):
         "from app.qt.application import application; app = application()\n"
         "from qtpy import QtWidgets; from app.qt.look.look import LOOK; from app.qt.look.icons import put_icon\n"
         "window = QtWidgets.QMainWindow(); button = QtWidgets.QToolButton(window); put_icon(button, 'pin')\n"
-        "LOOK.dress(window); window.show(); LOOK.choose('dark'); app.processEvents(); print('done')"
+        "LOOK.apply_theme(window); window.show(); LOOK.choose('dark'); app.processEvents(); print('done')"
     )
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert (ended.returncode, ended.stdout) == (0, "done\n"), ended.stderr
@@ -154,7 +154,7 @@ def shown(widget, theme):
     LOOK.choose(theme.word)
     window = QWidget()
     QHBoxLayout(window).addWidget(widget)
-    LOOK.dress(window)
+    LOOK.apply_theme(window)
     window.ensurePolished()
     window.resize(window.sizeHint())
     return widget.grab()
@@ -200,7 +200,7 @@ def test_a_ticked_entry_of_a_menu_has_a_tick(application):
     for theme in THEMES.values():
         LOOK.choose(theme.word)
         menu = QMenu()
-        LOOK.dress(menu)
+        LOOK.apply_theme(menu)
         action = menu.addAction("  ")
         action.setCheckable(True)
         without = inked(menu.grab())[0]

@@ -30,7 +30,7 @@ def fits(window):
 
 
 @pytest.fixture
-def opened(screen, tmp_path):
+def loaded(screen, tmp_path):
     path = tmp_path / NAME
     with_fins(*bumpy_sphere(4000), count=COUNT, path=path)
     s = screen()
@@ -43,23 +43,23 @@ def opened(screen, tmp_path):
 
 def hover(s, count=24):
     """The pointer goes over everything in the window; how often it was over the surface."""
-    met = 0
+    hit = 0
     for k in range(count):
         panel = s.panels[k % len(s.panels)]
         x0, y0 = corner(panel)
         x, y = round(panel.view.width() * (0.1 + 0.8 * k / count)), round(panel.view.height() * (0.3 + 0.02 * k))
         run("mousemove", x0 + x, y0 + y)
         s.settle(0.03)
-        met += s.window.gestures.hovered is not None
+        hit += s.window.gestures.hovered is not None
     for widget in (s.window.tool_bar, s.panels[0].head, s.panels[1].bar, s.window.status):
         middle = widget.mapToGlobal(widget.rect().center())
         run("mousemove", middle.x(), middle.y())
         s.settle(0.03)
-    return met
+    return hit
 
 
-def test_many_edges_and_a_long_name_move_nothing_and_are_told_in_a_list(opened):
-    s, chip = opened, opened.window.status.notes
+def test_many_edges_and_a_long_name_move_nothing_and_are_told_in_a_list(loaded):
+    s, chip = loaded, loaded.window.status.notes
     s.until(lambda: NAME in s.window.windowTitle())
     assert s.session.surface.nonmanifold_edge_count == COUNT
     assert fits(s.window)
@@ -85,23 +85,23 @@ def test_many_edges_and_a_long_name_move_nothing_and_are_told_in_a_list(opened):
     assert places(s.window) == before
 
 
-def test_a_click_selects_the_vertex_that_is_met_there(opened):
-    s = opened
+def test_a_click_selects_the_vertex_that_is_met_there(loaded):
+    s = loaded
     for panel, (x, y) in zip(s.panels, [(0.5, 0.5), (0.42, 0.6), (0.57, 0.41)], strict=True):
         x0, y0 = corner(panel)
         point = QtCore.QPoint(round(x * panel.view.width()), round(y * panel.view.height()))
-        met = panel.view.met_at(point)
+        hit = panel.view.pick(point)
         run("mousemove", x0 + point.x(), y0 + point.y())
-        s.until(lambda met=met: s.window.gestures.hovered == met.vertex, 10)
-        assert s.source != met.vertex
+        s.until(lambda hit=hit: s.window.gestures.hovered == hit.vertex, 10)
+        assert s.source != hit.vertex
         run("click", 1)
-        s.until(lambda met=met: s.session.is_complete and s.source == met.vertex)
-        assert s.window.source_box.text() == str(met.vertex)
+        s.until(lambda hit=hit: s.session.is_complete and s.source == hit.vertex)
+        assert s.window.source_box.text() == str(hit.vertex)
         QtTest.QTest.qWait(QtWidgets.QApplication.doubleClickInterval())
 
 
-def test_a_very_long_list_moves_nothing_and_says_how_much_it_leaves_out(opened):
-    s, chip = opened, opened.window.status.notes
+def test_a_very_long_list_moves_nothing_and_says_how_much_it_leaves_out(loaded):
+    s, chip = loaded, loaded.window.status.notes
     view = s.panels[0].view
     before = view.geometry(), s.window.geometry()
     sentences = [f"{k}: component without any of the others, of which there is much to say, " * 4 for k in range(3000)]

@@ -9,7 +9,7 @@ from app.document.map_colours import MapColours, MapFile
 from app.document.pairing import add_pairs, place_point
 from app.document.predicting import predicts
 from app.figures.export import compute, open_document
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from bihdist_core import (
     BiharmonicDistance,
     Correspondence,
@@ -76,7 +76,7 @@ def whole(s):
 
 
 def surfaces(s):
-    return [s.session.opened(name).surface for name in "AB"]
+    return [s.session.loaded(name).surface for name in "AB"]
 
 
 def expected(s, kind, pairs, truth=None, partners=None):
@@ -335,8 +335,8 @@ def test_a_session_of_it_is_the_same_again_and_drawn(two, tmp_path, screen):
     path = tmp_path / "session.json"
     s.window.session_file.save(str(path))
     recipe = read_recipe(path)
-    document, opened = open_document(recipe, Given())
-    drawn = compute(document, opened)
+    document, loaded = open_document(recipe, ArrayStore())
+    drawn = compute(document, loaded)
     for panel, answer in zip(s.panels, drawn, strict=True):
         assert np.array_equal(panel.answer.colours, answer.colours)
     again = screen((BIHARMONIC,))

@@ -13,7 +13,7 @@ def window(application):
     from app.qt.look.look import LOOK
 
     window = QtWidgets.QMainWindow()
-    LOOK.dress(window)
+    LOOK.apply_theme(window)
     window.resize(640, 300)
     window.show()
     yield window

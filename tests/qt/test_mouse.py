@@ -39,7 +39,7 @@ def corner(panel):
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen()
     s.window.move(20, 40)
     s.open(mesh_file(bumpy(800)), 5)
@@ -47,8 +47,8 @@ def opened(screen, mesh_file):
     return s
 
 
-def test_click_selects_and_drag_only_rotates_all_panels(opened):
-    s, panel = opened, opened.panels[0]
+def test_click_selects_and_drag_only_rotates_all_panels(loaded):
+    s, panel = loaded, loaded.panels[0]
     x0, y0 = corner(panel)
     target = int(s.session.surface.vertices[:, 2].argmax())
     point = s.point_of(panel, target)
@@ -68,8 +68,8 @@ def test_click_selects_and_drag_only_rotates_all_panels(opened):
         assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
 
 
-def test_dragging_the_mark_moves_the_source_and_not_the_view(opened):
-    s, panel = opened, opened.panels[0]
+def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded):
+    s, panel = loaded, loaded.panels[0]
     front = int(s.session.surface.vertices[:, 2].argmax())
     s.session.show(move_source(s.document, 0, front))
     s.until(lambda: s.session.is_complete)
@@ -95,8 +95,8 @@ def test_dragging_the_mark_moves_the_source_and_not_the_view(opened):
     assert s.source == front
 
 
-def test_the_mark_behind_the_surface_is_not_taken_hold_of(opened):
-    s, panel = opened, opened.panels[0]
+def test_the_mark_behind_the_surface_is_not_taken_hold_of(loaded):
+    s, panel = loaded, loaded.panels[0]
     back = int(s.session.surface.vertices[:, 2].argmin())
     s.window.reset_view("front")
     s.session.show(move_source(s.document, 0, back))
@@ -110,8 +110,8 @@ def test_the_mark_behind_the_surface_is_not_taken_hold_of(opened):
     assert panel.view.camera.GetPosition() != camera
 
 
-def test_a_hand_that_trembles_still_clicks(opened):
-    s, panel = opened, opened.panels[1]
+def test_a_hand_that_trembles_still_clicks(loaded):
+    s, panel = loaded, loaded.panels[1]
     x0, y0 = corner(panel)
     target = int(s.session.surface.vertices[:, 2].argmax())
     point = s.point_of(panel, target)
@@ -124,8 +124,8 @@ def test_a_hand_that_trembles_still_clicks(opened):
     assert panel.view.camera.GetPosition() == camera
 
 
-def test_the_wheel_zooms_all_panels(opened):
-    s = opened
+def test_the_wheel_zooms_all_panels(loaded):
+    s = loaded
     x0, y0 = corner(s.panels[2])
     before, camera = s.pictures(), s.panels[2].view.camera
     distance = camera.GetDistance()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.document.measuring import add_pins, show_dock, show_regions
-from bihdist_core import Place, field_quality, field_statistics, read_surface
+from bihdist_core import SurfacePoint, field_quality, field_statistics, read_surface
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import MESHES, needs_meshes
 
@@ -31,7 +31,7 @@ def written(tmp_path, capsys):
 
 
 @pytest.fixture
-def opened(screen):
+def loaded(screen):
     s = screen([Spec.of("biharmonic"), Spec.of("diffusion"), Spec.of("geodesic", method="dijkstra")])
     s.open(MESHES / "suzanne.obj", SOURCE)
     return s
@@ -48,12 +48,12 @@ def fields(written):
 
 
 @needs_meshes
-def test_pins_and_their_distances(opened, written):
-    s, pins = opened, dock(opened, "pins")
+def test_pins_and_their_distances(loaded, written):
+    s, pins = loaded, dock(loaded, "pins")
     surface = s.session.surface
     other = int(np.flatnonzero(surface.component_of_vertex == 1)[0])
     face = int(np.flatnonzero((surface.faces == 400).any(axis=1))[0])
-    at = [77, 300, other, SOURCE, Place.of(face, 0.2, 0.3)]
+    at = [77, 300, other, SOURCE, SurfacePoint.of(face, 0.2, 0.3)]
     s.session.show(add_pins(s.document, at))
     specs = [panel.shows.spec for panel in s.document.panels]
     s.until(lambda: all(pins.distances.known(spec) is not None for spec in specs))
@@ -91,8 +91,8 @@ def numbers_of(path):
 
 
 @needs_meshes
-def test_regions_and_farthest_points(opened, written, tmp_path):
-    s, regions = opened, dock(opened, "regions")
+def test_regions_and_farthest_points(loaded, written, tmp_path):
+    s, regions = loaded, dock(loaded, "regions")
     surface = s.session.surface
     other = int(np.flatnonzero(surface.component_of_vertex == 1)[0])
     at = [77, 300, 400, other]
@@ -130,11 +130,11 @@ def test_regions_and_farthest_points(opened, written, tmp_path):
 
 
 @needs_meshes
-def test_the_profile(opened, written, tmp_path):
-    s, profile = opened, dock(opened, "profile")
+def test_the_profile(loaded, written, tmp_path):
+    s, profile = loaded, dock(loaded, "profile")
     surface = s.session.surface
     face = int(np.flatnonzero((surface.faces == 400).any(axis=1))[0])
-    s.session.show(add_pins(s.document, [77, Place.of(face, 0.2, 0.3), 300]))
+    s.session.show(add_pins(s.document, [77, SurfacePoint.of(face, 0.2, 0.3), 300]))
     s.until(lambda: profile.path is not None and len(profile.path.knots) == 3)
     path, places = profile.path, profile.path.places
     assert path.label == "shortest path along edges"  # not manifold
@@ -152,12 +152,12 @@ def read(text):
 
 
 @needs_meshes
-def test_statistics_scatter_and_quality(opened, written):
+def test_statistics_scatter_and_quality(loaded, written):
     from scipy.stats import spearmanr
 
     from app.qt.look.numbers import number, share
 
-    s, (a, b, c) = opened, fields(written)
+    s, (a, b, c) = loaded, fields(written)
     surface = s.session.surface
     statistics, scatter, quality = (dock(s, word) for word in ("statistics", "scatter", "quality"))
     s.until(lambda: statistics.facts.facts and len(scatter.facts.facts) > 3 and s.window.docks.findings.is_complete)

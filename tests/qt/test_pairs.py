@@ -10,7 +10,7 @@ from app.document.file import read_recipe
 from app.document.pairing import half_pair
 from app.document.quantities import Prediction
 from app.figures.export import compute, figure_of, open_document
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from bihdist_core import BiharmonicDistance, Correspondence, GeodesicDistance, Surface
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
@@ -81,7 +81,7 @@ def paired(s, count=3):
 
 def misfit(s, kind, at, turned=False):
     """From the first mesh to the second, or turned, of the pairs that are whole."""
-    one, two = (kind(s.session.opened(name).surface) for name in "AB")
+    one, two = (kind(s.session.loaded(name).surface) for name in "AB")
     pairs = [pair for pair in places(s) if len(pair) == 2]
     if turned:
         one, two, pairs = two, one, [(b, a) for a, b in pairs]
@@ -200,7 +200,7 @@ def test_a_drag_of_a_drop_is_one_step_and_of_the_waiting_point_costs_no_solve(tw
     click(s, 0, start)
 
     def solved():
-        return [s.session.opened(name).columns_of_pairs.solved for name in "AB"]
+        return [s.session.loaded(name).columns_of_pairs.solved for name in "AB"]
 
     before, view = solved(), s.panels[0].view
     drag(s, view, s.point_of(s.panels[0], start), s.point_of(s.panels[0], stop))
@@ -241,7 +241,7 @@ def test_live_the_point_that_waits_follows_the_pointer_until_its_partner_is_clic
         hover(s, 0, vertex)
         s.until(lambda vertex=vertex: places(s)[-1] == (vertex,))
         complete(s)
-        solved.append([s.session.opened(name).columns_of_pairs.solved for name in "AB"])
+        solved.append([s.session.loaded(name).columns_of_pairs.solved for name in "AB"])
     assert solved[0] == solved[1]  # a point that follows costs nothing
     assert s.answers[1].field == pytest.approx(misfit(s, BiharmonicDistance, stop), abs=1e-9)
     there = s.seen(6, 1)[-1]
@@ -313,7 +313,7 @@ def test_a_session_keeps_them_and_a_figure_draws_them(two, tmp_path):
     recipe = read_recipe(str(tmp_path / "session.json"))
     assert recipe.document.pairs == s.document.pairs
     assert "pairs" in recipe.document.docks
-    document, surfaces = open_document(recipe, Given())
+    document, surfaces = open_document(recipe, ArrayStore())
     panels = figure_of(replace(recipe, document=document), surfaces, compute(document, surfaces)).panels
     drops = [[(m.number, m.vertex) for m in panel.marks if m.number and not m.is_candidate] for panel in panels]
     assert drops[0] == [(k, pair[0]) for k, pair in enumerate(places(s), 1)]

@@ -74,7 +74,7 @@ def shown(screen, mesh_file):
 
 
 def palette_of(s):
-    """Opened by its key, where the keys are."""
+    """LoadedMesh by its key, where the keys are."""
     s.activate()
     QTest.qWaitForWindowActive(s.window)
     QTest.keyClick(s.window, KEYS.Key_F1)

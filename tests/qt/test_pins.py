@@ -10,7 +10,7 @@ from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(1500)), 5)
     return s
@@ -20,12 +20,12 @@ def colour_at(s, panel, place):
     return s.panels[panel].view.grab().toImage().pixelColor(place).name()
 
 
-def test_shift_click_pins_a_vertex_on_all_panels_and_leaves_the_source(opened):
+def test_shift_click_pins_a_vertex_on_all_panels_and_leaves_the_source(loaded):
     from qtpy import QtCore
 
     from app.drawing.style import PINS
 
-    s = opened
+    s = loaded
     first, second = seen_vertices(s, 2)
     shift_click(s, first)
     shift_click(s, second, panel=2)
@@ -44,13 +44,13 @@ def test_shift_click_pins_a_vertex_on_all_panels_and_leaves_the_source(opened):
     assert ids(s) == [first]
 
 
-def test_a_pin_on_the_far_side_is_hollow(opened):
+def test_a_pin_on_the_far_side_is_hollow(loaded):
     from qtpy import QtCore
 
     from app.document.measuring import add_pins
     from app.drawing.style import PINS
 
-    s = opened
+    s = loaded
     view = s.panels[0].view
     far = next(v for v in range(1500) if not view.sees(s.session.surface.vertices[v]))
     s.session.show(add_pins(s.document, [far]))
@@ -63,10 +63,10 @@ def test_a_pin_on_the_far_side_is_hollow(opened):
     assert colour_at(s, 0, head) == PINS[0].lower()
 
 
-def test_the_walk_through_sources_leaves_pins(opened):
+def test_the_walk_through_sources_leaves_pins(loaded):
     from app.document.edits import move_source
 
-    s = opened
+    s = loaded
     s.session.show(move_source(s.document, 0, 70))
     shift_click(s, seen_vertices(s, 2)[0])
     pinned = ids(s)
@@ -85,10 +85,10 @@ def head_of(s, panel, vertex):
     return s.point_of(s.panels[panel], vertex) - QtCore.QPoint(0, round(RISE))
 
 
-def test_a_drop_that_is_clicked_selects_its_row(opened):
+def test_a_drop_that_is_clicked_selects_its_row(loaded):
     from qtpy import QtCore, QtTest
 
-    s = opened
+    s = loaded
     first, second = seen_vertices(s, 2)
     shift_click(s, first)
     shift_click(s, second)
@@ -116,9 +116,9 @@ def test_a_drop_that_is_clicked_selects_its_row(opened):
     assert dock.table.points == ()
     assert s.source == 5  # which stays where it is
     # With Shift, the place under the drop is pinned.
-    met = s.panels[0].view.met_at(head_of(s, 0, first))
+    hit = s.panels[0].view.pick(head_of(s, 0, first))
     QtTest.QTest.mouseClick(s.panels[0].view, left, QtCore.Qt.KeyboardModifier.ShiftModifier, pos=head_of(s, 0, first))
-    assert ids(s) == [first, second, met.vertex]
+    assert ids(s) == [first, second, hit.vertex]
 
 
 def test_a_drop_hangs_down_where_the_view_ends_above_it():
@@ -134,10 +134,10 @@ def test_a_drop_hangs_down_where_the_view_ends_above_it():
     assert (box.top(), box.bottom()) == (pytest.approx(40 - RISE - HEAD), 40)
 
 
-def test_a_drop_is_dragged_in_one_step_and_the_matrix_follows(opened):
+def test_a_drop_is_dragged_in_one_step_and_the_matrix_follows(loaded):
     from qtpy import QtCore, QtTest
 
-    s = opened
+    s = loaded
     first, second = seen_vertices(s, 2)
     shift_click(s, first)
     shift_click(s, second)
@@ -155,10 +155,10 @@ def test_a_drop_is_dragged_in_one_step_and_the_matrix_follows(opened):
         assert ids(s)[0] not in before
         assert ids(s)[1] == second
         tip = s.point_of(s.panels[0], before[0]) + QtCore.QPoint(0, 40)
-        assert ids(s)[0] == view.met_at(tip).vertex
+        assert ids(s)[0] == view.pick(tip).vertex
     s.until(lambda: dock.distances.is_known)
     spec = dock.distances.spec
-    assert dock.distances.matrix()[0, 1] == s.session.opened().distances("voronoi").get(spec).between(*ids(s))
+    assert dock.distances.matrix()[0, 1] == s.session.loaded().distances("voronoi").get(spec).between(*ids(s))
     s.session.undo()
     assert ids(s) == before
     s.session.undo()

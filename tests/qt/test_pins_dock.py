@@ -11,7 +11,7 @@ from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click, type_ids
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(1500)), 5)
     return s
@@ -36,10 +36,10 @@ def read_number(text):
     return float(text.replace("−", "-").replace(",", ""))
 
 
-def test_the_key_opens_the_dock_and_typed_ids_are_pinned(opened):
+def test_the_key_opens_the_dock_and_typed_ids_are_pinned(loaded):
     from qtpy import QtCore, QtTest
 
-    s = opened
+    s = loaded
     s.activate()
     QtTest.QTest.qWaitForWindowActive(s.window)
     QtTest.QTest.keyClick(s.panels[0].view, QtCore.Qt.Key.Key_P)
@@ -63,8 +63,8 @@ def test_the_key_opens_the_dock_and_typed_ids_are_pinned(opened):
     assert (dock.box.text(), dock.wrong.isVisible(), dock.box.hasFocus()) == ("", False, False)
 
 
-def test_the_list_says_what_every_panel_has_there(opened):
-    s = opened
+def test_the_list_says_what_every_panel_has_there(loaded):
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
     for row, vertex in zip(dock.table.rows.rows, (12, 40), strict=True):
@@ -85,10 +85,10 @@ def test_the_list_says_what_every_panel_has_there(opened):
     )
 
 
-def test_the_matrix_is_what_the_command_writes(opened, tmp_path, capsys):
+def test_the_matrix_is_what_the_command_writes(loaded, tmp_path, capsys):
     from app.main import main
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
     s.until(lambda: dock.distances.is_known)
@@ -105,24 +105,24 @@ def test_the_matrix_is_what_the_command_writes(opened, tmp_path, capsys):
     capsys.readouterr()
 
 
-def test_pins_in_faces_are_listed_and_compared(opened, tmp_path):
-    from bihdist_core import Place
+def test_pins_in_faces_are_listed_and_compared(loaded, tmp_path):
+    from bihdist_core import SurfacePoint
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, f17:0.2,0.5")
-    assert ids(s) == [12, Place.of(17, 0.2, 0.5)]
+    assert ids(s) == [12, SurfacePoint.of(17, 0.2, 0.5)]
     s.window.gestures.sources.set_snapping(False)
     (vertex,) = seen_vertices(s, 1)
     shift_click(s, vertex)
     place = ids(s)[2]
-    assert isinstance(place, Place)
+    assert isinstance(place, SurfacePoint)
     assert vertex in s.session.surface.faces[place.face]
     assert [row.vertex for row in dock.table.rows.rows] == ["12", "f17", f"f{place.face}"]
     specs = [panel.shows.spec for panel in s.document.panels]
     s.until(lambda: all(dock.distances.known(spec) is not None for spec in specs))
     for spec in specs:
-        distance = s.session.opened().distances(s.document.areas).get(spec)
+        distance = s.session.loaded().distances(s.document.areas).get(spec)
         expected = distance.pairwise(ids(s))
         assert np.abs(dock.distances.known(spec) - expected).max() <= 1e-9 * expected.max()
     type_ids(s, dock, "f17:0.2,0.5")
@@ -138,13 +138,13 @@ def test_pins_in_faces_are_listed_and_compared(opened, tmp_path):
     assert said[-1].startswith("Saved 3 pins in pins.csv: 2 pins moved to a vertex, the farthest")
     select_row(s, dock, 1)
     dock.menu._move_source()
-    assert s.source == Place.of(17, 0.2, 0.5)
+    assert s.source == SurfacePoint.of(17, 0.2, 0.5)
 
 
-def test_the_cell_under_the_pointer_says_the_pair_in_all_distances(opened):
+def test_the_cell_under_the_pointer_says_the_pair_in_all_distances(loaded):
     from qtpy import QtTest
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
     specs = [panel.shows.spec for panel in s.document.panels]
@@ -161,10 +161,10 @@ def test_the_cell_under_the_pointer_says_the_pair_in_all_distances(opened):
         assert f"<b>{number(float(dock.distances.known(spec)[0, 2]))}</b>" in said
 
 
-def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(opened):
+def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(loaded):
     from qtpy import QtCore, QtTest, QtWidgets
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
     select_row(s, dock, 0)
@@ -191,10 +191,10 @@ def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(opened):
     assert [pin.name for pin in s.document.pins] == ["", "", ""]
 
 
-def test_a_row_is_dragged_to_another_place(opened):
+def test_a_row_is_dragged_to_another_place(loaded):
     from qtpy import QtCore, QtGui
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
     select_row(s, dock, 0)
@@ -213,8 +213,8 @@ def test_a_row_is_dragged_to_another_place(opened):
     assert ids(s) == [40, 700, 12]
 
 
-def test_pins_come_back_from_each_format_and_moves_to_vertices_are_said(opened, tmp_path):
-    s = opened
+def test_pins_come_back_from_each_format_and_moves_to_vertices_are_said(loaded, tmp_path):
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
     dock.rename(s.document.pins[1].point, "ear")
@@ -241,10 +241,10 @@ def test_pins_come_back_from_each_format_and_moves_to_vertices_are_said(opened, 
     assert "cannot be read" in s.refusals[-1]
 
 
-def test_what_is_copied_has_all_digits(opened):
+def test_what_is_copied_has_all_digits(loaded):
     from qtpy import QtWidgets
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
     dock.rename(s.document.pins[0].point, "nose")
@@ -260,12 +260,12 @@ def test_what_is_copied_has_all_digits(opened):
     assert float(lines[1][2]) == dock.distances.matrix()[0, 1]
 
 
-def test_how_pins_are_listed_is_undone(opened):
+def test_how_pins_are_listed_is_undone(loaded):
     from qtpy import QtCore, QtTest
 
     from bihdist_core.distances.kinds import Spec
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
     by_value = dock.table.rows.rows[0].values
@@ -286,10 +286,10 @@ def test_how_pins_are_listed_is_undone(opened):
     assert dock.ways.choice() == "value"
 
 
-def test_a_session_brings_pins_and_their_dock_back(opened, screen, tmp_path):
+def test_a_session_brings_pins_and_their_dock_back(loaded, screen, tmp_path):
     from bihdist_core.distances.kinds import Spec
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
     dock.rename(s.document.pins[0].point, "nose")
@@ -310,13 +310,13 @@ def test_a_session_brings_pins_and_their_dock_back(opened, screen, tmp_path):
     assert listed.ways.choice() == "share"
 
 
-def test_titles_are_written_whole_in_as_many_lines_as_they_need(opened):
+def test_titles_are_written_whole_in_as_many_lines_as_they_need(loaded):
     from qtpy import QtCore, QtGui
 
     from app.document.edits import add_panel
     from app.document.quantities import quantity
 
-    s = opened
+    s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
     document = s.document

@@ -33,7 +33,7 @@ def move_to(widget, point):
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen(TWO)
     s.window.move(20, 40)
     s.window.resize(1100, 800)
@@ -74,8 +74,8 @@ def with_profile(s, count=2):
 
 
 @with_pointer
-def test_it_opens_by_its_key_and_its_numbers_are_the_cores(opened):
-    s = opened
+def test_it_opens_by_its_key_and_its_numbers_are_the_cores(loaded):
+    s = loaded
     dock, ids = with_profile(s)
     surface = s.session.surface
     path = GeodesicPaths(surface).path(ids)
@@ -93,8 +93,8 @@ def test_it_opens_by_its_key_and_its_numbers_are_the_cores(opened):
 
 
 @with_pointer
-def test_the_chart_and_the_panels_mark_the_same_place(opened):
-    s = opened
+def test_the_chart_and_the_panels_mark_the_same_place(loaded):
+    s = loaded
     dock, _ = with_profile(s)
     chart, path = dock.chart, dock.path
     move_to(chart.charts[0], chart.charts[0].plot.center().toPoint())
@@ -170,10 +170,10 @@ def test_charts_stand_below_each_other_where_the_dock_is_narrow(application):
 
 
 @with_pointer
-def test_arrow_keys_go_along_the_path(opened):
+def test_arrow_keys_go_along_the_path(loaded):
     from qtpy.QtCore import Qt
 
-    s = opened
+    s = loaded
     dock, _ = with_profile(s)
     dock.chart.setFocus(Qt.FocusReason.TabFocusReason)
     for key in ("Right", "Right", "shift+Right", "Left"):
@@ -185,8 +185,8 @@ def test_arrow_keys_go_along_the_path(opened):
     s.until(lambda: dock.chart.at is None)
 
 
-def test_the_path_is_dark_on_white_where_it_is_seen(opened):
-    s = opened
+def test_the_path_is_dark_on_white_where_it_is_seen(loaded):
+    s = loaded
     profiled(s)
     s.window.reset_view("back")
     s.settle()
@@ -203,8 +203,8 @@ def test_the_path_is_dark_on_white_where_it_is_seen(opened):
     assert not len(view.over.path.pixels)
 
 
-def test_curves_follow_the_source_and_the_path_stays(opened):
-    s = opened
+def test_curves_follow_the_source_and_the_path_stays(loaded):
+    s = loaded
     dock = profiled(s)
     path = dock.path
     s.session.show(move_source(s.document, 0, 100))
@@ -214,8 +214,8 @@ def test_curves_follow_the_source_and_the_path_stays(opened):
         assert np.array_equal(dock.curves[panel.id].values, path.along(answer.field))
 
 
-def test_ways_and_ends_are_steps_that_can_be_undone(opened):
-    s = opened
+def test_ways_and_ends_are_steps_that_can_be_undone(loaded):
+    s = loaded
     dock = profiled(s)
     first = dock.path
     dock.choices.choose_way("section")
@@ -249,10 +249,10 @@ def test_ways_and_ends_are_steps_that_can_be_undone(opened):
     assert np.array_equal(dock.path.points, first.points)
 
 
-def test_what_is_saved_is_what_is_shown(opened, tmp_path):
+def test_what_is_saved_is_what_is_shown(loaded, tmp_path):
     from app.figures.profile_figure import save_profile_figure
 
-    s = opened
+    s = loaded
     dock = profiled(s, 3)
     assert len(dock.chart.knots) == 3
     dock.files.save_numbers(str(tmp_path / "along.csv"))
@@ -273,8 +273,8 @@ def test_what_is_saved_is_what_is_shown(opened, tmp_path):
     assert ">% of the maximum</text>" in drawn
 
 
-def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(opened, screen, mesh_file, tmp_path):
-    s = opened
+def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(loaded, screen, mesh_file, tmp_path):
+    s = loaded
     dock = profiled(s)
     dock.choices.choose_way("edges")
     s.until(lambda: dock.path.label == "shortest path along edges")
@@ -293,8 +293,8 @@ def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(opened, screen,
     assert "pin two points" in other.chart.sentence
 
 
-def test_panels_come_and_go_while_the_chart_is_pointed_at(opened):
-    s = opened
+def test_panels_come_and_go_while_the_chart_is_pointed_at(loaded):
+    s = loaded
     dock = profiled(s)
     dock._point((dock.path.length / 3, 0.5))
     s.window.choices.add_panel()
@@ -308,8 +308,8 @@ def test_panels_come_and_go_while_the_chart_is_pointed_at(opened):
     assert not any(panel.head._dot or len(panel.view.over.path.points) for panel in s.panels)
 
 
-def test_without_two_points_it_says_what_to_do(opened):
-    s = opened
+def test_without_two_points_it_says_what_to_do(loaded):
+    s = loaded
     s.window.docks.toggle("profile")
     assert "pin two points" in dock_of(s).chart.sentence
     pinned(s, 1)

@@ -31,7 +31,7 @@ def test_a_line_at_0_is_hardly_wider_than_others_unless_bold_ones_are_wanted():
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen()
     s.window.resize(1500, 1000)
     s.open(mesh_file(bumpy(1500)), 5)
@@ -42,8 +42,8 @@ def white(picture):
     return int((picture.min(axis=2) > 240).sum())
 
 
-def test_a_small_view_has_thinner_lines_and_smaller_marks(opened):
-    s = opened
+def test_a_small_view_has_thinner_lines_and_smaller_marks(loaded):
+    s = loaded
     view = s.panels[0].view
     s.until(lambda: view.proportion == 1.0)
     s.pictures()
@@ -53,13 +53,13 @@ def test_a_small_view_has_thinner_lines_and_smaller_marks(opened):
     before = view.shot()
     assert view.scene._largest.actor.GetProperty().GetPointSize() == pytest.approx(usual * view.proportion)
     view.scene.set_proportion(1.0)  # as it would be without
-    wide = s.window.grid.board.picture(view.scene, view.pixels)[..., :3]
+    wide = s.window.grid.offscreen.picture(view.scene, view.pixels)[..., :3]
     ground = white(before)
     assert white(wide) > ground  # more of the shape was under white lines
 
 
-def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(opened):
-    s = opened
+def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(loaded):
+    s = loaded
     s.session.show(add_pins(s.document, s.seen(2)[:1]))
     s.settle()
     view = s.panels[0].view
@@ -80,8 +80,8 @@ def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(opened):
         assert reach(tip) == pytest.approx(share * usual, abs=1.5)
 
 
-def test_anchors_are_dark_rings_with_a_light_halo_whatever_the_field(opened):
-    s = opened
+def test_anchors_are_dark_rings_with_a_light_halo_whatever_the_field(loaded):
+    s = loaded
     vertex = s.seen(3)[1]
     s.session.show(replace(s.document, points=(*s.document.points, Point("a", vertex)), anchors=(Anchor("a", 0.0),)))
     s.until(lambda: s.session.is_complete)

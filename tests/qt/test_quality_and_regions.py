@@ -12,7 +12,7 @@ SHOWN = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
 
 
 @pytest.fixture
-def opened(screen, tmp_path):
+def loaded(screen, tmp_path):
     from bihdist_core.formats.field_output import write_fields
 
     surface = bumpy(300)
@@ -50,8 +50,8 @@ def known(s):
     s.settle(0.1)  # what is known is on its way to the dock
 
 
-def test_quality_opens_by_its_key_and_follows_the_source(opened):
-    s = opened
+def test_quality_opens_by_its_key_and_follows_the_source(loaded):
+    s = loaded
     key(s, "q")
     known(s)
     table = dock(s, "quality").text()
@@ -81,11 +81,11 @@ def test_quality_opens_by_its_key_and_follows_the_source(opened):
     assert not len(marks.positions)
 
 
-def test_a_difference_has_extrema_and_kinks_and_no_more(opened):
+def test_a_difference_has_extrema_and_kinks_and_no_more(loaded):
     from app.document.edits import show_in
     from app.document.quantities import quantity
 
-    s = opened
+    s = loaded
     key(s, "q")
     s.session.show(show_in(s.document, 2, quantity("biharmonic - geodesic")))
     s.until(lambda: s.session.is_complete)
@@ -103,8 +103,8 @@ def test_a_difference_has_extrema_and_kinks_and_no_more(opened):
     assert "no distance" in table.item(5, 2).toolTip()
 
 
-def test_extrema_are_kept_on_the_surfaces_if_that_is_wanted(opened, tmp_path):
-    s = opened
+def test_extrema_are_kept_on_the_surfaces_if_that_is_wanted(loaded, tmp_path):
+    s = loaded
     key(s, "q")
     known(s)
     marks = s.panels[0].view.over.extrema
@@ -127,14 +127,14 @@ def test_extrema_are_kept_on_the_surfaces_if_that_is_wanted(opened, tmp_path):
     assert not dock(s, "quality").tick.isChecked()
 
 
-def test_farthest_points_are_pinned_and_divide_the_panels(opened, tmp_path):
-    s = opened
+def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
+    s = loaded
     key(s, "n")
     regions = dock(s, "regions")
     regions.sampler.count.setValue(5)
     press(regions.sampler.pin)
     s.until(lambda: len(s.document.pins) == 5)
-    distance = s.session.opened().distances("voronoi").get(SHOWN[0])
+    distance = s.session.loaded().distances("voronoi").get(SHOWN[0])
     wanted = farthest_points(distance, 7, 5)
     assert [s.document.point(pin.point).at for pin in s.document.pins] == wanted.tolist()
     before = s.pictures()
@@ -180,21 +180,21 @@ def test_farthest_points_are_pinned_and_divide_the_panels(opened, tmp_path):
     assert (tmp_path / "ids.txt").read_text().split() == [str(id) for id in wanted]
 
 
-def test_regions_follow_a_pin_that_is_moved(opened):
+def test_regions_follow_a_pin_that_is_moved(loaded):
     from app.document.measuring import add_pins, show_regions
 
-    s = opened
+    s = loaded
     s.session.show(show_regions(add_pins(s.document, [7, 90, 200]), 0))
     known(s)
     s.session.show(put_point(s.document, s.document.pins[2].point, 150), key="drag", live=True)
     known(s)
-    distance = s.session.opened().distances("voronoi").get(SHOWN[0])
+    distance = s.session.loaded().distances("voronoi").get(SHOWN[0])
     wanted = voronoi_regions(s.session.surface, distance.from_sources([7, 90, 150]))
     assert s.window.docks.findings.divided(0).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
 
 
-def test_too_many_points_are_refused_in_the_dock(opened):
-    s = opened
+def test_too_many_points_are_refused_in_the_dock(loaded):
+    s = loaded
     key(s, "n")
     sampler = dock(s, "regions").sampler
     sampler.count.setValue(2_000)
@@ -206,8 +206,8 @@ def test_too_many_points_are_refused_in_the_dock(opened):
     assert s.document.pins == ()
 
 
-def test_the_docks_come_back_with_a_session(opened, tmp_path):
-    s = opened
+def test_the_docks_come_back_with_a_session(loaded, tmp_path):
+    s = loaded
     key(s, "q")
     key(s, "n")
     sampler = dock(s, "regions").sampler

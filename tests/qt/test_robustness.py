@@ -9,7 +9,7 @@ from app.document.edits import add_panel
 from app.document.file import read_recipe
 from app.document.quantities import quantity
 from app.figures.export import compute, figure_of, open_document
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from bihdist_core import BiharmonicDistance, GeodesicDistance, Surface, read_surface
 from bihdist_core.analysis.diagnostics import field_change
 from bihdist_core.applications.changes import Perturbation
@@ -25,12 +25,12 @@ KINDS = (BiharmonicDistance, GeodesicDistance)
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     return open_it(screen, mesh_file(bumpy(400)))
 
 
-def test_noise_is_typed_and_each_distance_is_shown_before_and_after_with_its_numbers(opened):
-    s, dock = opened, dock_of(opened)
+def test_noise_is_typed_and_each_distance_is_shown_before_and_after_with_its_numbers(loaded):
+    s, dock = loaded, dock_of(loaded)
     before = s.document
     type_in(s, dock.noise.box, "0.3")
     after, ids = check(s, Perturbation(noise=0.3))
@@ -58,8 +58,8 @@ def test_noise_is_typed_and_each_distance_is_shown_before_and_after_with_its_num
     assert dock.noise.box.text() == "0.3"
 
 
-def test_before_and_after_have_one_range(opened):
-    s, dock = opened, dock_of(opened)
+def test_before_and_after_have_one_range(loaded):
+    s, dock = loaded, dock_of(loaded)
     type_in(s, dock.noise.box, "1")
     for first in (0, 3):
         tops = [s.panels[first + k].view.scene.maximum for k in (0, 1)]
@@ -68,8 +68,8 @@ def test_before_and_after_have_one_range(opened):
         assert s.answers[first].maximum != pytest.approx(s.answers[first + 1].maximum)
 
 
-def test_a_slider_is_followed_and_is_one_step(opened):
-    s, slider = opened, dock_of(opened).noise.slider
+def test_a_slider_is_followed_and_is_one_step(loaded):
+    s, slider = loaded, dock_of(loaded).noise.slider
     steps = []
     slider.setSliderDown(True)
     for step in range(40, 160, 4):
@@ -89,8 +89,8 @@ def test_a_slider_is_followed_and_is_one_step(opened):
     ]
 
 
-def test_a_mesh_is_never_seen_without_its_fields_while_a_slider_moves(opened):
-    s, dock = opened, dock_of(opened)
+def test_a_mesh_is_never_seen_without_its_fields_while_a_slider_moves(loaded):
+    s, dock = loaded, dock_of(loaded)
     type_in(s, dock.noise.box, "0.2")
     bare = []
     changed = s.window.document_changed
@@ -107,8 +107,8 @@ def test_a_mesh_is_never_seen_without_its_fields_while_a_slider_moves(opened):
     assert not any(any(each) for each in bare)
 
 
-def test_simplified_to_a_count_and_whole_again(opened):
-    s, dock = opened, dock_of(opened)
+def test_simplified_to_a_count_and_whole_again(loaded):
+    s, dock = loaded, dock_of(loaded)
     type_in(s, dock.vertices.box, "250")
     check(s, Perturbation(simplify=250))
     type_in(s, dock.vertices.box, "3")
@@ -118,8 +118,8 @@ def test_simplified_to_a_count_and_whole_again(opened):
     assert change_of(s) is None
 
 
-def test_holes_by_chance_are_of_the_seed(opened):
-    s, dock = opened, dock_of(opened)
+def test_holes_by_chance_are_of_the_seed(loaded):
+    s, dock = loaded, dock_of(loaded)
     type_in(s, dock.holes.box, "1")
     assert "larger radius" in s.refusals[-1]  # as small as the faces
     assert dock.holes.box.text() == "0"
@@ -134,19 +134,19 @@ def test_holes_by_chance_are_of_the_seed(opened):
     assert dock.holes.box.property("wrong")
 
 
-def test_the_changed_mesh_is_saved(opened, tmp_path, monkeypatch):
-    s, dock = opened, dock_of(opened)
+def test_the_changed_mesh_is_saved(loaded, tmp_path, monkeypatch):
+    s, dock = loaded, dock_of(loaded)
     type_in(s, dock.noise.box, "0.3")
     path = str(tmp_path / "changed.off")
     monkeypatch.setattr("app.qt.docks.saving.ask_path", lambda *_: path)
     press(s, dock.save_button)
     there = read_surface(path)
-    assert np.array_equal(there.vertices, s.session.opened("B").surface.vertices)
-    assert np.array_equal(there.faces, s.session.opened("B").surface.faces)
+    assert np.array_equal(there.vertices, s.session.loaded("B").surface.vertices)
+    assert np.array_equal(there.faces, s.session.loaded("B").surface.faces)
 
 
-def test_a_session_of_it_is_opened_again_and_drawn(opened, tmp_path, mesh_file):
-    s, dock = opened, dock_of(opened)
+def test_a_session_of_it_is_opened_again_and_drawn(loaded, tmp_path, mesh_file):
+    s, dock = loaded, dock_of(loaded)
     ball = bumpy(400)
     dock.take_pose(mesh_file(Surface(ball.vertices * (1, 1.4, 0.7), ball.faces), "pose.off"))
     complete(s)
@@ -162,7 +162,7 @@ def test_a_session_of_it_is_opened_again_and_drawn(opened, tmp_path, mesh_file):
     for answer, field in zip(s.answers, fields, strict=True):
         assert answer.field == pytest.approx(field, nan_ok=True)
     recipe = read_recipe(str(path))
-    document, surfaces = open_document(recipe, Given())
+    document, surfaces = open_document(recipe, ArrayStore())
     answers = compute(document, surfaces)
     figure = figure_of(replace(recipe, document=document), surfaces, answers)
     assert figure.columns == 3
@@ -170,8 +170,8 @@ def test_a_session_of_it_is_opened_again_and_drawn(opened, tmp_path, mesh_file):
     assert "pose of pose.off, noise of 0.1 edges" in figure.panels[1].heading
 
 
-def test_closing_the_dock_brings_the_old_panels_back(opened):
-    s, dock = opened, dock_of(opened)
+def test_closing_the_dock_brings_the_old_panels_back(loaded):
+    s, dock = loaded, dock_of(loaded)
     s.session.show(add_panel(s.document, quantity("biharmonic - geodesic")))
     complete(s)
     before = s.document
@@ -187,8 +187,8 @@ def test_closing_the_dock_brings_the_old_panels_back(opened):
     assert change_of(s).noise == 1
 
 
-def test_other_distances_are_shown_in_the_whole_row(opened):
-    s, dock = opened, dock_of(opened)
+def test_other_distances_are_shown_in_the_whole_row(loaded):
+    s, dock = loaded, dock_of(loaded)
     type_in(s, dock.noise.box, "0.3")
     s.window.gestures.choose(s.document.panels[1].id, quantity("commute-time", "source after"))
     complete(s)
@@ -201,10 +201,10 @@ def test_other_distances_are_shown_in_the_whole_row(opened):
     assert [name for name, _ in dock.table.rows][:2] == ["Commute-time", "Geodesic"]
 
 
-def test_a_place_is_pointed_at_on_both_and_a_source_moves_on_both(opened):
-    s, dock = opened, dock_of(opened)
+def test_a_place_is_pointed_at_on_both_and_a_source_moves_on_both(loaded):
+    s, dock = loaded, dock_of(loaded)
     type_in(s, dock.vertices.box, "250")
-    ids = s.session.opened("B").ids
+    ids = s.session.loaded("B").ids
     vertex, at = seen(s, 1)
     s.window.grid.pointing.show(s.panels[1].id, vertex)
     position = s.panels[0].view.over.pointed.position
@@ -214,8 +214,8 @@ def test_a_place_is_pointed_at_on_both_and_a_source_moves_on_both(opened):
     assert (s.document.point("source").at, s.document.point("source after").at) == (ids[vertex], vertex)
 
 
-def test_a_second_mesh_has_to_go_first(opened, mesh_file):
-    s, dock = opened, dock_of(opened)
+def test_a_second_mesh_has_to_go_first(loaded, mesh_file):
+    s, dock = loaded, dock_of(loaded)
     s.session.open_beside(mesh_file(bumpy(300), "second.off"))
     s.until(lambda: len(s.document.surfaces) == 2 and not s.session.is_opening)
     complete(s)
@@ -231,8 +231,8 @@ def test_a_second_mesh_has_to_go_first(opened, mesh_file):
     assert [panel.surface for panel in s.document.panels] == ["A", "A", "B", "B"]
 
 
-def test_what_is_stopped_is_not_set(opened):
-    s, dock = opened, dock_of(opened)
+def test_what_is_stopped_is_not_set(loaded):
+    s, dock = loaded, dock_of(loaded)
     dock.noise.chosen.emit(0.7, True)  # the slider is on its way
     assert dock.settings.noise == 0.7
     s.window.cancel()
@@ -243,8 +243,8 @@ def test_what_is_stopped_is_not_set(opened):
     assert dock.noise.box.text() == "0"
 
 
-def test_the_wheel_scrolls_the_dock_and_changes_nothing(opened):
-    s, dock = opened, dock_of(opened)
+def test_the_wheel_scrolls_the_dock_and_changes_nothing(loaded):
+    s, dock = loaded, dock_of(loaded)
     for widget in (dock.noise.slider, dock.seed):
         widget.clearFocus()
         middle = widget.rect().center()
@@ -258,8 +258,8 @@ def test_the_wheel_scrolls_the_dock_and_changes_nothing(opened):
     assert change_of(s) is None
 
 
-def test_another_mesh_ends_it(opened, mesh_file):
-    s, dock = opened, dock_of(opened)
+def test_another_mesh_ends_it(loaded, mesh_file):
+    s, dock = loaded, dock_of(loaded)
     type_in(s, dock.noise.box, "0.3")
     s.open(mesh_file(bumpy(300), "other.off"))
     complete(s)
@@ -267,8 +267,8 @@ def test_another_mesh_ends_it(opened, mesh_file):
     assert dock.settings.changes_nothing
 
 
-def test_a_narrow_head_of_a_change_names_its_distance(opened):
-    s = opened
+def test_a_narrow_head_of_a_change_names_its_distance(loaded):
+    s = loaded
     type_in(s, dock_of(s).noise.box, "0.1")
     head = s.panels[2].head
     assert head.name.text() == "Change of biharmonic"

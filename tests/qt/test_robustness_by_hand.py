@@ -18,7 +18,7 @@ KINDS = (BiharmonicDistance, GeodesicDistance)
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     return open_it(screen, mesh_file(bumpy(400)))
 
 
@@ -38,8 +38,8 @@ def stroke(s, panel, start, stop):
     complete(s)
 
 
-def test_faces_are_cut_out_by_brush_and_come_back(opened, monkeypatch):
-    s, dock = opened, dock_of(opened)
+def test_faces_are_cut_out_by_brush_and_come_back(loaded, monkeypatch):
+    s, dock = loaded, dock_of(loaded)
     press(s, dock.cut.button)
     assert s.window.docks.brushing.cuts
     s.until(lambda: s.window.docks.brushing._brush is not None)
@@ -65,11 +65,11 @@ def test_faces_are_cut_out_by_brush_and_come_back(opened, monkeypatch):
     assert change_of(s) is None
 
 
-def test_two_places_are_picked_for_a_handle_and_a_weld(opened):
-    s, dock = opened, dock_of(opened)
+def test_two_places_are_picked_for_a_handle_and_a_weld(loaded):
+    s, dock = loaded, dock_of(loaded)
     view = s.panels[0].view
     places = [QtCore.QPoint(round(x * view.width()), view.height() // 2) for x in (0.3, 0.7)]
-    vertices = [view.met_at(at).vertex for at in places]
+    vertices = [view.pick(at).vertex for at in places]
     source = s.source
     for word, row in (("handle", dock.handle), ("weld", dock.weld)):
         press(s, row.button)
@@ -96,8 +96,8 @@ def test_two_places_are_picked_for_a_handle_and_a_weld(opened):
     assert not dock.weld.button.isChecked()
 
 
-def test_another_pose_is_read_and_what_is_none_is_refused(opened, mesh_file):
-    s, dock = opened, dock_of(opened)
+def test_another_pose_is_read_and_what_is_none_is_refused(loaded, mesh_file):
+    s, dock = loaded, dock_of(loaded)
     ball = bumpy(400)
     pose = mesh_file(Surface(ball.vertices * (1, 1.4, 0.7), ball.faces), "pose.off")
     dock.take_pose(pose)

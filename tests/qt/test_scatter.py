@@ -17,7 +17,7 @@ pytest.importorskip("qtpy")
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen([Spec.of("biharmonic"), Spec.of("diffusion")])
     s.window.move(20, 40)
     s.window.resize(1200, 900)
@@ -53,8 +53,8 @@ def selected(s, name):
     return vertices_of(next(each.runs for each in s.document.selections if each.name == name))
 
 
-def test_the_numbers_are_those_of_python(opened):
-    s = opened
+def test_the_numbers_are_those_of_python(loaded):
+    s = loaded
     a, b = (answer.field for answer in s.answers)
     found = field_agreement(s.session.surface, a, b, shares=True)
     facts = dict(s.dock.facts.facts)
@@ -65,10 +65,10 @@ def test_the_numbers_are_those_of_python(opened):
     assert np.array_equal(s.dock.chart.scatter.x, a / a.max())
 
 
-def test_a_lasso_selects_what_lies_in_it_on_all_panels_and_is_undone(opened):
+def test_a_lasso_selects_what_lies_in_it_on_all_panels_and_is_undone(loaded):
     from qtpy import QtCore
 
-    s, chart = opened, opened.dock.chart
+    s, chart = loaded, loaded.dock.chart
     before = s.pictures()
     # The right half of the plot.
     lasso(s, [(0.5, -0.02), (1.02, -0.02), (1.02, 1.02), (0.5, 1.02)])
@@ -94,12 +94,12 @@ def test_a_lasso_selects_what_lies_in_it_on_all_panels_and_is_undone(opened):
 
 
 @pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed")
-def test_with_the_key_held_a_drag_paints_a_selection_and_not_the_view(opened):
+def test_with_the_key_held_a_drag_paints_a_selection_and_not_the_view(loaded):
     from qtpy import QtCore
 
     from .test_mouse import corner, run
 
-    s, panel = opened, opened.panels[1]
+    s, panel = loaded, loaded.panels[1]
     x0, y0 = corner(panel)
     middle = panel.view.rect().center()
     at = x0 + middle.x(), y0 + middle.y()
@@ -123,17 +123,17 @@ def test_with_the_key_held_a_drag_paints_a_selection_and_not_the_view(opened):
     painted = selected(s, "selection")
     # Every vertex that is seen along the way is in it.
     for step in (0, 20, 40):
-        met = panel.view.met_at(middle + QtCore.QPoint(step, step // 5))
-        assert met.vertex in painted
+        hit = panel.view.pick(middle + QtCore.QPoint(step, step // 5))
+        assert hit.vertex in painted
     assert len(painted) < 1000
     assert s.source == 5
 
 
-def test_the_key_for_the_brush_is_heard_wherever_the_focus_is_but_in_text(opened):
+def test_the_key_for_the_brush_is_heard_wherever_the_focus_is_but_in_text(loaded):
     from qtpy import QtCore, QtWidgets
     from qtpy.QtTest import QTest
 
-    s, key = opened, QtCore.Qt.Key.Key_B
+    s, key = loaded, QtCore.Qt.Key.Key_B
     pointers = [panel.view.pointer for panel in s.panels]
     s.window.docks.toggle("anchors")
     dock = s.window.docks._docks["anchors"]
@@ -161,10 +161,10 @@ def test_the_key_for_the_brush_is_heard_wherever_the_focus_is_but_in_text(opened
     dock.setFloating(False)
 
 
-def test_selections_are_renamed_coloured_saved_deleted_and_kept(opened, tmp_path):
+def test_selections_are_renamed_coloured_saved_deleted_and_kept(loaded, tmp_path):
     from qtpy import QtCore, QtTest, QtWidgets
 
-    s, rows = opened, opened.dock.list
+    s, rows = loaded, loaded.dock.list
     lasso(s, [(0.4, -0.02), (1.02, -0.02), (1.02, 1.02), (0.4, 1.02)])
     lasso(s, [(0.02, 1.02), (0.2, 1.02), (0.2, 0.1), (0.02, 0.1)])
     assert [each.name for each in s.document.selections] == ["selection", "selection 2"]
@@ -199,8 +199,8 @@ def test_selections_are_renamed_coloured_saved_deleted_and_kept(opened, tmp_path
     assert rows.topLevelItem(0).text(0) == "far away"
 
 
-def test_the_panels_and_the_values_are_chosen_in_the_head(opened):
-    s, dock = opened, opened.dock
+def test_the_panels_and_the_values_are_chosen_in_the_head(loaded):
+    s, dock = loaded, loaded.dock
     ids = [panel.id for panel in s.document.panels]
     dock.choose_panel("across", ids[1])
     s.until(lambda: np.array_equal(dock.chart.scatter.y, s.answers[0].field / s.answers[0].field.max()))
@@ -213,16 +213,16 @@ def test_the_panels_and_the_values_are_chosen_in_the_head(opened):
     s.until(lambda: any("largest" in fact[0] for fact in dock.facts.facts))
 
 
-def test_the_source_moves_and_the_scatter_follows(opened):
+def test_the_source_moves_and_the_scatter_follows(loaded):
     from app.document.edits import move_source
 
-    s = opened
+    s = loaded
     s.session.show(move_source(s.document, 0, 900))
     s.until(lambda: s.session.is_complete and s.dock.chart.scatter.x[900] == 0)
 
 
-def test_a_session_has_its_selections_and_its_dock_again(opened, screen, tmp_path):
-    s = opened
+def test_a_session_has_its_selections_and_its_dock_again(loaded, screen, tmp_path):
+    s = loaded
     lasso(s, [(0.5, -0.02), (1.02, -0.02), (1.02, 1.02), (0.5, 1.02)])
     file = tmp_path / "session.json"
     file.write_text(recipe_text(Recipe(s.document, Page()), "1"))
@@ -240,8 +240,8 @@ def test_a_session_has_its_selections_and_its_dock_again(opened, screen, tmp_pat
     assert all((np.abs(picture.astype(int) - green).max(axis=2) < 3).sum() > 30 for picture in other.pictures())
 
 
-def test_the_scatter_is_saved_as_a_figure_and_as_numbers(opened, tmp_path):
-    s, dock = opened, opened.dock
+def test_the_scatter_is_saved_as_a_figure_and_as_numbers(loaded, tmp_path):
+    s, dock = loaded, loaded.dock
     lasso(s, [(0.5, -0.02), (1.02, -0.02), (1.02, 1.02), (0.5, 1.02)])
     assert dock.list.current == "selection"
     dock.save_figure(path=str(tmp_path / "it.svg"))

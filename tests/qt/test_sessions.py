@@ -18,8 +18,8 @@ from app.document.file import read_recipe, recipe_text
 from app.document.looks import Colours
 from app.document.page import Page, Recipe
 from app.document.quantities import quantity
-from app.drawing.picking import Met
-from app.session.given import given_comparison
+from app.drawing.picking import Hit
+from app.session.array_store import comparison_of_arrays
 from app.session.recipe_file import recipe_written
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
@@ -156,7 +156,7 @@ def test_view_saves_its_session(mesh_file, tmp_path):
 
 
 def test_a_session_whose_arrays_are_gone_ends_the_command_with_a_sentence(application, tmp_path):
-    document, given = given_comparison(bumpy(60), ["biharmonic"], {}, (3,))
+    document, given = comparison_of_arrays(bumpy(60), ["biharmonic"], {}, (3,))
     with recipe_written(Recipe(document), given, tmp_path / "s.json", "9"):
         pass
     (tmp_path / "s.npz").unlink()
@@ -193,7 +193,7 @@ def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh
 def corner(surface, vertex):
     """The pointer over a vertex."""
     face, number = np.argwhere(surface.faces == vertex)[0]
-    return Met(int(face), np.eye(3)[number], surface.vertices[vertex], vertex)
+    return Hit(int(face), np.eye(3)[number], surface.vertices[vertex], vertex)
 
 
 def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictures(screen, mesh_file):

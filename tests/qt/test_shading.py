@@ -16,7 +16,7 @@ GEODESIC = Spec.of("geodesic", method="heat")
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     def make(surface):
         s = screen((GEODESIC, GEODESIC))
         s.open(mesh_file(surface), 5)
@@ -30,8 +30,8 @@ def differ(one, other):
 
 
 # ---------------------------------------------------------------------- shading
-def test_menus_shade_all_panels_and_undo_takes_it_back(opened):
-    s = opened(box(6))
+def test_menus_shade_all_panels_and_undo_takes_it_back(loaded):
+    s = loaded(box(6))
     window = s.window
     usual = s.pictures()
     choices = {action.data(): action for action in window.menus.shading.actions() if action.data()}
@@ -60,8 +60,8 @@ def test_menus_shade_all_panels_and_undo_takes_it_back(opened):
     assert not window.actions_by_word["wireframe"].isChecked()
 
 
-def test_the_key_w_shows_the_edges_in_new_panels_and_other_colours_too(opened):
-    s = opened(bumpy(300))
+def test_the_key_w_shows_the_edges_in_new_panels_and_other_colours_too(loaded):
+    s = loaded(bumpy(300))
     without, action = s.pictures(), s.window.actions_by_word["wireframe"]
     assert [key.toString() for key in action.shortcuts()] == ["W"]
     action.trigger()
@@ -79,8 +79,8 @@ def test_the_key_w_shows_the_edges_in_new_panels_and_other_colours_too(opened):
     assert min(differ(s.pictures(), wired)) > 0.3
 
 
-def test_an_angle_is_asked_for_and_makes_it_creased(opened, monkeypatch):
-    s = opened(bumpy(300))
+def test_an_angle_is_asked_for_and_makes_it_creased(loaded, monkeypatch):
+    s = loaded(bumpy(300))
     smooth = s.pictures()
     monkeypatch.setattr(QtWidgets.QInputDialog, "getDouble", lambda *_: (12.5, True))
     s.window.actions_by_word["crease"].trigger()
@@ -89,12 +89,12 @@ def test_an_angle_is_asked_for_and_makes_it_creased(opened, monkeypatch):
     assert min(differ(s.pictures(), smooth)) > 0.3
 
 
-def test_a_flat_surface_raised_is_shaded_as_well(opened):
+def test_a_flat_surface_raised_is_shaded_as_well(loaded):
     from dataclasses import replace
 
     from tests.shapes import grid
 
-    s = opened(grid(8, 8))
+    s = loaded(grid(8, 8))
     s.session.show(replace(s.document, height=0.4))
     s.settle(0.1)
     before = s.pictures()
@@ -107,8 +107,8 @@ def test_a_flat_surface_raised_is_shaded_as_well(opened):
     assert max(differ(s.pictures(), before)) == 0
 
 
-def test_large_surfaces_are_split_on_a_thread_of_its_own(opened, monkeypatch):
-    s = opened(bumpy(2000))
+def test_large_surfaces_are_split_on_a_thread_of_its_own(loaded, monkeypatch):
+    s = loaded(bumpy(2000))
     smooth = s.pictures()
     monkeypatch.setattr(app.qt.panels.shades, "LARGE", 10)
     s.window.choices.shading("flat")  # needs no other mesh
@@ -117,7 +117,7 @@ def test_large_surfaces_are_split_on_a_thread_of_its_own(opened, monkeypatch):
     from dataclasses import replace
 
     s.session.show(replace(s.document, shading=crease))
-    meshes = s.session.opened().prepared.meshes
+    meshes = s.session.loaded().prepared.meshes
     s.until(lambda: meshes.ready(crease) is not None)
     s.settle(0.2)
     assert min(differ(s.pictures(), smooth)) > 0.1
@@ -127,10 +127,10 @@ def test_large_surfaces_are_split_on_a_thread_of_its_own(opened, monkeypatch):
 
 # ---------------------------------------------------------------------- moving
 @pytest.fixture
-def large(opened, monkeypatch):
+def large(loaded, monkeypatch):
     """For which something stands in, and that is slow to draw."""
     monkeypatch.setattr(app.drawing.stand_in.stand_in, "__defaults__", (400,))
-    s = opened(bumpy(4000))
+    s = loaded(bumpy(4000))
     s.window.grid.moving.fluent = 0.0
     s.settle(0.1)
     return s
@@ -155,9 +155,9 @@ def drag(s, view, steps=3, let_go=True):
 def test_what_stands_in_is_drawn_while_the_camera_moves_and_never_at_rest(large):
     s, view = large, large.panels[0].view
     drawn = []
-    board = s.window.grid.board
-    picture = board.picture
-    board.picture = lambda scene, size: drawn.append(scene.is_stand_in) or picture(scene, size)
+    offscreen = s.window.grid.offscreen
+    picture = offscreen.picture
+    offscreen.picture = lambda scene, size: drawn.append(scene.is_stand_in) or picture(scene, size)
     drag(s, view, let_go=False)
     assert standing(s) == [True, True]
     for panel in s.panels:
@@ -186,12 +186,12 @@ def test_screenshots_and_picks_are_of_the_surface_itself(large, tmp_path):
     s, view = large, large.panels[0].view
     s.settle(0.1)
     place = s.point_of(s.panels[0], s.source)
-    met = view.met_at(place)
+    hit = view.pick(place)
     view.turn_by(1, 0)
     view.turn_by(-1, 0)
     assert any(standing(s))
-    again = view.met_at(place)
-    assert (again.face, again.vertex) == (met.face, met.vertex)
+    again = view.pick(place)
+    assert (again.face, again.vertex) == (hit.face, hit.vertex)
     s.window.files.save_screenshot(str(tmp_path / "window.png"))
     assert not any(standing(s))
     view.turn_by(1, 0)

@@ -18,8 +18,8 @@ from bihdist_core import (
     Curve,
     MeshError,
     ParameterError,
-    Place,
     SourceSet,
+    SurfacePoint,
     VertexError,
 )
 from tests.shapes import bumpy, grid, torus, two_pieces
@@ -102,8 +102,8 @@ def test_the_source_is_of_any_kind_in_objects_and_in_words(shown):
     surface = grid(9, 9)
     viewer = shown(surface, ["biharmonic"], source="12+40")
     assert viewer.source == SourceSet((12, 40))
-    place = Place.of(31, 0.25, 0.5)
-    curve = Curve((place, Place.of(60, 0.2, 0.2)))
+    place = SurfacePoint.of(31, 0.25, 0.5)
+    curve = Curve((place, SurfacePoint.of(60, 0.2, 0.2)))
     exact = BiharmonicDistance(surface)
     for given, kept in [
         (place, place),
@@ -297,11 +297,11 @@ def test_where_nothing_is_defined_a_pick_has_no_value(shown):
 
 
 def _met(surface, vertex):
-    from app.drawing.picking import Met
+    from app.drawing.picking import Hit
 
     face = int(np.flatnonzero((surface.faces == vertex).any(axis=1))[0])
     weights = (surface.faces[face] == vertex).astype(float)
-    return Met(face, weights, surface.vertices[vertex], vertex)
+    return Hit(face, weights, surface.vertices[vertex], vertex)
 
 
 def test_an_error_in_a_callback_is_told_and_the_window_lives_on(shown, capsys):

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from bihdist_core import Place, SourceSet
+from bihdist_core import SourceSet, SurfacePoint
 from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
@@ -14,7 +14,7 @@ from tests.qt.sourcing import check_fields, click, ctrl_click, drag, open_file, 
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     return open_file(screen(), mesh_file(bumpy(2000)), 5)
 
 
@@ -72,18 +72,18 @@ def test_a_short_sentence_after_a_long_one_has_a_low_box(sheet):
 
 
 # ---------------------------------------------------------------------- places
-def test_without_snapping_a_click_puts_the_source_into_the_face(opened, tmp_path):
+def test_without_snapping_a_click_puts_the_source_into_the_face(loaded, tmp_path):
     from qtpy import QtCore
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     s.window.actions_by_word["snap"].trigger()
     place = view.rect().center()
-    met = view.met_at(place)
+    hit = view.pick(place)
     click(s, place)
     at = s.source
-    assert isinstance(at, Place)
-    assert at.face == met.face
-    assert np.abs(np.array(at.weights) - met.weights).max() <= 1e-4
+    assert isinstance(at, SurfacePoint)
+    assert at.face == hit.face
+    assert np.abs(np.array(at.weights) - hit.weights).max() <= 1e-4
     check_fields(s, s.window.source_box.text(), tmp_path)
     corners = s.session.surface.faces[at.face]
     position = np.array(at.weights) @ s.session.surface.vertices[corners]
@@ -92,13 +92,13 @@ def test_without_snapping_a_click_puts_the_source_into_the_face(opened, tmp_path
     s.window.actions_by_word["snap"].trigger()
     place += QtCore.QPoint(90, 0)
     click(s, place)
-    assert s.source == view.met_at(place).vertex
+    assert s.source == view.pick(place).vertex
 
 
-def test_without_snapping_the_mark_is_dragged_through_faces_and_is_exact_at_the_end(opened, tmp_path):
+def test_without_snapping_the_mark_is_dragged_through_faces_and_is_exact_at_the_end(loaded, tmp_path):
     from qtpy import QtCore
 
-    s, view = opened, opened.panels[1].view
+    s, view = loaded, loaded.panels[1].view
     s.window.actions_by_word["snap"].trigger()
     start = view.rect().center()
     click(s, start, 1)
@@ -111,7 +111,7 @@ def test_without_snapping_the_mark_is_dragged_through_faces_and_is_exact_at_the_
     assert s.answers[1].label.startswith("geodesic, exact")
     assert any("fields a second" in text and "geodesic, heat method" in text for text in rates)
     assert rates[-1] == "", "nothing is said once it rests"
-    assert isinstance(s.source, Place)
+    assert isinstance(s.source, SurfacePoint)
     seen = view.place_of(view.source) - (start + QtCore.QPoint(116, 29))
     assert abs(seen.x()) < 1.5
     assert abs(seen.y()) < 1.5
@@ -121,14 +121,14 @@ def test_without_snapping_the_mark_is_dragged_through_faces_and_is_exact_at_the_
 
 
 # ---------------------------------------------------------------------- sets
-def test_ctrl_click_makes_a_set_and_takes_from_it_and_undo_goes_back(opened, tmp_path):
+def test_ctrl_click_makes_a_set_and_takes_from_it_and_undo_goes_back(loaded, tmp_path):
     from qtpy import QtCore
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     middle = view.rect().center()
-    first = view.met_at(middle).vertex
+    first = view.pick(middle).vertex
     click(s, where(s, first))
-    others = [view.met_at(middle + QtCore.QPoint(*by)).vertex for by in ((70, 0), (0, 60))]
+    others = [view.pick(middle + QtCore.QPoint(*by)).vertex for by in ((70, 0), (0, 60))]
     for other in others:
         ctrl_click(s, where(s, other))
     assert s.source == SourceSet((first, *others))
@@ -148,12 +148,12 @@ def test_ctrl_click_makes_a_set_and_takes_from_it_and_undo_goes_back(opened, tmp
     assert s.source == first, "the last one stays"
 
 
-def test_a_member_of_a_set_is_dragged_alone(opened):
+def test_a_member_of_a_set_is_dragged_alone(loaded):
     from qtpy import QtCore
 
-    s, view = opened, opened.panels[0].view
+    s, view = loaded, loaded.panels[0].view
     middle = view.rect().center()
-    one, two = (view.met_at(middle + QtCore.QPoint(x, 0)).vertex for x in (0, 80))
+    one, two = (view.pick(middle + QtCore.QPoint(x, 0)).vertex for x in (0, 80))
     click(s, where(s, one))
     ctrl_click(s, where(s, two))
     start = where(s, two)
@@ -166,10 +166,10 @@ def test_a_member_of_a_set_is_dragged_alone(opened):
     assert s.source == SourceSet((one, two))
 
 
-def test_the_walk_goes_through_sources_of_all_kinds_and_leaves_pins_alone(opened):
+def test_the_walk_goes_through_sources_of_all_kinds_and_leaves_pins_alone(loaded):
     from app.document.measuring import add_pins
 
-    s = opened
+    s = loaded
     for words in ("12+40", "f31:0.25,0.5"):
         typed(s, words)
     s.session.show(add_pins(s.document, [7]))
@@ -230,7 +230,7 @@ def test_snapping_is_remembered_and_kept_with_a_session(application, screen, mes
     s.window.files.open(path)
     s.until(lambda: s.session.is_complete and not snaps.isChecked())
     click(s, s.panels[0].view.rect().center())
-    assert isinstance(s.source, Place)
+    assert isinstance(s.source, SurfacePoint)
     s.window.remembers = False
     new = start.as_preferred(comparison(""), preferences.Preferences(snap=False))
     assert not new.snap

@@ -16,7 +16,7 @@ pytest.importorskip("qtpy")
 
 
 @pytest.fixture
-def opened(screen, mesh_file):
+def loaded(screen, mesh_file):
     s = screen([Spec.of("biharmonic"), Spec.of("diffusion"), quantity("biharmonic - diffusion")])
     s.window.resize(1200, 900)
     s.open(mesh_file(bumpy(1000)), 5)
@@ -31,8 +31,8 @@ def activate(s, place):
     s.until(lambda: s.dock.statistics is not None)
 
 
-def test_the_active_panel_in_numbers(opened):
-    s, dock = opened, opened.dock
+def test_the_active_panel_in_numbers(loaded):
+    s, dock = loaded, loaded.dock
     found = field_statistics(s.session.surface, s.answers[0].field)
     facts = {words: numbers for words, *numbers in dock.facts.facts}
     assert facts[f"greatest, at vertex {found.greatest_at}"] == [f"{found.greatest:.4g}", "100.0 %"]
@@ -42,8 +42,8 @@ def test_the_active_panel_in_numbers(opened):
     assert abs(float(dock.quantiles.facts[2][1]) / found.quantiles[2] - 1) < 1e-3
 
 
-def test_a_difference_has_its_parts_rank_correlation_and_signs(opened):
-    s, dock = opened, opened.dock
+def test_a_difference_has_its_parts_rank_correlation_and_signs(loaded):
+    s, dock = loaded, loaded.dock
     activate(s, 2)
     s.until(lambda: dock.facts.facts[-1][0] == "rank correlation")
     a, b, d = (answer.field for answer in s.answers)
@@ -63,11 +63,11 @@ def test_a_difference_has_its_parts_rank_correlation_and_signs(opened):
     assert high[2] > high[0]
 
 
-def test_truncation_goes_with_the_slider_and_the_source(opened):
+def test_truncation_goes_with_the_slider_and_the_source(loaded):
     from app.document.edits import move_source
     from app.qt.look.look import LOOK
 
-    s, box = opened, opened.dock.truncation
+    s, box = loaded, loaded.dock.truncation
     assert box.loss is None
     box.button.click()
     s.until(lambda: box.loss is not None)
@@ -88,8 +88,8 @@ def test_truncation_goes_with_the_slider_and_the_source(opened):
     assert "biharmonic" in box.hint.text()
 
 
-def test_isolines_and_the_region_between_two_values_are_saved(opened, tmp_path):
-    s, box = opened, opened.dock.levels
+def test_isolines_and_the_region_between_two_values_are_saved(loaded, tmp_path):
+    s, box = loaded, loaded.dock.levels
     box.save_isolines(path=str(tmp_path / "lines.csv"))
     s.until((tmp_path / "lines.csv").exists)
     rows = np.genfromtxt(tmp_path / "lines.csv", delimiter=",", names=True)
@@ -117,8 +117,8 @@ def test_isolines_and_the_region_between_two_values_are_saved(opened, tmp_path):
     assert "smaller first" in box.said.text()
 
 
-def test_the_histogram_is_saved_and_copied(opened, tmp_path):
-    s, dock = opened, opened.dock
+def test_the_histogram_is_saved_and_copied(loaded, tmp_path):
+    s, dock = loaded, loaded.dock
     dock.save_figure(path=str(tmp_path / "it.svg"))
     s.until((tmp_path / "it.svg").exists)
     text = (tmp_path / "it.svg").read_text()
@@ -135,10 +135,10 @@ def test_the_histogram_is_saved_and_copied(opened, tmp_path):
     assert [float(line[1]) for line in lines[-len(dock.statistics.quantiles) :]] == dock.statistics.quantiles.tolist()
 
 
-def test_truncation_follows_sources_of_other_kinds(opened):
+def test_truncation_follows_sources_of_other_kinds(loaded):
     from app.document.edits import put_point
 
-    s, box = opened, opened.dock.truncation
+    s, box = loaded, loaded.dock.truncation
     box.button.click()
     s.until(lambda: box.loss is not None)
     for words in ("5+900", "f31:0.2,0.5"):
@@ -147,8 +147,8 @@ def test_truncation_follows_sources_of_other_kinds(opened):
         assert np.allclose(box.loss.largest, truncation_loss(s.session.surface, words).largest, atol=1e-9)
 
 
-def test_isolines_are_saved_from_the_menu_of_a_place_too(opened, tmp_path):
-    s = opened
+def test_isolines_are_saved_from_the_menu_of_a_place_too(loaded, tmp_path):
+    s = loaded
     from app.qt.docks.isoline_files import save_isolines
 
     save_isolines(s.window, s.document.panels[1].id, str(tmp_path / "lines.csv"))
@@ -158,7 +158,7 @@ def test_isolines_are_saved_from_the_menu_of_a_place_too(opened, tmp_path):
     from qtpy.QtWidgets import QMenu
 
     middle = s.panels[1].view.rect().center()
-    s.window.gestures._open_menu(s.document.panels[1].id, s.panels[1].view.met_at(middle), middle)
+    s.window.gestures._open_menu(s.document.panels[1].id, s.panels[1].view.pick(middle), middle)
     (menu,) = [each for each in s.application.topLevelWidgets() if isinstance(each, QMenu) and each.isVisible()]
     assert "Save isolines…" in [action.text() for action in menu.actions()]
     menu.hide()

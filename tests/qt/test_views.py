@@ -154,9 +154,9 @@ def test_without_perspective_clicks_zooms_and_shifts_are_where_they_are_seen(har
         view.zoom(1.5)
         s.settle(0.02)
         place = s.point_of(s.panels[0], target)
-        met = view.met_at(place)
-        assert met is not None
-        assert np.linalg.norm(met.position - surface.vertices[target]) < 3 * surface.mean_edge_length
+        hit = view.pick(place)
+        assert hit is not None
+        assert np.linalg.norm(hit.position - surface.vertices[target]) < 3 * surface.mean_edge_length
     assert view.shot().std() > 1
     at = view.place_of(surface.vertices[target])
     view.zoom(0.1, QtCore.QPoint(10, 10))

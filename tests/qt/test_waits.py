@@ -7,8 +7,8 @@ import pytest
 
 from app.document.edits import move_source
 from app.document.quantities import DistanceFrom
-from app.session.lane import Lane
-from app.session.opened import Opened, open_mesh
+from app.session.latest_request_worker import LatestRequestWorker
+from app.session.loaded_mesh import LoadedMesh, open_mesh
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, fin
 
@@ -24,15 +24,15 @@ ONE = (Spec.of("biharmonic"),)
 @pytest.fixture
 def gate(monkeypatch):
     """Answers wait until it is set, whatever the machine's speed, and can be stopped meanwhile."""
-    gate, answer = threading.Event(), Opened.answer
+    gate, answer = threading.Event(), LoadedMesh.answer
 
-    def held(opened, question, progress=None, at_once=None):
+    def held(loaded, question, progress=None, at_once=None):
         while not gate.wait(0.01):
             if progress is not None:
                 progress(0.5, "columns: solving")
-        return answer(opened, question, progress, at_once)
+        return answer(loaded, question, progress, at_once)
 
-    monkeypatch.setattr(Opened, "answer", held)
+    monkeypatch.setattr(LoadedMesh, "answer", held)
     yield gate
     gate.set()
 
@@ -107,7 +107,7 @@ def test_while_a_file_is_read_the_old_surface_stays_dimmed_and_the_title_changes
     s.window.open(mesh_file(bumpy(200), "other.off"))
     s.until(lambda: seen)
     assert seen == [("other.off[*] - Biharmonic distance", [True, True])]
-    assert {panel.opened.surface.name for panel in s.panels} == {"other.off"}
+    assert {panel.loaded.surface.name for panel in s.panels} == {"other.off"}
 
 
 def test_a_mesh_that_comes_beside_dims_nothing(screen, mesh_file, reading):
@@ -209,14 +209,14 @@ def test_what_was_stopped_says_what_is_shown(screen, mesh_file, gate):
 
 
 def test_a_quick_look_stays_when_the_exact_answer_is_stopped(screen, mesh_file, monkeypatch):
-    gate, answer = threading.Event(), Opened.answer
+    gate, answer = threading.Event(), LoadedMesh.answer
 
-    def held(opened, question, progress=None, at_once=None):
+    def held(loaded, question, progress=None, at_once=None):
         while question.spec["method"] == "exact" and question.at == 9 and not gate.wait(0.01):
             progress(0.5, "exact geodesic")
-        return answer(opened, question, progress, at_once)
+        return answer(loaded, question, progress, at_once)
 
-    monkeypatch.setattr(Opened, "answer", held)
+    monkeypatch.setattr(LoadedMesh, "answer", held)
     s = screen((Spec.of("geodesic", method="exact"),))
     s.open(mesh_file(bumpy(300)), 5)
     (panel,) = s.panels
@@ -313,9 +313,9 @@ def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows
 
 
 def test_quick_answers_change_no_panel_s_words(screen, mesh_file, monkeypatch):
-    monkeypatch.setattr(Lane.progress, "__defaults__", (60.0,))
+    monkeypatch.setattr(LatestRequestWorker.progress, "__defaults__", (60.0,))
     s = screen()
-    s.window.waits._late_soon.setInterval(60_000)  # quick on any machine
+    s.window.progress_display._late_soon.setInterval(60_000)  # quick on any machine
     s.open(mesh_file(bumpy(800)))
     told = []
     for panel in s.panels:

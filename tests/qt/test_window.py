@@ -157,7 +157,7 @@ def test_a_click_beside_the_surface_does_nothing(screen, mesh_file):
 def test_pointing_shows_the_values_of_the_same_vertex_everywhere_and_draws_no_surface_again(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
-    target, before, drawn = highest(s), seen(s), s.window.grid.board.pictures
+    target, before, drawn = highest(s), seen(s), s.window.grid.offscreen.pictures
     QTest.mouseMove(s.panels[2].view, s.point_of(s.panels[2], target))
     s.until(lambda: s.window.gestures.hovered == target)
     s.settle()
@@ -172,7 +172,7 @@ def test_pointing_shows_the_values_of_the_same_vertex_everywhere_and_draws_no_su
     s.settle()
     assert s.window.status.vertex.text == s.window.status.place.text == ""
     assert are_equal(before, seen(s))
-    assert s.window.grid.board.pictures == drawn
+    assert s.window.grid.offscreen.pictures == drawn
 
 
 def test_a_typed_vertex_that_cannot_be_a_source_is_refused(screen, mesh_file):

@@ -22,9 +22,9 @@ class AnchorClock:
     def begin(self, anchors: tuple[Anchor, ...]) -> None:
         """The values become these."""
         session = self._window.session
-        opened = session.opened()
-        if opened is not None and anchors != session.document.anchors:
-            self._begun, self._columns, self._anchors = time.perf_counter(), opened.columns, anchors
+        loaded = session.loaded()
+        if loaded is not None and anchors != session.document.anchors:
+            self._begun, self._columns, self._anchors = time.perf_counter(), loaded.columns, anchors
 
     def note(self) -> None:
         """A panel shows another field; once all do it is said, after they have been painted."""
@@ -36,9 +36,9 @@ class AnchorClock:
 
     def _say(self) -> None:
         begun, self._begun = self._begun, None
-        opened = self._window.session.opened()
-        if begun is None or opened is None:
+        loaded = self._window.session.loaded()
+        if begun is None or loaded is None:
             return
-        count = opened.columns - self._columns
+        count = loaded.columns - self._columns
         solved = "no solve" if not count else f"{count} {'column' if count == 1 else 'columns'} solved for"
         self._window.say(f"repainted in {1000 * (time.perf_counter() - begun):.0f} ms, {solved}")

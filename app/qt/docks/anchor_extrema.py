@@ -29,9 +29,9 @@ class AnchorExtrema(FactTable):
         window.docks.findings.quality_changed.connect(self.show_counts)
 
     def show_document(self, document: Document) -> None:
-        opened = self._window.session.opened()
-        about = (opened, document.areas)
-        if opened is not None and about != self._about:
+        loaded = self._window.session.loaded()
+        about = (loaded, document.areas)
+        if loaded is not None and about != self._about:
             self._about, self._ends = about, None
             self._tips.ask(about)
         self.show_counts()
@@ -81,5 +81,5 @@ def in_words(near: int, elsewhere: int) -> tuple[str, str]:
 
 
 def _found_tips(about, progress):
-    opened, areas = about
-    yield tips(opened.distances(areas).laplacian)
+    loaded, areas = about
+    yield tips(loaded.distances(areas).laplacian)

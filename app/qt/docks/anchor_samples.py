@@ -44,18 +44,18 @@ class AnchorSamples(QtWidgets.QWidget):
 
     def add_them(self) -> None:
         session, panel = self._window.session, self._panel
-        opened = None if panel is None else session.opened(panel.surface)
-        if panel is None or opened is None:
+        loaded = None if panel is None else session.loaded(panel.surface)
+        if panel is None or loaded is None:
             return
         (part,) = panel.shows.parts
         document = session.document
         points = [document.point(anchor.point) for anchor in document.anchors]
-        there = [vertex_at(point.at, opened.surface) for point in points if point.surface == panel.surface]
-        start = there or [first_source(opened.surface, opened.up)]
+        there = [vertex_at(point.at, loaded.surface) for point in points if point.surface == panel.surface]
+        start = there or [first_source(loaded.surface, loaded.up)]
         self._asked = (document, np.array(there, int), panel.id)
         at = start[0] if len(start) == 1 else SourceSet(tuple(start))
         more = self.count.value() + len(there)
-        self._sampling.ask(SamplesQuestion(document.mesh(panel.surface), document.areas, part.spec, at, more), opened)
+        self._sampling.ask(SamplesQuestion(document.mesh(panel.surface), document.areas, part.spec, at, more), loaded)
 
     def _sampled(self, sampled: Sampled) -> None:
         self._window.status.show_progress("")

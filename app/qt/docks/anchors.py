@@ -111,7 +111,7 @@ class AnchorsDock(Instrument):
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)
-            button.opened.connect(do)
+            button.loaded.connect(do)
         menu = QtWidgets.QMenu(more)
         menu.addAction("Save the interpolants as fields…", self.save_fields)
         menu.addAction("Pins become anchors", self.take_pins)

@@ -8,7 +8,7 @@ from qtpy import QtCore
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress
 
-from ...session.lane import Lane
+from ...session.latest_request_worker import LatestRequestWorker
 
 
 class Background(QtCore.QObject):
@@ -28,21 +28,21 @@ class Background(QtCore.QObject):
         self._compute = compute
         self._latest: Any = None
         self._posted.connect(self._run)
-        self._lane: Lane[Any] = Lane(name, self._work, self._report, self._fail)
+        self._worker: LatestRequestWorker[Any] = LatestRequestWorker(name, self._work, self._report, self._fail)
         window.closed.connect(self.close)
 
     def ask(self, request: Any) -> None:
         """None stops what goes on."""
         self._latest = request
-        self._lane.submit(request)
+        self._worker.submit(request)
 
     def close(self) -> None:
         self._latest = None
-        self._lane.close()
+        self._worker.close()
 
     # ------------------------------------------------------------------ on the lane
-    def _work(self, request: Any, lane: Lane[Any]) -> None:
-        progress = lane.progress(lambda latest: latest is request)
+    def _work(self, request: Any, worker: LatestRequestWorker[Any]) -> None:
+        progress = worker.progress(lambda latest: latest is request)
         for answer in self._compute(request, progress):
             progress(0, "")  # Cancelled if nobody wants the rest
             self._posted.emit(lambda answer=answer: self._arrive(request, answer))

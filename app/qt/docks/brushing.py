@@ -17,7 +17,7 @@ from ...drawing.style import PINS
 from .background import Background
 
 if TYPE_CHECKING:
-    from ...drawing.picking import Met
+    from ...drawing.picking import Hit
 
 RADII = (4, 28)
 """Of the brush, in logical pixels: a cursor can be no larger."""
@@ -51,7 +51,7 @@ class Brushing(QtCore.QObject):
         self.is_on = self.cuts = self._is_held = False
         self._surface: Surface | None = None  # that the brush is for
         self._brush: Brush | None = None
-        self._waiting: list[tuple[Met, float]] = []  # places touched before the brush is there
+        self._waiting: list[tuple[Hit, float]] = []  # places touched before the brush is there
         self._is_lifted = True
         self._stroke: np.ndarray | None = None  # (n,) bool
         self._is_erasing = False
@@ -67,11 +67,11 @@ class Brushing(QtCore.QObject):
         """The selections of the document on all panels."""
         colours = {}
         for mesh in document.surfaces:
-            opened = self._window.session.opened(mesh.name)
-            if opened is not None:
+            loaded = self._window.session.loaded(mesh.name)
+            if loaded is not None:
                 here = [each for each in document.selections if each.surface == mesh.name]
                 chosen = [(vertices_of(each.runs), each.colour) for each in here]
-                colours[mesh.name] = selected_colours(chosen, len(opened.surface.vertices))
+                colours[mesh.name] = selected_colours(chosen, len(loaded.surface.vertices))
         self._grid.marks.show_selected(colours)
 
     @property
@@ -140,12 +140,12 @@ class Brushing(QtCore.QObject):
     def _ready(self, request: tuple[Surface], brush: Brush) -> None:
         self._brush = brush
         waiting, self._waiting = self._waiting, []
-        for met, pixel in waiting:
-            self._touch(met, pixel)
+        for hit, pixel in waiting:
+            self._touch(hit, pixel)
         if self._is_lifted:
             self._lift()
 
-    def _touch(self, met: "Met", pixel: float) -> None:
+    def _touch(self, hit: "Hit", pixel: float) -> None:
         surface = self._window.session.surface
         if surface is None:
             return
@@ -154,7 +154,7 @@ class Brushing(QtCore.QObject):
         if surface is not self._surface:
             self._take()
         if self._brush is None:
-            self._waiting.append((met, pixel))
+            self._waiting.append((hit, pixel))
             return
         if self._stroke is None or len(self._stroke) != len(surface.vertices):
             self._stroke = np.zeros(len(surface.vertices), bool)
@@ -162,9 +162,9 @@ class Brushing(QtCore.QObject):
             known = [each.name for each in self._window.session.document.selections]
             has_ctrl = bool(keys & QtCore.Qt.KeyboardModifier.ControlModifier)
             self._is_erasing = has_ctrl and (self.cuts or self.current in known)
-        self._faces.add(met.face)
-        position = met.weights @ surface.vertices[surface.faces[met.face]]  # not that in a relief
-        near = self._brush.near(met.face, position, self.radius * pixel)
+        self._faces.add(hit.face)
+        position = hit.weights @ surface.vertices[surface.faces[hit.face]]  # not that in a height field
+        near = self._brush.near(hit.face, position, self.radius * pixel)
         new = near[~self._stroke[near]]
         if len(new):
             self._stroke[new] = True

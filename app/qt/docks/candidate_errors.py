@@ -10,7 +10,7 @@ from bihdist_core.progress import Progress
 
 from ...document.predicting import predicts_in
 from ...session.candidate_errors import CandidatesAsked, CandidatesJudged, CandidatesJudging, candidates_asked
-from ...session.paired import candidate_in
+from ...session.pair_locations import candidate_in
 from .background import Background
 
 
@@ -58,8 +58,8 @@ class CandidateErrors:
         document = session.document
         if not any(map(predicts_in, document.panels)):
             return None
-        opened = [session.opened(mesh.name) for mesh in document.surfaces[:2]]
-        if len(opened) < 2 or None in opened:
+        loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
+        if len(loaded) < 2 or None in loaded:
             return None
         candidates = {}
         for panel in document.panels:
@@ -67,7 +67,7 @@ class CandidateErrors:
             found = candidate_in(document, panel, None if shown is None else shown.answer)
             if found is not None and session.is_answered(panel.id):
                 candidates[panel.id] = found.vertex
-        return candidates_asked(document, *opened, candidates)
+        return candidates_asked(document, *loaded, candidates)
 
     def _ask(self, asked: CandidatesAsked | None) -> None:
         if self._background is None:

@@ -118,11 +118,11 @@ class ChosenRow(QtWidgets.QWidget):
         self.button = QtWidgets.QPushButton(button, autoDefault=False, checkable=is_check)
         self.button.setToolTip(tip)
         self.button.setAccessibleName(f"{words}: {button}")
-        self.said = Said()
+        self.said = MessageLabel()
         self.cross = FlatButton(self, "close")
         self.cross.setToolTip(f"{words}: take it back")
         self.cross.setAccessibleName(self.cross.toolTip())
-        self.cross.opened.connect(self.removed)
+        self.cross.loaded.connect(self.removed)
         keeps = self.cross.sizePolicy()
         keeps.setRetainSizeWhenHidden(True)
         self.cross.setSizePolicy(keeps)
@@ -142,7 +142,7 @@ class ChosenRow(QtWidgets.QWidget):
         self.cross.setVisible(bool(words))
 
 
-class Said(QtWidgets.QLabel):
+class MessageLabel(QtWidgets.QLabel):
     """Words that are cut short in the middle where there is no room."""
 
     def __init__(self) -> None:

@@ -15,8 +15,8 @@ from bihdist_core.progress import Progress
 from ...document.document import Document
 from ...document.quantities import ChangeOf
 from ...document.quantity_names import kind_name
-from ...session.changed import ChangeNumbers, change_numbers
-from ...session.opened import Opened
+from ...session.loaded_mesh import LoadedMesh
+from ...session.perturbed_meshes import ChangeNumbers, change_numbers
 from ...session.questions import ChangeQuestion, questions
 from ..look.look import LOOK
 from ..look.numbers import number, number_width, paint_number, share
@@ -36,7 +36,7 @@ SHORT_GROUPS = ("fraction", "in units")
 class _Request:
     """asked: the questions of panels that show a change, with the surfaces these are of."""
 
-    asked: tuple[tuple[ChangeQuestion, Opened], ...]
+    asked: tuple[tuple[ChangeQuestion, LoadedMesh], ...]
 
 
 class ChangeTable(QtWidgets.QWidget):
@@ -63,9 +63,9 @@ class ChangeTable(QtWidgets.QWidget):
         session = self._window.session
         asked = []
         for panel, question in zip(document.panels, questions(document).values(), strict=True):
-            opened = session.opened(panel.surface)
-            if isinstance(panel.shows, ChangeOf) and isinstance(question, ChangeQuestion) and opened is not None:
-                asked.append((panel.id, question, opened))
+            loaded = session.loaded(panel.surface)
+            if isinstance(panel.shows, ChangeOf) and isinstance(question, ChangeQuestion) and loaded is not None:
+                asked.append((panel.id, question, loaded))
         names = _names([question for _, question, _ in asked])
         if names != [name for name, _ in self.rows]:
             self.rows = [(name, UNKNOWN) for name in names]
@@ -74,7 +74,7 @@ class ChangeTable(QtWidgets.QWidget):
         if of == self._of or not all(session.is_answered(id) for id, _, _ in asked):
             return
         self._of = of
-        self._background.ask(_Request(tuple((question, opened) for _, question, opened in asked)))
+        self._background.ask(_Request(tuple((question, loaded) for _, question, loaded in asked)))
 
     def _take(self, request: _Request, found: list[ChangeNumbers | None]) -> None:
         names = _names([question for question, _ in request.asked])
@@ -171,9 +171,9 @@ def small_share(value: float) -> str:
 
 def _found(request: _Request, progress: Progress) -> Iterator[list[ChangeNumbers | None]]:
     found: list[ChangeNumbers | None] = []
-    for question, opened in request.asked:
+    for question, loaded in request.asked:
         try:
-            found.append(change_numbers(question, opened, progress))
+            found.append(change_numbers(question, loaded, progress))
         except Cancelled:
             raise
         except (BihdistError, MemoryError):

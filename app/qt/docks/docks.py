@@ -90,7 +90,7 @@ class Docks:
             self._keep((*document.docks, word))
             if word in self._docks:
                 self._docks[word].raise_()
-                self._instrument(word).opened()
+                self._instrument(word).on_opened()
 
     def close(self, word: str) -> None:
         """By the user, to whom what it is about is no longer of interest."""

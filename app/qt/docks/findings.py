@@ -41,9 +41,9 @@ class Findings(QtCore.QObject):
             return
         asked = {}
         for id, question in regions_questions(session.document).items():
-            opened = session.opened(session.document.panel(id).surface)
-            if opened is not None:
-                asked[id] = (question, opened)
+            loaded = session.loaded(session.document.panel(id).surface)
+            if loaded is not None:
+                asked[id] = (question, loaded)
         self._dividing.ask(asked)
         self._quality_wanted()
 
@@ -132,14 +132,14 @@ class Findings(QtCore.QObject):
         session, asked, on_its_way = self._window.session, {}, {}
         now = questions(session.document)
         for panel in session.document.panels:
-            question, opened = self._judged_question(panel.id), session.opened(panel.surface)
+            question, loaded = self._judged_question(panel.id), session.loaded(panel.surface)
             shown = session.shown.get(panel.id)
-            if opened is None or shown is None or not self._is_marked(panel):
+            if loaded is None or shown is None or not self._is_marked(panel):
                 continue
             if question is not None:
-                asked[question] = (opened, shown.answer)
+                asked[question] = (loaded, shown.answer)
             elif are_about_the_same(shown.asked, now[panel.id]):
-                on_its_way[now[panel.id]] = opened
+                on_its_way[now[panel.id]] = loaded
         self._quality.ask(asked, not self._is_judging, on_its_way)
 
     def _judged(self) -> None:

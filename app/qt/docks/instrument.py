@@ -39,7 +39,7 @@ class Instrument(QtWidgets.QWidget):
         """The same, beside the title."""
         return []
 
-    def opened(self) -> None:
+    def on_opened(self) -> None:
         """The user has opened the dock."""
 
     def show_document(self, document: Document, before: Document | None) -> None:

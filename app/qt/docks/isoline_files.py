@@ -32,14 +32,14 @@ class Levels:
 
 def levels_of(window: Any, panel: int) -> Levels | None:
     """Those of a panel by its id; None where it has no field."""
-    shown, opened = window.session.shown.get(panel), window.session.opened_in(panel)
-    if shown is None or opened is None or shown.answer.field is None:
+    shown, loaded = window.session.shown.get(panel), window.session.opened_in(panel)
+    if shown is None or loaded is None or shown.answer.field is None:
         return None
     answer, document = shown.answer, window.session.document
     (name,) = field_names(document, [document.panel(panel)])
     values = np.array(window.grid.panel(panel).view.scene.isolines)
     return Levels(
-        opened.surface, answer.field, name, answer.label, 100.0 if percent(answer.unit) else answer.maximum, values
+        loaded.surface, answer.field, name, answer.label, 100.0 if percent(answer.unit) else answer.maximum, values
     )
 
 

@@ -95,13 +95,13 @@ class MapErrors(QtWidgets.QWidget):
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document) -> None:
         """The document is another: are its maps, or is what is right?"""
-        opened = [self.window_.session.opened(mesh.name) for mesh in document.surfaces[:2]]
-        is_there = len(opened) == 2 and None not in opened
+        loaded = [self.window_.session.loaded(mesh.name) for mesh in document.surfaces[:2]]
+        is_there = len(loaded) == 2 and None not in loaded
         self.setVisible(is_there)
         if not is_there:
             self._ask(None)
             return
-        self._ask(asked_of(document, *opened))
+        self._ask(asked_of(document, *loaded))
         self._show()
 
     def show_answer(self) -> None:

@@ -15,7 +15,7 @@ from ...document.file_names import file_name
 from ...document.map_colours import MapFile
 from ...document.mapping import with_map, with_truth
 from ...session.judging import is_same_ids
-from ...session.mapped import map_file
+from ...session.map_answers import map_file
 from ..panels.flat_button import FlatButton
 from .chart_files import paper_theme, save_figure
 from .saving import save

@@ -15,7 +15,7 @@ from ...document.pairing import add_pairs, half_pair, number_of, remove_pairs
 from ...document.predicting import predict, predicts, show_distances
 from ...document.quantity_names import kind_name
 from ...drawing.style import PINS, WAITING
-from ...session.paired import vertex_pairs
+from ...session.pair_locations import vertex_pairs
 from ...session.questions import vertex_at
 from ..look.look import LOOK
 from ..panels.flat_button import FlatButton
@@ -90,7 +90,7 @@ class PairsDock(Instrument):
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)
-            button.opened.connect(do)
+            button.loaded.connect(do)
         menu = QtWidgets.QMenu(more)
         menu.addAction("Give the waiting point up\tEsc", self._drop)
         menu.addSeparator()
@@ -102,7 +102,7 @@ class PairsDock(Instrument):
         return [read, write, more]
 
     # ------------------------------------------------------------------ what is told
-    def opened(self) -> None:
+    def on_opened(self) -> None:
         """The tool is wanted: panels predict, where there are two surfaces and none does yet."""
         if len(self._document.surfaces) > 1 and not (predicts(self._document) or shows_maps(self._document)):
             self.begin()
@@ -166,8 +166,8 @@ class PairsDock(Instrument):
         if not name:
             return ""
         point = self._document.point(name)
-        opened = self.window_.session.opened(point.surface)
-        return "" if opened is None else str(vertex_at(point.at, opened.surface))
+        loaded = self.window_.session.loaded(point.surface)
+        return "" if loaded is None else str(vertex_at(point.at, loaded.surface))
 
     def _new_row(self, point: str) -> PairRow:
         row = PairRow(point)
@@ -243,9 +243,9 @@ class PairsDock(Instrument):
     def read(self, path: str) -> None:
         """Pairs of a file besides those that there are, or why not."""
         session, document = self.window_.session, self._document
-        opened = [session.opened(mesh.name) for mesh in document.surfaces[:2]]
+        loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
         try:
-            surfaces = [each.surface for each in opened if each is not None]
+            surfaces = [each.surface for each in loaded if each is not None]
             found = read_pairs(path, *surfaces) if len(surfaces) == 2 else read_pairs(path)
             changed = add_pairs(document, [(int(i), int(j)) for i, j in found])
         except BihdistError as error:
@@ -258,14 +258,14 @@ class PairsDock(Instrument):
 
     def choose_and_save(self) -> None:
         session, document = self.window_.session, self._document
-        opened = [session.opened(mesh.name) for mesh in document.surfaces[:2]]
-        name = file_name([each.surface.name for each in opened if each is not None], "pairs")
+        loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
+        name = file_name([each.surface.name for each in loaded if each is not None], "pairs")
 
         def write(path: str) -> None:
-            first, second = (each.surface for each in opened if each is not None)
+            first, second = (each.surface for each in loaded if each is not None)
             write_pairs(path, vertex_pairs(document, first, second))
 
-        if len(opened) < 2:
+        if len(loaded) < 2:
             self.window_.failed(ALONE)
         else:
             save(self.window_, "Save pairs", name, PAIR_FORMATS, write)

@@ -43,11 +43,11 @@ class Picking(QtCore.QObject):
 
     def take(self, panel: int, vertex: int) -> None:
         """A vertex of a panel's surface has been clicked."""
-        opened = self._window.session.opened_in(panel)
-        if opened is None:
+        loaded = self._window.session.opened_in(panel)
+        if loaded is None:
             return
-        if opened.origin is not None:
-            vertex = int(opened.ids[vertex])
+        if loaded.origin is not None:
+            vertex = int(loaded.ids[vertex])
         if vertex < 0:
             self._window.say(NEW)
             return

@@ -12,8 +12,8 @@ from bihdist_core.sources.source import Source
 
 from ...document.document import Document
 from ...drawing.style import PINS
-from ...session.among import Among
-from ...session.pinned import PinnedPlace
+from ...session.pairwise_distances import PairwiseDistances
+from ...session.pin_locations import LocatedPin
 from ..look.look import LOOK
 from ..look.numbers import number
 from ..panels.flat_button import FlatButton
@@ -31,9 +31,9 @@ class PinDistances(QtWidgets.QWidget):
     def __init__(self, window) -> None:
         super().__init__()
         self.window_ = window
-        self._places: tuple[PinnedPlace, ...] = ()
+        self._places: tuple[LocatedPin, ...] = ()
         self.spec: Spec | None = None
-        self._among = Among(window._posted.emit, self._show_among)
+        self._among = PairwiseDistances(window._posted.emit, self._show_among)
         heading = QtWidgets.QLabel("Distances among pins")
         heading.setProperty("heading", True)
         self.distance = FlatButton(self, quiet=True)
@@ -70,7 +70,7 @@ class PinDistances(QtWidgets.QWidget):
         column.addStretch(0)
         LOOK.follow(self, self._fit)
 
-    def show_pins(self, document: Document, places: Sequence[PinnedPlace]) -> None:
+    def show_pins(self, document: Document, places: Sequence[LocatedPin]) -> None:
         """By a distance of the panels unless another has been chosen."""
         self._places = tuple(places)
         self.setVisible(len(self._places) > 1)
@@ -125,7 +125,7 @@ class PinDistances(QtWidgets.QWidget):
 
     def _ask(self) -> None:
         session = self.window_.session
-        self._among.ask(session.opened(), session.document.areas, self._compared, self._at)
+        self._among.ask(session.loaded(), session.document.areas, self._compared, self._at)
         self._show_among()
 
     def _show_among(self) -> None:
@@ -141,17 +141,17 @@ class PinDistances(QtWidgets.QWidget):
     def known(self, spec: Spec) -> np.ndarray | None:
         """(k, k) the distances among the pins; None as long as they are not known."""
         session = self.window_.session
-        opened = session.opened()
-        if opened is None:
+        loaded = session.loaded()
+        if loaded is None:
             return None
-        return self._among.matrix(opened, session.document.areas, spec, self._at)
+        return self._among.matrix(loaded, session.document.areas, spec, self._at)
 
     def _say_pair(self, i: int, j: int) -> None:
         """Under the matrix: the pair under the pointer in all distances that are known; otherwise the unit."""
         session = self.window_.session
-        opened, areas = session.opened(), session.document.areas
+        loaded, areas = session.loaded(), session.document.areas
         places = self._places
-        if opened is None or self.spec is None:
+        if loaded is None or self.spec is None:
             return
         if i >= 0 and max(i, j) < len(places):
             said = [f"{escape(places[i].name)} to {escape(places[j].name)}"]
@@ -163,13 +163,13 @@ class PinDistances(QtWidgets.QWidget):
                     said.append(f"{escape(spec_name(spec, specs).lower())}&nbsp;<b>{value}</b>")
             self.line.setText("&nbsp;&nbsp; ".join(said))
             return
-        failure, progress = self._among.failure(opened, areas, self.spec), self._among.progress
+        failure, progress = self._among.failure(loaded, areas, self.spec), self._among.progress
         if failure:
             self.line.setText(escape(failure))
         elif self.known(self.spec) is None and progress is not None:
             self.line.setText(f"{progress[1][:1].upper()}{progress[1][1:]}, {progress[0]:.0%}".replace("%", " %"))
         else:
-            unit = self._among.unit(opened, areas, self.spec)
+            unit = self._among.unit(loaded, areas, self.spec)
             self.line.setText(f"in {unit}" if unit else "")
 
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:

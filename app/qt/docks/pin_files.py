@@ -10,7 +10,7 @@ from bihdist_core.counts import counted
 from bihdist_core.formats.pins import PIN_FORMATS, Pins, read_pins, write_pins
 
 from ...document.file_names import file_name
-from ...session.pinned import matrix_text, pins_text, pins_to_write, with_pins
+from ...session.pin_locations import matrix_text, pins_text, pins_to_write, with_pins
 from ..look.numbers import number, share
 from .saving import ask_path
 

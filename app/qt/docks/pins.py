@@ -14,7 +14,7 @@ from bihdist_core.sources.words import short_words_of, source_from_words
 from ...document.document import Document
 from ...document.measuring import add_pins, change_pin, move_pin, remove_pins
 from ...drawing.style import PINS
-from ...session.pinned import PinnedPlace, pinned_on
+from ...session.pin_locations import LocatedPin, located_pins
 from ...session.questions import source_at
 from ..look.numbers import number, percent, share
 from ..look.segments import Segments
@@ -60,7 +60,7 @@ class PinsDock(Instrument):
 
     def __init__(self, window) -> None:
         super().__init__(window)
-        self.places: tuple[PinnedPlace, ...] = ()
+        self.places: tuple[LocatedPin, ...] = ()
         self._is_split = False
         self.files = PinFiles(window, lambda: self.places)
         self.menu = PinMenu(self)
@@ -135,7 +135,7 @@ class PinsDock(Instrument):
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)
-            button.opened.connect(do)
+            button.loaded.connect(do)
         more.setToolTip("Read, copy, rename, colour, move, remove")
         more.setAccessibleName("More about pins")
         more.setMenu(self.menu.whole)
@@ -143,10 +143,10 @@ class PinsDock(Instrument):
 
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document, before: Document | None) -> None:
-        opened = self.window_.session.opened()
-        if opened is None:
+        loaded = self.window_.session.loaded()
+        if loaded is None:
             return
-        self.places = pinned_on(document, document.surfaces[0].name, opened.surface)
+        self.places = located_pins(document, document.surfaces[0].name, loaded.surface)
         self.ways.choose("share" if document.pin_list.shares else "value")
         self.said.emit(str(len(self.places)) if self.places else "")
         self.empty.setVisible(not self.places)
@@ -325,8 +325,8 @@ class PinsDock(Instrument):
         return next(place.pin for place in self.places if place.point == point)
 
 
-def written(place: PinnedPlace, answer: Answer) -> tuple[str, str]:
-    """An answer's value at a place, and its share of the maximum; "–" where there is none."""
+def written(place: LocatedPin, answer: Answer) -> tuple[str, str]:
+    """An answer's value at a place, and its fraction of the maximum; "–" where there is none."""
     value = np.nan if answer.field is None else place.value(answer.field)
     if np.isnan(value):
         return "–", "–"

@@ -24,8 +24,8 @@ class PolarChart(QtWidgets.QWidget):
         self.circles: tuple[Circle, ...] = ()
         self._colour = "#000000"
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Fixed, QtWidgets.QSizePolicy.Policy.Fixed)
-        LOOK.follow(self, self._wear)
-        self._wear()
+        LOOK.follow(self, self._apply_theme)
+        self._apply_theme()
 
     def show_circles(self, circles: Sequence[Circle], colour: str) -> None:
         """Some of these, the largest among them."""
@@ -37,7 +37,7 @@ class PolarChart(QtWidgets.QWidget):
         side = round(SIDE * LOOK.scale)
         return QtCore.QSize(side, side)
 
-    def _wear(self) -> None:
+    def _apply_theme(self) -> None:
         self.setFixedSize(self.sizeHint())
         self.update()
 

@@ -1,4 +1,4 @@
-"""The charts of a profile, side by side: one for all shares of a maximum, or one for each unit of the values."""
+"""The charts of a profile, side by side: one for all fractions of a maximum, or one for each unit of the values."""
 
 from collections.abc import Sequence
 

@@ -13,7 +13,7 @@ from bihdist_core.analysis.surface_paths import SurfacePath
 from ...document.document import Document
 from ...document.measuring import points_along
 from ...session.curves import ProfileCurve, profile_curve
-from ...session.profiling import PathLane, PathWanted, wanted_path
+from ...session.profiling import PathWanted, PathWorker, wanted_path
 from ..look.look import LOOK
 from ..look.segments import Segments
 from ..panels.flat_button import FlatButton
@@ -48,7 +48,7 @@ class ProfileDock(Instrument):
         self.surface = "A"
         self._echoed: float | None = None  # where the pointer in the chart is, as a length
         self._posted.connect(self._run)
-        self._lane = PathLane(self._posted.emit, self._found, self._going)
+        self._worker = PathWorker(self._posted.emit, self._found, self._going)
         self.files = ProfileFiles(self)
         self.choices = ProfileChoices(self)
         self.ends = (BadgeButton(self, "From"), BadgeButton(self, "To"))
@@ -96,7 +96,7 @@ class ProfileDock(Instrument):
         try:
             wanted = wanted_path(document, self.surface_of, self.seen())
         except ParameterError as error:
-            self._lane.ask(None)
+            self._worker.ask(None)
             self._wanted = None
             self._show_none(str(error))
             return
@@ -106,7 +106,7 @@ class ProfileDock(Instrument):
                 self._show_none(FINDING)
             self._wanted = wanted
             self._show_way()
-            self._lane.ask(wanted)
+            self._worker.ask(wanted)
         elif self.path is not None:
             self._show_path()  # panels and pins may be others
 
@@ -134,14 +134,14 @@ class ProfileDock(Instrument):
             self._show_path()
 
     def show_closed(self) -> None:
-        self._lane.ask(None)
+        self._worker.ask(None)
         self._wanted = self.path = None
         self._put_path(None)
         for panel in self.window_.grid.panels:
             panel.head.show_dot("")
 
     def end(self) -> None:
-        self._lane.close()
+        self._worker.close()
 
     # ------------------------------------------------------------------ the path
     @property
@@ -152,8 +152,8 @@ class ProfileDock(Instrument):
     @property
     def _has_path(self) -> bool:
         """Whether there is one on the surface that is shown now."""
-        opened = self.window_.session.opened(self.surface)
-        return self.path is not None and opened is not None and opened.surface is self._path_surface
+        loaded = self.window_.session.loaded(self.surface)
+        return self.path is not None and loaded is not None and loaded.surface is self._path_surface
 
     @property
     def _panels(self) -> list:
@@ -162,7 +162,7 @@ class ProfileDock(Instrument):
         return [self.window_.grid.panel(panel.id) for panel in panels if panel.surface == self.surface]
 
     def surface_of(self, name: str) -> Surface:
-        return self.window_.session.opened(name).surface
+        return self.window_.session.loaded(name).surface
 
     def seen(self) -> tuple[float, float, float]:
         """(3,) the direction in which the panels are looked at."""

@@ -86,7 +86,7 @@ class QualityDock(Instrument):
         self.copy_button = FlatButton(self, "copy")
         self.copy_button.setToolTip("Copy the table as text")
         self.copy_button.setAccessibleName("Copy the table as text")
-        self.copy_button.opened.connect(self.copy)
+        self.copy_button.loaded.connect(self.copy)
         window.docks.findings.quality_changed.connect(self._fill)
         LOOK.follow(self, self._restyle)
 
@@ -147,7 +147,7 @@ class QualityDock(Instrument):
         document = self.window_.session.document
         if self._columns != [panel.id for panel in document.panels]:
             return  # the document's change is on its way
-        waits, sampled = False, dict[int, int]()
+        progress_display, sampled = False, dict[int, int]()
         for k, panel in enumerate(document.panels):
             found = self.window_.docks.findings.found(panel.id)
             failed = self._failed(panel.id)
@@ -157,7 +157,7 @@ class QualityDock(Instrument):
             for row, measure in enumerate(MEASURES):
                 text, said = (NONE, "") if failed else (measure.written(found), measure.said(found))
                 is_old = text == WAITING
-                waits |= is_old
+                progress_display |= is_old
                 # Until there are new ones the old numbers stay, so that one sees how they change.
                 cell = self.table.item(row, k)
                 cell.setText(measure.written(old) if is_old else text)
@@ -169,7 +169,7 @@ class QualityDock(Instrument):
             self.charts[panel.id].show_circles(whole.circles if whole is not None else (), colour)
         # Only exact geodesic distances take long enough for it to be seen.
         share = f"triangles, {min(sampled.values())} of {TRIANGLE_POINTS:,} points" if sampled else ""
-        self.said.emit("measuring…" if waits else share)
+        self.said.emit("measuring…" if progress_display else share)
 
     def _failed(self, panel: int) -> bool:
         """Whether there is no field that could be measured."""

@@ -99,7 +99,7 @@ class RegionsDock(Instrument):
         self.copy_button = FlatButton(self, "copy")
         self.copy_button.setToolTip("Copy the areas as text")
         self.copy_button.setAccessibleName("Copy the areas as text")
-        self.copy_button.opened.connect(self.copy)
+        self.copy_button.loaded.connect(self.copy)
         self.save_button = FlatButton(self, "save")
         self.save_button.setToolTip("Save regions: labels, mesh, boundaries")
         self.save_button.setAccessibleName("Save regions")
@@ -188,7 +188,7 @@ class RegionsDock(Instrument):
             failure = failure or ("" if divided is None else divided.failure)
             rows = [k for k, pin in enumerate(document.pins) if document.point(pin.point).surface == panel.surface]
             known = regions is not None and len(regions.areas) == len(rows)
-            total = float(self.window_.session.opened(panel.surface).surface.face_areas.sum())
+            total = float(self.window_.session.loaded(panel.surface).surface.face_areas.sum())
             for row in range(self.table.rowCount()):
                 area = float(regions.areas[rows.index(row)]) if known and row in rows else None
                 text = "…" if area is None else number(area) if self.unit.choice() == "area" else share(area / total)
@@ -245,7 +245,7 @@ class RegionsDock(Instrument):
         if divided is None or divided.regions is None:
             return
         name = document.panel(panel).surface
-        surface = self.window_.session.opened(name).surface
+        surface = self.window_.session.loaded(name).surface
         numbers = [k for k, pin in enumerate(document.pins, 1) if document.point(pin.point).surface == name]
         if way == "labels":
             write_labels(path, surface, divided.regions, numbers)

@@ -168,7 +168,7 @@ class RobustnessDock(Instrument):
         write, more = FlatButton(self, "save"), FlatButton(self, "more")
         write.setToolTip("Save the changed mesh…")
         write.setAccessibleName("Save the changed mesh")
-        write.opened.connect(self.choose_and_save)
+        write.loaded.connect(self.choose_and_save)
         menu = QtWidgets.QMenu(more)
         menu.addAction("Copy the numbers", self.copy)
         menu.addAction("Remove change", self.remove)
@@ -197,7 +197,7 @@ class RobustnessDock(Instrument):
         self._controls.setEnabled(not reason)
         for widget in (self._line, self._results):
             widget.setVisible(mesh is not None)
-        self.said.emit("" if mesh is None else _size_of(self.window_.session.opened(mesh.name)))
+        self.said.emit("" if mesh is None else _size_of(self.window_.session.loaded(mesh.name)))
         self.table.show_document(document)
         self._show_ends()
 
@@ -353,16 +353,16 @@ class RobustnessDock(Instrument):
     def choose_and_save(self) -> None:
         session = self.window_.session
         mesh = changed_mesh(session.document)
-        opened = None if mesh is None else session.opened(mesh.name)
-        if opened is None:
+        loaded = None if mesh is None else session.loaded(mesh.name)
+        if loaded is None:
             self.window_.failed("There is no change yet that a mesh could be saved with.")
             return
-        name = file_name([opened.surface.name], "changed")
-        save(self.window_, "Save the changed mesh", name, MESH_FORMATS, lambda path: write_mesh(path, opened.surface))
+        name = file_name([loaded.surface.name], "changed")
+        save(self.window_, "Save the changed mesh", name, MESH_FORMATS, lambda path: write_mesh(path, loaded.surface))
 
 
-def _size_of(opened) -> str:
-    return "" if opened is None else f"{len(opened.surface.faces):,} faces"
+def _size_of(loaded) -> str:
+    return "" if loaded is None else f"{len(loaded.surface.faces):,} faces"
 
 
 def _is_number(value: float) -> bool:

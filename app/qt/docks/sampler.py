@@ -113,15 +113,15 @@ class Sampler(QtWidgets.QWidget):
 
     def _ask(self, then: Callable[[np.ndarray], None]) -> None:
         session, panel = self._window.session, self._panel
-        opened = session.opened(panel.surface) if panel is not None else None
-        if panel is None or opened is None:
+        loaded = session.loaded(panel.surface) if panel is not None else None
+        if panel is None or loaded is None:
             return
         self._then = then
         document = session.document
         at = document.point(panel.shows.point).at
         spec = panel.shows.spec
         self._sampling.ask(
-            SamplesQuestion(document.mesh(panel.surface), document.areas, spec, at, self.count.value()), opened
+            SamplesQuestion(document.mesh(panel.surface), document.areas, spec, at, self.count.value()), loaded
         )
 
     def _sampled(self, sampled: Sampled) -> None:

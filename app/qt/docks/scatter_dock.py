@@ -75,11 +75,11 @@ class ScatterDock(Instrument):
         self._new = FlatButton(self, "add-panel")
         self._new.setToolTip("Begin a new selection: the brush adds to none that is there")
         self._new.setAccessibleName("Begin a new selection")
-        self._new.opened.connect(self._begin)
+        self._new.loaded.connect(self._begin)
         self._more = FlatButton(self, "more")
         self._more.setToolTip("Save, colour, rename or delete the selection")
         self._more.setAccessibleName("What to do with the selection")
-        self._more.opened.connect(self._open_menu)
+        self._more.loaded.connect(self._open_menu)
         heading = QtWidgets.QHBoxLayout()
         self._heading = QtWidgets.QLabel("Selections")
         self._heading.setProperty("heading", True)
@@ -150,7 +150,7 @@ class ScatterDock(Instrument):
         self._background = Background("scatter", _compared, window)
         self._background.answered.connect(self._take)
         self._background.failed.connect(self._refuse)
-        LOOK.follow(self, self._wear)
+        LOOK.follow(self, self._apply_theme)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
         return [self.up_button, self.across_button, self.shares, self.brush, self.radius, self._save]
@@ -178,7 +178,7 @@ class ScatterDock(Instrument):
     def show_closed(self) -> None:
         self.window_.docks.brushing.switch(False)  # its button is gone
 
-    def _wear(self) -> None:
+    def _apply_theme(self) -> None:
         self._asked = ()
         if self.isVisible():
             self._compare()

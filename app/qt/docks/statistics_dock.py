@@ -17,7 +17,7 @@ from ...document.document import Document
 from ...document.field_names import field_names
 from ...document.file_names import file_name
 from ...drawing.style import style_of
-from ...session.opened import Opened
+from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import DifferenceQuestion, Question
 from ..look.look import LOOK
 from ..look.numbers import number, percent, share
@@ -44,17 +44,17 @@ SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
 class _Request:
     """parts: the question of a difference, whose two fields are correlated."""
 
-    opened: Opened
+    loaded: LoadedMesh
     answer: Answer
     parts: DifferenceQuestion | None
 
 
 def _numbers(request: _Request, progress: Progress) -> Iterator[FieldStatistics | float]:
-    surface = request.opened.surface
+    surface = request.loaded.surface
     yield field_statistics(surface, request.answer.field, BINS, SHARES)
     if request.parts is not None:
         fields = [
-            request.opened.answer(question, part(progress, k / 2, (k + 1) / 2)).field
+            request.loaded.answer(question, part(progress, k / 2, (k + 1) / 2)).field
             for k, question in enumerate((request.parts.minuend, request.parts.subtrahend))
         ]
         if all(field is not None for field in fields):
@@ -146,16 +146,16 @@ class StatisticsDock(Instrument):
         """For the numbers of the active panel, if they are not there."""
         window = self.window_
         session, id = window.session, window.grid.active
-        shown, opened = session.shown.get(id), session.opened_in(id)
+        shown, loaded = session.shown.get(id), session.opened_in(id)
         self._panel = id
-        if opened is None or shown is None:
+        if loaded is None or shown is None:
             return  # on its way
         names = {panel.id: quantity_name(panel.shows) for panel in session.document.panels}
         self.name.setText(names.get(id, ""))
         question: Question = shown.asked
-        self.truncation.expect(opened, question)
+        self.truncation.expect(loaded, question)
         scene = window.grid.panel(id).view.scene
-        key = (id, shown.answer.field is not None and shown.answer.field.ctypes.data, shown.answer, opened.surface)
+        key = (id, shown.answer.field is not None and shown.answer.field.ctypes.data, shown.answer, loaded.surface)
         lines = (scene.maximum, scene.isolines.tobytes(), scene.style)
         if (key[:2], key[3], lines) == self._asked:
             return
@@ -166,7 +166,7 @@ class StatisticsDock(Instrument):
                 self._refuse(None, shown.answer.failure or NO_FIELD)
             else:
                 parts = question if isinstance(question, DifferenceQuestion) else None
-                self._request = _Request(opened, shown.answer, parts)
+                self._request = _Request(loaded, shown.answer, parts)
                 self._background.ask(self._request)
         else:
             self._show()
@@ -234,7 +234,7 @@ class StatisticsDock(Instrument):
 
     @staticmethod
     def _written(value: float, answer: Answer, with_sign: bool = True, exact: bool = False) -> tuple[str, ...]:
-        """The value, and its share of the maximum, which means nothing of a difference."""
+        """The value, and its fraction of the maximum, which means nothing of a difference."""
         signed = answer.is_signed and with_sign
         top = 0.0 if answer.signs else answer.maximum
         said = repr(float(value)) if exact else number(value, signed) + percent(answer.unit)

@@ -11,7 +11,7 @@ from bihdist_core.analysis.truncation import TruncationLoss, truncation_loss
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
-from ...session.opened import Opened
+from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import DistanceQuestion, Question
 from ..look.look import LOOK
 from ..look.numbers import share
@@ -32,13 +32,13 @@ CURVES = 64
 
 @dataclass(frozen=True, eq=False)
 class _Request:
-    opened: Opened
+    loaded: LoadedMesh
     areas: str
     source: Source
 
 
 def _lost(request: _Request, progress: Progress) -> Iterator[TruncationLoss]:
-    laplacian = request.opened.distances(request.areas).laplacian
+    laplacian = request.loaded.distances(request.areas).laplacian
     yield truncation_loss(laplacian, request.source, MOST, progress=progress)
 
 
@@ -74,23 +74,23 @@ class TruncationBox(QtWidgets.QWidget):
         self._background.progressed.connect(self._report)
         self._say("")
 
-    def expect(self, opened: Opened | None, question: Question | None) -> None:
+    def expect(self, loaded: LoadedMesh | None, question: Question | None) -> None:
         """The question of the panel that it is about."""
         is_meant = isinstance(question, DistanceQuestion) and question.spec.word == "biharmonic"
         source = question.at if is_meant else None
         self._wanted = None
-        if opened is None or not is_meant:
+        if loaded is None or not is_meant:
             self._rest("For a panel with the biharmonic distance.")
         elif source is None:
             self._rest("For a source that is there.")
         else:
             before = self._request
-            same = before is not None and (before.opened, before.areas, before.source) == (
-                opened,
+            same = before is not None and (before.loaded, before.areas, before.source) == (
+                loaded,
                 question.areas,
                 source,
             )
-            self._wanted = before if same else _Request(opened, question.areas, source)
+            self._wanted = before if same else _Request(loaded, question.areas, source)
             if self._is_on and not same:
                 self.compute()
             elif not self._is_on:

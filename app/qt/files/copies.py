@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import BihdistError, Place
+from bihdist_core import BihdistError, SurfacePoint
 
 from ...document import one_line
 from ...document.file import recipe_text
@@ -93,7 +93,7 @@ def _at_vertices(recipe: Recipe, surfaces: Surfaces) -> Recipe:
     shown = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
     points = tuple(
         replace(point, at=vertex_at(point.at, surfaces[point.surface].surface))
-        if isinstance(point.at, Place) and point.name not in shown
+        if isinstance(point.at, SurfacePoint) and point.name not in shown
         else point
         for point in document.points
     )

@@ -15,7 +15,7 @@ from ...figures.draw import FIGURE_FORMATS
 from ...figures.export import Surfaces, check_export, figure_of, write_figure
 from ...figures.preview import Preview, preview
 from ...figures.size import NAMED
-from ...session.given import Given
+from ...session.array_store import ArrayStore
 from ..look.icons import put_icon
 from .exports import Exports
 from .job_dialog import Choice, FileKind
@@ -58,7 +58,7 @@ class ExportDialog(LooksDialog):
         self,
         recipe: Recipe,
         surfaces: Surfaces,
-        given: Given,
+        given: ArrayStore,
         answers: list[Answer],
         version: str,
         exports: Exports,

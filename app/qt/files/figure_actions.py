@@ -66,7 +66,7 @@ def _has_one_unit(window) -> bool:
 
 
 def _surfaces(window, recipe: Recipe) -> Surfaces:
-    return {mesh.name: window.session.opened(mesh.name) for mesh in recipe.document.surfaces}
+    return {mesh.name: window.session.loaded(mesh.name) for mesh in recipe.document.surfaces}
 
 
 def _complete_recipe(window) -> Recipe | None:

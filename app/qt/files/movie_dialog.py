@@ -10,7 +10,7 @@ from bihdist_core import ParameterError, VertexError
 from ...document.page import Recipe
 from ...figures.export import Surfaces
 from ...figures.movie import Movie, check_movie, write_movie
-from ...session.given import Given
+from ...session.array_store import ArrayStore
 from .exports import Exports
 from .job_dialog import Count, FileKind, blamed_on
 from .looks_dialog import LooksDialog
@@ -31,7 +31,7 @@ class MovieDialog(LooksDialog):
         self,
         recipe: Recipe,
         surfaces: Surfaces,
-        given: Given,
+        given: ArrayStore,
         exports: Exports,
         parent: QtWidgets.QWidget | None = None,
     ) -> None:

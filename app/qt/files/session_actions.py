@@ -20,7 +20,7 @@ from ...document.page import Recipe
 from ...document.work import work_in
 from ...drawing.style import style_of
 from ...samples import mesh_path
-from ...session.given import Given
+from ...session.array_store import ArrayStore
 from ...session.recipe_file import recipe_written
 from ...version import version
 from .. import remembered
@@ -96,8 +96,8 @@ class SessionFile:
 
     def _write_title(self) -> None:
         session = self._window.session
-        opened = [session.opened(mesh.name) for mesh in session.document.surfaces]
-        meshes = ", ".join(dict.fromkeys(each.surface.name for each in opened if each is not None))
+        loaded = [session.loaded(mesh.name) for mesh in session.document.surfaces]
+        meshes = ", ".join(dict.fromkeys(each.surface.name for each in loaded if each is not None))
         parts = [part for part in (os.path.basename(self.path or ""), meshes, "Biharmonic distance") if part]
         # Doubled, Qt's word for the sign of change is a part of the name.
         first, *others = (part.replace("[*]", "[*][*]") for part in parts)
@@ -184,7 +184,7 @@ class SessionFile:
             if count > MOST_SHOWN:
                 raise ParameterError(f"The window shows up to {MOST_SHOWN} meshes, and {path} has {count}.")
             style_of(recipe.page.style, recipe.document.colours)
-            self._window.session.given.update(Given.read(recipe))
+            self._window.session.given.update(ArrayStore.read(recipe))
             recipe = self._with_meshes(recipe)
         except BihdistError as error:
             self._window.failed(str(error))

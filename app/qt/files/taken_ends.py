@@ -9,7 +9,7 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import BihdistError
 from bihdist_core.distances.answers import failure_in_words
 
-from ...session.lane import Lane
+from ...session.latest_request_worker import LatestRequestWorker
 
 if TYPE_CHECKING:
     from ...figures.ends import End
@@ -29,7 +29,7 @@ class TakenEnds(QtCore.QObject):
     def __init__(self, window) -> None:
         super().__init__(window)
         self._window = window
-        self._lane: Lane[list[str]] | None = None
+        self._worker: LatestRequestWorker[list[str]] | None = None
         self._wanted: list[str] | None = None  # one path, as an object of its own
         self._waiting: QtWidgets.QProgressDialog | None = None
         self._found.connect(self._take)
@@ -39,8 +39,8 @@ class TakenEnds(QtCore.QObject):
 
     def take(self, path: str) -> None:
         """Let the colour bars end as there, as a step that can be undone, or say why not."""
-        if self._lane is None:
-            self._lane = Lane("ends", self._compute, self._progress.emit, self._failed.emit)
+        if self._worker is None:
+            self._worker = LatestRequestWorker("ends", self._compute, self._progress.emit, self._failed.emit)
         self._end_waiting()
         self._wanted = [path]
         waiting = QtWidgets.QProgressDialog(f"The fields of {os.path.basename(path)}…", "Cancel", 0, 100, self._window)
@@ -51,20 +51,20 @@ class TakenEnds(QtCore.QObject):
         waiting.setAutoReset(False)
         waiting.canceled.connect(self.cancel)
         self._waiting = waiting
-        self._lane.submit(self._wanted)
+        self._worker.submit(self._wanted)
 
     def cancel(self) -> None:
         """The ends stay as they are."""
         self._wanted = None
-        if self._lane is not None:
-            self._lane.submit(None)
+        if self._worker is not None:
+            self._worker.submit(None)
         self._end_waiting()
 
-    def _compute(self, request: list[str], lane: Lane[list[str]]) -> None:
+    def _compute(self, request: list[str], worker: LatestRequestWorker[list[str]]) -> None:
         # Not when the window opens, which is before what draws is imported.
         from ...figures.ends import ends_in
 
-        self._found.emit(request, ends_in(request[0], lane.progress(lambda latest: latest is request)))
+        self._found.emit(request, ends_in(request[0], worker.progress(lambda latest: latest is request)))
 
     def _show_progress(self, fraction: float | None, words: str) -> None:
         if self._waiting is not None and fraction is not None:
@@ -103,5 +103,5 @@ class TakenEnds(QtCore.QObject):
     def _close(self) -> None:
         self._wanted = None
         self._end_waiting()
-        if self._lane is not None:
-            self._lane.close()
+        if self._worker is not None:
+            self._worker.close()

@@ -44,7 +44,7 @@ class Look(QtCore.QObject):
         self._usual = share if share >= LEAST_LARGER else 1.0
         self._become(self.theme, self._usual)
 
-    def dress(self, window: QtWidgets.QWidget) -> None:
+    def apply_theme(self, window: QtWidgets.QWidget) -> None:
         """Put a window, with all in it, into the present colours, and in those that come."""
         _put_on(window, self)
         self.follow(window, lambda: _put_on(window, self))

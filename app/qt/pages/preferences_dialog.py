@@ -54,7 +54,7 @@ class PreferencesDialog(QtWidgets.QDialog):
         column.setSizeConstraint(QtWidgets.QLayout.SizeConstraint.SetFixedSize)
         self._show(preferences)
         self.rejected.connect(lambda: LOOK.choose(self._theme_before))
-        LOOK.dress(self)
+        LOOK.apply_theme(self)
 
     def chosen(self) -> Preferences:
         """As the dialog stands."""

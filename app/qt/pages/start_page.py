@@ -9,7 +9,7 @@ from bihdist_core.formats.mesh_io import MESH_FORMATS
 from ..look.icons import put_icon
 from ..look.look import LOOK
 from ..remembered import recent_files
-from .start_places import Place, RecentRow, Tiles
+from .start_places import OpenButton, RecentRow, Tiles
 
 WIDEST = 1120
 """Of what is on the page, in logical pixels, as all lengths here."""
@@ -46,8 +46,8 @@ class StartPage(QtWidgets.QWidget):
         self.commands = _link("All commands")
         self.commands.clicked.connect(lambda: self.commands_wanted.emit())
         self._fill()
-        self._dress()
-        LOOK.changed.connect(self._dress)
+        self._apply_theme()
+        LOOK.changed.connect(self._apply_theme)
         self.refresh()
 
     def refresh(self) -> None:
@@ -85,7 +85,7 @@ class StartPage(QtWidgets.QWidget):
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         QtGui.QPainter(self).fillRect(event.rect(), QtGui.QColor(LOOK.theme.canvas))
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         for widget, size in (self.title, 22), (self._recent, 13), (self._samples, 13), (self.zone.open, 13):
             widget.setFont(LOOK.font(size, bold=True))
         self.update()
@@ -93,11 +93,11 @@ class StartPage(QtWidgets.QWidget):
     # ------------------------------------------------------------------ how it is made
     def _fill(self) -> None:
         self._recent, self._samples = QtWidgets.QLabel("Recent"), QtWidgets.QLabel("Samples")
-        self._recent.setContentsMargins(Place.INSET, 0, 0, 0)
+        self._recent.setContentsMargins(OpenButton.INSET, 0, 0, 0)
         files = QtWidgets.QVBoxLayout(spacing=0)
         files.addWidget(self._recent)
         files.addSpacing(8)
-        self.nothing.setContentsMargins(Place.INSET, 4, 0, 0)
+        self.nothing.setContentsMargins(OpenButton.INSET, 4, 0, 0)
         for widget in (self.nothing, *self.rows):
             files.addWidget(widget)
         files.addStretch(1)

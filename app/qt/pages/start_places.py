@@ -26,7 +26,7 @@ LINE = 1
 """Pixels: a white line, an isoline, is narrower than a pixel with so many to each side; the ground is not."""
 
 
-class Place(QtWidgets.QAbstractButton):
+class OpenButton(QtWidgets.QAbstractButton):
     """Something that opens at a click, or at Enter when Tab has reached it.  path: of what is opened."""
 
     INSET, RADIUS = 8, 6
@@ -36,7 +36,7 @@ class Place(QtWidgets.QAbstractButton):
         self.path = path
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_Hover)
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)  # a click opens; the outline is for the keyboard
-        LOOK.changed.connect(self._dress)
+        LOOK.changed.connect(self._apply_theme)
 
     def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
         if event.key() in (QtCore.Qt.Key.Key_Return, QtCore.Qt.Key.Key_Enter):
@@ -55,7 +55,7 @@ class Place(QtWidgets.QAbstractButton):
         painter.drawRoundedRect(QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1), self.RADIUS, self.RADIUS)
         self.paint(painter)
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         self.updateGeometry()
         self.update()
 
@@ -72,7 +72,7 @@ def _write(painter: QtGui.QPainter, box: QtCore.QRectF, text: str, colour: str, 
 
 
 # ---------------------------------------------------------------------- recent files
-class RecentRow(Place):
+class RecentRow(OpenButton):
     """A file's name, its folder, and when it was opened."""
 
     def __init__(self) -> None:
@@ -83,7 +83,7 @@ class RecentRow(Place):
     def show_file(self, file: Recent, now: datetime) -> None:
         self.path = file.path
         self.name, self.folder = os.path.basename(file.path), from_home(os.path.dirname(file.path))
-        self.when = when(file.opened, now)
+        self.when = when(file.loaded, now)
         self.setToolTip(file.path)
         self.setAccessibleName(f"{self.name}, {self.folder}")
         self.update()
@@ -107,16 +107,16 @@ class RecentRow(Place):
         _write(painter, inside, self.when, theme.quiet, right)
 
 
-def when(opened: datetime | None, now: datetime) -> str:
+def when(loaded: datetime | None, now: datetime) -> str:
     """ "today, 14:20", "yesterday", "12 Nov", "12 Nov 2023"; both in local time."""
-    if opened is None:
+    if loaded is None:
         return ""
-    if opened.date() == now.date():
-        return f"today, {opened:%H:%M}"
-    if opened.date() == now.date() - timedelta(days=1):
+    if loaded.date() == now.date():
+        return f"today, {loaded:%H:%M}"
+    if loaded.date() == now.date() - timedelta(days=1):
         return "yesterday"
-    year = "" if opened.year == now.year else f" {opened.year}"
-    return f"{opened.day} {MONTHS[opened.month - 1]}{year}"
+    year = "" if loaded.year == now.year else f" {loaded.year}"
+    return f"{loaded.day} {MONTHS[loaded.month - 1]}{year}"
 
 
 def from_home(folder: str) -> str:
@@ -153,7 +153,7 @@ class Tiles(QtWidgets.QWidget):
         self.setFixedHeight(-(-len(self.tiles) // columns) * (height + GAP) - GAP)
 
 
-class SampleTile(Place):
+class SampleTile(OpenButton):
     """A sample's picture, its name and how many vertices it has."""
 
     RADIUS = 8

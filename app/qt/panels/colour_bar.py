@@ -47,8 +47,8 @@ class ColourBar(QtWidgets.QWidget):
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setAccessibleName("Colour bar")
-        LOOK.changed.connect(self._dress)
-        self._dress()
+        LOOK.changed.connect(self._apply_theme)
+        self._apply_theme()
 
     def show_range(
         self,
@@ -119,7 +119,7 @@ class ColourBar(QtWidgets.QWidget):
             self._lay_out()
 
     def show_shares(self, shown: bool) -> None:
-        """Whether the value is also given as a share of the maximum."""
+        """Whether the value is also given as a fraction of the maximum."""
         self._has_shares = shown
         self._say(has_shares=shown)
 
@@ -148,7 +148,7 @@ class ColourBar(QtWidgets.QWidget):
     def set_compact(self, compact: bool) -> None:
         """Less high, for low panels."""
         self._is_compact = compact
-        self._dress()
+        self._apply_theme()
 
     def _say(self, **changes: object) -> None:
         """While there is no field, there is nothing to say."""
@@ -156,7 +156,7 @@ class ColourBar(QtWidgets.QWidget):
             self._reading = said
             self._lay_out()
 
-    def _dress(self) -> None:
+    def _apply_theme(self) -> None:
         self.setFixedHeight(round((50 if self._is_compact else 60) * LOOK.scale))
         self._lay_out()
 

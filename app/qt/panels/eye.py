@@ -11,8 +11,8 @@ from bihdist_core.analysis.upright import axis_of
 from ...document.camera import Camera, View
 from ...document.quantities import Difference
 from ...drawing.camera import camera_seen, carried, outwards_at, show_camera, standard_camera
-from ...drawing.relief import rise
-from ...session.opened import Opened
+from ...drawing.height_field import rise
+from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import vertex_at
 from ...session.session import Session
 from .panel import DistancePanel
@@ -47,8 +47,8 @@ class Eye(QtCore.QObject):
         return meshes[self._place].name if self._place < len(meshes) else ""
 
     @property
-    def _opened(self) -> Opened | None:
-        return self._session.opened(self.surface) if self.surface else None
+    def _loaded(self) -> LoadedMesh | None:
+        return self._session.loaded(self.surface) if self.surface else None
 
     @property
     def _size(self) -> QtCore.QSize:
@@ -75,20 +75,20 @@ class Eye(QtCore.QObject):
     @property
     def rise(self) -> float:
         """How far up the panels' reliefs go; 0 if they are none."""
-        opened, height = self._opened, self._session.document.height
-        return rise(opened.prepared.bounds, height) if height and opened and opened.prepared.is_flat else 0.0
+        loaded, height = self._loaded, self._session.document.height
+        return rise(loaded.prepared.bounds, height) if height and loaded and loaded.prepared.is_flat else 0.0
 
     def look(self, view: View) -> View:
         """See the surface from a standard view, fitted closely, or as a camera saw it; the view that was chosen."""
-        if self._opened is None:
+        if self._loaded is None:
             return view
         self._fitted = self._size
         document = self._session.document
         is_parallel = document.projection == "orthographic"
         axis = document.up_of(self.surface)
-        view = chosen = self._opened.view_of(view, axis)
+        view = chosen = self._loaded.view_of(view, axis)
         if not isinstance(view, Camera):
-            points, up = self._opened.prepared.points, self.rise
+            points, up = self._loaded.prepared.points, self.rise
             if up:
                 signed = any(isinstance(panel.shows, Difference) for panel in document.panels_of(self.surface))
                 down = np.array([0, 0, up if signed else 0])
@@ -103,7 +103,7 @@ class Eye(QtCore.QObject):
 
     def look_again(self) -> None:
         """After a change of the panels' size.  Left to itself VTK keeps the height and cuts off the sides."""
-        if self._opened is not None and self._panels() and self._size != self._fitted:
+        if self._loaded is not None and self._panels() and self._size != self._fitted:
             self.look(self._session.document.camera_of(self.surface))
 
     def note(self) -> Camera:
@@ -113,7 +113,7 @@ class Eye(QtCore.QObject):
 
     def follow(self, before: Camera, after: Camera) -> Camera | None:
         """Move as another camera has moved, from before to after; what it sees then, None if it has no surface."""
-        if self._opened is None or self.known is None:
+        if self._loaded is None or self.known is None:
             return None
         is_parallel = self._session.document.projection == "orthographic"
         show_camera(self.camera, carried(self.known, before, after), self.aspect, None, is_parallel)
@@ -121,6 +121,6 @@ class Eye(QtCore.QObject):
 
     def _source_seen(self) -> np.ndarray | None:
         """(3,) the way out of the surface where the first panel's field starts."""
-        document, surface = self._session.document, self._opened.surface
+        document, surface = self._session.document, self._loaded.surface
         names = [name for panel in document.panels_of(self.surface) for name in panel.shows.points]
         return outwards_at(surface, vertex_at(document.point(names[0]).at, surface)) if names else None

@@ -13,7 +13,7 @@ from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
 from ...document.mapping import shows_maps
 from ...document.predicting import predicts
-from ...drawing.board import Board
+from ...drawing.offscreen_renderer import OffscreenRenderer
 from ...drawing.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
 from ...session.session import Session
@@ -45,32 +45,32 @@ class PanelGrid(QtWidgets.QWidget):
     clicked = QtCore.Signal(int, object)  # panel, where the surface is met
     pinned = QtCore.Signal(int, object)  # the same with Shift
     pin_clicked = QtCore.Signal(int, int, bool)  # panel, a pin by its number, whether with Ctrl
-    pin_dragged = QtCore.Signal(int, int, object)  # panel, a pin by its number, the `Met` where its tip is
+    pin_dragged = QtCore.Signal(int, int, object)  # panel, a pin by its number, the `Hit` where its tip is
     pin_released = QtCore.Signal()  # or that of a pair
     pair_clicked = QtCore.Signal(int, int)  # panel, a pair by its number
-    pair_dragged = QtCore.Signal(int, int, object)  # panel, a pair by its number, the `Met` where its tip is
+    pair_dragged = QtCore.Signal(int, int, object)  # panel, a pair by its number, the `Hit` where its tip is
     added = QtCore.Signal(int, object)  # the same with Ctrl
-    dragged = QtCore.Signal(int, int, object)  # panel, a mark of its source by its number, the `Met` it is over
+    dragged = QtCore.Signal(int, int, object)  # panel, a mark of its source by its number, the `Hit` it is over
     released = QtCore.Signal()
-    stroked = QtCore.Signal(int, object)  # panel, a `Met` or None, while the surface is drawn on
+    stroked = QtCore.Signal(int, object)  # panel, a `Hit` or None, while the surface is drawn on
     stroke_ended = QtCore.Signal(int, bool)  # panel, whether with Ctrl
     chosen = QtCore.Signal(int, object)  # panel, quantity
     asked = QtCore.Signal(int, str)  # panel, a word of PANEL_EDITS
-    hovered = QtCore.Signal(int, object)  # panel, a `Met` or None beside the surface
+    hovered = QtCore.Signal(int, object)  # panel, a `Hit` or None beside the surface
     looked = QtCore.Signal(Camera, str)  # where the user has turned or moved the camera of a surface to
-    menu_wanted = QtCore.Signal(int, object, object)  # panel, a `Met` or None, where on the screen
+    menu_wanted = QtCore.Signal(int, object, object)  # panel, a `Hit` or None, where on the screen
     save_wanted = QtCore.Signal(int)  # the panel's field
     ended = QtCore.Signal(int, object)  # panel, where its colour bar is to end
     cancelled = QtCore.Signal(int)  # what is computed for a panel
     retried = QtCore.Signal(int)  # it, once more
     activated = QtCore.Signal(int)
-    brushed = QtCore.Signal(object, float)  # a `Met`, and how long a pixel is there
+    brushed = QtCore.Signal(object, float)  # a `Hit`, and how long a pixel is there
     brush_lifted = QtCore.Signal()
 
     def __init__(self, session: Session, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.board = Board()
+        self.offscreen = OffscreenRenderer()
         self.moving = Moving(lambda: [panel.view for panel in self.panels], self)
         self.labels = LineLabels(lambda: self.panels, self)
         self._shades = Shades(self)
@@ -171,31 +171,31 @@ class PanelGrid(QtWidgets.QWidget):
         self._show_active()
 
     def _mesh_name(self, surface: str) -> str:
-        opened = self._session.opened(surface)
-        return "" if opened is None else opened.surface.name
+        loaded = self._session.loaded(surface)
+        return "" if loaded is None else loaded.surface.name
 
     def _new_panel(self) -> DistancePanel:
-        panel = DistancePanel(self.board, self)
+        panel = DistancePanel(self.offscreen, self)
         view = panel.view
         view.pressed.connect(lambda: self.activate(panel.id))
-        view.clicked.connect(lambda met: self.clicked.emit(panel.id, met))
-        view.pinned.connect(lambda met: self.pinned.emit(panel.id, met))
-        view.added.connect(lambda met: self.added.emit(panel.id, met))
+        view.clicked.connect(lambda hit: self.clicked.emit(panel.id, hit))
+        view.pinned.connect(lambda hit: self.pinned.emit(panel.id, hit))
+        view.added.connect(lambda hit: self.added.emit(panel.id, hit))
         view.pin_clicked.connect(lambda number, is_more: self.pin_clicked.emit(panel.id, number, is_more))
-        view.pin_dragged.connect(lambda number, met: self.pin_dragged.emit(panel.id, number, met))
+        view.pin_dragged.connect(lambda number, hit: self.pin_dragged.emit(panel.id, number, hit))
         view.pin_released.connect(self.pin_released)
         view.pair_clicked.connect(lambda number: self.pair_clicked.emit(panel.id, number))
-        view.pair_dragged.connect(lambda number, met: self.pair_dragged.emit(panel.id, number, met))
-        view.dragged.connect(lambda mark, met: self.dragged.emit(panel.id, mark, met))
+        view.pair_dragged.connect(lambda number, hit: self.pair_dragged.emit(panel.id, number, hit))
+        view.dragged.connect(lambda mark, hit: self.dragged.emit(panel.id, mark, hit))
         view.released.connect(self.released)
-        view.stroked.connect(lambda met: self.stroked.emit(panel.id, met))
+        view.stroked.connect(lambda hit: self.stroked.emit(panel.id, hit))
         view.stroke_ended.connect(lambda has_ctrl: self.stroke_ended.emit(panel.id, has_ctrl))
-        view.hovered.connect(lambda met: self.hovered.emit(panel.id, met))
+        view.hovered.connect(lambda hit: self.hovered.emit(panel.id, hit))
         view.moved.connect(lambda: self._looked(panel))
         view.let_go.connect(self.moving.rest)
         view.resized.connect(self._look_again)
-        view.menu_wanted.connect(lambda met, where: self.menu_wanted.emit(panel.id, met, where))
-        view.centred.connect(lambda met: view.centre(met.position))
+        view.menu_wanted.connect(lambda hit, where: self.menu_wanted.emit(panel.id, hit, where))
+        view.centred.connect(lambda hit: view.centre(hit.position))
         view.brushed.connect(self.brushed)
         view.brush_lifted.connect(self.brush_lifted)
         view.drawn.connect(self._drawn)
@@ -214,11 +214,11 @@ class PanelGrid(QtWidgets.QWidget):
     def _begin(self, panel: DistancePanel, shown: Panel) -> None:
         """Let a panel be one of the document's, without a field yet."""
         panel.id, panel.surface = shown.id, shown.surface
-        opened, eye = self._session.opened(panel.surface), self.eye_of(panel.surface)
+        loaded, eye = self._session.loaded(panel.surface), self.eye_of(panel.surface)
         panel.view.scene.renderer.SetActiveCamera(eye.camera)
         panel.show_style(self._style)
-        if opened is not None:
-            panel.show_surface(opened)
+        if loaded is not None:
+            panel.show_surface(loaded)
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = eye.upright
@@ -237,10 +237,10 @@ class PanelGrid(QtWidgets.QWidget):
     def show_surface(self, surfaces: Collection[str] | None = None) -> None:
         """Other surfaces are there; surfaces: their names in the document, if these are not all."""
         for panel in self.panels:
-            opened = self._session.opened(panel.surface)
-            if opened is not None and (surfaces is None or panel.surface in surfaces):
-                panel.show_surface(opened)
-                panel.head.show_letter(panel.head.letter, opened.surface.name)
+            loaded = self._session.loaded(panel.surface)
+            if loaded is not None and (surfaces is None or panel.surface in surfaces):
+                panel.show_surface(loaded)
+                panel.head.show_letter(panel.head.letter, loaded.surface.name)
         self.marks.begin_surfaces()
         self.pointing.leave()
         self.show_shading()
@@ -252,9 +252,9 @@ class PanelGrid(QtWidgets.QWidget):
                 self._shade(panel)
 
     def _shade(self, panel: DistancePanel) -> None:
-        shading, opened = self._session.document.shading, self._session.opened(panel.surface)
-        if opened is not None:
-            panel.show_shading(shading, self._shades.drawn(opened.prepared.meshes, shading))
+        shading, loaded = self._session.document.shading, self._session.loaded(panel.surface)
+        if loaded is not None:
+            panel.show_shading(shading, self._shades.drawn(loaded.prepared.meshes, shading))
 
     # ------------------------------------------------------------------ answers
     def show_answer(self, id: int) -> None:
@@ -265,14 +265,14 @@ class PanelGrid(QtWidgets.QWidget):
                 in_shares = document.range == "shares"
                 widget = self._panels[other]
                 widget.show_answer(
-                    shown[other], bar_end(document, shown, other, self._session.opened), document.height, in_shares
+                    shown[other], bar_end(document, shown, other, self._session.loaded), document.height, in_shares
                 )
                 self.marks.show_isolines_again(document, other)
                 self.marks.show_pairs_in(document, other)
         self.pointing.show_again_soon()
 
-    def show_certificate(self, id: int) -> None:
-        self._panels[id].show_certificate(self._session.shown[id])
+    def show_error_estimate(self, id: int) -> None:
+        self._panels[id].show_error_estimate(self._session.shown[id])
 
     # ------------------------------------------------------------------ the camera
     def _placed(self) -> None:
@@ -381,4 +381,4 @@ class PanelGrid(QtWidgets.QWidget):
         """For good: nothing is drawn from now on."""
         self._is_closed = True
         self.labels.close()
-        self.board.close()
+        self.offscreen.close()

@@ -10,10 +10,10 @@ from ...document.pairing import pair_words
 from ...document.predicting import predicts_in
 from ...document.quantities import Interpolant
 from ...session.anchors import anchors_on
-from ...session.mapped import colours_words
-from ...session.paired import candidate_in, paired_on
-from ...session.passed import Passed, passed
-from ...session.pinned import pinned_on
+from ...session.isoline_points import IsolinePoint, passed
+from ...session.map_answers import colours_words
+from ...session.pair_locations import candidate_in, located_pair_points
+from ...session.pin_locations import located_pins
 from ...session.questions import pieces_at, vertex_at
 from ...session.session import Session
 from ..look.numbers import tick
@@ -53,17 +53,17 @@ class GridMarks:
     def begin_surfaces(self) -> None:
         """Other surfaces are there."""
         for panel in self._panels.values():
-            if self._session.opened(panel.surface) is not None:
+            if self._session.loaded(panel.surface) is not None:
                 self._select(panel)
 
     # ------------------------------------------------------------------ sources and anchors
     def expect_sources(self, document: Document) -> None:
         """Tell each panel where its field starts."""
         for panel in document.panels:
-            opened = self._session.opened(panel.surface)
+            loaded = self._session.loaded(panel.surface)
             places = [document.point(name).at for name in panel.shows.points]
-            start = vertex_at(places[0], opened.surface) if places else None
-            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, opened.surface) for at in places])
+            start = vertex_at(places[0], loaded.surface) if places else None
+            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, loaded.surface) for at in places])
 
     def draw_on(self, is_drawn_on: bool) -> None:
         """Whether the left button draws on the surfaces, and no longer turns them there."""
@@ -74,8 +74,8 @@ class GridMarks:
     def mark_anchors(self, document: Document) -> None:
         """Put the anchors of each panel's surface where they are."""
         for panel in document.panels:
-            opened, marks = self._session.opened(panel.surface), self._panels[panel.id].marks
-            anchors = anchors_on(document, panel.surface, opened)
+            loaded, marks = self._session.loaded(panel.surface), self._panels[panel.id].marks
+            anchors = anchors_on(document, panel.surface, loaded)
             self._panels[panel.id].mark_anchors([vertex for vertex, _ in anchors])
             if not any(isinstance(part, Interpolant) for part in panel.shows.parts):
                 marks.hold_anchors(None)
@@ -98,12 +98,12 @@ class GridMarks:
 
     def show_pairs_in(self, document: Document, id: int) -> None:
         panel, widget = document.panel(id), self._panels[id]
-        opened, shown = self._session.opened(panel.surface), self._session.shown.get(id)
-        if opened is None:
+        loaded, shown = self._session.loaded(panel.surface), self._session.shown.get(id)
+        if loaded is None:
             return
         answer = None if shown is None else shown.answer
         candidate = candidate_in(document, panel, answer)
-        widget.marks.show_pairs(paired_on(document, panel.surface, opened), candidate, self.chosen_pair)
+        widget.marks.show_pairs(located_pair_points(document, panel.surface, loaded), candidate, self.chosen_pair)
         is_plain = predicts_in(panel) and candidate is None and (answer is None or not answer.failure)
         alone = sum(other.surface == panel.surface and predicts_in(other) for other in document.panels) == 1
         is_first = document.panels_of(panel.surface)[0] == panel
@@ -111,7 +111,7 @@ class GridMarks:
             None if candidate is None else candidate.misfit,
             # Once for each surface, and where it waits.
             (pair_words(document, panel.surface) if is_first else ("",)) if is_plain else colours_words(answer),
-            opened.surface.name if is_plain and alone else "",
+            loaded.surface.name if is_plain and alone else "",
         )
 
     def choose_pair(self, point: str) -> None:
@@ -125,7 +125,7 @@ class GridMarks:
     def show_pins(self, document: Document) -> None:
         """Put the pins of each panel's surface where they are."""
         for panel in document.panels:
-            pins = pinned_on(document, panel.surface, self._session.opened(panel.surface).surface)
+            pins = located_pins(document, panel.surface, self._session.loaded(panel.surface).surface)
             self._panels[panel.id].marks.show_pins(pins, self.lit)
 
     def light_pins(self, points: tuple[str, ...]) -> None:
@@ -188,8 +188,8 @@ class GridMarks:
         if document.isolines.through:
             self._panels[id].show_isolines(document.isolines, self._through(document, document.panel(id)))
 
-    def _through(self, document: Document, panel: Panel) -> tuple[Passed, ...]:
-        opened, shown = self._session.opened(panel.surface), self._session.shown.get(panel.id)
-        if opened is None or shown is None:
+    def _through(self, document: Document, panel: Panel) -> tuple[IsolinePoint, ...]:
+        loaded, shown = self._session.loaded(panel.surface), self._session.shown.get(panel.id)
+        if loaded is None or shown is None:
             return ()
-        return passed(document, panel.surface, opened, shown.answer)
+        return passed(document, panel.surface, loaded, shown.answer)

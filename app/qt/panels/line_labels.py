@@ -38,8 +38,8 @@ class Part:
 class Asked:
     """All that the labels of a panel's picture depend on, in logical pixels.
 
-    outward: see `Sight`; field: (n,); parts: the whole picture first, then insets; marked: (k, 3); apart: how far words
-    keep from these; size: of the letters; widths: of texts in them.
+    outward: see `HiddenLineRemoval`; field: (n,); parts: the whole picture first, then insets; marked: (k, 3); apart:
+    how far words keep from these; size: of the letters; widths: of texts in them.
     """
 
     surface: Surface
@@ -180,10 +180,10 @@ class Finder:
 
     def find(self, asked: Asked) -> list[Written]:
         """On any thread."""
-        from ...figures.sight import Sight, contours_seen
+        from ...figures.hidden_lines import HiddenLineRemoval, contours_seen
 
         if self._kept[0] != asked.sight_key:
-            sight = Sight(asked.surface, asked.projection, asked.picture, asked.outward)
+            sight = HiddenLineRemoval(asked.surface, asked.projection, asked.picture, asked.outward)
             self._kept = (asked.sight_key, sight, asked.surface, {})  # the surface, so that its id stays its own
         _, sight, _, covers = self._kept
         marked = sight.pixels(asked.marked)[:, :2]

@@ -134,7 +134,7 @@ class MarksOver:
         """Another picture has been drawn: what is hidden in it?"""
         self._unseen = self._unlabelled = None
         self.pairs.see()
-        self.path.see(self._view.scene, self._view.board)
+        self.path.see(self._view.scene, self._view.offscreen)
         self._covered = self._cover()
 
     # ------------------------------------------------------------------ painting

@@ -100,7 +100,7 @@ def label_place(at: QtCore.QPointF, value: str, share: str, view: QtCore.QRectF)
 
 
 def paint_label(painter: QtGui.QPainter, place: QtCore.QRectF, value: str, share: str, is_meant: bool = False) -> None:
-    """A value and its share of the maximum; is_meant: it is the one of several that a key takes."""
+    """A value and its fraction of the maximum; is_meant: it is the one of several that a key takes."""
     theme = LOOK.theme
     ground, plain, quiet = theme.label, theme.label_text, theme.label_quiet
     if is_meant:

@@ -15,16 +15,16 @@ from ...document.document import COMPARISON, Zoom
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
 from ...document.quantities import DistanceFrom
 from ...drawing.bands import band_edges
-from ...drawing.board import Board
 from ...drawing.drawable import drawable
+from ...drawing.height_field import rise, warp_by_scalar
 from ...drawing.levels import in_unit, with_kept_step
+from ...drawing.offscreen_renderer import OffscreenRenderer
 from ...drawing.picking import LatePicker
 from ...drawing.prepared import Drawn
-from ...drawing.relief import relief, rise
 from ...drawing.style import Style
 from ...session.answering import Shown
-from ...session.opened import Opened
-from ...session.passed import Passed
+from ...session.isoline_points import IsolinePoint
+from ...session.loaded_mesh import LoadedMesh
 from ..look.look import LOOK
 from .answer_bar import show_answer
 from .colour_bar import ColourBar
@@ -51,11 +51,11 @@ class DistancePanel(QtWidgets.QWidget):
     retried = QtCore.Signal()
     ended = QtCore.Signal(object)  # where its colour bar is to end, None for the field's own maximum
 
-    def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, offscreen: OffscreenRenderer, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.id, self.surface = -1, ""
         self.head = PanelHead(DistanceFrom(COMPARISON[0]), self)
-        self.view = View(board, self)
+        self.view = View(offscreen, self)
         self.marks = PanelMarks(self.view)
         self.bar = ColourBar(self)
         self.bar.end_wanted.connect(self.ask_end)
@@ -75,7 +75,7 @@ class DistancePanel(QtWidgets.QWidget):
         layout.addWidget(self.bar)
         self.view.resized.connect(self._place_waiting)
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Ignored)
-        self._opened: Opened | None = None
+        self._opened: LoadedMesh | None = None
         self._shape: Surface | None = None
         self._raised: tuple[int, float, float] | None = None  # the field, its top, and the height
         self._shading, self._drawn = AS_IT_IS, None  # of the surface as it lies
@@ -125,15 +125,15 @@ class DistancePanel(QtWidgets.QWidget):
         self.show_waiting(None)
 
     # ------------------------------------------------------------------ state into pixels
-    def show_surface(self, opened: Opened) -> None:
+    def show_surface(self, loaded: LoadedMesh) -> None:
         """Another surface, without a field yet."""
         self.rest()
-        self._opened = opened
-        self.head.show_surface(opened.surface)
-        self.marks.begin(opened.surface)
-        self.view.picker = opened.prepared.picker
-        self._drawn = opened.prepared.meshes.usual
-        self.view.scene.show_surface(self._drawn.mesh, opened.prepared.bounds)
+        self._opened = loaded
+        self.head.show_surface(loaded.surface)
+        self.marks.begin(loaded.surface)
+        self.view.picker = loaded.prepared.picker
+        self._drawn = loaded.prepared.meshes.usual
+        self.view.scene.show_surface(self._drawn.mesh, loaded.prepared.bounds)
         self.view.scene.take_stand_in(self._drawn.stand_in)
         self.view.scene.show_bare()
         self.view.show_empty(False)
@@ -163,7 +163,7 @@ class DistancePanel(QtWidgets.QWidget):
             marked = list(self.marks.anchors) + ([] if self.source is None else [self.source])
             self.view.scene.insets.settle(samples, self.positions[marked])
 
-    def show_isolines(self, isolines: Isolines, through: tuple[Passed, ...] = ()) -> None:
+    def show_isolines(self, isolines: Isolines, through: tuple[IsolinePoint, ...] = ()) -> None:
         """These, and one through each of the points, which have dots."""
         self._isolines = isolines
         scene = self.view.scene
@@ -180,7 +180,7 @@ class DistancePanel(QtWidgets.QWidget):
 
     @property
     def _edges(self) -> np.ndarray:
-        """(k,) shares of the maximum at which bands end."""
+        """(k,) fractions of the maximum at which bands end."""
         is_signed = self.answer is not None and self.answer.is_signed
         return band_edges(self._lines, self.view.scene.maximum, is_signed)
 
@@ -194,13 +194,13 @@ class DistancePanel(QtWidgets.QWidget):
         return with_kept_step(lines, step, self._top, answer.maximum, answer.is_signed) if self.keeps_step else lines
 
     @property
-    def opened(self) -> Opened | None:
+    def loaded(self) -> LoadedMesh | None:
         """The surface that it shows."""
         return self._opened
 
     @property
     def shape(self) -> Surface | None:
-        """The surface as it is drawn, perhaps as a relief; None if there is none."""
+        """The surface as it is drawn, perhaps as a height field; None if there is none."""
         return self._opened.surface if self._opened is not None and self._raised is None else self._shape
 
     @property
@@ -235,7 +235,7 @@ class DistancePanel(QtWidgets.QWidget):
     ) -> None:
         """A field with its colour bar up to `maximum`, its own if None; or why there is none.
 
-        height: of the relief that a flat surface becomes.  in_shares: the bar reads shares of the maximum.
+        height: of the height field that a flat surface becomes.  in_shares: the bar reads fractions of the maximum.
         """
         self._in_shares = in_shares and shown.answer.signs is None
         self.answer = answer = shown.answer
@@ -255,7 +255,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.mark_anchors(self.marks.anchors)
         self.view.scene.mark_largest(None if answer.largest is None else self.positions[answer.largest])
         self.show_waiting(None)
-        self.show_certificate(shown)
+        self.show_error_estimate(shown)
         self._show_bar()
 
     def _show_bar(self) -> None:
@@ -286,7 +286,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.ended.emit(None if end is None else end / scale)
 
     def _raise(self, answer: Answer, top: float, height: float) -> None:
-        """Let the surface be a relief of the answer, or flat again."""
+        """Let the surface be a height field of the answer, or flat again."""
         prepared, surface = self._opened.prepared, self._opened.surface
         is_relief = bool(height) and answer.field is not None and prepared.is_flat
         raised = (id(answer.field), top, height) if is_relief else None
@@ -296,10 +296,10 @@ class DistancePanel(QtWidgets.QWidget):
         bounds = prepared.bounds
         if is_relief:
             up = rise(bounds, height)
-            surface = relief(surface, answer.field, top, up)
+            surface = warp_by_scalar(surface, answer.field, top, up)
             *others, low, high = bounds
             bounds = (*others, low - up, high + up)
-        # Of a relief it is made when somebody points at it.
+        # Of a height field it is made when somebody points at it.
         self.view.picker = LatePicker(surface) if is_relief else prepared.picker
         self._shape = surface
         self.view.scene.show_shape(drawable(surface, self._shading) if is_relief else self._drawn.mesh, bounds)
@@ -308,7 +308,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.show_insets(self._zooms)
         self.settle_insets()
 
-    def show_certificate(self, shown: Shown) -> None:
+    def show_error_estimate(self, shown: Shown) -> None:
         """How accurate the field is."""
         self.answer, self._is_preview = shown.answer, shown.is_preview
         accuracy = shown.answer.accuracy

@@ -11,9 +11,9 @@ from bihdist_core.sources.pieces import Pieces
 
 from ...drawing.source_lines import SourceLine, source_lines
 from ...drawing.style import PINS, WAITING
-from ...session.paired import Candidate, PairedPoint
-from ...session.passed import Passed
-from ...session.pinned import PinnedPlace
+from ...session.isoline_points import IsolinePoint
+from ...session.pair_locations import Candidate, LocatedPairPoint
+from ...session.pin_locations import LocatedPin
 from ..look.numbers import share
 from .anchor_labels import AnchorLabel
 from .pair_marks import CandidateMark
@@ -22,7 +22,7 @@ from .view import View
 
 
 class PanelMarks:
-    """view: that they are seen in.  positions: (n, 3) where the vertices are drawn, in a relief raised by the field."""
+    """view: that they are seen in.  positions: (n, 3) where the vertices are drawn, in a height field raised."""
 
     def __init__(self, view: View) -> None:
         self._view = view
@@ -35,9 +35,9 @@ class PanelMarks:
         self._lines: list[SourceLine] = []
         self.anchors: Sequence[int] = ()
         self._held: Sequence[AnchorLabel] | None = None
-        self._pins: Sequence[PinnedPlace] = ()
+        self._pins: Sequence[LocatedPin] = ()
         self._lit: Collection[str] = ()
-        self._pairs: Sequence[PairedPoint] = ()
+        self._pairs: Sequence[LocatedPairPoint] = ()
         self._candidate: Candidate | None = None
         self._truth: Sequence[int] = ()
         self._off: float | None = None
@@ -126,7 +126,7 @@ class PanelMarks:
         view.over.show_anchors(self._held)
 
     # ------------------------------------------------------------------ what measures
-    def show_pins(self, pins: Sequence[PinnedPlace], lit: Collection[str] = ()) -> None:
+    def show_pins(self, pins: Sequence[LocatedPin], lit: Collection[str] = ()) -> None:
         """Drops at these places; lit: the names of the points of those that stand out."""
         self._pins, self._lit = pins, lit
         self._put_pins()
@@ -140,7 +140,7 @@ class PanelMarks:
                 )
             )
 
-    def show_pairs(self, pairs: Sequence[PairedPoint], candidate: Candidate | None, chosen: str = "") -> None:
+    def show_pairs(self, pairs: Sequence[LocatedPairPoint], candidate: Candidate | None, chosen: str = "") -> None:
         """Drops at these vertices, and where the next would be; chosen: a point of the pair that stands out."""
         self._pairs, self._candidate, self._chosen_pair = pairs, candidate, chosen
         self._put_pairs()
@@ -227,7 +227,7 @@ class PanelMarks:
         known = [vertex for vertex in self._ends if vertex < len(self.positions)]
         self._view.over.show_ends(self.positions[known])
 
-    def mark_passed(self, points: Sequence[Passed]) -> None:
+    def mark_passed(self, points: Sequence[IsolinePoint]) -> None:
         """Dots at points that isolines pass through."""
         self.dots = np.array([point.of(self.positions) for point in points]).reshape(-1, 3)
         self._view.scene.mark_passed(self.dots)

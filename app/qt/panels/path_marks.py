@@ -3,8 +3,8 @@
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.board import Board
 from ...drawing.lines_of_sight import seen_in
+from ...drawing.offscreen_renderer import OffscreenRenderer
 from ...drawing.path_lines import DOTS, NARROW, THINNER, WIDE
 from ...drawing.scene import PanelScene
 from .overlay import BRIGHT, DARK
@@ -26,12 +26,12 @@ class PathMarks:
         before, self.points = self.points, points
         return bool(len(points) or len(before))
 
-    def see(self, scene: PanelScene, board: Board) -> None:
+    def see(self, scene: PanelScene, offscreen: OffscreenRenderer) -> None:
         """What is seen in the picture that has just been drawn; insets lie over the path."""
         self.pixels, self.is_seen = np.empty((0, 2)), np.empty(0, bool)
         if not len(self.points):
             return
-        depths = board.depths()
+        depths = offscreen.depths()
         self.pixels, self.is_seen = seen_in(scene.renderer, self.points, depths)
         for left, bottom, width, height in scene.insets.covered:
             top = len(depths) - bottom - height

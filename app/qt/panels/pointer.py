@@ -70,10 +70,10 @@ class Pointer:
         if self._is_brushing:
             self._brush_to(event.pos())
             return
-        met = view.met_at(event.pos()) if is_left and self.is_drawn_on else None
-        self._is_stroke = met is not None
+        hit = view.pick(event.pos()) if is_left and self.is_drawn_on else None
+        self._is_stroke = hit is not None
         if self._is_stroke:
-            view.stroked.emit(met)
+            view.stroked.emit(hit)
         may_hold = is_left and not self._is_stroke and (is_plain or event.modifiers() == _CTRL)
         self._drop = view.over.drop_at(event.pos()) if may_hold else None
         self._grip = view.over.tip_of_drop(*self._drop) - event.pos() if self._drop else QtCore.QPoint()
@@ -85,7 +85,7 @@ class Pointer:
         view = self._view
         if event.buttons() == _NONE:
             self._button = _NONE
-            view.hovered.emit(view.met_at(event.pos()))
+            view.hovered.emit(view.pick(event.pos()))
             self._show_cursor(event.pos())
             return
         if self._is_brushing:
@@ -102,14 +102,14 @@ class Pointer:
             return
         step, self._last = event.pos() - self._last, event.pos()
         if self._drop:
-            met = view.met_at(event.pos() + self._grip)
-            if met is not None:
+            hit = view.pick(event.pos() + self._grip)
+            if hit is not None:
                 kind, number = self._drop
-                (view.pin_dragged if kind == "pin" else view.pair_dragged).emit(number, met)
+                (view.pin_dragged if kind == "pin" else view.pair_dragged).emit(number, hit)
         elif self._held >= 0:
-            met = view.met_at(event.pos())
-            if met is not None:
-                view.dragged.emit(self._held, met)
+            hit = view.pick(event.pos())
+            if hit is not None:
+                view.dragged.emit(self._held, hit)
         elif not view.is_empty:
             self._drag(step, event.modifiers())
 
@@ -132,7 +132,7 @@ class Pointer:
             view.unsetCursor()
         if is_stroke:
             if self._is_dragging and event.pos() != self._last:
-                view.stroked.emit(view.met_at(event.pos()))
+                view.stroked.emit(view.pick(event.pos()))
             view.stroke_ended.emit(has_ctrl)
         elif self._is_dragging:
             if drop:
@@ -149,19 +149,19 @@ class Pointer:
             else:
                 view.pair_clicked.emit(number)
         elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
-            view.menu_wanted.emit(view.met_at(press), view.mapToGlobal(press))
+            view.menu_wanted.emit(view.pick(press), view.mapToGlobal(press))
         elif press is not None and event.button() == QtCore.Qt.MouseButton.LeftButton and not held:
-            met = view.met_at(press)
+            hit = view.pick(press)
             has_shift = bool(event.modifiers() & QtCore.Qt.KeyboardModifier.ShiftModifier)
-            if met is not None:
-                (view.pinned if has_shift else view.added if has_ctrl else view.clicked).emit(met)
+            if hit is not None:
+                (view.pinned if has_shift else view.added if has_ctrl else view.clicked).emit(hit)
 
     def double_click(self, event: QtGui.QMouseEvent) -> None:
         """The first click has moved the source there, or has chosen a pin."""
         if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._view.over.drop_at(event.pos()):
-            met = self._view.met_at(event.pos())
-            if met is not None:
-                self._view.centred.emit(met)
+            hit = self._view.pick(event.pos())
+            if hit is not None:
+                self._view.centred.emit(hit)
         self._press = None
 
     # ------------------------------------------------------------------ what it does
@@ -181,7 +181,7 @@ class Pointer:
         way, start = position - self._last, self._last
         steps = min(way.manhattanLength() // STROKE_STEP, MOST_DRAWN)
         for step in range(1, steps + 1):
-            self._view.stroked.emit(self._view.met_at(start + way * step / steps))
+            self._view.stroked.emit(self._view.pick(start + way * step / steps))
             self._last = position
 
     def _brush_to(self, position: QtCore.QPoint) -> None:
@@ -191,9 +191,9 @@ class Pointer:
         self._last = position
         steps = min(max(way.manhattanLength() // BRUSH_STEP, 1), MOST_BRUSHED)
         for step in range(1, steps + 1):
-            met = view.met_at(start + way * step / steps)
-            if met is not None:
-                view.brushed.emit(met, view.pixel_size(met.position))
+            hit = view.pick(start + way * step / steps)
+            if hit is not None:
+                view.brushed.emit(hit, view.pixel_size(hit.position))
 
     def _drag(self, step: QtCore.QPoint, modifiers: QtCore.Qt.KeyboardModifiers) -> None:
         view, button = self._view, QtCore.Qt.MouseButton

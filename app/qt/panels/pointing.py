@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from qtpy import QtCore
 
-from ...session.changed import counterpart
+from ...session.perturbed_meshes import counterpart
 from .panel import DistancePanel
 
 
@@ -41,7 +41,7 @@ class Pointing:
         image = None if vertex is None else here.image_of(vertex)
         for other, panel in self._panels.items():
             if panel.surface != here.surface:
-                there = image if image is not None else counterpart(vertex, here.opened, panel.opened)
+                there = image if image is not None else counterpart(vertex, here.loaded, panel.loaded)
                 is_hidden = there is not None and not panel.view.sees(panel.positions[there])
                 panel.point_at(there, False, is_hidden)
                 continue

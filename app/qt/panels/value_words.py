@@ -12,7 +12,7 @@ NOWHERE = "mapped nowhere"
 
 
 def value_words(answer: Answer | None, vertex: int | None, shows: Quantity) -> tuple[str, str]:
-    """A value and its share of the maximum, or where a map leads; empty where there is nothing to say."""
+    """A value and its fraction of the maximum, or where a map leads; empty where there is nothing to say."""
     if answer is None or vertex is None:
         return "", ""
     if answer.leads_to is not None:

@@ -8,8 +8,8 @@ from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from ...drawing import moves
-from ...drawing.board import Board
-from ...drawing.picking import Met, Picker, pixel_of
+from ...drawing.offscreen_renderer import OffscreenRenderer
+from ...drawing.picking import Hit, Picker, pixel_of
 from ...drawing.proportion import proportion
 from ...drawing.style import Style
 from ..look.look import LOOK
@@ -36,34 +36,34 @@ class View(QtWidgets.QWidget):
     """A scene on the screen."""
 
     pressed = QtCore.Signal()  # any button
-    clicked = QtCore.Signal(object)  # a `Met`, clicked without dragging
+    clicked = QtCore.Signal(object)  # a `Hit`, clicked without dragging
     pinned = QtCore.Signal(object)  # the same with Shift
     added = QtCore.Signal(object)  # the same with Ctrl
     pin_clicked = QtCore.Signal(int, bool)  # its drop, by its number; whether with Ctrl
-    pin_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Met`
+    pin_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Hit`
     pin_released = QtCore.Signal()  # or that of a pair
     pair_clicked = QtCore.Signal(int)  # its drop, or its candidate, by its number
-    pair_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Met`
-    dragged = QtCore.Signal(int, object)  # a mark of the source by its number, over a `Met`
+    pair_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Hit`
+    dragged = QtCore.Signal(int, object)  # a mark of the source by its number, over a `Hit`
     released = QtCore.Signal()  # the mark
-    stroked = QtCore.Signal(object)  # over a `Met`, or None beside the surface, while that is drawn on
+    stroked = QtCore.Signal(object)  # over a `Hit`, or None beside the surface, while that is drawn on
     stroke_ended = QtCore.Signal(bool)  # the button is up; whether with Ctrl
     let_go = QtCore.Signal()  # the button that has moved the camera
-    hovered = QtCore.Signal(object)  # a `Met`, or None beside the surface
+    hovered = QtCore.Signal(object)  # a `Hit`, or None beside the surface
     moved = QtCore.Signal()  # the camera
     resized = QtCore.Signal()
-    menu_wanted = QtCore.Signal(object, object)  # a `Met` or None, and where on the screen
-    centred = QtCore.Signal(object)  # double click on a `Met`
-    brushed = QtCore.Signal(object, float)  # a `Met`, and how long a pixel is there
+    menu_wanted = QtCore.Signal(object, object)  # a `Hit` or None, and where on the screen
+    centred = QtCore.Signal(object)  # double click on a `Hit`
+    brushed = QtCore.Signal(object, float)  # a `Hit`, and how long a pixel is there
     brush_lifted = QtCore.Signal()
     drawn = QtCore.Signal()  # another picture
     shot_wanted = QtCore.Signal()  # what is written on the picture is needed now
 
-    def __init__(self, board: Board, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, offscreen: OffscreenRenderer, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self.board = board
+        self.offscreen = offscreen
         self.over, self.pointer = MarksOver(self), Pointer(self)
-        self.scene = board.new_scene(scale=self.devicePixelRatioF())
+        self.scene = offscreen.new_scene(scale=self.devicePixelRatioF())
         self.picker: Picker | None = None
         self.handles = np.empty((0, 3))  # where the source's marks are
         self.wheel_factor = 1.0  # -1 for a wheel that goes the other way
@@ -85,7 +85,7 @@ class View(QtWidgets.QWidget):
     # ------------------------------------------------------------------ what is seen
     @property
     def renderer(self) -> vtkRenderer:
-        self.board.fit(self.pixels)
+        self.offscreen.fit(self.pixels)
         return self.scene.renderer
 
     @property
@@ -123,8 +123,8 @@ class View(QtWidgets.QWidget):
         if (style, ratio) == (self.scene.style, self.scene.scale):
             return False
         camera = self.camera
-        self.board.remove(self.scene)
-        self.scene = self.board.new_scene(style, ratio)
+        self.offscreen.remove(self.scene)
+        self.scene = self.offscreen.new_scene(style, ratio)
         self.scene.renderer.SetActiveCamera(camera)
         self.redraw()
         return True
@@ -166,7 +166,7 @@ class View(QtWidgets.QWidget):
         size = QtCore.QSize(width, height)
         if self._is_stale or self._picture is None or self._picture.size() != size:
             self.scene.set_proportion(self.proportion)
-            self._drawing, self._written = self.board.picture(self.scene, (width, height)), None
+            self._drawing, self._written = self.offscreen.picture(self.scene, (width, height)), None
             self._picture = self._image(self._drawing)
             self._is_stale = False
             self.over.see()
@@ -211,13 +211,13 @@ class View(QtWidgets.QWidget):
         ratio = self.devicePixelRatioF()
         return QtCore.QPointF(x / ratio, self.height() - y / ratio)
 
-    def met_at(self, position: QtCore.QPoint) -> Met | None:
+    def pick(self, position: QtCore.QPoint) -> Hit | None:
         """Where the surface is met under a point of the view."""
         if self.picker is None or self._is_empty:
             return None
         pixel = self._pixel(position)
-        self.board.fit(self.pixels)
-        return self.picker.met_at(self.scene.insets.renderer_at(*pixel), *pixel)
+        self.offscreen.fit(self.pixels)
+        return self.picker.pick(self.scene.insets.renderer_at(*pixel), *pixel)
 
     def sees(self, point: np.ndarray) -> bool:
         """Whether no part of the surface is before a point (3,) of it."""
@@ -272,7 +272,7 @@ class View(QtWidgets.QWidget):
         """By the keyboard; that of the mouse comes when its button is let go."""
         if event.reason() == QtGui.QContextMenuEvent.Reason.Keyboard and not self._is_empty:
             middle = self.rect().center()
-            self.menu_wanted.emit(self.met_at(middle), self.mapToGlobal(middle))
+            self.menu_wanted.emit(self.pick(middle), self.mapToGlobal(middle))
 
     def wheelEvent(self, event: QtGui.QWheelEvent) -> None:
         if not self._is_empty and event.angleDelta().y():
@@ -287,15 +287,15 @@ class View(QtWidgets.QWidget):
         """What is under the pointer now, after the camera or the surface has moved."""
         position = self.mapFromGlobal(QtGui.QCursor.pos())
         if self.pointer.is_up and self.underMouse() and self.rect().contains(position):
-            self.hovered.emit(self.met_at(position))
+            self.hovered.emit(self.pick(position))
 
     # ------------------------------------------------------------------ the camera
     def zoom(self, factor: float, position: QtCore.QPoint | None = None) -> None:
         """Nearer by a factor, about what is under a point of the view; about the middle if none is given."""
         about = self._focal_point()
         if position is not None:
-            met = self.met_at(position)
-            about = moves.at_focal_depth(self.renderer, *self._pixel(position)) if met is None else met.position
+            hit = self.pick(position)
+            about = moves.at_focal_depth(self.renderer, *self._pixel(position)) if hit is None else hit.position
         moves.zoom(self.camera, factor, about)
         self.moved.emit()
 

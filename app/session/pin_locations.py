@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bihdist_core import Place, Surface
+from bihdist_core import Surface, SurfacePoint
 from bihdist_core.analysis.places import weighted
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats.pins import Pins
@@ -18,7 +18,7 @@ from .questions import pieces_at
 
 
 @dataclass(frozen=True, eq=False)
-class PinnedPlace:
+class LocatedPin:
     """A pin on a surface.
 
     number: from 1, in the order of the document.  vertex: the one that it is at, None for any other place; face,
@@ -38,12 +38,12 @@ class PinnedPlace:
         return self.pin.point
 
     @property
-    def at(self) -> int | Place:
+    def at(self) -> int | SurfacePoint:
         """Where it is: its vertex, or the place in its face."""
         if self.vertex is not None:
             return self.vertex
         first, second, third = self.weights.tolist()
-        return Place(self.face, (first, second, third))
+        return SurfacePoint(self.face, (first, second, third))
 
     @property
     def words(self) -> str:
@@ -64,7 +64,7 @@ class PinnedPlace:
         return float(weighted(field, self.corners[None], self.weights[None])[0])
 
 
-def pinned_on(document: Document, name: str, surface: Surface) -> tuple[PinnedPlace, ...]:
+def located_pins(document: Document, name: str, surface: Surface) -> tuple[LocatedPin, ...]:
     """Those on the surface of a name, which is there; of a source with several places its first."""
     found = []
     for number, pin in enumerate(document.pins, 1):
@@ -76,13 +76,13 @@ def pinned_on(document: Document, name: str, surface: Surface) -> tuple[PinnedPl
         else:
             pieces = pieces_at(point.at, surface)
             vertex, face, corners, weights = None, int(pieces.faces[0]), pieces.corners[0], pieces.start[0]
-            if not isinstance(point.at, Place) and weights.max() == 1:
+            if not isinstance(point.at, SurfacePoint) and weights.max() == 1:
                 vertex = int(corners[weights.argmax()])
-        found.append(PinnedPlace(number, pin, vertex, face, corners, weights))
+        found.append(LocatedPin(number, pin, vertex, face, corners, weights))
     return tuple(found)
 
 
-def pins_to_write(places: Sequence[PinnedPlace], surface: Surface) -> Pins:
+def pins_to_write(places: Sequence[LocatedPin], surface: Surface) -> Pins:
     """All of them, for a file, which has vertices only: of a place in a face, the nearest of its corners, and how far
     that is.  Ids are the numbers that the window shows.
 
@@ -109,7 +109,7 @@ def with_pins(document: Document, pins: Pins, surface: str = "A") -> Document:
     return document
 
 
-def pins_text(places: Sequence[PinnedPlace], surface: Surface, answers: Sequence[tuple[str, Answer]]) -> str:
+def pins_text(places: Sequence[LocatedPin], surface: Surface, answers: Sequence[tuple[str, Answer]]) -> str:
     """A table with a tab between columns: number, name, vertex, place, and each answer's value and share.
 
     answers: with the heads of their columns.  Numbers are written with all their digits.
@@ -128,7 +128,7 @@ def pins_text(places: Sequence[PinnedPlace], surface: Surface, answers: Sequence
     return "\n".join(lines) + "\n"
 
 
-def matrix_text(places: Sequence[PinnedPlace], matrix: np.ndarray) -> str:
+def matrix_text(places: Sequence[LocatedPin], matrix: np.ndarray) -> str:
     """The distances (k, k) among k pins, with a tab between columns and the pins' names before rows and columns."""
     lines = ["\t".join(["", *(place.name for place in places)])]
     for place, row in zip(places, matrix.tolist(), strict=True):

@@ -7,42 +7,42 @@ import numpy as np
 from bihdist_core import BihdistError, Cancelled, ParameterError, Surface, VertexError
 from bihdist_core.applications.carrying import carried_back, position_colours
 from bihdist_core.applications.correspondence import NOWHERE
-from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed
 from bihdist_core.formats.vertex_maps import read_map
 from bihdist_core.progress import Progress, part
 
 from ..document.file import checksum
 from ..document.map_colours import SAME_IDS, MapFile
-from .predicted import NO_OTHER, correspondence
+from .prediction_answers import NO_OTHER, correspondence
 from .questions import MapQuestion, PositionQuestion
 
 if TYPE_CHECKING:
-    from .opened import Opened
+    from .loaded_mesh import LoadedMesh
 
 NO_PAIRS = "There is no pair yet, and pairs make the map."
 """What a panel of a map says where there can be none."""
 
 
-def positions(question: PositionQuestion, opened: "Opened") -> Answer:
+def positions(question: PositionQuestion, loaded: "LoadedMesh") -> Answer:
     """A surface in colours by position."""
-    colours = position_colours(opened.surface)
+    colours = position_colours(loaded.surface)
     colours.flags.writeable = False
-    return Answer(label=str(question), colours=colours, certificate=Certificate())
+    return Answer(label=str(question), colours=colours, error_estimate=ErrorEstimate())
 
 
-def mapped(question: MapQuestion, opened: "Opened", progress: Progress | None) -> Answer:
+def mapped(question: MapQuestion, loaded: "LoadedMesh", progress: Progress | None) -> Answer:
     """Each vertex in the colour of the one that it is mapped to."""
-    other = opened.standing_beside(question.other)
+    other = loaded.standing_beside(question.other)
     if other is None:
         return Answer(label=str(question), failure=NO_OTHER)
     try:
         if isinstance(question.by, MapFile):
-            found, label = map_in(question.by, opened.surface, other.surface), f"map {question.by.name}"
+            found, label = map_in(question.by, loaded.surface, other.surface), f"map {question.by.name}"
         elif not question.pairs:
             return Answer(label=str(question), failure=NO_PAIRS)
         else:
-            known = correspondence(question.areas, question.by, question.pairs, opened, other, part(progress, 0, 0.5))
+            known = correspondence(question.areas, question.by, question.pairs, loaded, other, part(progress, 0, 0.5))
             found, label = known.map(progress=part(progress, 0.5, 1)), f"map by {known.distance_m.label}"
         colours = carried_back(position_colours(other.surface), found)
     except (Cancelled, VertexError):
@@ -51,7 +51,7 @@ def mapped(question: MapQuestion, opened: "Opened", progress: Progress | None) -
         return failed(str(question), error)
     found.flags.writeable = colours.flags.writeable = False
     return Answer(
-        label=label, colours=colours, leads_to=found, certificate=Certificate(), remark=_said(found, other.surface)
+        label=label, colours=colours, leads_to=found, error_estimate=ErrorEstimate(), remark=_said(found, other.surface)
     )
 
 

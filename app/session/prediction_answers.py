@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bihdist_core import BihdistError, Cancelled, Correspondence, VertexError
-from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed, same_on
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
@@ -16,13 +16,13 @@ from bihdist_core.sources.source import Source
 from .questions import PredictionQuestion, vertex_at
 
 if TYPE_CHECKING:
-    from .opened import Opened
+    from .loaded_mesh import LoadedMesh
 
 NO_OTHER = "There is no second mesh: open one beside this to find corresponding points."
 """What a panel of a prediction says where there can be none."""
 
 MISFIT = "misfit"
-"""The unit of predictions: distances in them are shares of the largest one."""
+"""The unit of predictions: distances in them are fractions of the largest one."""
 
 SPARE = 64
 """Columns of points that are in no pair any more which are kept: of one that is dragged, of what is undone."""
@@ -68,16 +68,16 @@ class KnownColumns:
             self._columns = {key: c for key, c in self._columns.items() if key[0] == areas and key[1] in spared}
 
 
-def predicted(question: PredictionQuestion, opened: "Opened", progress: Progress | None) -> Answer:
+def predicted(question: PredictionQuestion, loaded: "LoadedMesh", progress: Progress | None) -> Answer:
     """The misfit of every vertex to the point; neither field nor failure where no point waits, or no pair is known."""
-    other = opened.standing_beside(question.other)
+    other = loaded.standing_beside(question.other)
     if question.other is None or other is None:
         return Answer(label=str(question), failure=NO_OTHER)
     if question.at is None or not question.pairs:
-        return Answer(label=str(question), unit=MISFIT, certificate=Certificate())
+        return Answer(label=str(question), unit=MISFIT, error_estimate=ErrorEstimate())
     try:
         pairs = [(there, here) for here, there in question.pairs]
-        known = correspondence(question.areas, question.spec, pairs, other, opened, progress)
+        known = correspondence(question.areas, question.spec, pairs, other, loaded, progress)
         field = known.misfit(vertex_at(question.at, other.surface))
     except (Cancelled, VertexError):
         raise
@@ -89,15 +89,15 @@ def predicted(question: PredictionQuestion, opened: "Opened", progress: Progress
         return Answer(label=label, failure="The point is on another component than one of the pairs' points.")
     best, share = candidate_of(field)
     said = f"the best is vertex {best}, misfit {field[best]:.4g}, {100 * share:.1f} % of the largest"
-    return Answer(label=label, unit=MISFIT, field=field, certificate=Certificate(), remark=said)
+    return Answer(label=label, unit=MISFIT, field=field, error_estimate=ErrorEstimate(), remark=said)
 
 
 def correspondence(
     areas: str,
     spec: Spec,
     pairs: Sequence[tuple[Source | None, Source | None]],
-    one: "Opened",
-    two: "Opened",
+    one: "LoadedMesh",
+    two: "LoadedMesh",
     progress: Progress | None = None,
 ) -> Correspondence:
     """From one surface to another, of pairs of points of the one and the other; columns that are known are used again.
@@ -110,21 +110,21 @@ def correspondence(
     places = [(vertex_at(a, one.surface), vertex_at(b, two.surface)) for a, b in pairs]
     columns = one.columns_of_pairs.of(areas, spec), two.columns_of_pairs.of(areas, spec)
     found = Correspondence(on_one, on_two, places, None, part(progress, 0.6, 1.0), columns)
-    for side, opened in enumerate((one, two)):
-        opened.columns_of_pairs.put(areas, spec, columns[side], {place[side] for place in places})
+    for side, loaded in enumerate((one, two)):
+        loaded.columns_of_pairs.put(areas, spec, columns[side], {place[side] for place in places})
     return found
 
 
-def is_known(question: PredictionQuestion, opened: "Opened") -> bool:
+def is_known(question: PredictionQuestion, loaded: "LoadedMesh") -> bool:
     """Whether nothing has to be solved for the answer."""
-    other = opened.standing_beside(question.other)
+    other = loaded.standing_beside(question.other)
     if other is None or question.at is None:
         return True
-    sides = opened.distances(question.areas), other.distances(question.areas)
+    sides = loaded.distances(question.areas), other.distances(question.areas)
     if not all(side.is_ready(question.spec) for side in sides):
         return False
     spec = same_on(question.spec, sides)
-    for side, each in enumerate((opened, other)):
+    for side, each in enumerate((loaded, other)):
         known = each.columns_of_pairs.of(question.areas, spec)
         if any(vertex_at(pair[side], each.surface) not in known for pair in question.pairs):
             return False
@@ -132,6 +132,6 @@ def is_known(question: PredictionQuestion, opened: "Opened") -> bool:
 
 
 def candidate_of(field: np.ndarray) -> tuple[int, float]:
-    """The vertex with the least misfit (n,), not all of them NaN, and that as a share of the largest."""
+    """The vertex with the least misfit (n,), not all of them NaN, and that as a fraction of the largest."""
     best, most = int(np.nanargmin(field)), float(np.nanmax(field))
     return best, float(field[best]) / most if most > 0 else 0.0

@@ -11,7 +11,7 @@ MEMORY = 256_000_000
 """Bytes of fields that are kept: 320 of 100,000 vertices, 32 of a million."""
 
 
-class KeptAnswers:
+class AnswerCache:
     """The final answers given last, for any thread: what comes back, by undo or in another panel, costs nothing."""
 
     def __init__(self, memory: int = MEMORY) -> None:

@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from app.session.lane import NICE, Lane
+from app.session.latest_request_worker import NICE, LatestRequestWorker
 from bihdist_core import Cancelled
 
 
@@ -14,7 +14,7 @@ from bihdist_core import Cancelled
 def test_a_lane_and_the_threads_it_starts_stand_back():
     nice, done = [], threading.Event()
 
-    def work(request, lane):
+    def work(request, worker):
         def note():
             nice.append(os.getpriority(os.PRIO_PROCESS, threading.get_native_id()))
 
@@ -25,10 +25,10 @@ def test_a_lane_and_the_threads_it_starts_stand_back():
         done.set()
 
     before = os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
-    lane = Lane("lane", work, lambda *_: None, lambda *_: None)
-    lane.submit("anything")
+    worker = LatestRequestWorker("lane", work, lambda *_: None, lambda *_: None)
+    worker.submit("anything")
     assert done.wait(10)
-    lane.close()
+    worker.close()
     assert nice == [min(before + NICE, 19)] * 2
     assert os.getpriority(os.PRIO_PROCESS, threading.get_native_id()) == before
 
@@ -43,15 +43,17 @@ class Told:
         self.ended = {word: threading.Event() for word in self.gates}
         self.outcome, self.reports, self.failures, self._asks = {}, [], [], asks
         self.quiet = threading.Event()
-        self.lane = Lane("lane", self._work, self._report, lambda *told: self.failures.append(told), leaves=True)
+        self.worker = LatestRequestWorker(
+            "lane", self._work, self._report, lambda *told: self.failures.append(told), leaves=True
+        )
 
     def _report(self, fraction, text):
         self.reports.append(text)
         if fraction is None:
             self.quiet.set()
 
-    def _work(self, word, lane):
-        progress = lane.progress(lambda latest: latest == word, quiet=0)
+    def _work(self, word, worker):
+        progress = worker.progress(lambda latest: latest == word, quiet=0)
         self.begun[word].set()
         try:
             assert self.gates[word].wait(60)
@@ -66,7 +68,7 @@ class Told:
     def close(self):
         for gate in self.gates.values():
             gate.set()
-        self.lane.close(60)
+        self.worker.close(60)
 
 
 @pytest.fixture
@@ -78,19 +80,19 @@ def told():
 
 @pytest.mark.parametrize("between", [[], [None]], ids=["by another request", "by a stop"])
 def test_the_next_request_does_not_wait_for_work_that_is_given_up_and_asks_nobody(told, between):
-    told.lane.submit("first")
+    told.worker.submit("first")
     assert told.begun["first"].wait(60)
     for request in (*between, "second"):
-        told.lane.submit(request)
+        told.worker.submit(request)
     told.gates["second"].set()
     assert told.ended["second"].wait(60)
     assert told.outcome == {"second": "done"}, "while the first goes on"
 
 
 def test_work_that_is_given_up_is_not_heard_of_any_more(told):
-    told.lane.submit("first")
+    told.worker.submit("first")
     assert told.begun["first"].wait(60)
-    told.lane.submit(None)
+    told.worker.submit(None)
     assert told.quiet.wait(60), "nothing is going on, though the first has not noticed"
     told.gates["first"].set()
     assert told.ended["first"].wait(60)
@@ -100,10 +102,10 @@ def test_work_that_is_given_up_is_not_heard_of_any_more(told):
 
 
 def test_work_goes_on_for_a_request_that_wants_it(told):
-    told.lane.submit("first")
+    told.worker.submit("first")
     assert told.begun["first"].wait(60)
-    told.lane.submit("first")
+    told.worker.submit("first")
     told.gates["first"].set()
     assert told.ended["first"].wait(60)
     assert told.outcome == {"first": "done"}
-    assert len(told.lane._threads) == 1
+    assert len(told.worker._threads) == 1

@@ -2,12 +2,12 @@
 
 from typing import Any
 
+from .command_fragments import NOTHING, USUAL, CommandFragment, NotExpressible, as_switch, digits, vertex_of, with_value
 from .document import Document
 from .page import Recipe
-from .said import NOTHING, USUAL, Said, Unsaid, as_switch, digits, vertex_of, with_value
 
 
-def say_isolines(recipe: Recipe) -> Said:
+def say_isolines(recipe: Recipe) -> CommandFragment:
     isolines = recipe.document.isolines
     options: list[tuple[str, str | None]] = []
     arguments: dict[str, Any] = {}
@@ -25,7 +25,7 @@ def say_isolines(recipe: Recipe) -> Said:
         arguments["equal_isolines"] = True
     vertices = [vertex_of(recipe.document.point(name)) for name in isolines.through]
     if None in vertices or not _has_own_points(recipe.document):
-        raise Unsaid("An isoline passes through a point that is more than that.")
+        raise NotExpressible("An isoline passes through a point that is more than that.")
     if vertices:
         options += [("--isoline-through", str(vertex)) for vertex in vertices]
         arguments["isoline_through"] = vertices
@@ -35,7 +35,7 @@ def say_isolines(recipe: Recipe) -> Said:
     if isolines.labels:
         options.append(("--isoline-labels", None))
         arguments["isoline_labels"] = True
-    return Said(tuple(options), arguments)
+    return CommandFragment(tuple(options), arguments)
 
 
 def _has_own_points(document: Document) -> bool:
@@ -46,29 +46,31 @@ def _has_own_points(document: Document) -> bool:
     return all(name not in used and document.point(name).surface == first for name in document.isolines.through)
 
 
-def say_range(recipe: Recipe) -> Said:
+def say_range(recipe: Recipe) -> CommandFragment:
     """A word, or where each colour bar ends."""
     word, ends = recipe.document.range, [panel.maximum for panel in recipe.document.panels]
     if any(end is not None for end in ends):
         if word != "own":
-            raise Unsaid("A colour bar ends where somebody typed, and they all have one range.")
+            raise NotExpressible("A colour bar ends where somebody typed, and they all have one range.")
         if len(ends) == 1:
             return with_value("--range", "range", float(ends[0] or 0))
-        return Said((("--range", ",".join("own" if end is None else digits(end) for end in ends)),), {"range": ends})
+        return CommandFragment(
+            (("--range", ",".join("own" if end is None else digits(end) for end in ends)),), {"range": ends}
+        )
     return NOTHING if word == USUAL.range else with_value("--range", "range", word)
 
 
-def say_colours(recipe: Recipe) -> Said:
+def say_colours(recipe: Recipe) -> CommandFragment:
     colours = recipe.document.colours
     if colours.stops:
-        raise Unsaid("The colours came from a file.")
+        raise NotExpressible("The colours came from a file.")
     said = [with_value("--colours", "colours", colours.map)] if colours.map else []
     said += [as_switch(f"--{name}", name) for name in ("reversed", "bands") if getattr(colours, name)]
     arguments = {name: value for each in said for name, value in each.arguments.items()}
-    return Said(tuple(option for each in said for option in each.options), arguments)
+    return CommandFragment(tuple(option for each in said for option in each.options), arguments)
 
 
-def say_shading(recipe: Recipe) -> Said:
+def say_shading(recipe: Recipe) -> CommandFragment:
     """An angle alone would make it creased."""
     shading, usual = recipe.document.shading, USUAL.shading
     options: list[tuple[str, str | None]] = []
@@ -82,4 +84,4 @@ def say_shading(recipe: Recipe) -> Said:
     if shading.wireframe:
         options.append(("--wireframe", None))
         arguments["wireframe"] = True
-    return Said(tuple(options), arguments)
+    return CommandFragment(tuple(options), arguments)

@@ -10,20 +10,20 @@ from ..document.pairing import pair_words, waiting_point
 from ..document.predicting import predicts_in
 from ..drawing.style import PINS, WAITING
 from ..session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
-from ..session.opened import Opened
-from ..session.paired import candidate_in, paired_on
+from ..session.loaded_mesh import LoadedMesh
+from ..session.pair_locations import candidate_in, located_pair_points
 from .description import Mark
 
 
-def pair_marks(document: Document, panel: Panel, opened: Opened, answer: Answer) -> list[Mark]:
+def pair_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[Mark]:
     """Those on a panel's surface, and the best candidate of its answer."""
     marks = []
-    for each in paired_on(document, panel.surface, opened):
+    for each in located_pair_points(document, panel.surface, loaded):
         colour = WAITING if each.is_waiting else PINS[each.pair.colour]
         marks.append(Mark(each.vertex, number=each.number, colour=colour, name=f"Point {each.number}"))
     found = candidate_in(document, panel, answer)
     if found is not None:
-        judged = _judged(document, panel, opened, answer, found.vertex)
+        judged = _judged(document, panel, loaded, answer, found.vertex)
         name = f"The place where point {found.number} belongs"
         marks += [Mark(vertex, name=name, is_truth=True) for vertex in judged.places]
         off = judged.errors.get(panel.id)
@@ -33,12 +33,12 @@ def pair_marks(document: Document, panel: Panel, opened: Opened, answer: Answer)
     return marks
 
 
-def _judged(document: Document, panel: Panel, opened: Opened, answer: Answer, vertex: int) -> CandidatesJudged:
+def _judged(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer, vertex: int) -> CandidatesJudged:
     """Where the point belongs, and how far the candidate is from there, as far as that is known; found once."""
     known = _found.setdefault(answer, {})
     if document.truth not in known:
         known[document.truth] = CandidatesJudged((), {})
-        one, two = (opened.standing_beside(mesh) for mesh in document.surfaces[:2])
+        one, two = (loaded.standing_beside(mesh) for mesh in document.surfaces[:2])
         asked = None if one is None or two is None else candidates_asked(document, one, two, {panel.id: vertex})
         for judged in () if asked is None else CandidatesJudging().judge(asked):
             known[document.truth] = judged
@@ -48,7 +48,7 @@ def _judged(document: Document, panel: Panel, opened: Opened, answer: Answer, ve
 _found: WeakKeyDictionary[Answer, dict[Truth, CandidatesJudged]] = WeakKeyDictionary()
 
 
-def plain_heading(document: Document, panel: Panel, opened: Opened, answer: Answer) -> tuple[str, str] | None:
+def plain_heading(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> tuple[str, str] | None:
     """What stands over a panel that predicts nothing now: the name of its surface, and what waits there.
 
     None where it does, and where it is said why it cannot.
@@ -57,4 +57,4 @@ def plain_heading(document: Document, panel: Panel, opened: Opened, answer: Answ
         return None
     waiting = waiting_point(document)
     is_here = waiting is not None and waiting.surface == panel.surface
-    return opened.surface.name, pair_words(document, panel.surface)[0] if is_here else ""
+    return loaded.surface.name, pair_words(document, panel.surface)[0] if is_here else ""

@@ -11,7 +11,7 @@ from bihdist_core.analysis.isoline_tracing import isolines
 from ..drawing.camera import Projection, SeenNow
 from ..drawing.levels import Levels
 from ..drawing.line_labels import Contour
-from .hiding import Hiding
+from .occlusion import Occlusion
 
 SHORTEST = 0.25
 """Pixels: shorter pieces are as their neighbours are."""
@@ -39,7 +39,7 @@ Part = tuple[np.ndarray, bool]
 """Points (k, 2) in pixels, and whether the last joins the first."""
 
 
-class Sight:
+class HiddenLineRemoval:
     """A surface as a camera sees it in a picture of `size` pixels; pixels are real numbers, y down.
 
     outward: (m, 3) the faces, wound as seen from outside: their insides show no curves.
@@ -58,7 +58,7 @@ class Sight:
         extent = np.ptp(surface.vertices[np.unique(surface.faces)], axis=0)
         self.extent = float(np.linalg.norm(extent))
         self.at = self.pixels(surface.vertices)
-        self.hiding = Hiding(*self._before_the_eye())
+        self.occlusion = Occlusion(*self._before_the_eye())
         self._backs = None if outward is None else self._face_keys(outward[self._from_inside(outward)])
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
@@ -70,11 +70,11 @@ class Sight:
     def sees(self, point: np.ndarray) -> bool:
         """Whether nothing stands before a point (3,) of the surface."""
         at = self.lifted(self.pixels(point[None]))[0]
-        return bool(self.hiding.nearest(at[None, :2])[0] <= at[2])
+        return bool(self.occlusion.nearest(at[None, :2])[0] <= at[2])
 
     def covers(self, points: np.ndarray) -> np.ndarray:
         """(k,) whether points (k, 2) of the picture are on the shape."""
-        return np.isfinite(self.hiding.nearest(points))
+        return np.isfinite(self.occlusion.nearest(points))
 
     def visible(self, curves: Iterable[Curve]) -> list[list[Part]]:
         """For each curve its visible parts."""
@@ -107,10 +107,10 @@ class Sight:
     def _hidden(self, at: np.ndarray, segments: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, ...]:
         """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden.
 
-        Segment s goes from place s to place s + 1 of places (n, 3) in pixels; on: as `Hiding.intervals` has it.
+        Segment s goes from place s to place s + 1 of places (n, 3) in pixels; on: as `Occlusion.intervals` has it.
         """
         lifted = self.lifted(at)
-        hidden, start, stop = self.hiding.intervals(np.stack([lifted[segments], lifted[segments + 1]], 1), on)
+        hidden, start, stop = self.occlusion.intervals(np.stack([lifted[segments], lifted[segments + 1]], 1), on)
         if self._backs is not None:
             ids = np.sort(on, axis=1)
             is_new = np.append(np.ones((len(ids), 1), bool), ids[:, 1:] != ids[:, :-1], axis=1)
@@ -187,7 +187,7 @@ class Sight:
         return [Curve(curve.points[a:b], curve.edges[a:b]) for a, b in ends.reshape(-1, 2) if b - a >= 2]
 
 
-def contours_seen(sight: Sight, field: np.ndarray, levels: Levels) -> list[Contour]:
+def contours_seen(sight: HiddenLineRemoval, field: np.ndarray, levels: Levels) -> list[Contour]:
     """The visible parts of a field's isolines, in the order of their values; field: (n,) on the surface in sight."""
     lines = isolines(sight.surface, field, levels.values)
     parts = sight.visible(Curve(line.points, line.edges, line.closed) for line in lines)

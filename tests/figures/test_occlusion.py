@@ -5,11 +5,11 @@ import pytest
 from scipy.spatial import cKDTree
 
 from app.drawing.camera import Camera, Projection, standard_camera
-from app.figures.hiding import Hiding
-from app.figures.sight import Curve, Sight
+from app.figures.hidden_lines import Curve, HiddenLineRemoval
+from app.figures.occlusion import Occlusion
 from bihdist_core import Surface, read_surface
 from bihdist_core.analysis.isoline_tracing import isolines
-from tests.figures.sight_reference import seen_by_rays
+from tests.figures.hidden_line_reference import seen_by_rays
 from tests.shapes import MESHES, bumpy, fin, needs_meshes, sphere, torus
 
 SIDE = 500.0
@@ -39,7 +39,7 @@ def holes():
 def missing_and_extra(surface, field, levels=15, samples=4000):
     """Shares of what is seen of isolines: what is not drawn of it, and by how much more is drawn in all."""
     camera = standard_camera(surface.vertices, 1.0)
-    sight = Sight(surface, Projection(camera, 1.0, surface.vertices), (SIDE, SIDE))
+    sight = HiddenLineRemoval(surface, Projection(camera, 1.0, surface.vertices), (SIDE, SIDE))
     low, high = field.min(), field.max()
     lines = isolines(surface, field, np.linspace(low, high, levels + 2)[1:-1])
     drawn = sight.visible(Curve(line.points, line.edges, line.closed) for line in lines)
@@ -112,7 +112,7 @@ def test_faces_that_pass_the_eye_hide_what_is_behind_them():
     wall = [[-1.0, -4, -10], [1, -4, -10], [1, 0, -10], [-1, 0, -10]]
     both = Surface(np.array(floor + wall), np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]))
     camera = Camera((0, 0, 0), (0, 0, -1), (0, 1, 0), (0.5, 0.5))
-    sight = Sight(both, Projection(camera, 1.0, both.vertices), (SIDE, SIDE))
+    sight = HiddenLineRemoval(both, Projection(camera, 1.0, both.vertices), (SIDE, SIDE))
     line = Curve(np.array([[0.0, -4, -10], [0, 0, -10]]), np.array([[4, 5], [6, 7]]))
     (((part, closed),),) = sight.visible([line])
     assert not closed
@@ -126,8 +126,8 @@ def test_intervals_of_random_triangles_are_where_one_is_nearer():
     corners = rng.random((200, 3, 3)) * [1, 1, 1]
     corners[:, 1:, :2] = corners[:, :1, :2] + 0.4 * (corners[:, 1:, :2] - 0.5)
     ends = rng.random((40, 2, 3))
-    hiding = Hiding(corners, np.arange(600).reshape(-1, 3))
-    segment, start, stop = hiding.intervals(ends, np.full((40, 4), -1))
+    occlusion = Occlusion(corners, np.arange(600).reshape(-1, 3))
+    segment, start, stop = occlusion.intervals(ends, np.full((40, 4), -1))
     for k, (p, q) in enumerate(ends):
         mine = segment == k
         assert (start[mine][1:] > stop[mine][:-1]).all()
@@ -135,7 +135,7 @@ def test_intervals_of_random_triangles_are_where_one_is_nearer():
             at = p + t * (q - p)
             found = bool(((start[mine] < t) & (t < stop[mine])).any())
             assert found == any(is_before(triangle, at) for triangle in corners)
-            assert found == bool(hiding.nearest(at[None, :2])[0] > at[2])
+            assert found == bool(occlusion.nearest(at[None, :2])[0] > at[2])
 
 
 def is_before(triangle, at):
@@ -146,7 +146,7 @@ def is_before(triangle, at):
 def test_edges_of_three_faces_hide_and_are_seen():
     surface = fin()
     camera = standard_camera(surface.vertices, 1.0)
-    sight = Sight(surface, Projection(camera, 1.0, surface.vertices), (SIDE, SIDE))
+    sight = HiddenLineRemoval(surface, Projection(camera, 1.0, surface.vertices), (SIDE, SIDE))
     points = 0.6 * surface.vertices[surface.faces[:, 0]] + 0.2 * surface.vertices[surface.faces[:, 1:]].sum(axis=1)
     expected = seen_by_rays(surface, np.array(camera.position), points)
     assert [sight.sees(point) for point in points] == expected.tolist()
@@ -155,8 +155,8 @@ def test_edges_of_three_faces_hide_and_are_seen():
 def test_beside_the_shape_nothing_is_hidden():
     # Two triangles far apart: between them are cells of the grid without any.
     one = np.array([[0.0, 0, 1], [10, 0, 1], [0, 10, 1]])
-    hiding = Hiding(np.stack([one, one + np.array([400, 400, 0])]), np.arange(6).reshape(2, 3))
-    assert hiding.nearest(np.array([[200.0, 200.0]])).tolist() == [-np.inf]
-    assert hiding.nearest(np.array([[200.0, 200.0], [2.0, 2.0]])).tolist() == [-np.inf, 1.0]
+    occlusion = Occlusion(np.stack([one, one + np.array([400, 400, 0])]), np.arange(6).reshape(2, 3))
+    assert occlusion.nearest(np.array([[200.0, 200.0]])).tolist() == [-np.inf]
+    assert occlusion.nearest(np.array([[200.0, 200.0], [2.0, 2.0]])).tolist() == [-np.inf, 1.0]
     ends = np.array([[[200.0, 200, 0.5], [220, 200, 0.5]]])
-    assert [len(each) for each in hiding.intervals(ends, np.full((1, 4), -1))] == [0, 0, 0]
+    assert [len(each) for each in occlusion.intervals(ends, np.full((1, 4), -1))] == [0, 0, 0]

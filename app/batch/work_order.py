@@ -43,7 +43,7 @@ class Sources:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class WorkOrder:
     """works: of WORKS, in their order; distances: specs in words; nearest: as many neighbours; samples: of a map, that
     many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  layout: of
     LAYOUTS, for pairs.  normalise: "area" for distances and eigenpairs of the mesh scaled to area 1.  recipe: the text

@@ -19,7 +19,7 @@ NICE = 10
 """By how much a lane, and the threads it starts, stand back for the window's thread and for drawing."""
 
 
-class Lane(Generic[Request]):
+class LatestRequestWorker(Generic[Request]):
     """Runs `work(request, lane)` for the latest request on a thread of its own.
 
     Work that takes long calls `lane.progress(is_wanted)` for its progress callback: it forwards reports to
@@ -33,7 +33,7 @@ class Lane(Generic[Request]):
     def __init__(
         self,
         name: str,
-        work: Callable[[Request, "Lane[Request]"], None],
+        work: Callable[[Request, "LatestRequestWorker[Request]"], None],
         report: Callable[[float | None, str], None],
         failed: Callable[[Request, Exception], None],
         leaves: bool = False,

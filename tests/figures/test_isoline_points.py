@@ -10,8 +10,8 @@ from app.document.page import Recipe
 from app.figures.export import compute, figure_of, open_document
 from app.figures.layout import lay_out
 from app.figures.shots import take_shots
-from app.session.given import given_comparison
-from bihdist_core import Place
+from app.session.array_store import comparison_of_arrays
+from bihdist_core import SurfacePoint
 from bihdist_core.progress import silent
 from tests.shapes import sphere
 
@@ -19,9 +19,9 @@ from tests.shapes import sphere
 def test_a_dot_stands_where_the_line_passes_and_is_hidden_with_it():
     ball = sphere(800)
     front, back = (int((ball.vertices @ np.array(way)).argmax()) for way in ((0.4, 0.2, 1), (-0.4, -0.2, -1)))
-    document, given = given_comparison(ball, ["biharmonic"], {}, (int(ball.vertices[:, 1].argmax()),))
+    document, given = comparison_of_arrays(ball, ["biharmonic"], {}, (int(ball.vertices[:, 1].argmax()),))
     document = pass_through(document, (front, back))
-    place = Place(int(np.flatnonzero((ball.faces == front).any(axis=1))[0]), (0.2, 0.3, 0.5))
+    place = SurfacePoint(int(np.flatnonzero((ball.faces == front).any(axis=1))[0]), (0.2, 0.3, 0.5))
     inside = Point("inside", place)
     lines = replace(document.isolines, through=(*document.isolines.through, "inside"))
     document, surfaces = open_document(

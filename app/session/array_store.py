@@ -29,7 +29,7 @@ Mesh = str | os.PathLike[str] | Surface | tuple[Any, Any]
 """A file or the name of a sample, a surface, or its vertices (n, 3) and faces (m, 3)."""
 
 
-class Given:
+class ArrayStore:
     """See the module.  Whoever has been given something may ask for it on any thread.
 
     What has been given stays: the history may come back to it.
@@ -83,7 +83,7 @@ class Given:
             raise ParameterError(f"The field {name!r} was given from Python, and is not there any more.")
         return self._fields[sha256]
 
-    def update(self, other: "Given") -> None:
+    def update(self, other: "ArrayStore") -> None:
         """Keep what another keeps."""
         self._surfaces.update(other._surfaces)
         self._fields.update(other._fields)
@@ -100,13 +100,13 @@ class Given:
         return arrays | {f"field/{field.name}": self.field(field.sha256, field.name) for field in document.fields}
 
     @classmethod
-    def read(cls, recipe: Recipe) -> "Given":
+    def read(cls, recipe: Recipe) -> "ArrayStore":
         """What the document of a recipe needs, from the recipe's archive.
 
         Raises ParameterError if the archive is missing, is none, lacks something, or holds something else.
         """
         given, document, path = cls(), recipe.document, recipe.arrays
-        if not is_given(document):
+        if not holds_arrays(document):
             return given
         if not os.path.isfile(path):
             raise ParameterError(f"What came from Python is not there: {path or 'no archive is named'}.")
@@ -124,7 +124,7 @@ class Given:
 PARTS = ("vertices", "faces", "name")
 
 
-def is_given(document: Document) -> bool:
+def holds_arrays(document: Document) -> bool:
     """Whether a document names anything that stands in no file of its own."""
     return bool(document.fields) or any(not mesh.path for mesh in document.surfaces)
 
@@ -138,31 +138,31 @@ def is_archive(path: str | os.PathLike[str]) -> bool:
         return False
 
 
-def given_comparison(
+def comparison_of_arrays(
     mesh: Mesh,
     distances: Sequence[str | Quantity],
     fields: Mapping[str, npt.ArrayLike],
     sources: tuple[Source | str | None, ...],
     areas: str = "voronoi",
-) -> tuple[Document, Given]:
+) -> tuple[Document, ArrayStore]:
     """A mesh with a panel for each distance from each source, and one for each field that none of them names."""
     if isinstance(distances, str):
         raise ParameterError(f"The distances are a list, such as [{distances!r}], not a text.")
     if not isinstance(fields, Mapping):
         raise ParameterError(f"The fields are given by name, as a dict of arrays, not as {type(fields).__name__}.")
-    given = Given()
+    given = ArrayStore()
     entry = _entry(mesh, given)
     own = tuple(given.add_field(name, values) for name, values in fields.items())
     shows = tuple(_quantity(each, fields) for each in distances)
     return replace(comparison(entry.path, shows, sources, areas, own), surfaces=(entry,)), given
 
 
-def with_beside(document: Document, given: Given, mesh: Mesh) -> Document:
+def with_beside(document: Document, given: ArrayStore, mesh: Mesh) -> Document:
     """A document with a second mesh beside the first, kept as the first one is."""
     return open_beside(document, _entry(mesh, given))
 
 
-def _entry(mesh: Mesh, given: Given) -> MeshFile:
+def _entry(mesh: Mesh, given: ArrayStore) -> MeshFile:
     return MeshFile("A", str(mesh)) if isinstance(mesh, str | os.PathLike) else given.add_surface(_surface(mesh))
 
 

@@ -5,15 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core.distances.answers import Answer
-from bihdist_core.sources.source import Place
+from bihdist_core.sources.source import SurfacePoint
 
 from ..document.document import Document, Point
-from .opened import Opened
+from .loaded_mesh import LoadedMesh
 from .questions import vertex_at
 
 
 @dataclass(frozen=True)
-class Passed:
+class IsolinePoint:
     """Where a line passes: vertices of one face with weights that add up to 1; value: the field's, NaN for none."""
 
     vertices: tuple[int, ...]
@@ -25,17 +25,17 @@ class Passed:
         return np.array(self.weights) @ field[list(self.vertices)]
 
 
-def passed(document: Document, surface: str, opened: Opened, answer: Answer | None) -> tuple[Passed, ...]:
+def passed(document: Document, surface: str, loaded: LoadedMesh, answer: Answer | None) -> tuple[IsolinePoint, ...]:
     """The points of a surface, with the values of an answer's field; none where that has none."""
     if answer is None or answer.field is None:
         return ()
     points = [document.point(name) for name in document.isolines.through]
-    return tuple(_passed(point, opened, answer.field) for point in points if point.surface == surface)
+    return tuple(_passed(point, loaded, answer.field) for point in points if point.surface == surface)
 
 
-def _passed(point: Point, opened: Opened, field: np.ndarray) -> Passed:
-    vertex = vertex_at(point.at, opened.surface)  # also refuses a face that is not there
-    if isinstance(point.at, Place):
-        corners = opened.surface.faces[point.at.face]
-        return Passed(tuple(corners.tolist()), point.at.weights, float(field[corners] @ point.at.weights))
-    return Passed((vertex,), (1.0,), float(field[vertex]))
+def _passed(point: Point, loaded: LoadedMesh, field: np.ndarray) -> IsolinePoint:
+    vertex = vertex_at(point.at, loaded.surface)  # also refuses a face that is not there
+    if isinstance(point.at, SurfacePoint):
+        corners = loaded.surface.faces[point.at.face]
+        return IsolinePoint(tuple(corners.tolist()), point.at.weights, float(field[corners] @ point.at.weights))
+    return IsolinePoint((vertex,), (1.0,), float(field[vertex]))

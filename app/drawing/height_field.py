@@ -7,7 +7,7 @@ import numpy as np
 from bihdist_core import Surface
 
 
-def relief(surface: Surface, field: np.ndarray, top: float, up: float) -> Surface:
+def warp_by_scalar(surface: Surface, field: np.ndarray, top: float, up: float) -> Surface:
     """A flat surface raised along z by a field (n,), by `up` where that is `top` or more; not where it is NaN."""
     x = surface.vertices
     share = np.clip(np.nan_to_num(field / top), -1, 1) if top > 0 else np.zeros(len(x))
@@ -15,5 +15,5 @@ def relief(surface: Surface, field: np.ndarray, top: float, up: float) -> Surfac
 
 
 def rise(bounds: Sequence[float], height: float) -> float:
-    """How far up a relief goes: `height` of the longest side of the surface's bounds (x, x, y, y, z, z)."""
+    """How far up a height field goes: `height` of the longest side of the surface's bounds (x, x, y, y, z, z)."""
     return height * max(high - low for low, high in zip(bounds[::2], bounds[1::2], strict=True))

@@ -9,7 +9,7 @@ import numpy as np
 from bihdist_core import BihdistError, Cancelled, ParameterError, SolverError
 from bihdist_core.analysis.diagnostics import field_change
 from bihdist_core.applications.perturbation import image_of
-from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed, percent, same_on
 from bihdist_core.distances.difference import PERCENTAGE_POINTS, difference_in_unit
 from bihdist_core.progress import Progress, part
@@ -20,20 +20,20 @@ from ..document.sourcing import members_of
 from .questions import ChangeQuestion, DistanceQuestion, Question, questions, source_at, vertex_at
 
 if TYPE_CHECKING:
-    from .opened import Opened
+    from .loaded_mesh import LoadedMesh
 
 ROUGH = 20
 """Zeros in more faces than so many times the root of their number are those of noise."""
 
 
-def carried(at: Source, opened: "Opened") -> Source:
+def carried(at: Source, loaded: "LoadedMesh") -> Source:
     """Where a place of the surface that another is made from is on that: its vertices, or the nearest that are left.
 
     ParameterError for what is not of vertices, VertexError for one that is not there.
     """
-    assert opened.origin is not None
-    if opened.has_faces_of_origin:
-        source_at(at, opened.surface)
+    assert loaded.origin is not None
+    if loaded.has_faces_of_origin:
+        source_at(at, loaded.surface)
         return at
     images: dict[int, None] = {}
     for member in members_of(at):
@@ -41,12 +41,12 @@ def carried(at: Source, opened: "Opened") -> Source:
             raise ParameterError(
                 "A source that is followed onto a mesh with other faces is a vertex or several, not a place or a curve."
             )
-        images[image_of(opened.origin.surface, opened.ids, member, opened.surface)] = None
+        images[image_of(loaded.origin.surface, loaded.ids, member, loaded.surface)] = None
     found = tuple(images)
     return found[0] if len(found) == 1 else SourceSet(found)
 
 
-def counterpart(vertex: int | None, here: "Opened | None", there: "Opened | None") -> int | None:
+def counterpart(vertex: int | None, here: "LoadedMesh | None", there: "LoadedMesh | None") -> int | None:
     """The vertex of another surface that one of this is, where one is made from the other; None if there is none."""
     if vertex is None or here is None or there is None:
         return None
@@ -58,7 +58,7 @@ def counterpart(vertex: int | None, here: "Opened | None", there: "Opened | None
     return None
 
 
-def led(document: Document, before: Document, opened: "Opened") -> Document:
+def led(document: Document, before: Document, loaded: "LoadedMesh") -> Document:
     """Where a point on a changed surface has been moved there, what it is the image of moves, and it follows.
 
     Onto what is new there it does not move at all.
@@ -66,13 +66,13 @@ def led(document: Document, before: Document, opened: "Opened") -> Document:
     were = {point.name: point for point in before.points}
     for point in document.points:
         was, original = were.get(point.name), were.get(point.image_of)
-        is_here = point.surface == opened.mesh.name and point.image_of
+        is_here = point.surface == loaded.mesh.name and point.image_of
         if not is_here or was is None or original not in document.points or point.at in (None, was.at):
             continue
         at: Source | None = point.at
-        if not opened.has_faces_of_origin:
-            vertices = [vertex_at(member, opened.surface) for member in members_of(point.at)]
-            old = tuple(dict.fromkeys(int(opened.ids[vertex]) for vertex in vertices if opened.ids[vertex] >= 0))
+        if not loaded.has_faces_of_origin:
+            vertices = [vertex_at(member, loaded.surface) for member in members_of(point.at)]
+            old = tuple(dict.fromkeys(int(loaded.ids[vertex]) for vertex in vertices if loaded.ids[vertex] >= 0))
             at = None if not old else old[0] if len(old) == 1 else SourceSet(old)
         if at is not None:
             points = (replace(p, at=at) if p.name == point.image_of else p for p in document.points)
@@ -81,7 +81,7 @@ def led(document: Document, before: Document, opened: "Opened") -> Document:
 
 
 def answers_ahead(
-    document: Document, found: Sequence["Opened"], there: Sequence["Opened"], progress: Progress
+    document: Document, found: Sequence["LoadedMesh"], there: Sequence["LoadedMesh"], progress: Progress
 ) -> Iterator[tuple[Question, Answer]]:
     """What a document asks of surfaces that are not shown yet: so none is ever seen without its fields.
 
@@ -89,24 +89,24 @@ def answers_ahead(
     """
     by_name = {}
     for mesh in document.surfaces:
-        matching = [opened for opened in (*found, *there) if opened.is_of(mesh)]
+        matching = [loaded for loaded in (*found, *there) if loaded.is_of(mesh)]
         if matching:
             by_name[mesh.name] = matching[0]
             document = matching[0].settled(document)
     surfaces = {panel.id: by_name.get(panel.surface) for panel in document.panels}
     asked = [(question, surfaces[id]) for id, question in questions(document).items()]
-    new = [(question, opened) for question, opened in asked if opened is not None and opened in found]
-    for k, (question, opened) in enumerate(new):
-        yield question, opened.answer_once(question, part(progress, k / len(new), (k + 1) / len(new)))
+    new = [(question, loaded) for question, loaded in asked if loaded is not None and loaded in found]
+    for k, (question, loaded) in enumerate(new):
+        yield question, loaded.answer_once(question, part(progress, k / len(new), (k + 1) / len(new)))
 
 
-def change_of(question: ChangeQuestion, opened: "Opened", progress: Progress | None) -> Answer:
-    """At the vertices that both surfaces have, each distance as a share of its maximum there; NaN elsewhere."""
-    ids = opened.ids
-    if opened.origin is None:
+def change_of(question: ChangeQuestion, loaded: "LoadedMesh", progress: Progress | None) -> Answer:
+    """At the vertices that both surfaces have, each distance as a fraction of its maximum there; NaN elsewhere."""
+    ids = loaded.ids
+    if loaded.origin is None:
         return Answer(label=str(question), failure="This mesh is made from no other, so that no distance changes.")
     try:
-        before, after = _sides(question, opened, progress)
+        before, after = _sides(question, loaded, progress)
         for answer in (before, after):
             if answer.field is None:
                 return Answer(label=str(question), failure=answer.failure)
@@ -120,10 +120,10 @@ def change_of(question: ChangeQuestion, opened: "Opened", progress: Progress | N
         label=f"change of {after.label}",
         unit=PERCENTAGE_POINTS,
         field=field,
-        certificate=Certificate.of_difference(before.accuracy, after.accuracy),
+        error_estimate=ErrorEstimate.of_difference(before.accuracy, after.accuracy),
         is_signed=True,
         signs=(f"{name} is farther after", f"{name} is nearer after"),
-        is_rough=crosses_itself(field, opened.surface.faces),
+        is_rough=crosses_itself(field, loaded.surface.faces),
         remark=remark,
     )
 
@@ -136,26 +136,26 @@ def crosses_itself(field: np.ndarray, faces: np.ndarray) -> bool:
     return crossed > ROUGH * np.sqrt(len(faces))
 
 
-def _sides(question: ChangeQuestion, opened: "Opened", progress: Progress | None) -> tuple[Answer, Answer]:
+def _sides(question: ChangeQuestion, loaded: "LoadedMesh", progress: Progress | None) -> tuple[Answer, Answer]:
     """Of the same distance, from the same vertices, before and after."""
-    origin, ids = opened.origin, opened.ids
+    origin, ids = loaded.origin, loaded.ids
     assert origin is not None
     areas, start = question.areas, question.at
-    spec = same_on(question.spec, (origin.distances(areas), opened.distances(areas)), part(progress, 0, 0.1))
-    if not opened.has_faces_of_origin:
+    spec = same_on(question.spec, (origin.distances(areas), loaded.distances(areas)), part(progress, 0, 0.1))
+    if not loaded.has_faces_of_origin:
         members = members_of(question.at)
         starts = tuple(int(ids[member]) for member in members if isinstance(member, int) and ids[member] >= 0)
         if len(starts) < len(members):
             raise ParameterError("A change is seen from vertices that the mesh had before.")
         start = starts[0] if len(starts) == 1 else SourceSet(starts)
-    after = opened.answer_once(DistanceQuestion(opened.mesh, areas, spec, question.at), part(progress, 0.1, 0.5))
+    after = loaded.answer_once(DistanceQuestion(loaded.mesh, areas, spec, question.at), part(progress, 0.1, 0.5))
     before = origin.answer_once(DistanceQuestion(origin.mesh, areas, spec, start), part(progress, 0.5, 1))
     return before, after
 
 
 @dataclass(frozen=True)
 class ChangeNumbers:
-    """How far a distance changes at the vertices that both surfaces have: in its unit, and as shares of the maximum.
+    """How far a distance changes at the vertices that both surfaces have: in its unit, and as fractions of the maximum.
 
     For shares each field is divided by its own maximum first.
     """
@@ -167,15 +167,15 @@ class ChangeNumbers:
     share_largest: float
 
 
-def change_numbers(question: ChangeQuestion, opened: "Opened", progress: Progress | None = None) -> ChangeNumbers:
+def change_numbers(question: ChangeQuestion, loaded: "LoadedMesh", progress: Progress | None = None) -> ChangeNumbers:
     """In numbers; BihdistError where there are none."""
-    if opened.origin is None:
+    if loaded.origin is None:
         raise ParameterError("This mesh is made from no other, so that no distance changes.")
-    before, after = _sides(question, opened, progress)
+    before, after = _sides(question, loaded, progress)
     for answer in (before, after):
         if answer.field is None:
             raise SolverError(answer.failure)
-    old, new = _common(before.field, after.field, opened.ids)
+    old, new = _common(before.field, after.field, loaded.ids)
     found, unit = field_change(old, new), float(np.nanmax(old))
     return ChangeNumbers(
         found.mean * unit, found.largest * unit, after.unit, found.normalised_mean, found.normalised_largest

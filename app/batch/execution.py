@@ -29,7 +29,7 @@ from .memory import PART_BYTES, allowed, needed
 from .results import Blocks, facts_of, write_facts, write_result
 from .storage import Folder
 from .task import Failure, Part, Report, Row, Task, done_before
-from .wanted import MAXIMA
+from .work_order import MAXIMA
 from .works import (
     WORK,
     Made,
@@ -74,7 +74,7 @@ def _do_mesh(task: Task) -> Report:
         return there
     wanted, folder = task.wanted, Folder(task.out)
     try:
-        mesh = opened(task)
+        mesh = mesh_of(task)
     except Exception as error:
         reason = failure_in_words(error)
         return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in wanted.results()))
@@ -214,7 +214,7 @@ def _parts_folder(task: Task, part: Part) -> str:
 def _do_part(task: Task, part: Part) -> Report:
     folder, name = Folder(task.out), _part_name(task, part)
     if folder.size(name) is None:
-        mesh = opened(task)
+        mesh = mesh_of(task)
         if task.wanted.labels and part.work == "pairs":
             sums = parcel_sums(mesh.distance(part.distance), mesh.labels, mesh.mask, part.begin, part.end)
             columns = sums.sums
@@ -233,7 +233,7 @@ def _do_part(task: Task, part: Part) -> Report:
 
 def _join(task: Task, part: Part) -> Report:
     """The result of which all parts are there."""
-    begin, folder, mesh = time.monotonic(), Folder(task.out), opened(task)
+    begin, folder, mesh = time.monotonic(), Folder(task.out), mesh_of(task)
     parts = _parts(task, mesh, part.work, part.distance)
     name, key = task.result_name(part.work, part.distance), task.key(part.work, part.distance)
     if part.work == "pairs" and task.wanted.labels:
@@ -289,7 +289,7 @@ def _both_ways(folder: Folder, task: Task, parts: list[Part]) -> Iterator[np.nda
 _last: tuple[tuple[Any, ...], Mesh] | None = None
 
 
-def opened(task: Task) -> Mesh:
+def mesh_of(task: Task) -> Mesh:
     """The mesh of a task; parts of one mesh that the same process does share it, with its factor."""
     global _last
     which, last = (task.mesh, task.checksums, task.wanted), _last  # which other threads may replace

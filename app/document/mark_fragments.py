@@ -3,75 +3,77 @@
 from typing import Any
 
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import Place
+from bihdist_core.sources.source import SurfacePoint
 from bihdist_core.sources.words import words_of
 
+from .command_fragments import NOTHING, CommandFragment, NotExpressible, digits, if_unusual, vertex_of
 from .edits import divided_panels
 from .instruments import PIN_COLOURS, SECTIONS
 from .measuring import runs_in_words
 from .page import Recipe
 from .profile_words import profile_words, shows_path
-from .said import NOTHING, Said, Unsaid, digits, if_unusual, vertex_of
 
 MOST_LETTERS = 1000
 """Of selected vertices in a line that somebody is to read."""
 
 
-def say_zooms(recipe: Recipe) -> Said:
+def say_zooms(recipe: Recipe) -> CommandFragment:
     zooms = recipe.document.zooms
     if not zooms:
         return NOTHING
     if any(zoom.corner != "auto" for zoom in zooms):
-        raise Unsaid("An inset has a corner of its own.")
+        raise NotExpressible("An inset has a corner of its own.")
     steps = [() if zoom.isolines is None else (zoom.isolines,) for zoom in zooms]
     options = tuple(
         ("--zoom", ",".join([f"{zoom.vertex}", digits(zoom.factor), *map(str, n)]))
         for zoom, n in zip(zooms, steps, strict=True)
     )
-    return Said(options, {"zooms": [(zoom.vertex, zoom.factor, *n) for zoom, n in zip(zooms, steps, strict=True)]})
+    return CommandFragment(
+        options, {"zooms": [(zoom.vertex, zoom.factor, *n) for zoom, n in zip(zooms, steps, strict=True)]}
+    )
 
 
-def say_anchors(recipe: Recipe) -> Said:
+def say_anchors(recipe: Recipe) -> CommandFragment:
     document = recipe.document
     marks = [(vertex_of(document.point(anchor.point)), anchor.value) for anchor in document.anchors]
     if not marks:
         return NOTHING
     if len(dict(marks)) < len(marks) or None in dict(marks):
-        raise Unsaid("Two marks are at one vertex, or one is where nobody has put it.")
+        raise NotExpressible("Two marks are at one vertex, or one is where nobody has put it.")
     if any(anchor.left_out for anchor in document.anchors):
-        raise Unsaid("An anchor is left out.")
+        raise NotExpressible("An anchor is left out.")
     words = ",".join(f"{vertex}" if value is None else f"{vertex}={digits(value)}" for vertex, value in marks)
-    return Said((("--anchors", words),), {"anchors": dict(marks)})
+    return CommandFragment((("--anchors", words),), {"anchors": dict(marks)})
 
 
-def say_weights(recipe: Recipe) -> Said:
+def say_weights(recipe: Recipe) -> CommandFragment:
     weights = recipe.document.weights
     found = [
         if_unusual(weights.exponent, 1.0, "--exponent", "exponent"),
         if_unusual(weights.smoothness, 0.0, "--smoothness", "smoothness"),
     ]
-    return Said(found[0].options + found[1].options, {**found[0].arguments, **found[1].arguments})
+    return CommandFragment(found[0].options + found[1].options, {**found[0].arguments, **found[1].arguments})
 
 
-def say_pins(recipe: Recipe) -> Said:
+def say_pins(recipe: Recipe) -> CommandFragment:
     """In the colours that they get by themselves."""
     document = recipe.document
     places = [document.point(pin.point).at for pin in document.pins]
     if not places:
         return NOTHING
     if any(document.point(pin.point).surface != document.surfaces[0].name for pin in document.pins):
-        raise Unsaid("A pin is on another mesh.")
+        raise NotExpressible("A pin is on another mesh.")
     if len(set(places)) < len(places):
-        raise Unsaid("Two pins are at one place.")
+        raise NotExpressible("Two pins are at one place.")
     if [pin.colour for pin in document.pins] != [k % PIN_COLOURS for k in range(len(places))]:
-        raise Unsaid("Pins have other colours than usual.")
-    said = [at if isinstance(at, int) else words_of(at) for at in places if isinstance(at, int | Place)]
+        raise NotExpressible("Pins have other colours than usual.")
+    said = [at if isinstance(at, int) else words_of(at) for at in places if isinstance(at, int | SurfacePoint)]
     if len(said) < len(places):
-        raise Unsaid("A pin is at more than a point.")
-    return Said(tuple(("--pin", str(at)) for at in said), {"pins": said})
+        raise NotExpressible("A pin is at more than a point.")
+    return CommandFragment(tuple(("--pin", str(at)) for at in said), {"pins": said})
 
 
-def say_profile(recipe: Recipe) -> Said:
+def say_profile(recipe: Recipe) -> CommandFragment:
     """Of a path that is drawn: through which points, and how."""
     document, profile = recipe.document, recipe.document.profile
     if not shows_path(document):
@@ -79,7 +81,7 @@ def say_profile(recipe: Recipe) -> Said:
     try:
         words = profile_words(document)
     except ParameterError as error:
-        raise Unsaid(str(error)) from error
+        raise NotExpressible(str(error)) from error
     options = [("--profile", ",".join(map(str, words)) or None)]
     arguments: dict[str, Any] = {"profile": words or True}
     if profile.way != "auto":
@@ -87,30 +89,30 @@ def say_profile(recipe: Recipe) -> Said:
         arguments["way"] = profile.way
     if profile.way in SECTIONS:
         if profile.across is None:
-            raise Unsaid("The plane of the section turns with the view.")
+            raise NotExpressible("The plane of the section turns with the view.")
         options.append(("--across", ",".join(map(digits, profile.across))))
         arguments["across"] = profile.across
-    return Said(tuple(options), arguments)
+    return CommandFragment(tuple(options), arguments)
 
 
-def say_regions(recipe: Recipe) -> Said:
+def say_regions(recipe: Recipe) -> CommandFragment:
     which = divided_panels(recipe.document)
     if not which:
         return NOTHING
     words = which if isinstance(which, str) else ",".join(map(str, which))
-    return Said((("--regions", words),), {"regions": which})
+    return CommandFragment((("--regions", words),), {"regions": which})
 
 
-def say_selections(recipe: Recipe) -> Said:
+def say_selections(recipe: Recipe) -> CommandFragment:
     """In the colours that they get by themselves."""
     selections = recipe.document.selections
     if not selections:
         return NOTHING
     if any(each.surface != recipe.document.surfaces[0].name for each in selections):
-        raise Unsaid("Vertices of another mesh are selected.")
+        raise NotExpressible("Vertices of another mesh are selected.")
     if [each.colour for each in selections] != [k % PIN_COLOURS for k in range(len(selections))]:
-        raise Unsaid("Selections have other colours than usual.")
+        raise NotExpressible("Selections have other colours than usual.")
     words = [runs_in_words(each.runs) for each in selections]
     if sum(map(len, words)) > MOST_LETTERS:
-        raise Unsaid("More vertices are selected than a line can name.")
-    return Said(tuple(("--select", each) for each in words), {"selections": words})
+        raise NotExpressible("More vertices are selected than a line can name.")
+    return CommandFragment(tuple(("--select", each) for each in words), {"selections": words})

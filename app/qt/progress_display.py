@@ -18,7 +18,7 @@ QUIET_MS = 150
 WAITING = (nan, "Waiting")
 
 
-class Waits:
+class ProgressDisplay:
     """See the module."""
 
     def __init__(self, window) -> None:

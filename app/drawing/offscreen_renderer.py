@@ -19,7 +19,7 @@ from .scene import PanelScene
 from .style import PAPER, Style
 
 
-class Board:
+class OffscreenRenderer:
     """Made and used on one thread.  pictures: how many have been drawn."""
 
     def __init__(self) -> None:

@@ -11,13 +11,13 @@ from ..document.document import Document, Panel
 from ..document.instruments import Pair
 from ..document.pairing import half_pair, number_of, waiting_point, whole_pairs
 from ..document.predicting import predicts_in
-from .opened import Opened
-from .predicted import candidate_of
+from .loaded_mesh import LoadedMesh
+from .prediction_answers import candidate_of
 from .questions import vertex_at
 
 
 @dataclass(frozen=True)
-class PairedPoint:
+class LocatedPairPoint:
     """A point of a pair, by its name, at a vertex.  number: of the pair, from 1."""
 
     number: int
@@ -41,15 +41,15 @@ class Candidate:
     share: float
 
 
-def paired_on(document: Document, surface: str, opened: Opened) -> tuple[PairedPoint, ...]:
+def located_pair_points(document: Document, surface: str, loaded: LoadedMesh) -> tuple[LocatedPairPoint, ...]:
     """Those on the surface of a name, which is there; what is no vertex stands at the nearest."""
     found = []
     for pair in document.pairs:
         for name in pair.points:
             point = document.point(name)
             if point.surface == surface:
-                vertex = vertex_at(point.at, opened.surface)
-                found.append(PairedPoint(number_of(document, pair), pair, name, vertex))
+                vertex = vertex_at(point.at, loaded.surface)
+                found.append(LocatedPairPoint(number_of(document, pair), pair, name, vertex))
     return tuple(found)
 
 

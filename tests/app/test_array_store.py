@@ -11,7 +11,7 @@ from app.document.edits import move_source, open_mesh, show_in
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
 from app.document.quantities import Difference, OwnField, quantity
-from app.session.given import Given, given_comparison, is_archive
+from app.session.array_store import ArrayStore, comparison_of_arrays, is_archive
 from app.session.recipe_file import recipe_written
 from bihdist_core import BiharmonicDistance, MeshError, OutputError, ParameterError, Surface
 from bihdist_core.distances.kinds import Spec
@@ -30,7 +30,7 @@ def written(path, document, given):
 
 # ---------------------------------------------------------------------- what is taken
 def test_a_mesh_in_memory_and_fields_become_a_document():
-    document, given = given_comparison(
+    document, given = comparison_of_arrays(
         (SURFACE.vertices, SURFACE.faces), ["biharmonic", "biharmonic - mine"], {"mine": HEIGHT, "more": -HEIGHT}, (3,)
     )
     assert [str(panel.shows) for panel in document.panels] == ["biharmonic", "biharmonic - mine", "more"]
@@ -41,7 +41,7 @@ def test_a_mesh_in_memory_and_fields_become_a_document():
 
 
 def test_fields_are_copies_that_nobody_changes():
-    values, given = HEIGHT.copy(), Given()
+    values, given = HEIGHT.copy(), ArrayStore()
     field = given.add_field("mine", values)
     values[:] = 7
     kept = given.field(field.sha256, "mine")
@@ -50,13 +50,13 @@ def test_fields_are_copies_that_nobody_changes():
 
 
 def test_masked_values_are_undefined():
-    given = Given()
+    given = ArrayStore()
     field = given.add_field("mine", np.ma.masked_greater([1.0, 2, 3], 2))
     assert np.array_equal(given.field(field.sha256, "mine"), [1, 2, np.nan], equal_nan=True)
 
 
 def test_a_field_is_shown_once_whatever_the_number_of_sources():
-    document, _ = given_comparison(SURFACE, ["biharmonic", "mine"], {"mine": HEIGHT}, (3, 5))
+    document, _ = comparison_of_arrays(SURFACE, ["biharmonic", "mine"], {"mine": HEIGHT}, (3, 5))
     assert [str(panel.shows) for panel in document.panels] == ["biharmonic", "mine", "biharmonic"]
 
 
@@ -81,7 +81,7 @@ def test_a_field_is_shown_once_whatever_the_number_of_sources():
 )
 def test_what_is_no_field_gets_a_sentence(name, values, words):
     with pytest.raises(ParameterError, match=words):
-        Given().add_field(name, values)
+        ArrayStore().add_field(name, values)
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_what_is_no_field_gets_a_sentence(name, values, words):
 )
 def test_what_is_no_mesh_gets_a_sentence(mesh, error, words):
     with pytest.raises(error, match=words):
-        given_comparison(mesh, ["biharmonic"], {}, (None,))
+        comparison_of_arrays(mesh, ["biharmonic"], {}, (None,))
 
 
 # ---------------------------------------------------------------------- in a document
@@ -115,18 +115,18 @@ def test_words_name_fields_where_there_are_any():
 
 
 def test_another_mesh_leaves_the_fields_behind():
-    document, _ = given_comparison(SURFACE, ["mine", "geodesic", "geodesic - mine"], {"mine": HEIGHT}, (3,))
+    document, _ = comparison_of_arrays(SURFACE, ["mine", "geodesic", "geodesic - mine"], {"mine": HEIGHT}, (3,))
     other = open_mesh(document, replace(document.surfaces[0], path="b.off", sha256=""))
     assert ([str(panel.shows) for panel in other.panels], other.fields) == (["geodesic"], ())
-    only, _ = given_comparison(SURFACE, [], {"mine": HEIGHT}, (3,))
+    only, _ = comparison_of_arrays(SURFACE, [], {"mine": HEIGHT}, (3,))
     other = open_mesh(only, replace(only.surfaces[0], path="b.off", sha256=""))
     assert ([str(panel.shows) for panel in other.panels], other.fields) == (["biharmonic"], ())
 
 
 def test_a_click_on_a_field_moves_the_source_of_the_others():
-    document, _ = given_comparison(SURFACE, ["mine", "geodesic"], {"mine": HEIGHT}, (3,))
+    document, _ = comparison_of_arrays(SURFACE, ["mine", "geodesic"], {"mine": HEIGHT}, (3,))
     assert move_source(document, 0, 9).sources == (9,)
-    only, _ = given_comparison(SURFACE, [], {"mine": HEIGHT}, (3,))
+    only, _ = comparison_of_arrays(SURFACE, [], {"mine": HEIGHT}, (3,))
     assert move_source(only, 0, 9) == only
 
 
@@ -142,7 +142,7 @@ def test_a_difference_is_taken_of_a_distance_and_a_field(desk):
     exact = BiharmonicDistance(SURFACE).from_source(4)
     fields = {"mine": 2 * exact, "signed": HEIGHT - 1}
     words = ["biharmonic - mine", "raw mine - biharmonic", "mine", "signed", "signed - mine"]
-    document, given = given_comparison(SURFACE, words, fields, (4,))
+    document, given = comparison_of_arrays(SURFACE, words, fields, (4,))
     d.session.given.update(given)
     d.session.show(document)
     d.complete()
@@ -157,9 +157,9 @@ def test_a_difference_is_taken_of_a_distance_and_a_field(desk):
 
 def test_a_field_of_another_length_is_refused_and_what_is_shown_stays(desk, mesh_file):
     d = desk([Spec.of("biharmonic")])
-    d.opened(mesh_file(SURFACE))
+    d.loaded(mesh_file(SURFACE))
     before = d.session.document
-    document, given = given_comparison(SURFACE, ["mine"], {"mine": np.ones(5)}, (4,))
+    document, given = comparison_of_arrays(SURFACE, ["mine"], {"mine": np.ones(5)}, (4,))
     d.session.given.update(given)
     d.view.failures_are_expected = True
     d.session.show(document)
@@ -169,11 +169,11 @@ def test_a_field_of_another_length_is_refused_and_what_is_shown_stays(desk, mesh
 
 # ---------------------------------------------------------------------- files
 def test_arrays_are_saved_beside_and_read_again(tmp_path):
-    document, given = given_comparison(SURFACE, ["biharmonic - mine"], {"mine": HEIGHT, "b/c.npy": HEIGHT**2}, (3,))
+    document, given = comparison_of_arrays(SURFACE, ["biharmonic - mine"], {"mine": HEIGHT, "b/c.npy": HEIGHT**2}, (3,))
     recipe = written(tmp_path / "s.json", document, given)
     assert recipe.document == document
     assert sorted(path.name for path in tmp_path.iterdir()) == ["s.json", "s.npz"]
-    read = Given.read(recipe)
+    read = ArrayStore.read(recipe)
     assert np.array_equal(read.surface(document.surfaces[0]).faces, SURFACE.faces)
     for field in document.fields:
         assert np.array_equal(read.field(field.sha256, field.name), given.field(field.sha256, field.name))
@@ -182,13 +182,13 @@ def test_arrays_are_saved_beside_and_read_again(tmp_path):
     # Moved together they stay together; and the same again is the same bytes.
     (tmp_path / "t").mkdir()
     again = written(tmp_path / "t" / "s.json", document, given)
-    assert Given.read(again)
+    assert ArrayStore.read(again)
     for name in ("s.json", "s.npz"):
         assert (tmp_path / name).read_bytes() == (tmp_path / "t" / name).read_bytes()
 
 
 def test_a_recipe_of_files_alone_has_no_archive_and_says_nothing_of_fields(tmp_path):
-    recipe = written(tmp_path / "s.json", comparison("hand"), Given())
+    recipe = written(tmp_path / "s.json", comparison("hand"), ArrayStore())
     assert [path.name for path in tmp_path.iterdir()] == ["s.json"]
     text = recipe_text(recipe, "9")
     assert "fields" not in text
@@ -196,7 +196,7 @@ def test_a_recipe_of_files_alone_has_no_archive_and_says_nothing_of_fields(tmp_p
 
 
 def test_somebody_elses_archive_is_not_replaced(tmp_path):
-    document, given = given_comparison(SURFACE, [], {"mine": HEIGHT}, (3,))
+    document, given = comparison_of_arrays(SURFACE, [], {"mine": HEIGHT}, (3,))
     np.savez(tmp_path / "s.npz", results=np.ones(3))
     with pytest.raises(OutputError, match="is another file"):
         written(tmp_path / "s.json", document, given)
@@ -207,7 +207,7 @@ def test_somebody_elses_archive_is_not_replaced(tmp_path):
 
 
 def test_a_failure_after_the_recipe_leaves_neither(tmp_path):
-    document, given = given_comparison(SURFACE, [], {"mine": HEIGHT}, (3,))
+    document, given = comparison_of_arrays(SURFACE, [], {"mine": HEIGHT}, (3,))
     with pytest.raises(ZeroDivisionError), recipe_written(Recipe(document), given, tmp_path / "s.json", "9"):
         raise ZeroDivisionError
     assert list(tmp_path.iterdir()) == []
@@ -247,28 +247,28 @@ def _of_objects(path: Path):
 )
 def test_a_damaged_archive_gets_a_sentence(tmp_path, damage, words):
     surface = Surface(grid(4, 4).vertices, grid(4, 4).faces)
-    document, given = given_comparison(surface, [], {"mine": np.ones(25)}, (3,))
+    document, given = comparison_of_arrays(surface, [], {"mine": np.ones(25)}, (3,))
     recipe = written(tmp_path / "s.json", document, given)
     damage(tmp_path / "s.npz")
     with pytest.raises(ParameterError, match=words):
-        Given.read(recipe)
+        ArrayStore.read(recipe)
 
 
 def test_nothing_is_unpickled(tmp_path):
-    document, given = given_comparison("hand", [], {"mine": HEIGHT}, (3,))
+    document, given = comparison_of_arrays("hand", [], {"mine": HEIGHT}, (3,))
     recipe = written(tmp_path / "s.json", document, given)
     _of_objects(tmp_path / "s.npz")
     with pytest.raises(ParameterError, match="damaged"):
-        Given.read(recipe)
+        ArrayStore.read(recipe)
 
 
 def test_what_was_never_given_is_missed():
     with pytest.raises(ParameterError, match="is not there any more"):
-        Given().field("0" * 64, "mine")
+        ArrayStore().field("0" * 64, "mine")
     with pytest.raises(ParameterError, match="is not there any more"):
-        Given().surface(replace(comparison("hand").surfaces[0], path=""))
+        ArrayStore().surface(replace(comparison("hand").surfaces[0], path=""))
 
 
 def test_a_difference_of_fields_is_written_and_read():
-    document, _ = given_comparison("hand", ["raw a - b"], {"a": HEIGHT, "b": HEIGHT}, (3,))
+    document, _ = comparison_of_arrays("hand", ["raw a - b"], {"a": HEIGHT, "b": HEIGHT}, (3,))
     assert document.panels[0].shows == Difference(OwnField("a"), OwnField("b"), raw=True)

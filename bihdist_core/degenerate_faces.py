@@ -28,8 +28,8 @@ NOTHING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class FlatFaces:
-    """The flat faces of a surface, all (k,).
+class DegenerateFaces:
+    """The degenerate faces of a surface, all (k,).
 
     faces: their numbers; corners (3, k): which of its corners are i, a, b; foot: the share s; share: the true height
     over the longest side; length: of that; spring, link: their strengths, without unit; loose: whether that is by
@@ -47,9 +47,9 @@ class FlatFaces:
     loose: np.ndarray
 
     @classmethod
-    def of(cls, surface: Surface) -> "FlatFaces":
+    def of(cls, surface: Surface) -> "DegenerateFaces":
         """All of them."""
-        faces = surface.flat_faces
+        faces = surface.degenerate_faces
         x = surface.vertices[surface.faces[faces]].transpose(1, 2, 0)
         side = [x[(k + 2) % 3] - x[(k + 1) % 3] for k in range(3)]
         squares = np.stack([dots(s, s) for s in side])
@@ -74,10 +74,10 @@ class FlatFaces:
             loose,
         )
 
-    def some(self, index: np.ndarray) -> "FlatFaces":
+    def some(self, index: np.ndarray) -> "DegenerateFaces":
         """Those at some places (j,)."""
         kept = {f.name: getattr(self, f.name)[..., index] for f in fields(self) if f.name != "surface"}
-        return FlatFaces(self.surface, **kept)
+        return DegenerateFaces(self.surface, **kept)
 
     @property
     def lack(self) -> np.ndarray:
@@ -130,7 +130,7 @@ class FlatFaces:
 
 
 def _hanging(surface: Surface, faces: np.ndarray) -> np.ndarray:
-    """(k,) whether flat faces are too few to hold the vertices that they alone have: a spring holds one of them."""
+    """(k,) whether degenerate faces are too few to hold the vertices that they alone have: a spring holds one."""
     f = surface.faces[faces]
     free = ~surface.in_proper_face[f]
     hanging = np.zeros(len(faces), bool)

@@ -21,7 +21,7 @@ TOUCHING = 1e-9
 """Of a segment: what rounding may leave between two triangles that share a side."""
 
 
-class Hiding:
+class Occlusion:
     """Triangles in a picture, ready to say what they hide.
 
     corners: (t, 3, 3) of x, y and nearness, which is linear in the picture (1 / depth in perspective); those that are

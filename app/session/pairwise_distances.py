@@ -16,13 +16,13 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from .lane import Lane
-from .opened import Opened
+from .latest_request_worker import LatestRequestWorker
+from .loaded_mesh import LoadedMesh
 
 AT_ONCE = 8
 """Sources between two places where the work can be given up."""
 
-Wanted = tuple[Opened, str, Spec]
+WorkOrder = tuple[LoadedMesh, str, Spec]
 """A surface, the areas of its operators, and a distance."""
 
 
@@ -36,67 +36,67 @@ class _Known:
 
 @dataclass(frozen=True, eq=False)
 class _Request:
-    opened: Opened
+    loaded: LoadedMesh
     areas: str
     specs: tuple[Spec, ...]
     places: tuple[Source, ...]
 
 
-class Among:
+class PairwiseDistances:
     """`changed()` is called, by `post`, when `matrix`, `unit`, `failure` or `progress` say something new."""
 
     def __init__(self, post: Callable[[Callable[[], None]], None], changed: Callable[[], None]) -> None:
         self._post, self._changed = post, changed
-        self._known: dict[Wanted, _Known] = {}
-        self._units: dict[Wanted, str] = {}
-        self._failures: dict[Wanted, str] = {}
+        self._known: dict[WorkOrder, _Known] = {}
+        self._units: dict[WorkOrder, str] = {}
+        self._failures: dict[WorkOrder, str] = {}
         self._asked: _Request | None = None
         self.progress: tuple[float, str] | None = None
-        self._lane: Lane[_Request] = Lane("among", self._work, self._report, self._fail)
+        self._worker: LatestRequestWorker[_Request] = LatestRequestWorker("among", self._work, self._report, self._fail)
 
-    def ask(self, opened: Opened, areas: str, specs: Sequence[Spec], places: Sequence[Source]) -> None:
+    def ask(self, loaded: LoadedMesh, areas: str, specs: Sequence[Spec], places: Sequence[Source]) -> None:
         """The distances among these are wanted, those of the first of the specs first; nothing else is."""
-        asked = _Request(opened, areas, tuple(dict.fromkeys(specs)), tuple(places))
-        wanted = {(opened, areas, spec) for spec in asked.specs}
+        asked = _Request(loaded, areas, tuple(dict.fromkeys(specs)), tuple(places))
+        wanted = {(loaded, areas, spec) for spec in asked.specs}
         # What nobody asks for any more is forgotten, but for the same pins' other distances.
-        self._known = {key: known for key, known in self._known.items() if key[:2] == (opened, areas)}
-        self._failures = {key: said for key, said in self._failures.items() if key[:2] == (opened, areas)}
-        self._units = {key: unit for key, unit in self._units.items() if key[:2] == (opened, areas)}
+        self._known = {key: known for key, known in self._known.items() if key[:2] == (loaded, areas)}
+        self._failures = {key: said for key, said in self._failures.items() if key[:2] == (loaded, areas)}
+        self._units = {key: unit for key, unit in self._units.items() if key[:2] == (loaded, areas)}
         missing = [key for key in wanted if key not in self._failures and self.matrix(*key, places) is None]
         old, self._asked = self._asked, asked
         if not missing or len(places) < 2:
-            self._lane.submit(None)
+            self._worker.submit(None)
         elif old is None or not _is_same(old, asked) or self.progress is None:
-            self._lane.submit(asked)
+            self._worker.submit(asked)
 
-    def matrix(self, opened: Opened, areas: str, spec: Spec, places: Sequence[Source]) -> np.ndarray | None:
+    def matrix(self, loaded: LoadedMesh, areas: str, spec: Spec, places: Sequence[Source]) -> np.ndarray | None:
         """(k, k) the distances among k places, NaN between components; None as long as they are not known."""
-        known = self._known.get((opened, areas, spec))
+        known = self._known.get((loaded, areas, spec))
         if known is None:
             return None
         rows = _rows_in(known.places, places)
         return None if (rows < 0).any() else known.matrix[np.ix_(rows, rows)]
 
-    def unit(self, opened: Opened, areas: str, spec: Spec) -> str:
-        return self._units.get((opened, areas, spec), "")
+    def unit(self, loaded: LoadedMesh, areas: str, spec: Spec) -> str:
+        return self._units.get((loaded, areas, spec), "")
 
-    def failure(self, opened: Opened, areas: str, spec: Spec) -> str:
+    def failure(self, loaded: LoadedMesh, areas: str, spec: Spec) -> str:
         """Why there is none, in a sentence."""
-        return self._failures.get((opened, areas, spec), "")
+        return self._failures.get((loaded, areas, spec), "")
 
     def close(self) -> None:
         """Stop the work, and the thread."""
-        self._lane.close()
+        self._worker.close()
 
     # ------------------------------------------------------------------ in the background
-    def _work(self, request: _Request, lane: Lane[_Request]) -> None:
-        progress = lane.progress(lambda latest: _is_same(latest, request))
+    def _work(self, request: _Request, worker: LatestRequestWorker[_Request]) -> None:
+        progress = worker.progress(lambda latest: _is_same(latest, request))
         for k, spec in enumerate(request.specs):
-            key = (request.opened, request.areas, spec)
+            key = (request.loaded, request.areas, spec)
             known = self._known.get(key)
             share = part(progress, k / len(request.specs), (k + 1) / len(request.specs))
             try:
-                distance = request.opened.distances(request.areas).get(spec, part(share, 0, 0.5))
+                distance = request.loaded.distances(request.areas).get(spec, part(share, 0, 0.5))
                 matrix = distances_among(distance, request.places, known, part(share, 0.5, 1))
             except Cancelled:
                 raise
@@ -106,19 +106,19 @@ class Among:
                 found = _Known(request.places, matrix)
                 self._post(partial(self._found, key, found, distance.unit))
 
-    def _found(self, key: Wanted, found: _Known, unit: str) -> None:
-        if self._asked is None or self._asked.opened is not key[0]:
+    def _found(self, key: WorkOrder, found: _Known, unit: str) -> None:
+        if self._asked is None or self._asked.loaded is not key[0]:
             return  # of a surface that has gone
         self._known[key], self._units[key] = found, unit
         self._changed()
 
-    def _failed(self, key: Wanted, error: Exception) -> None:
+    def _failed(self, key: WorkOrder, error: Exception) -> None:
         self._failures[key] = failure_in_words(error)
         self._changed()
 
     def _fail(self, request: _Request, error: Exception) -> None:
         for spec in request.specs:
-            self._post(partial(self._failed, (request.opened, request.areas, spec), error))
+            self._post(partial(self._failed, (request.loaded, request.areas, spec), error))
 
     def _report(self, fraction: float | None, text: str) -> None:
         def note() -> None:
@@ -158,8 +158,8 @@ def _rows_in(known: Sequence[Source], places: Sequence[Source]) -> np.ndarray:
 
 
 def _is_same(one: _Request, other: _Request) -> bool:
-    return (one.opened, one.areas, one.specs, one.places) == (
-        other.opened,
+    return (one.loaded, one.areas, one.specs, one.places) == (
+        other.loaded,
         other.areas,
         other.specs,
         other.places,

@@ -23,7 +23,7 @@ from bihdist_core.analysis.first_view import FirstLook, first_look
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.perturbation import perturbed
-from bihdist_core.distances.accuracy import Certificate
+from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, Distances, difference_of, failed
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
@@ -34,10 +34,10 @@ from ..document.document import Document, MeshFile, starting_points
 from ..document.edits import put_point
 from ..document.file import checksum
 from ..samples import mesh_path
-from .changed import carried, change_of
-from .given import Given
-from .mapped import mapped, positions
-from .predicted import KnownColumns, is_known, predicted
+from .array_store import ArrayStore
+from .map_answers import mapped, positions
+from .perturbed_meshes import carried, change_of
+from .prediction_answers import KnownColumns, is_known, predicted
 from .questions import (
     ChangeQuestion,
     DifferenceQuestion,
@@ -61,7 +61,7 @@ VALUE = "value"
 """The unit of what is interpolated, which is the user's own."""
 
 
-class Opened:
+class LoadedMesh:
     """A surface that is there.  given: fields of the user's own; prepared: what whoever shows it has made of it.
 
     origin: what it is made from, if from another; ids: (n,) the vertices of that which its own are, -1 for new ones.
@@ -71,8 +71,8 @@ class Opened:
         self,
         mesh: MeshFile,
         surface: Surface,
-        given: Given | None = None,
-        origin: "Opened | None" = None,
+        given: ArrayStore | None = None,
+        origin: "LoadedMesh | None" = None,
         ids: np.ndarray | None = None,
     ) -> None:
         self.origin = origin
@@ -80,13 +80,13 @@ class Opened:
         self.mesh = mesh
         self.surface = surface
         self.prepared: Any = None
-        self._given = given or Given()
+        self._given = given or ArrayStore()
         self._looks: dict[str, FirstLook] = {}
         self._distances: dict[str, Distances] = {}
         self._interpolants: dict[tuple[str, Spec], ShepardInterpolant] = {}
         self._last: dict[Question, Answer] = {}
         self.columns = 0  # of distances from anchors, solved for so far
-        self.beside: tuple[Opened, ...] = ()  # what is shown with it
+        self.beside: tuple[LoadedMesh, ...] = ()  # what is shown with it
         self.columns_of_pairs = KnownColumns()
         self._lock = threading.Lock()
 
@@ -138,7 +138,7 @@ class Opened:
         if isinstance(question, FieldQuestion):
             field = self._given.field(question.field.sha256, question.field.name)
             is_signed = bool(np.nanmin(field, initial=0.0) < 0)
-            return Answer(label=question.field.name, field=field, certificate=Certificate(), is_signed=is_signed)
+            return Answer(label=question.field.name, field=field, error_estimate=ErrorEstimate(), is_signed=is_signed)
         if isinstance(question, InterpolantQuestion):
             return self._interpolated(question, progress)
         if isinstance(question, PredictionQuestion):
@@ -152,7 +152,7 @@ class Opened:
         source = source_at(question.at, self.surface)
         return self.distances(question.areas).answer(question.spec, source, progress, at_once)
 
-    def standing_beside(self, mesh: MeshFile | None) -> "Opened | None":
+    def standing_beside(self, mesh: MeshFile | None) -> "LoadedMesh | None":
         """A surface that is shown with this one, or itself; None if it is not there."""
         return next((each for each in (*self.beside, self) if mesh is not None and is_same(mesh, each.mesh)), None)
 
@@ -214,7 +214,7 @@ class Opened:
         is_signed = bool(np.nanmin(field, initial=0.0) < 0)
         label = f"{'weights' if question.total else 'interpolant'} by {distance.label}"
         unit = "powers of ten" if question.total else VALUE
-        return Answer(label=label, unit=unit, field=field, certificate=Certificate(), is_signed=is_signed)
+        return Answer(label=label, unit=unit, field=field, error_estimate=ErrorEstimate(), is_signed=is_signed)
 
     def settled(self, document: Document) -> Document:
         """The document with this surface's checksum, and its points on it.
@@ -287,7 +287,7 @@ def is_same(asked: MeshFile, there: MeshFile) -> bool:
     return replace(asked.change, pose_sha256=asked.change.pose_sha256 or there.change.pose_sha256) == there.change
 
 
-def started_alike(document: Document, name: str, first: Opened, opened: Opened) -> Document:
+def started_alike(document: Document, name: str, first: LoadedMesh, loaded: LoadedMesh) -> Document:
     """With the sources of a surface beside the first, where nobody has put them, at the first's vertices.
 
     That is done for two poses of one shape, which have the same faces; others are left as they are.
@@ -295,9 +295,9 @@ def started_alike(document: Document, name: str, first: Opened, opened: Opened) 
     (mesh, *_), points = document.surfaces, starting_points(document)
     open_ones = [point for point in points if point.surface == name and point.at is None]
     known = [point.at for point in points if point.surface == mesh.name and isinstance(point.at, int)]
-    if name == mesh.name or not (open_ones and known) or not np.array_equal(first.surface.faces, opened.surface.faces):
+    if name == mesh.name or not (open_ones and known) or not np.array_equal(first.surface.faces, loaded.surface.faces):
         return document
-    if len(first.surface.vertices) == len(opened.surface.vertices):
+    if len(first.surface.vertices) == len(loaded.surface.vertices):
         for point, at in zip(open_ones, known, strict=False):
             document = put_point(document, point.name, at, name)
     return document
@@ -305,11 +305,11 @@ def started_alike(document: Document, name: str, first: Opened, opened: Opened) 
 
 def open_mesh(
     mesh: MeshFile,
-    given: Given | None = None,
+    given: ArrayStore | None = None,
     remedy: str = "",
-    there: Collection[Opened] = (),
+    there: Collection[LoadedMesh] = (),
     progress: Progress | None = None,
-) -> Opened:
+) -> LoadedMesh:
     """Read the file, or take what was given.  remedy: what to do, in a sentence, where a file is not the one meant.
 
     there: surfaces that are open, for one that is made from another; progress: of its making.
@@ -320,11 +320,11 @@ def open_mesh(
         origin = next((each for each in there if is_same(itself, each.mesh)), None) or open_mesh(itself, given, remedy)
         change, pose = _with_pose(mesh.change, remedy)
         made, ids = perturbed(origin.surface, change, progress, pose)
-        return Opened(replace(mesh, sha256=origin.mesh.sha256, change=change), made, given, origin, ids)
+        return LoadedMesh(replace(mesh, sha256=origin.mesh.sha256, change=change), made, given, origin, ids)
     if not mesh.path:
-        return Opened(mesh, (given or Given()).surface(mesh), given)
+        return LoadedMesh(mesh, (given or ArrayStore()).surface(mesh), given)
     surface, found = _read(mesh, remedy)
-    return Opened(replace(mesh, sha256=found), surface, given)
+    return LoadedMesh(replace(mesh, sha256=found), surface, given)
 
 
 def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:

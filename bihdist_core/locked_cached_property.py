@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import Any
 
 
-class once(cached_property):
+class locked_cached_property(cached_property):
     """`functools.cached_property`, of which Python 3.12 took the lock; here each object and property has its own."""
 
     def __init__(self, func: Callable[[Any], Any]) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 
 from bihdist_core import Surface
 from bihdist_core.sources.plane_walk import PlaneWalk
-from bihdist_core.sources.source import Curve, Member, Place, Source
+from bihdist_core.sources.source import Curve, Member, Source, SurfacePoint
 
 from ..document.sourcing import place_at, source_from
 
@@ -19,13 +19,13 @@ LEAP, DIRECT = 6.0, 1.2
 it or in a hole."""
 
 
-def drawn_source(strokes: Sequence[Sequence[Place]], surface: Surface, is_closed: bool = False) -> Source:
+def source_from_strokes(strokes: Sequence[Sequence[SurfacePoint]], surface: Surface, is_closed: bool = False) -> Source:
     """The source that strokes on a surface mean, each of one place or more: curves, and places where there is but one.
 
     Places that no way on the surface joins are parted.  is_closed: the only stroke comes back to where it began.
     """
     joins = _Joins(strokes, surface)
-    runs: list[list[Place]] = []
+    runs: list[list[SurfacePoint]] = []
     for stroke in strokes:
         runs.append([stroke[0]])
         for start, stop in pairwise(stroke):
@@ -37,7 +37,7 @@ def drawn_source(strokes: Sequence[Sequence[Place]], surface: Surface, is_closed
     return source_from([_member(run, surface, is_ring) for run in runs])
 
 
-def _member(run: Sequence[Place], surface: Surface, is_ring: bool) -> Member:
+def _member(run: Sequence[SurfacePoint], surface: Surface, is_ring: bool) -> Member:
     if len(run) == 1:
         return place_at(surface.faces[run[0].face], run[0].face, run[0].weights)
     return Curve(tuple(run), is_ring)
@@ -46,12 +46,12 @@ def _member(run: Sequence[Place], surface: Surface, is_ring: bool) -> Member:
 class _Joins:
     """Which places of strokes a way on the surface joins."""
 
-    def __init__(self, strokes: Sequence[Sequence[Place]], surface: Surface) -> None:
+    def __init__(self, strokes: Sequence[Sequence[SurfacePoint]], surface: Surface) -> None:
         self._surface, self._walk = surface, PlaneWalk(surface)
         steps = [self._straight(*pair) for stroke in strokes for pair in pairwise(stroke)]
         self._usual = float(np.median(steps)) if steps else 0.0
 
-    def has(self, start: Place, stop: Place) -> bool:
+    def has(self, start: SurfacePoint, stop: SurfacePoint) -> bool:
         way = self._walk.between(start, stop)
         if way is None:
             return False
@@ -61,6 +61,6 @@ class _Joins:
         most = DIRECT if straight > LEAP * self._usual else ROUNDABOUT
         return float(np.linalg.norm(steps, axis=1).sum()) <= most * max(straight, 1e-300)
 
-    def _straight(self, start: Place, stop: Place) -> float:
+    def _straight(self, start: SurfacePoint, stop: SurfacePoint) -> float:
         p, q = (np.array(x.weights) @ self._surface.vertices[self._surface.faces[x.face]] for x in (start, stop))
         return float(np.linalg.norm(q - p))

@@ -23,9 +23,9 @@ from app.document.page import Page, Recipe
 from app.document.quantities import ChangeOf, quantity
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
-from app.session.given import Given
+from app.session.array_store import ArrayStore
 from app.session.surfaces import SPARED_MADE
-from bihdist_core import BiharmonicDistance, ParameterError, Place, Surface, VertexError, write_mesh
+from bihdist_core import BiharmonicDistance, ParameterError, Surface, SurfacePoint, VertexError, write_mesh
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.perturbation import image_of, perturbed
 from bihdist_core.distances.kinds import Spec
@@ -52,14 +52,14 @@ def changed(mesh, change, sources=(5,)):
     return with_changed(comparison(mesh, (BIHARMONIC, EDGES), sources), change)
 
 
-def opened(document):
-    document, surfaces = open_document(Recipe(document, Page()), Given())
+def loaded(document):
+    document, surfaces = open_document(Recipe(document, Page()), ArrayStore())
     return document, surfaces, compute(document, surfaces)
 
 
 @pytest.mark.parametrize("change", CHANGES, ids=words_of_change)
 def test_the_three_panels_are_before_after_and_the_difference_in_percentage_points(mesh, change):
-    document, surfaces, answers = opened(changed(mesh, change))
+    document, surfaces, answers = loaded(changed(mesh, change))
     before = surfaces["A"].surface
     after, ids = perturbed(before, change)
     assert np.array_equal(surfaces["B"].surface.vertices, after.vertices)
@@ -92,7 +92,7 @@ def test_both_sides_are_computed_by_one_method(mesh):
     other = next(face for face in around if np.intersect1d(faces[face], faces[around[0]]).tolist() == [200])
     cut = tuple((face, face) for face in sorted((around[0], other)))
     document = with_changed(comparison(mesh, (Spec.of("geodesic"),), (5,)), Perturbation(cut=cut))
-    _, surfaces, answers = opened(document)
+    _, surfaces, answers = loaded(document)
     before, after, change = answers
     assert before.label == "geodesic, exact"
     assert after.label == "geodesic, heat method"
@@ -109,14 +109,14 @@ def test_noise_has_no_isolines(mesh_file):
     for noise, is_rough in ((0.01, True), (0.0, False)):
         change = Perturbation(noise=noise, holes=0 if noise else 2)
         document = with_changed(comparison(path, (BIHARMONIC,), (5,)), change)
-        document, surfaces, answers = opened(document)
+        document, surfaces, answers = loaded(document)
         figure = figure_of(Recipe(document, Page()), surfaces, answers)
         assert answers[2].is_rough == is_rough
         assert [panel.isolines.count for panel in figure.panels] == [20, 20, 0 if is_rough else 20]
 
 
 def test_a_source_that_moves_is_followed(mesh):
-    document, surfaces, _ = opened(changed(mesh, Perturbation(simplify=120)))
+    document, surfaces, _ = loaded(changed(mesh, Perturbation(simplify=120)))
     first = document.points[0]
     for vertex in (17, 250):
         moved = replace(document, points=(replace(first, at=vertex), *document.points[1:]))
@@ -198,11 +198,11 @@ def test_what_is_no_change_is_refused_in_words(words, said):
 
 def test_places_and_fields_are_refused_where_they_cannot_be_followed(mesh):
     with pytest.raises(ParameterError, match="vertex or several"):
-        opened(changed(mesh, CHANGES[1], (Place.of(3, 0.2, 0.2),)))
+        loaded(changed(mesh, CHANGES[1], (SurfacePoint.of(3, 0.2, 0.2),)))
     with pytest.raises(ParameterError, match="is none"):
         bihdist.figure(mesh, ["biharmonic - geodesic"], 5, perturb="noise=1")
     with pytest.raises(VertexError):
-        opened(changed(mesh, CHANGES[0], (999,)))
+        loaded(changed(mesh, CHANGES[0], (999,)))
     with pytest.raises(ParameterError, match="One mesh is changed at a time"):
         with_changed(changed(mesh, CHANGES[0]), CHANGES[1])
 
@@ -239,15 +239,15 @@ def test_the_session_shows_it_and_a_source_moves_on_both(mesh, desk):
     desk = desk()
     desk.session.show(changed(mesh, CHANGES[2]))
     session = desk.complete()
-    assert session.opened("B").origin is session.opened("A")
-    assert session.opened("B").up == session.opened("A").up
+    assert session.loaded("B").origin is session.loaded("A")
+    assert session.loaded("B").up == session.loaded("A").up
     before = session.document
     desk.click(70)
     desk.complete()
-    ids = session.opened("B").ids
+    ids = session.loaded("B").ids
     there = session.document.point("source after").at
-    assert there == image_of(bumpy(300), ids, 70, session.opened("B").surface)
-    expected = BiharmonicDistance(session.opened("B").surface).from_source(there)
+    assert there == image_of(bumpy(300), ids, 70, session.loaded("B").surface)
+    expected = BiharmonicDistance(session.loaded("B").surface).from_source(there)
     assert session.shown[1].answer.field == pytest.approx(expected, rel=1e-9, nan_ok=True)
     assert session.shown[2].answer.field[there] == 0
     session.undo()
@@ -264,7 +264,7 @@ def test_a_source_is_not_moved_onto_what_is_new(mesh, desk):
     desk = desk()
     desk.session.show(changed(mesh, CHANGES[3]))
     session = desk.complete()
-    new = int(np.flatnonzero(session.opened("B").ids < 0)[0])
+    new = int(np.flatnonzero(session.loaded("B").ids < 0)[0])
     before = session.document
     desk.click(new, panel=1)
     desk.complete()
@@ -316,15 +316,15 @@ def test_a_pose_is_named_from_the_recipe_and_held_to_its_checksum(mesh, pose, tm
 
 
 def test_a_place_is_followed_where_the_faces_are_the_same(mesh):
-    place = Place.of(3, 0.2, 0.3)
-    document, surfaces, answers = opened(changed(mesh, CHANGES[0], (place,)))
+    place = SurfacePoint.of(3, 0.2, 0.3)
+    document, surfaces, answers = loaded(changed(mesh, CHANGES[0], (place,)))
     assert document.point("source after").at == place
     after = surfaces["B"].surface
     assert answers[1].field == pytest.approx(BiharmonicDistance(after).from_source(place), rel=1e-9)
 
 
 def test_a_distance_before_and_after_ends_alike_in_figures_and_elsewhere_a_typed_end_holds(mesh):
-    document, surfaces, answers = opened(changed(mesh, Perturbation(handle=(3, 200))))
+    document, surfaces, answers = loaded(changed(mesh, Perturbation(handle=(3, 200))))
     panels = figure_of(Recipe(document, Page()), surfaces, answers).panels
     ids = surfaces["B"].ids
     for row in (0, 3):
@@ -374,7 +374,7 @@ def test_a_session_changes_the_mesh_from_where_it_is_by_then(mesh, desk):
         desk.until(lambda: not session.is_opening)
         desk.complete()
     assert session.document.surfaces[1].change == Perturbation(noise=0.4)
-    expected = BiharmonicDistance(session.opened("B").surface).from_source(70)
+    expected = BiharmonicDistance(session.loaded("B").surface).from_source(70)
     assert session.shown[1].answer.field == pytest.approx(expected, rel=1e-9)
     for step in range(5):
         session.change_mesh(Perturbation(noise=0.5 + step), "noise")
