@@ -1,7 +1,7 @@
 """Recipes as JSON files, written and read strictly.
 
 A recipe is `{"format": 2, "program": ..., "document": {...}, "page": {...}}`, with `"arrays": "NAME.npz"` where the
-document has anything from Python.  Those of format 1, which version 0.1 wrote, are read by `recipe_1`.
+document has anything from Python.
 """
 
 import hashlib
@@ -19,7 +19,6 @@ from .form import document_data, document_from, plain, read_view, view_data
 from .json_values import Reader, flag, listed, number, or_none, placed, record, text, whole
 from .mapping import with_map_paths
 from .page import Page, Recipe
-from .recipe_1 import recipe_of_format_1
 
 FORMAT = 2
 """Goes up when a file could not be understood by older programs."""
@@ -132,7 +131,7 @@ def is_recipe(path: str | os.PathLike[str]) -> bool:
 
 
 def _recipe(data: Any) -> Recipe:
-    if not isinstance(data, dict) or "format" not in data or not {"panels", "document"} & data.keys():
+    if not isinstance(data, dict) or "format" not in data or "document" not in data:
         raise ParameterError("this is not a recipe: it has no format and document.")
     version = whole(data["format"], "format")
     made_with = text(data.get("program", ""), "program")
@@ -142,7 +141,7 @@ def _recipe(data: Any) -> Recipe:
             f"this one reads formats up to {FORMAT}."
         )
     if version < FORMAT:
-        return replace(recipe_of_format_1(data), made_with=made_with)
+        raise ParameterError(f"format {version} is not read any more; the figure has to be drawn anew.")
     parts = {"format": whole, "program": text, "arrays": text, "document": document_from, "page": _page}
     values = record(data, "the recipe", parts, {"format", "document"})
     if not values["document"].surfaces:

@@ -178,7 +178,7 @@ def document_from(data: Any, where: str = "document") -> Document:
         "range": text,
         "shared_range": flag,
         "camera": read_view,
-        "zooms": listed(read_zoom),
+        "zooms": listed(_zoom),
         "anchors": listed(_anchor),
         "weights": _weights,
         "height": number,
@@ -392,6 +392,6 @@ def read_view(data: Any, where: str) -> View:
     return placed(Camera, where, **record(data, where, {name: numbers(count) for name, count in sizes.items()}))
 
 
-def read_zoom(data: Any, where: str) -> Zoom:
+def _zoom(data: Any, where: str) -> Zoom:
     readers = {"vertex": whole, "factor": number, "corner": text, "isolines": or_none(whole)}
     return placed(Zoom, where, **record(data, where, readers, {"vertex"}))

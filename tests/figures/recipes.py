@@ -17,26 +17,3 @@ def refused(capsys, *arguments):
 
 def anchors(document):
     return [(document.point(anchor.point).at, anchor.value) for anchor in document.anchors]
-
-
-def of_version_0_1(mesh):
-    """What the first version wrote."""
-    return {
-        "format": 1,
-        "program": "bihdist 0.1.0",
-        "mesh": {"path": mesh},
-        "areas": "voronoi",
-        "panels": [{"distance": "diffusion", "t": 1.0, "source": 4, "maximum": None}],
-        "views": ["home"],
-        "zooms": [],
-        "anchors": [],
-        "isolines": 20,
-        "shared_range": False,
-        "height": 0.0,
-        "hints": True,
-        "columns": None,
-        "size": "",
-        "style": "paper",
-        "transparent": False,
-        "crop": False,
-    }

@@ -14,7 +14,7 @@ from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page, Recipe
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
-from tests.figures.recipes import anchors, of_version_0_1, refused
+from tests.figures.recipes import refused
 
 
 def test_a_recipe_is_read_as_it_was_written(tmp_path):
@@ -64,76 +64,6 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
     assert recipe_text(again, "0.1") == path.read_text()
 
 
-def test_a_recipe_of_version_0_1_means_what_it_meant(tmp_path):
-    camera = {"position": [1, 2, 3], "focal_point": [0, 0, 0], "up": [0, 1, 0], "extent": [0.2, 0.3]}
-    data = of_version_0_1("mesh.off")
-    data.update(
-        panels=[
-            {"distance": "power", "alpha": 2.5, "k": 7, "source": 4, "maximum": 3.0},
-            {"distance": "geodesic", "method": "heat", "source": 9, "maximum": None},
-            {"distance": "biharmonic", "source": 4, "maximum": None},
-        ],
-        areas="barycentric",
-        views=["left", camera],
-        zooms=[{"vertex": 3, "factor": 2.5, "corner": "top left"}],
-        anchors=[{"vertex": 4, "value": 0.5}, {"vertex": 5, "value": None}],
-        isolines=7,
-        height=0.25,
-        columns=2,
-        size="160mm@300dpi",
-        style="dark",
-        crop=True,
-    )
-    (tmp_path / "old.json").write_text(json.dumps(data))
-    recipe = read_recipe(tmp_path / "old.json")
-    document, page = recipe.document, recipe.page
-    shown = [(str(p.shows.spec), document.point(p.shows.point).at, p.maximum) for p in document.panels]
-    assert shown == [("power(alpha=2.5, k=7)", 4, 3.0), ("geodesic(method=heat)", 9, None), ("biharmonic", 4, None)]
-    assert (document.areas, document.isolines.count, document.height) == ("barycentric", 7, 0.25)
-    assert document.zooms == (Zoom(3, 2.5, "top left"),)
-    assert anchors(document) == [(4, 0.5), (5, None)]
-    assert page.views[0] == document.camera == "left"
-    assert page.views[1].position == (1, 2, 3)
-    assert (page.columns, page.size, page.style, page.crop, page.hints) == (2, "160mm@300dpi", "dark", True, True)
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (lambda r: r.pop("mesh"), "names no mesh"),
-        (lambda r: r["mesh"].update(path="gone.off"), "gone.off is not there"),
-        (lambda r: r.update(format=99, program="bihdist 9.0"), "newer program (bihdist 9.0, format 99)"),
-        (lambda r: r.update(colour="red"), "unknown key 'colour'"),
-        (lambda r: r["panels"][0].update(colour="red"), "panels[0] has the unknown key 'colour'"),
-        (lambda r: r["panels"][0].update(t="long"), "panels[0].t: t must be a number above 0, not 'long'"),
-        (lambda r: r["panels"][0].update(t=-1), "panels[0].t: t must be a number above 0, not -1"),
-        (lambda r: r["panels"][0].update(distance="euclidean"), "panels[0]: There is no distance 'euclidean'"),
-        (lambda r: r["mesh"].update(path=10_000 * "m"), "is not there"),
-        (lambda r: r["panels"][0].update(t=10**400), "panels[0].t: t must be a number above 0"),
-        (lambda r: r["panels"][0].update(source=1.5), "panels[0].source must be a whole number"),
-        (lambda r: r["panels"][0].update(source=5000), "no vertex 5000"),
-        (lambda r: r["panels"].clear(), "no panels"),
-        (lambda r: r.update(panels={}), "panels must be a list"),
-        (lambda r: r.update(views=["inside"]), "no view 'inside'"),
-        (lambda r: r.update(views=[{"position": [1, 2]}]), "no 'extent'"),
-        (lambda r: r.update(zooms=[{"vertex": 5000}]), "no vertex 5000"),
-        (lambda r: r.update(size="huge"), "'huge' is not a size"),
-        (lambda r: r.update(size="100000px"), "16 to 32000 pixels"),
-        (lambda r: r.update(style="pink"), "no style 'pink'"),
-        (lambda r: r.update(crop="yes"), "crop must be true or false"),
-        (lambda r: r.update(isolines=True), "isolines must be a whole number"),
-        (lambda r: r.update(height=0.3), "flat surface"),
-    ],
-)
-def test_a_bad_recipe_of_version_0_1_gets_a_sentence(mesh, tmp_path, capsys, change, words):
-    data = of_version_0_1(mesh)
-    change(data)
-    path, out = tmp_path / "bad.json", tmp_path / "out.png"
-    path.write_text(json.dumps(data))
-    assert words in refused(capsys, "figure", "--recipe", path, "-o", out)
-    assert not out.exists()
-
-
 PANEL = "document.panels[0]"
 
 
@@ -178,6 +108,14 @@ PANEL = "document.panels[0]"
         (lambda r: r["page"].update(format="bmp"), "page: There is no format 'bmp'"),
         (lambda r: r["page"].update(columns=0), "at least one column"),
         (lambda r: r["page"].update(views=["inside"]), "no view 'inside'"),
+        (lambda r: r["page"].update(views=[{"position": [1, 2]}]), "no 'extent'"),
+        (lambda r: r["page"].update(size="huge"), "'huge' is not a size"),
+        (lambda r: r["page"].update(size="100000px"), "16 to 32000 pixels"),
+        (lambda r: r["page"].update(style="pink"), "no style 'pink'"),
+        (lambda r: r["page"].update(crop="yes"), "crop must be true or false"),
+        (lambda r: r["document"].update(height=0.3), "flat surface"),
+        (lambda r: r["document"]["surfaces"][0].update(path=10_000 * "m"), "is not there"),
+        (lambda r: r.update(format=1), "format 1 is not read any more; the figure has to be drawn anew"),
     ],
 )
 def test_a_bad_recipe_gets_a_sentence(mesh, tmp_path, capsys, change, words):

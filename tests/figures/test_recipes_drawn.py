@@ -1,6 +1,5 @@
 """Recipes drawn again: the same bytes, another mesh, and options beside them."""
 
-import json
 import os
 from dataclasses import replace
 
@@ -14,7 +13,7 @@ from app.document.page import Recipe
 from app.document.quantities import DistanceFrom
 from app.main import main
 from bihdist_core.distances.kinds import Spec
-from tests.figures.recipes import SMALL, anchors, of_version_0_1, refused
+from tests.figures.recipes import SMALL, anchors, refused
 from tests.shapes import bumpy
 
 
@@ -27,29 +26,6 @@ def test_a_recipe_draws_the_same_bytes(mesh, tmp_path):
         assert main(["figure", "--recipe", str(tmp_path / "first.json"), "-o", str(again)]) == 0
         assert first.read_bytes() == again.read_bytes()
     assert read_recipe(tmp_path / "first.json") == read_recipe(tmp_path / "again.json")
-
-
-def test_a_recipe_of_version_0_1_draws_the_same_figure(mesh, tmp_path):
-    data = of_version_0_1("mesh.off")
-    data.update(size="300x200@96dpi", views=["left"], zooms=[{"vertex": 9, "factor": 4}], isolines=12)
-    (tmp_path / "old.json").write_text(json.dumps(data))
-    words = [
-        "--distance",
-        "diffusion",
-        "--source",
-        "4",
-        "--view",
-        "left",
-        "--zoom",
-        "9,4",
-        "--isolines",
-        "12",
-        "--equal-isolines",
-        "--hints",
-    ]
-    assert main(["figure", mesh, *words, *SMALL, "-o", str(tmp_path / "new.png")]) == 0
-    assert main(["figure", "--recipe", str(tmp_path / "old.json"), "-o", str(tmp_path / "again.png")]) == 0
-    assert (tmp_path / "new.png").read_bytes() == (tmp_path / "again.png").read_bytes()
 
 
 def test_a_recipe_and_its_mesh_may_move_together_and_meet_another_mesh(mesh, mesh_file, tmp_path, capsys):
