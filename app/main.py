@@ -9,50 +9,16 @@ import re
 import sys
 from collections.abc import Iterator, Sequence
 
-from .commands import (
-    batch,
-    correspond,
-    evaluate,
-    field,
-    figure,
-    info,
-    interpolate,
-    isolines,
-    movie,
-    pairs,
-    paper,
-    perturb,
-    profile,
-    regions,
-    samples,
-    statistics,
-    view,
-)
+from .commands import batch, field, figure, info, isolines, movie, pairs, paper, view
 from .commands.mesh import check_mesh
 from .commands.terminal import standard_output
+from .document.tools import tools
 from .version import version
 
 COMMANDS = {
-    module.__name__.rpartition(".")[2]: module
-    for module in (
-        view,
-        field,
-        pairs,
-        profile,
-        isolines,
-        statistics,
-        samples,
-        regions,
-        interpolate,
-        correspond,
-        evaluate,
-        perturb,
-        batch,
-        figure,
-        movie,
-        info,
-        paper,
-    )
+    **{module.__name__.rpartition(".")[2]: module for module in (view, field, pairs, isolines)},
+    **{word: tool.load(module) for tool in tools() for word, module in tool.commands.items()},
+    **{module.__name__.rpartition(".")[2]: module for module in (batch, figure, movie, info, paper)},
 }
 """By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`; TEXT: the format in
 which it writes to standard output, for `-o -`."""

@@ -1,10 +1,11 @@
 """All that can be done by a menu, a key or a button, in one table.  `window` is the main window throughout."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..document.edits import PANEL_EDITS
+from ..document.tools import Tool, docked_tools
 
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
 VIEW_TEXTS = {"right": "Ri&ght", "bottom": "Botto&m", "source": "From the &source"}
@@ -57,9 +58,10 @@ def _of_view(word: str, text: str, do: Callable[[Any], object], *keys: str) -> A
     return Act(word, text, do, keys, of_view=True, needs_mesh=True)
 
 
-def _dock(word: str, text: str, key: str, tip: str, icon: str) -> Act:
-    """Opens and closes an instrument."""
-    return Act(f"dock {word}", text, lambda w: w.docks.toggle(word), (key,), tip, icon, needs_mesh=True, is_check=True)
+def _dock(tool: Tool) -> Act:
+    """Opens and closes the dock of a tool."""
+    act = Act(f"dock {tool.word}", tool.text, lambda w: w.docks.toggle(tool.word), (tool.key,), tool.tip, tool.icon)
+    return replace(act, needs_mesh=True, is_check=True)
 
 
 FILE = (
@@ -337,35 +339,7 @@ TOOLS = (
     Act("step down", "Step along an edge down", _step(0, -1), ("Ctrl+Down",), of_view=True, needs_mesh=True),
     Act("stop", "&Stop what is being computed", lambda w: w.cancel(), ("Esc",)),
 )
-INSTRUMENTS: tuple[Act, ...] = (
-    _dock("anchors", "Interpolation", "I", "Values at anchors, interpolated by every panel's distance", "anchor"),
-    _dock("pairs", "Correspondence", "M", "Pairs of points on two meshes, and where the next is predicted", "pairs"),
-    _dock("pins", "&Pins", "P", "Points with a number, what every panel has there, and how far apart they are", "pin"),
-    _dock("profile", "P&rofile", "F", "Values along a path: the chart of all panels' fields", "profile"),
-    _dock("quality", "&Quality", "Q", "Extrema, isotropy, kinks and triangles of every panel's distance", "quality"),
-    _dock(
-        "regions",
-        "Farthest points and re&gions",
-        "N",
-        "Points spread over the surface, and which part of it is nearest to each pin",
-        "regions",
-    ),
-    _dock(
-        "robustness",
-        "Ro&bustness",
-        "E",
-        "Distances before and after a change to the mesh: noise, holes, fewer vertices, another pose",
-        "robustness",
-    ),
-    _dock("scatter", "S&catter", "S", "One panel's field against another's over all vertices; select in it", "scatter"),
-    _dock(
-        "statistics",
-        "Stat&istics",
-        "H",
-        "The active panel in numbers: mean, quantiles, histogram, isolines",
-        "isolines",
-    ),
-)
+INSTRUMENTS = tuple(map(_dock, docked_tools().values()))
 """The docks, in the order of the menu."""
 
 HELP = (

@@ -1,5 +1,7 @@
 """Other words by which people look for a command, by the words of acts and the titles of menus."""
 
+from ..document.tools import docked_tools
+
 SYNONYMS = {
     # File and Edit
     "open": "load import read file",
@@ -67,18 +69,10 @@ SYNONYMS = {
     "source after": "forward history",
     "live": "hover drag follow mouse",
     "stop": "cancel abort interrupt halt",
-    "dock anchors": "interpolate values blend weights",
-    "dock pairs": "match map landmarks shape second",
-    "dock pins": "measure distance between points markers landmarks matrix table",
-    "dock profile": "measure plot graph along geodesic path curve section",
-    "dock quality": "measure check triangles extrema isotropy",
-    "dock regions": "sampling voronoi segmentation clusters",
-    "dock robustness": "compare noise holes decimate perturb remesh difference",
-    "dock scatter": "compare plot correlation difference select",
-    "dock statistics": "measure mean quantiles histogram numbers average",
     # Help
     "keys": "help shortcuts palette gestures",
     "tour": "help tutorial introduction",
     "about": "version licence citation",
+    **{f"dock {tool.word}": tool.synonyms for tool in docked_tools().values()},
 }
 """Nothing here is shown; only what is typed in the palette is compared with it."""

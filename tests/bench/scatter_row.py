@@ -42,7 +42,7 @@ def _scatter(size: Size) -> tuple[float, float, float, float, int]:
     from qtpy import QtWidgets
 
     from app.qt.docks.chart import Axis
-    from app.qt.docks.scatter_chart import ScatterChart
+    from app.tools.scatter.chart import ScatterChart
 
     application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bench"])
     vertices, faces = bumpy_sphere(size.scatter)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from app.figures.chart_page import ChartLook
-from app.figures.profile_figure import ProfileFigure, ProfileKnot, save_profile_figure
-from app.session.curves import ProfileCurve
+from app.tools.profile.curves import ProfileCurve
+from app.tools.profile.figure import ProfileFigure, ProfileKnot, save_profile_figure
 from bihdist_core import ParameterError
 
 ARCS = np.linspace(0, 2, 50)

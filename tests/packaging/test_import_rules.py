@@ -89,14 +89,22 @@ def modules(*folders: str) -> list[str]:
     return [".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__") for path in found]
 
 
+WITHOUT_QT = {"profile", "curves", "figure", "figure_curves", "command", "samples_command", "evaluate_command"}
+WITHOUT_QT |= {"pins", "scatter", "statistics", "quality", "regions", "interpolation", "correspondence", "robustness"}
+"""Modules of tools, and tools themselves, that are no part of the window."""
+
+
 def test_document_and_session_load_nothing_that_draws():
     assert not loaded(*modules("document", "session")) & (DRAWING | QT)
 
 
-def test_only_the_window_loads_qt():
+def test_only_the_window_and_what_tools_have_in_it_load_qt():
     folders = {path.parent.name for path in (ROOT / "app").glob("*/__init__.py")}
-    assert {"document", "session", "drawing", "figures", "paper", "qt", "commands"} <= folders
-    assert not loaded(*modules(*folders - {"qt"})) & QT
+    assert {"document", "session", "drawing", "figures", "paper", "qt", "commands", "tools"} <= folders
+    tools = [f"tools/{path.parent.name}" for path in (ROOT / "app" / "tools").glob("*/__init__.py")]
+    models = [name for name in modules(*tools) if name.rpartition(".")[2] in WITHOUT_QT]
+    assert {f"app.tools.{name}" for name in ("pins", "profile.command", "profile.figure")} <= {*models}
+    assert not loaded(*modules(*folders - {"qt"}), *models) & QT
 
 
 def test_the_window_opens_before_what_draws_is_loaded():

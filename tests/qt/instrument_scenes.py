@@ -137,7 +137,7 @@ def _profile(d: Driver) -> None:
 def _section(d: Driver) -> None:
     """Through the first two of the pins that a section joins."""
     from app.document.instruments import Profile
-    from app.qt.docks.profile_dock import FINDING
+    from app.tools.profile.dock import FINDING
 
     dock = _dock(d, "profile", "f")
     before = d.window.session.document

@@ -348,7 +348,7 @@ def test_a_session_of_it_is_the_same_again_and_drawn(two, tmp_path, screen):
 
 
 def test_the_curves_are_saved_as_numbers_and_as_a_figure(two, tmp_path, monkeypatch):
-    import app.qt.docks.map_truth as map_truth
+    import app.tools.correspondence.map_truth as map_truth
     from app.qt.docks.saving import written
 
     s = two

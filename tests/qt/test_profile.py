@@ -154,8 +154,8 @@ def test_values_have_a_chart_for_each_unit(screen, mesh_file):
 
 
 def test_charts_stand_below_each_other_where_the_dock_is_narrow(application):
-    from app.qt.docks.profile_charts import ProfileCharts
-    from app.session.curves import ProfileCurve
+    from app.tools.profile.charts import ProfileCharts
+    from app.tools.profile.curves import ProfileCurve
 
     charts = ProfileCharts()
     charts.show_curves([ProfileCurve(unit, "#000000", np.ones(2), 1.0, unit) for unit in "ab"], in_shares=False)
@@ -250,7 +250,7 @@ def test_ways_and_ends_are_steps_that_can_be_undone(loaded):
 
 
 def test_what_is_saved_is_what_is_shown(loaded, tmp_path):
-    from app.figures.profile_figure import save_profile_figure
+    from app.tools.profile.figure import save_profile_figure
 
     s = loaded
     dock = profiled(s, 3)
@@ -338,7 +338,7 @@ def test_what_makes_no_path_is_named():
 
 
 def test_names_at_the_ends_never_touch():
-    from app.qt.docks.profile_chart import apart
+    from app.tools.profile.chart import apart
 
     assert apart([10, 12, 13, 90], 14, 0, 100) == [10, 24, 38, 90]
     assert apart([95, 96, 97], 14, 0, 100) == [72, 86, 100]

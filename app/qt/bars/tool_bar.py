@@ -5,6 +5,7 @@ Where it is narrow words go first, and then what has no room at all goes into th
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ...document.tools import tools
 from ..actions import Actions
 from ..look.look import LOOK
 from .menus import Menus
@@ -13,18 +14,11 @@ from .tool_button import FULL, ICONS, VALUES, ToolButton
 
 HEIGHT = 44
 
-DOCKS = {
-    "dock pins": "pin",
-    "dock profile": "profile",
-    "dock scatter": "scatter",
-    "dock anchors": "anchor",
-    "dock pairs": "pairs",
-    "dock robustness": "robustness",
-}
-"""Instruments with a button of their own, and its icon; the others are in the menu Tools."""
+DOCKS = {f"dock {tool.word}": tool.icon for tool in tools() if tool.in_bar}
+"""Tools with a button of their own, and its icon; the others are in the menu Tools."""
 
-FIRST_TO_GO = ("preferences", "up", "dock robustness", "dock scatter", "dock pairs", "dock anchors", "dock profile")
-FIRST_TO_GO += ("dock pins", "views", "range", "colours", "isolines", "redo", "tools", "undo", "add panel", "live")
+FIRST_TO_GO = ("preferences", "up", *reversed(DOCKS), "views", "range", "colours", "isolines", "redo", "tools", "undo")
+FIRST_TO_GO += ("add panel", "live")
 """Where even the icons have no room: which buttons go into the menu of ⋯, the first of these first."""
 
 LAST_IN_WORDS = ("export", "open", "live", "add panel", "isolines", "colours", "range", "views", "up")

@@ -1,11 +1,10 @@
 """The docks of the window: made when first opened, shown as the document says.  `window` is the main window."""
 
-from collections.abc import Callable
-
 from qtpy import QtCore, QtWidgets
 
 from ...document.document import Document
 from ...document.instruments import DockPlaces
+from ...document.tools import docked_tools
 from .brushing import Brushing
 from .candidate_errors import CandidateErrors
 from .dock import Dock
@@ -34,31 +33,6 @@ STACKED = 2
 """So many docks stand on one another at the right; more are tabs of the lowest."""
 
 
-def _kinds() -> dict[str, tuple[str, Callable[[object], Instrument]]]:
-    """By word: the title, and what makes the instrument; the imports wait until one is opened."""
-    from .anchors import AnchorsDock
-    from .pairs import PairsDock
-    from .pins import PinsDock
-    from .profile_dock import ProfileDock
-    from .quality import QualityDock
-    from .regions import RegionsDock
-    from .robustness import RobustnessDock
-    from .scatter_dock import ScatterDock
-    from .statistics_dock import StatisticsDock
-
-    return {
-        "anchors": ("Anchors", AnchorsDock),
-        "pairs": ("Pairs", PairsDock),
-        "pins": ("Pins", PinsDock),
-        "profile": ("Profile", ProfileDock),
-        "quality": ("Quality", QualityDock),
-        "regions": ("Regions", RegionsDock),
-        "robustness": ("Robustness", RobustnessDock),
-        "scatter": ("Scatter", ScatterDock),
-        "statistics": ("Statistics", StatisticsDock),
-    }
-
-
 class Docks:
     """Keeps the instruments, tells them what changes, and lets menus say which are open."""
 
@@ -75,11 +49,6 @@ class Docks:
             (QtCore.Qt.Corner.TopRightCorner, AREAS["right"]),
         ):
             window.setCorner(corner, area)
-
-    @staticmethod
-    def words() -> dict[str, str]:
-        """By word: the titles of those there are."""
-        return {word: title for word, (title, _) in _kinds().items()}
 
     # ------------------------------------------------------------------ open and close
     def toggle(self, word: str) -> None:
@@ -141,10 +110,10 @@ class Docks:
     # ------------------------------------------------------------------ what is told
     def document_changed(self) -> None:
         """Show what the document says, in the docks that it says."""
-        document, kinds = self._window.session.document, _kinds()
+        document, known = self._window.session.document, docked_tools()
         self.findings.document_changed()
         self.candidates.document_changed()
-        wanted = [word for word in document.docks if word in kinds and self._window.session.surface is not None]
+        wanted = [word for word in document.docks if word in known and self._window.session.surface is not None]
         for word in wanted:
             dock = self._docks.get(word) or self._new(word)
             was_open = not dock.isHidden()
@@ -156,7 +125,7 @@ class Docks:
                 dock.hide()
                 self._instrument(word).show_closed()
         self._shown = document
-        for word in kinds:
+        for word in known:
             self._window.actions_by_word[f"dock {word}"].setChecked(word in wanted)
 
     def answer_changed(self, panel: int) -> None:
@@ -201,9 +170,9 @@ class Docks:
             dock.setVisible(word in window.session.document.docks)
 
     def _new(self, word: str) -> Dock:
-        title, make = _kinds()[word]
-        instrument = make(self._window)
-        dock = Dock(word, title, instrument, self._window)
+        tool = docked_tools()[word]
+        instrument = tool.load(tool.dock)(self._window)
+        dock = Dock(word, tool.title, instrument, self._window)
         for widget in reversed(instrument.title_widgets()):
             dock.head.add(widget, after_title=True)
         for widget in instrument.head_widgets():

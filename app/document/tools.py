@@ -1,0 +1,58 @@
+"""The tools of the program: what a click can do, a dock shows or a command computes, each in a folder of its own.
+
+A tool is one row here, which says by names where its parts are: they are imported when they are needed, those that draw
+only once they are.  The table of the program's own tools is `app/tools/__init__.py`; those of others join by the entry
+point group `bihdist.tools`.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from importlib import import_module
+from importlib.metadata import entry_points
+from typing import Any
+
+GROUP = "bihdist.tools"
+"""The entry points by which tools of others join; each names a `Tool`."""
+
+
+@dataclass(frozen=True)
+class Tool:
+    """One tool; names such as "dock:PinsDock" are of a module of its package and of something in that.
+
+    package: the tool's, by its full name.  word: by which documents know its dock.  title: of the dock; text: in menus,
+    with an `&` before the letter of its key there; key: opens and closes the dock; tip: what it is for, in a few words;
+    icon: a name of `assets/icons`; in_bar: whether it has a button of its own; synonyms: other words by which it is
+    found.  dock: its `Instrument`, if it has one.  commands: modules of commands, by their words.
+    """
+
+    package: str
+    word: str
+    title: str = ""
+    text: str = ""
+    key: str = ""
+    tip: str = ""
+    icon: str = ""
+    in_bar: bool = False
+    synonyms: str = ""
+    dock: str = ""
+    commands: Mapping[str, str] = field(default_factory=dict)
+
+    def load(self, name: str) -> Any:
+        """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""
+        module, _, attribute = name.partition(":")
+        found = import_module(f"{self.package}.{module}")
+        return getattr(found, attribute) if attribute else found
+
+
+@cache
+def tools() -> tuple[Tool, ...]:
+    """All tools: the program's own in the order of the tool bar, then those of installed packages."""
+    package = f"{__name__.rpartition('.document.')[0]}.tools"
+    own = (import_module(f"{package}.{name}").TOOL for name in import_module(package).TOOLS)
+    return (*own, *(entry.load() for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)))
+
+
+def docked_tools() -> dict[str, Tool]:
+    """Those that have a dock, by its word, in the order of the menu."""
+    return {tool.word: tool for tool in sorted(tools(), key=lambda tool: tool.word) if tool.dock}

@@ -1,0 +1,14 @@
+"""The program's own tools, a folder each; what a row of this table does not name is not part of the program."""
+
+TOOLS = (
+    "pins",
+    "profile",
+    "scatter",
+    "statistics",
+    "quality",
+    "regions",
+    "interpolation",
+    "correspondence",
+    "robustness",
+)
+"""The folders, in the order of the tool bar."""

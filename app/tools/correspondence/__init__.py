@@ -1,0 +1,17 @@
+"""Corresponding points of two surfaces, and maps between them."""
+
+from ...document.tools import Tool
+
+TOOL = Tool(
+    __name__,
+    "pairs",
+    title="Pairs",
+    text="Correspondence",
+    key="M",
+    tip="Pairs of points on two meshes, and where the next is predicted",
+    icon="pairs",
+    in_bar=True,
+    synonyms="match map landmarks shape second",
+    dock="dock:PairsDock",
+    commands={"correspond": "command", "evaluate": "evaluate_command"},
+)

@@ -1,0 +1,60 @@
+"""`bihdist correspond`: from a few known pairs, the vertex of one mesh that fits each vertex of another."""
+
+import argparse
+
+from bihdist_core.counts import counted
+
+from ...commands.mesh import laplacian_of
+from ...commands.options import add_areas, add_distance, specs
+from ...commands.terminal import accuracy, progress_line
+
+WORDS = "from a few pairs of corresponding vertices, a map from one mesh to another"
+TEXT = ".txt"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", help="the mesh A that is mapped: a file, or the name of a sample")
+    parser.add_argument("other", help="the mesh B that it is mapped to")
+    parser.add_argument(
+        "--pairs", metavar="FILE", required=True, help="known pairs, a line `i,j` for each: vertex i of A is j of B"
+    )
+    parser.add_argument("--truth", metavar="MAP", help="what is right, to say the errors: `identity`, or a map's file")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="MAP",
+        required=True,
+        help="a .npy or .txt file: for each vertex of A one of B, -1 where none can be compared",
+    )
+    add_distance(parser)
+    add_areas(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    from bihdist_core.applications.correspondence import Correspondence
+    from bihdist_core.distances.answers import Distances, same_on
+    from bihdist_core.formats.vertex_maps import MAP_FORMATS, read_map, read_pairs, write_map
+    from bihdist_core.whole_file import check_output
+
+    from .evaluate_command import judged
+
+    check_output(options.output, MAP_FORMATS)
+    (chosen,) = specs(options, [options.distance])
+    pairs = read_pairs(options.pairs)
+    with progress_line() as progress:
+        one, two = (laplacian_of(mesh, options.areas) for mesh in (options.mesh, options.other))
+        truth = read_map(options.truth, one.surface, two.surface) if options.truth else None
+        sides = Distances(one), Distances(two)
+        spec = same_on(chosen, sides, progress)
+        on_one, on_two = (side.get(spec, progress) for side in sides)
+        found = Correspondence(on_one, on_two, pairs, progress=progress).map(progress=progress)
+        said = accuracy(max(on_one, on_two, key=lambda distance: distance.accuracy or 0.0))
+    write_map(options.output, found)
+    missing = int((found < 0).sum())
+    none = f", {missing} without one to compare" if missing else ""
+    size = f"{len(found):,} vertices to {len(two.surface.vertices):,}"
+    print(f"{options.output}: {on_one.label}, {counted(len(pairs), 'pair')}, {size}{none}{said}")
+    if truth is not None:
+        with progress_line() as progress:
+            (line,), _ = judged(two, found[:, None], truth, progress=progress)
+        print(f"{options.output}: {line}")

@@ -1,0 +1,101 @@
+"""`bihdist evaluate`: how far maps between two meshes are from the truth."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bihdist_core.counts import counted
+
+from ...commands.mesh import laplacian_of
+from ...commands.options import count
+from ...commands.terminal import progress_line
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from bihdist_core.applications.map_errors import ErrorCurve
+    from bihdist_core.laplacian import Laplacian
+    from bihdist_core.progress import Progress
+
+WORDS = "how far maps from one mesh to another are from the truth: mean, median, the cumulative curve"
+TEXT = ".csv"
+METHODS = ("auto", "exact", "heat", "dijkstra")
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", help="the mesh A that is mapped: a file, or the name of a sample")
+    parser.add_argument("other", help="the mesh B that it is mapped to")
+    parser.add_argument(
+        "maps", metavar="MAP", nargs="+", help="for each vertex of A one of B, from 0: a .npy or .txt file"
+    )
+    parser.add_argument("--truth", metavar="MAP", required=True, help="what is right: `identity`, or such a file")
+    parser.add_argument(
+        "--symmetry",
+        metavar="MAP",
+        help="for each vertex of B its symmetric partner, which counts as right, too; without it and with it is said",
+    )
+    parser.add_argument(
+        "--samples", type=count, metavar="K", help="of so many vertices of A, drawn evenly by id (default: all)"
+    )
+    parser.add_argument(
+        "--geodesic",
+        choices=METHODS,
+        default="auto",
+        help="the distance of errors (default: exact where that takes minutes at most, else heat)",
+    )
+    parser.add_argument("-o", "--output", metavar="OUT", help="the curves: a .csv, .png, .pdf, .svg or .eps file")
+
+
+def run(options: argparse.Namespace) -> None:
+    import numpy as np
+
+    from bihdist_core.applications.map_errors import sampled_vertices
+    from bihdist_core.formats.vertex_maps import read_map
+    from bihdist_core.whole_file import check_outputs
+
+    from ...figures.error_figure import ERROR_FORMATS, ErrorFigure, save_error_figure
+
+    check_outputs((options.output, ERROR_FORMATS))
+    one, two = (laplacian_of(mesh) for mesh in (options.mesh, options.other))
+    truth = read_map(options.truth, one.surface, two.surface)
+    maps = {path: read_map(path, one.surface, two.surface) for path in dict.fromkeys(options.maps)}
+    partners = read_map(options.symmetry, two.surface, two.surface) if options.symmetry else None
+    ids = sampled_vertices(len(truth), options.samples)
+    curves = {}
+    columns = np.stack([found[ids] for found in maps.values()], axis=1)
+    for words, also in (("", None), *([(", partners count", partners)] if partners is not None else [])):
+        with progress_line() as progress:
+            said, found_curves = judged(two, columns, truth[ids], also, options.geodesic, progress)
+        for path, line, curve in zip(maps, said, found_curves, strict=True):
+            curves[f"{Path(path).stem}{words}"] = curve
+            print(f"{path}: {line}{words}")
+    if options.output:
+        save_error_figure(ErrorFigure(curves), options.output)
+        print(f"{options.output}: {counted(len(curves), 'curve')}")
+
+
+def judged(
+    laplacian: "Laplacian",
+    found: "np.ndarray",
+    truth: "np.ndarray",
+    partners: "np.ndarray | None" = None,
+    method: str = "auto",
+    progress: "Progress | None" = None,
+) -> "tuple[list[str], list[ErrorCurve]]":
+    """The errors of maps (m, q) to a surface: of each in words and as a curve."""
+    import numpy as np
+
+    from bihdist_core.applications.map_errors import LIMIT, error_curve, error_distance, map_errors
+
+    distance = error_distance(laplacian, len(np.unique(truth)), method, progress)
+    said, curves = [], []
+    for errors in map_errors(distance, found, truth, partners, progress).T:
+        curve = error_curve(errors)
+        lost = int(np.isinf(errors).sum())
+        none = f", {counted(lost, 'vertex', 'vertices')} mapped nowhere" if lost else ""
+        said.append(
+            f"mean {curve.mean:.4g}, median {curve.median:.4g}, area under the curve to {LIMIT:g} {curve.area:.4g}; "
+            f"{distance.label} over root of area, {counted(len(curve.errors), 'vertex', 'vertices')}{none}"
+        )
+        curves.append(curve)
+    return said, curves

@@ -1,0 +1,17 @@
+"""Values at anchors, interpolated."""
+
+from ...document.tools import Tool
+
+TOOL = Tool(
+    __name__,
+    "anchors",
+    title="Anchors",
+    text="Interpolation",
+    key="I",
+    tip="Values at anchors, interpolated by every panel's distance",
+    icon="anchor",
+    in_bar=True,
+    synonyms="interpolate values blend weights",
+    dock="dock:AnchorsDock",
+    commands={"interpolate": "command"},
+)

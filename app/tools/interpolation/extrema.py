@@ -1,0 +1,85 @@
+"""The extrema that interpolants have besides their anchors: a table in the dock, and a line in each panel.
+
+`window` is the main window.
+"""
+
+import numpy as np
+from qtpy import QtWidgets
+
+from bihdist_core.applications.tips import at_tips, tips
+
+from ...document.anchoring import interpolated
+from ...document.document import Document
+from ...qt.docks.background import Background
+from ...qt.docks.fact_table import FactTable
+from ...qt.panels.quantity_menu import kind_name
+
+
+class AnchorExtrema(FactTable):
+    """Those at tips of the shape, where any monotone field must have one, are counted apart."""
+
+    def __init__(self, window, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._window = window
+        self._ends: np.ndarray | None = None  # the tips of the surface; None until they are found
+        self._about: tuple | None = None
+        self._tips = Background("tips", _found_tips, window)
+        self._tips.answered.connect(self._take_tips)
+        self._tips.failed.connect(self._no_tips)
+        window.docks.findings.quality_changed.connect(self.show_counts)
+
+    def show_document(self, document: Document) -> None:
+        loaded = self._window.session.loaded()
+        about = (loaded, document.areas)
+        if loaded is not None and about != self._about:
+            self._about, self._ends = about, None
+            self._tips.ask(about)
+        self.show_counts()
+
+    def _take_tips(self, _: object, found: np.ndarray) -> None:
+        self._ends = found
+        self.show_counts()
+
+    def _no_tips(self, *_: object) -> None:
+        self._ends = np.zeros(0, int)
+        self.show_counts()
+
+    def show_counts(self) -> None:
+        session, grid = self._window.session, self._window.grid
+        if session.surface is None or "anchors" not in session.document.docks:
+            return
+        facts: list[tuple[str, ...]] = []
+        for panel in session.document.panels_of():
+            counts = None
+            part = interpolated(panel.shows)
+            if part is not None:
+                counts = self._counts(panel.id)
+                words = ("…", "…") if counts is None else tuple(map(str, counts))
+                facts.append((kind_name(part.spec.kind), *words))
+            if any(shown.id == panel.id for shown in grid.panels):
+                grid.panel(panel.id).view.over.write(() if counts is None else in_words(*counts))
+        self.show_facts([("Panel", "at tips", "elsewhere"), *facts] if facts else [])
+
+    def _counts(self, panel: int) -> tuple[int, int] | None:
+        found = self._window.docks.findings.found(panel).extrema
+        if found is None or self._ends is None:
+            return None
+        near = int(at_tips(self._window.session.surface, found.vertices, self._ends).sum())
+        return near, len(found.vertices) - near
+
+    def leave(self) -> None:
+        """Say nothing in panels any more."""
+        for panel in self._window.grid.panels:
+            panel.view.over.write(())
+
+
+def in_words(near: int, elsewhere: int) -> tuple[str, str]:
+    """What a panel says of so many extrema at tips, and so many elsewhere; and the same in short."""
+    word = "extremum" if near + elsewhere == 1 else "extrema"
+    at_tips_too = f", {near} at tips" if near else ""
+    return f"{near + elsewhere} {word} besides the anchors{at_tips_too}", f"{near + elsewhere}{at_tips_too}"
+
+
+def _found_tips(about, progress):
+    loaded, areas = about
+    yield tips(loaded.distances(areas).laplacian)

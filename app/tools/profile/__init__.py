@@ -1,0 +1,17 @@
+"""Fields along a path."""
+
+from ...document.tools import Tool
+
+TOOL = Tool(
+    __name__,
+    "profile",
+    title="Profile",
+    text="P&rofile",
+    key="F",
+    tip="Values along a path: the chart of all panels' fields",
+    icon="profile",
+    in_bar=True,
+    synonyms="measure plot graph along geodesic path curve section",
+    dock="dock:ProfileDock",
+    commands={"profile": "command"},
+)

@@ -1,0 +1,106 @@
+"""What can be saved and copied of a profile.  `dock` is its dock."""
+
+import os
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from qtpy import QtWidgets
+
+from bihdist_core import BihdistError, ParameterError
+from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
+from bihdist_core.distances.answers import Answer
+from bihdist_core.whole_file import check_output
+
+from ...document.file_names import file_name
+from ...qt.docks.saving import ask_path
+
+if TYPE_CHECKING:
+    from .figure import ProfileFigure
+
+FIGURE_FORMATS = (".pdf", ".png", ".svg", ".eps")
+
+
+class ProfileFiles:
+    def __init__(self, dock) -> None:
+        self._dock = dock
+        self._actions: list[QtWidgets.QAction] = []
+
+    def menu(self, parent: QtWidgets.QWidget) -> QtWidgets.QMenu:
+        menu = QtWidgets.QMenu(parent)
+        self._actions = [
+            menu.addAction("Save the numbers…", self.choose_numbers),
+            menu.addAction("Save as a figure…", self.choose_figure),
+            menu.addAction("Copy the numbers", self.copy),
+        ]
+        self.allow(False)
+        return menu
+
+    def allow(self, is_there: bool) -> None:
+        for action in self._actions:
+            action.setEnabled(is_there)
+
+    # ------------------------------------------------------------------ by a dialog
+    def choose_numbers(self) -> None:
+        self._choose("Save the profile's numbers", tuple(PROFILE_FORMATS), self.save_numbers)
+
+    def choose_figure(self) -> None:
+        self._choose("Save the profile as a figure", FIGURE_FORMATS, self.save_figure)
+
+    def _choose(self, title: str, formats: tuple[str, ...], save: Callable[[str], None]) -> None:
+        window = self._dock.window_
+        path = ask_path(window, title, file_name([window.session.surface.name], "profile"), formats)
+        if path:
+            try:
+                save(path)
+            except BihdistError as error:
+                window.failed(str(error))
+
+    # ------------------------------------------------------------------ what is written
+    def save_numbers(self, path: str) -> None:
+        """The path, and the fields along it, as the extension says (`PROFILE_FORMATS`)."""
+        if os.path.splitext(path)[1].lower() not in PROFILE_FORMATS:
+            raise ParameterError(f"{path} has to end with one of {', '.join(PROFILE_FORMATS)}.")
+        write_profile(path, self._there(), self._fields())
+        self._dock.window_.say(f"Saved {os.path.basename(path)}")
+
+    def save_figure(self, path: str) -> None:
+        """In the background, as all figures."""
+        from .figure import save_profile_figure
+
+        check_output(path, FIGURE_FORMATS)
+        self._dock.window_.exports.start(partial(save_profile_figure, self.figure(), path), path, "Figure")
+
+    def figure(self) -> "ProfileFigure":
+        """What the chart shows, in the style of the page and the colours that go with its ground."""
+        from .figure_curves import profile_figure
+
+        window = self._dock.window_
+        return profile_figure(window.session.document, window.page, self._there(), self._answers)
+
+    def copy(self) -> None:
+        """A table with tabs, as spreadsheets read it."""
+        if self._dock.path is None:
+            return
+        fields = {name: self._dock.path.along(field) for name, field in self._fields().items()}
+        rows = ["\t".join(["arc", *fields])]
+        for k, arc in enumerate(self._dock.path.arcs):
+            rows.append("\t".join(repr(float(x)) for x in (arc, *(column[k] for column in fields.values()))))
+        QtWidgets.QApplication.clipboard().setText("\n".join(rows) + "\n")
+        self._dock.window_.say(f"{len(rows) - 1:,} points of the profile are on the clipboard")
+
+    def _there(self):
+        if self._dock.path is None:
+            raise ParameterError("There is no path yet; wait until it has been found.")
+        return self._dock.path
+
+    @property
+    def _answers(self) -> dict[int, Answer]:
+        """Of the panels that have a curve."""
+        return {id: self._dock.window_.session.shown[id].answer for id in self._dock.curves}
+
+    def _fields(self) -> dict[str, np.ndarray]:
+        from .figure_curves import profile_fields
+
+        return profile_fields(self._dock.window_.session.document, self._answers)

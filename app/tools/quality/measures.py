@@ -1,0 +1,162 @@
+"""The numbers of a field's quality, in words: what each is called, what it means, and how it is written."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...qt.look.numbers import number, share
+from ...session.quality import Found
+
+WAITING, NONE = "…", "–"
+
+
+@dataclass(frozen=True)
+class Measure:
+    """name: in the table; tip: what it means; written: of what has been found, WAITING where it has not yet.
+
+    said: a sentence on one panel's number, or "".  value: the number, where it is not a count.
+    """
+
+    name: str
+    tip: str
+    written: Callable[[Found], str]
+    said: Callable[[Found], str] = lambda found: ""
+    value: Callable[[Found], float] | None = None
+
+    def with_all_digits(self, found: Found) -> str:
+        """As it is copied."""
+        exact = None if self.value is None or found.whole is None else float(self.value(found))
+        return repr(exact) if exact is not None and np.isfinite(exact) else self.written(found)
+
+
+def _minima(found: Found) -> str:
+    if found.extrema is None:
+        return NONE if found.failure else WAITING
+    return str(len(found.extrema.minima))
+
+
+def _minima_said(found: Found) -> str:
+    if found.extrema is None or not len(found.extrema.minima):
+        return ""
+    return f"The deepest, at vertex {found.extrema.minima[0]}, by {share(found.extrema.minima_depth[0])} of the maximum"
+
+
+def _maxima(found: Found) -> str:
+    if found.extrema is None:
+        return NONE if found.failure else WAITING
+    return str(len(found.extrema.maxima))
+
+
+def _maxima_said(found: Found) -> str:
+    if found.extrema is None or len(found.extrema.maxima) < 2:
+        return ""
+    second, height = found.extrema.maxima[1], found.extrema.maxima_height[1]
+    return f"After the farthest point, that at vertex {second} stands out most, by {share(height)} of the maximum"
+
+
+def _of_whole(value: Callable[[Found], float]) -> Callable[[Found], str]:
+    def written(found: Found) -> str:
+        if found.whole is None:
+            return NONE if found.failure else WAITING
+        # Infinite, too, where the field is 0 beside the source; NaN becomes NONE.
+        return "∞" if np.isinf(value(found)) else number(value(found))
+
+    return written
+
+
+def _isotropy(found: Found) -> float:
+    return found.whole.isotropy
+
+
+def _kink(found: Found) -> float:
+    return found.whole.kink
+
+
+def _kink_length(found: Found) -> float:
+    return found.whole.kink_length
+
+
+def _isotropy_said(found: Found) -> str:
+    if found.whole is None:
+        return found.failure
+    if found.whole.circles:
+        return ""
+    return "Circles are around a single place that a distance starts from; here is none."
+
+
+def _kink_said(found: Found) -> str:
+    if found.whole is None or found.whole.kink_edge[0] < 0:
+        return ""
+    first, second = found.whole.kink_edge
+    return f"Across the edge from vertex {first} to vertex {second}"
+
+
+def _triangles(found: Found) -> str:
+    if found.triangles_failure:
+        return NONE
+    if found.triangles is None:
+        return WAITING
+    if not found.triangles.violations:
+        return "0"
+    return share(found.triangles.violations / found.triangles.triples)
+
+
+def _triangles_said(found: Found) -> str:
+    sample = found.triangles
+    if sample is None:
+        return found.triangles_failure or "It is being measured; exact geodesic distances take their time."
+    so_far = "" if found.is_sampled else f"; so far, among {found.points:,} points"
+    said = f"{sample.violations:,} of {sample.triples:,} triples break it"
+    if sample.violations:
+        return f"{said}, the worst by {100 * sample.worst:.2g} % of the largest distance{so_far}"
+    return f"{said}; the closest has {100 * sample.tightest:.2g} % to spare{so_far}"
+
+
+MEASURES = (
+    Measure(
+        "Other minima",
+        "Minima away from the source that persist over a thousandth of the range or more: places that look like the "
+        "source. White triangles that point down. A distance should have none. Of a difference or a field that starts "
+        "nowhere, all minima.",
+        _minima,
+        _minima_said,
+    ),
+    Measure(
+        "Maxima",
+        "Maxima that persist over a thousandth of the range or more. White triangles that point up. One at the end of "
+        "each limb is the shape's; more are the distance's.",
+        _maxima,
+        _maxima_said,
+    ),
+    Measure(
+        "Isotropy",
+        "The greatest over the least value on the geodesic circle around the source whose radius is 4 % of the root of "
+        "the area, or four edges if that is more. 1 where the distance grows equally in all directions.",
+        _of_whole(_isotropy),
+        _isotropy_said,
+        _isotropy,
+    ),
+    Measure(
+        "Largest kink",
+        "How far the gradient jumps across an edge away from the source, over its length. About 2 where it turns "
+        "round, as on a ridge; a smooth field's shrinks with the edges.",
+        _of_whole(_kink),
+        _kink_said,
+        _kink,
+    ),
+    Measure(
+        "Kink length",
+        "The length of all edges with a kink of 1 or more, over the root of the surface's area: long where there is a "
+        "ridge, next to nothing where a few edges are too long for the field.",
+        _of_whole(_kink_length),
+        value=_kink_length,
+    ),
+    Measure(
+        "Triangles",
+        "Of 100,000 random triples among 40 random points, those that break the triangle inequality by more than "
+        "rounding. A metric has none, wherever it starts.",
+        _triangles,
+        _triangles_said,
+    ),
+)

@@ -1,0 +1,73 @@
+"""`bihdist regions`: which part of a mesh is nearest to each of some vertices, into files."""
+
+import argparse
+
+from bihdist_core.counts import counted
+
+from ...commands.mesh import read_laplacian
+from ...commands.options import add_areas, add_distance, specs, vertices
+from ...commands.pairs import pins_in
+from ...commands.terminal import accuracy, progress_line
+
+WORDS = "the part of a mesh that is nearest to each of some vertices, by a distance"
+TEXT = ".csv"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    which = parser.add_mutually_exclusive_group(required=True)
+    which.add_argument("--pins", metavar="FILE", help="a .csv, .json or MeshLab's .pp file")
+    which.add_argument("--vertices", type=vertices, metavar="I,J,K", help="vertex ids")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        help="the pin of each vertex, its id (or from 1): a .npy, .csv, .ply or .vtp file",
+    )
+    parser.add_argument("--mesh-output", metavar="OUT", help="the mesh cut along the boundaries: a .ply or .vtp file")
+    parser.add_argument("--boundaries", metavar="OUT", help="the boundaries: a .csv, .obj, .vtp or .json file")
+    add_distance(parser)
+    add_areas(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    from bihdist_core.analysis.region_boundaries import region_boundaries, write_boundaries
+    from bihdist_core.analysis.region_mesh import region_mesh
+    from bihdist_core.analysis.region_output import LABEL_FORMATS, REGION_MESH_FORMATS, write_labels, write_region_mesh
+    from bihdist_core.analysis.regions import voronoi_regions
+    from bihdist_core.distances.answers import Distances
+    from bihdist_core.errors import ParameterError
+    from bihdist_core.formats.curve_output import CURVE_FORMATS
+    from bihdist_core.formats.pins import Pins
+    from bihdist_core.whole_file import check_outputs
+
+    if not check_outputs(
+        (options.output, LABEL_FORMATS),
+        (options.mesh_output, REGION_MESH_FORMATS),
+        (options.boundaries, CURVE_FORMATS),
+    ):
+        raise ParameterError("There is nothing to write; name a file with -o, --mesh-output or --boundaries.")
+    (chosen,) = specs(options, [options.distance])
+    with progress_line() as progress:
+        laplacian = read_laplacian(options)
+        surface = laplacian.surface
+        pins = pins_in(options.pins, surface) if options.pins else Pins.of(surface, options.vertices)
+        distance = Distances(laplacian).get(chosen, progress)
+        columns = distance.from_sources(pins.vertices, progress)
+        regions = voronoi_regions(surface, columns)
+        said = accuracy(distance)
+    ids = pins.ids.tolist()
+    if options.output:
+        write_labels(options.output, surface, regions, ids)
+        print(f"{options.output}: {counted(len(pins), 'region')} by {distance.label}{said}")
+    if options.mesh_output:
+        mesh = region_mesh(surface, columns)
+        write_region_mesh(options.mesh_output, mesh, ids)
+        print(f"{options.mesh_output}: {counted(len(mesh.surface.faces), 'face')}")
+    if options.boundaries:
+        curves = region_boundaries(surface, regions)
+        write_boundaries(options.boundaries, curves, ids)
+        print(f"{options.boundaries}: {counted(len(curves), 'curve')}, together {regions.lengths.sum():.6g} long")
+    total = surface.face_areas.sum()
+    for id, name, vertex, area in zip(ids, pins.names, pins.vertices.tolist(), regions.areas.tolist(), strict=True):
+        print(f"pin {id}{f', {name}' if name else ''}, vertex {vertex}: area {area:.6g}, {area / total:.1%}")

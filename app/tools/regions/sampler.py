@@ -1,0 +1,160 @@
+"""Farthest points: how many, by the active panel's distance from its source; pinned, or saved.  `window` is the main
+window."""
+
+from collections.abc import Callable
+
+import numpy as np
+from qtpy import QtWidgets
+
+from bihdist_core import BihdistError, Surface
+from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
+
+from ...document.document import Panel
+from ...document.file_names import file_name
+from ...document.measuring import add_pins
+from ...document.quantities import DistanceFrom
+from ...qt.docks.saving import save, written
+from ...qt.panels.quantity_menu import quantity_name
+from ...session.sampling import Sampled, SamplesQuestion, Sampling
+
+USUAL, MOST = 10, 10_000
+"""Points at first, and at most."""
+
+
+class Sampler(QtWidgets.QWidget):
+    """`post` runs a function on the window's thread."""
+
+    def __init__(self, window, post: Callable[[Callable[[], None]], None]) -> None:
+        super().__init__()
+        self._window = window
+        self._then: Callable[[np.ndarray], None] = lambda vertices: None
+        self._sampling = Sampling(post, self._sampled, self._show_going)
+        self.count = QtWidgets.QSpinBox()
+        self.count.setRange(1, MOST)
+        self.count.setValue(USUAL)
+        self.count.setAccessibleName("How many farthest points")
+        self.count.setToolTip("The source is the first of them")
+        self.pin = QtWidgets.QPushButton("Pin them", autoDefault=False)
+        self.pin.setToolTip("Each point is the farthest from the source and those before it, and becomes a pin")
+        self.pin.clicked.connect(lambda *_: self.pin_them())
+        self.save = QtWidgets.QPushButton("Save…", autoDefault=False)
+        self.save.setToolTip("Their vertex ids as text or an array, or as a file of pins")
+        self.save.clicked.connect(lambda *_: self._save())
+        self.words = QtWidgets.QLabel()
+        self.words.setProperty("quiet", True)
+        self.words.setProperty("small", True)
+        self.words.setWordWrap(True)
+        heading = QtWidgets.QLabel("Farthest points")
+        heading.setProperty("heading", True)
+        row = QtWidgets.QHBoxLayout()
+        row.setSpacing(8)
+        row.addWidget(self.count)
+        row.addWidget(self.pin)
+        row.addWidget(self.save)
+        row.addStretch(1)
+        column = QtWidgets.QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(8)
+        column.addWidget(heading)
+        column.addLayout(row)
+        column.addWidget(self.words)
+        window.grid.activated.connect(lambda *_: self.show_state())
+
+    # ------------------------------------------------------------------ what is told
+    def show_state(self) -> None:
+        """By which distance they would be."""
+        if self._sampling.is_going:
+            return
+        panel = self._panel
+        for button in (self.pin, self.save):
+            button.setEnabled(panel is not None)
+        if panel is None:
+            self._say("Choose a panel that shows a distance.")
+        else:
+            name = quantity_name(panel.shows)
+            self._say(f"By the active panel's distance: {name[0].lower()}{name[1:]}")
+
+    def end(self) -> None:
+        self._sampling.close()
+
+    # ------------------------------------------------------------------ what is done
+    def pin_them(self) -> None:
+        self._ask(self._pin)
+
+    def save_to(self, path: str) -> None:
+        """Write them to a file once they are found."""
+        surface = self._surface
+
+        def write(vertices: np.ndarray) -> None:
+            written(self._window, path, lambda path: write_samples(path, surface, vertices))
+
+        self._ask(write)
+
+    def _save(self) -> None:
+        surface = self._surface
+
+        def ask(vertices: np.ndarray) -> None:
+            save(
+                self._window,
+                "Save farthest points",
+                file_name([surface.name], "samples", str(self._panel.shows)),
+                SAMPLE_FORMATS,
+                lambda path: write_samples(path, surface, vertices),
+            )
+
+        self._ask(ask)
+
+    def _pin(self, vertices: np.ndarray) -> None:
+        session = self._window.session
+        try:
+            session.show(add_pins(session.document, vertices.tolist(), self._name))
+        except BihdistError as error:
+            self._say(str(error), is_error=True)
+
+    def _ask(self, then: Callable[[np.ndarray], None]) -> None:
+        session, panel = self._window.session, self._panel
+        loaded = session.loaded(panel.surface) if panel is not None else None
+        if panel is None or loaded is None:
+            return
+        self._then = then
+        document = session.document
+        at = document.point(panel.shows.point).at
+        spec = panel.shows.spec
+        self._sampling.ask(
+            SamplesQuestion(document.mesh(panel.surface), document.areas, spec, at, self.count.value()), loaded
+        )
+
+    def _sampled(self, sampled: Sampled) -> None:
+        self.show_state()
+        if sampled.vertices is None:
+            self._say(sampled.failure, is_error=True)
+        elif self._name and self._window.session.document.mesh(self._name) == sampled.question.mesh:
+            self._then(sampled.vertices)
+
+    def _show_going(self, fraction: float | None, text: str) -> None:
+        if fraction is not None and self._sampling.is_going:
+            self._say(f"{text}, {fraction:.0%}".replace("%", " %"))
+
+    @property
+    def _name(self) -> str:
+        """Of the panel's surface in the document; "" where there is no such panel."""
+        return "" if self._panel is None else self._panel.surface
+
+    @property
+    def _surface(self) -> Surface | None:
+        return self._window.session.surface if self._panel is None else self._window.session.surface_in(self._panel.id)
+
+    @property
+    def _panel(self) -> Panel | None:
+        """The active one, or the first of those that show a distance."""
+        document, active = self._window.session.document, self._window.grid.active
+        panels = sorted(document.panels, key=lambda panel: panel.id != active)
+        return panels[0] if panels and isinstance(panels[0].shows, DistanceFrom) else None
+
+    def _say(self, text: str, is_error: bool = False) -> None:
+        self.words.setText(text)
+        if bool(self.words.property("error")) != is_error:
+            self.words.setProperty("error", is_error)
+            self.words.setProperty("quiet", not is_error)
+            self.words.style().unpolish(self.words)
+            self.words.style().polish(self.words)

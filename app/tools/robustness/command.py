@@ -1,0 +1,128 @@
+"""`bihdist perturb`: a mesh with noise, fewer vertices, holes, parts grown together; how far distances change."""
+
+import argparse
+from typing import TYPE_CHECKING
+
+from bihdist_core.counts import counted
+
+from ...commands.mesh import laplacian_of
+from ...commands.options import add_distance, count, positive, source, specs, vertices
+from ...commands.terminal import progress_line
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from bihdist_core.applications.changes import Runs
+    from bihdist_core.distances.kinds import Spec
+    from bihdist_core.laplacian import Laplacian
+    from bihdist_core.sources.source import Source
+
+WORDS = "a mesh with noise, fewer vertices, holes, or parts grown together, to see what distances withstand"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
+    parser.add_argument("--cut", type=_faces, default=(), metavar="FACES", help="take out faces, as in 3+10-20")
+    parser.add_argument("--simplify", type=count, metavar="N", help="leave N vertices, at their places")
+    parser.add_argument("--noise", type=positive, metavar="S", help="Gaussian, of S mean edge lengths")
+    parser.add_argument("--along", choices=("xyz", "normals"), default="xyz", help="for --noise (default: xyz)")
+    parser.add_argument("--holes", type=count, metavar="N", help="N round holes at random vertices")
+    parser.add_argument(
+        "--radius", type=positive, default=0.05, metavar="R", help="of holes, in roots of the area (default: 0.05)"
+    )
+    parser.add_argument("--weld", type=_pair, metavar="I,J", help="let the surface grow together at two vertices")
+    parser.add_argument("--handle", type=_pair, metavar="I,J", help="a thin tube from one vertex to another")
+    parser.add_argument("--seed", type=_seed, default=0, metavar="K", help="of noise and holes (default: 0)")
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .off, .obj, .ply or .vtp file")
+    parser.add_argument("--source", type=source, metavar="V", help="with --distance: where its fields start")
+    add_distance(parser, "say how much it changes; repeat for more")
+
+
+def run(options: argparse.Namespace) -> None:
+    from bihdist_core.applications.changes import Perturbation
+    from bihdist_core.applications.perturbation import perturbed
+    from bihdist_core.errors import ParameterError
+    from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
+    from bihdist_core.laplacian import Laplacian
+    from bihdist_core.whole_file import check_output
+
+    from ...samples import mesh_path
+
+    check_output(options.output, MESH_FORMATS)
+    change = Perturbation(
+        pose=mesh_path(options.pose) if options.pose else "",
+        cut=options.cut,
+        simplify=options.simplify,
+        noise=options.noise or 0.0,
+        along=options.along,
+        holes=options.holes or 0,
+        radius=options.radius,
+        weld=options.weld,
+        handle=options.handle,
+        seed=options.seed,
+    )
+    if change.changes_nothing:
+        said = "--pose, --cut, --simplify, --noise, --holes, --weld or --handle"
+        raise ParameterError(f"Nothing would change; say {said}.")
+    chosen = specs(options, list(dict.fromkeys(options.distance or [])))
+    with progress_line() as progress:
+        before = laplacian_of(options.mesh)
+        after, kept = perturbed(before.surface, change, progress)
+    write_mesh(options.output, after)
+    size = f"{counted(len(after.vertices), 'vertex', 'vertices')}, {counted(len(after.faces), 'face')}"
+    print(f"{options.output}: {size}; {change}")
+    if chosen:
+        _say_changes(before, Laplacian(after), kept, options.source, chosen)
+
+
+def _say_changes(
+    before: "Laplacian", after: "Laplacian", kept: "np.ndarray", source: "Source | None", chosen: "list[Spec]"
+) -> None:
+    """How far the fields from one vertex differ, at the vertices that both meshes have."""
+    from bihdist_core.analysis.diagnostics import field_change
+    from bihdist_core.applications.perturbation import image_of
+    from bihdist_core.distances.answers import Distances, percent, same_on
+
+    from ...session.questions import vertex_at
+
+    there = image_of(before.surface, kept, vertex_at(source, before.surface), after.surface)
+    start, common = int(kept[there]), kept >= 0
+    with progress_line() as progress:
+        one, two = Distances(before), Distances(after)
+        for asked in chosen:
+            spec = same_on(asked, (one, two), progress)
+            old = one.get(spec, progress).from_source(start, progress)[kept[common]]
+            new = two.get(spec, progress).from_source(there, progress)[common]
+            found = field_change(old, new)
+            print(
+                f"{spec} from {start}: changes by {percent(found.normalised_mean)} of its maximum in the mean, at most "
+                f"{percent(found.normalised_largest)}; before each is divided by its own, {percent(found.mean)} and "
+                f"{percent(found.largest)}"
+            )
+
+
+def _faces(text: str) -> "Runs":
+    from bihdist_core.applications.changes import runs_from_words
+
+    try:
+        return runs_from_words(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no face or range of faces, such as 3+10-20") from None
+
+
+def _seed(text: str) -> int:
+    try:
+        seed = int(text)
+    except ValueError:
+        seed = -1
+    if seed < 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no seed (a whole number from 0)")
+    return seed
+
+
+def _pair(text: str) -> tuple[int, int]:
+    pair = vertices(text)
+    if len(pair) != 2:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a pair of vertex ids such as 1,2")
+    return pair[0], pair[1]

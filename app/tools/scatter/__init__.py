@@ -1,0 +1,16 @@
+"""One field against another."""
+
+from ...document.tools import Tool
+
+TOOL = Tool(
+    __name__,
+    "scatter",
+    title="Scatter",
+    text="S&catter",
+    key="S",
+    tip="One panel's field against another's over all vertices; select in it",
+    icon="scatter",
+    in_bar=True,
+    synonyms="compare plot correlation difference select",
+    dock="dock:ScatterDock",
+)

@@ -1,0 +1,179 @@
+"""The list of a document's selections: renamed, coloured, saved and deleted in it."""
+
+from typing import Any
+
+import numpy as np
+from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core import BihdistError
+from bihdist_core.analysis.selecting import SELECTION_WAYS, write_selection
+
+from ...document.document import Document
+from ...document.file_names import file_name
+from ...document.instruments import Selection
+from ...document.measuring import change_selection, select, vertices_of
+from ...drawing.style import PINS
+from ...qt.docks.saving import save
+from ...qt.look.look import LOOK
+
+WAYS = {"ids": "Save vertex ids…", "field": "Save as a field…", "mesh": "Save the cut-out mesh…"}
+COLOUR_NAMES = (
+    "Green",
+    "Orange",
+    "Violet",
+    "Olive",
+    "Plum",
+    "Slate",
+    "Brown",
+    "Teal",
+    "Indigo",
+    "Ochre",
+)
+
+
+class SelectionList(QtWidgets.QTreeWidget):
+    """`chosen` is emitted with the name of the selection that the user has clicked on."""
+
+    chosen = QtCore.Signal(str)
+
+    def __init__(self, window: Any) -> None:
+        super().__init__()
+        self._window = window
+        self._shown: tuple[Selection, ...] = ()
+        self._is_filling = False
+        self.setColumnCount(2)
+        self.setHeaderHidden(True)
+        self.setRootIsDecorated(False)
+        self.setFrameShape(QtWidgets.QFrame.Shape.NoFrame)
+        self.setAccessibleName("Selections")
+        self.setToolTip("Double click to rename, right click to colour, save or delete")
+        trigger = QtWidgets.QAbstractItemView.EditTrigger
+        self.setEditTriggers(trigger.DoubleClicked | trigger.EditKeyPressed)
+        header = self.header()
+        header.setStretchLastSection(False)
+        header.setMinimumSectionSize(24)
+        header.setSectionResizeMode(0, QtWidgets.QHeaderView.ResizeMode.Stretch)
+        header.setSectionResizeMode(1, QtWidgets.QHeaderView.ResizeMode.ResizeToContents)
+        self.setContextMenuPolicy(QtCore.Qt.ContextMenuPolicy.CustomContextMenu)
+        self.customContextMenuRequested.connect(self._open_menu)
+        self.itemChanged.connect(self._rename)
+        self.currentItemChanged.connect(self._choose)
+
+    # ------------------------------------------------------------------ what is shown
+    def show_selections(self, selections: tuple[Selection, ...], current: str) -> None:
+        self._is_filling = True
+        if selections != self._shown:
+            self._shown = selections
+            self.clear()
+            for each in selections:
+                count = sum(last - first + 1 for first, last in each.runs)
+                item = QtWidgets.QTreeWidgetItem([each.name, f"{count:,}"])
+                item.setData(0, QtCore.Qt.ItemDataRole.UserRole, each.name)
+                item.setIcon(0, _dot(PINS[each.colour]))
+                item.setFlags(item.flags() | QtCore.Qt.ItemFlag.ItemIsEditable)
+                item.setTextAlignment(1, int(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter))
+                item.setForeground(1, QtGui.QColor(LOOK.theme.quiet))
+                self.addTopLevelItem(item)
+        names = [each.name for each in selections]
+        self.setCurrentItem(self.topLevelItem(names.index(current)) if current in names else None)
+        self._is_filling = False
+
+    @property
+    def current(self) -> str:
+        """The name of the one that is chosen."""
+        item = self.currentItem()
+        return "" if item is None else item.data(0, QtCore.Qt.ItemDataRole.UserRole)
+
+    # ------------------------------------------------------------------ what the user does
+    def _choose(self, *_: object) -> None:
+        if not self._is_filling:
+            self.chosen.emit(self.current)
+
+    def _rename(self, item: QtWidgets.QTreeWidgetItem, column: int) -> None:
+        if self._is_filling:
+            return
+        old, new = item.data(0, QtCore.Qt.ItemDataRole.UserRole), item.text(0)
+        try:
+            document = change_selection(self._document, old, new_name=new)
+        except BihdistError as error:
+            self._window.failed(str(error))
+            document = self._document
+        self._shown = ()  # what was typed is not what is shown
+        # The editor is still closing.
+        QtCore.QTimer.singleShot(0, lambda: self._show_renamed(document, new.strip()))
+
+    def _show_renamed(self, document: Document, name: str) -> None:
+        is_current = name in [each.name for each in document.selections]
+        self._window.docks.brushing.choose(name if is_current else "")
+        self._window.session.show(document)
+
+    def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
+        if event.key() in (QtCore.Qt.Key.Key_Delete, QtCore.Qt.Key.Key_Backspace) and self.current:
+            self.delete()
+        else:
+            super().keyPressEvent(event)
+
+    def delete(self) -> None:
+        """The one that is chosen."""
+        if self.current:
+            self._window.session.show(select(self._document, self.current, np.empty(0, np.int64)))
+
+    def recolour(self, colour: int) -> None:
+        if self.current:
+            self._window.session.show(change_selection(self._document, self.current, colour=colour))
+
+    def save(self, way: str, path: str | None = None) -> None:
+        """The one that is chosen, as one of SELECTION_WAYS; asks where if no path is given."""
+        found = [each for each in self._document.selections if each.name == self.current]
+        surface = self._window.session.surface
+        if not found or surface is None:
+            return
+        (selection,) = found
+
+        def write(path: str) -> None:
+            write_selection(path, surface, vertices_of(selection.runs), way, selection.name)
+
+        if path is not None:
+            write(path)
+        else:
+            title = WAYS[way].removesuffix("…")
+            name = file_name([surface.name], "selection", selection.name)
+            save(self._window, title, name, SELECTION_WAYS[way], write)
+
+    @property
+    def _document(self) -> Document:
+        return self._window.session.document
+
+    def menu(self) -> QtWidgets.QMenu:
+        """What can be done with the one that is chosen."""
+        menu = QtWidgets.QMenu(self)
+        for way, text in WAYS.items():
+            menu.addAction(text, lambda way=way: self.save(way))
+        menu.addSeparator()
+        colours = menu.addMenu("Colour")
+        for number, (name, colour) in enumerate(zip(COLOUR_NAMES, PINS, strict=True)):
+            colours.addAction(_dot(colour), name, lambda number=number: self.recolour(number))
+        menu.addAction("Rename\tF2", lambda: self.editItem(self.currentItem(), 0))
+        menu.addAction("Delete\tDel", self.delete)
+        menu.aboutToHide.connect(menu.deleteLater)
+        return menu
+
+    def _open_menu(self, at: QtCore.QPoint) -> None:
+        if self.itemAt(at) is not None:
+            self.setCurrentItem(self.itemAt(at))
+            self.menu().popup(self.viewport().mapToGlobal(at))
+
+
+def _dot(colour: str) -> QtGui.QIcon:
+    picture = QtGui.QPixmap(32, 32)
+    picture.setDevicePixelRatio(2)
+    picture.fill(QtCore.Qt.GlobalColor.transparent)
+    painter = QtGui.QPainter(picture)
+    painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+    painter.setPen(QtCore.Qt.PenStyle.NoPen)
+    painter.setBrush(QtGui.QColor(colour))
+    painter.drawEllipse(QtCore.QPointF(8, 8), 5, 5)
+    painter.end()
+    icon = QtGui.QIcon(picture)
+    icon.addPixmap(picture, QtGui.QIcon.Mode.Selected)  # which else is tinted
+    return icon

@@ -1,0 +1,152 @@
+"""`bihdist statistics`: a distance in numbers, or how two go together, and their charts."""
+
+import argparse
+import os
+
+from ...commands.field_of import FieldOf, field_of
+from ...commands.options import SOURCE, add_areas, add_distance, source
+from ...commands.terminal import progress_line
+
+WORDS = "a distance in numbers, or how two go together, and their charts"
+TEXT = ".csv"
+FIGURES, TABLES = (".pdf", ".png", ".svg", ".eps"), (".csv", ".npy")
+BINS = 40
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
+    add_distance(parser, "two to compare them (default: biharmonic)")
+    parser.add_argument("--histogram", metavar="OUT", help="of the first, by area: a figure, or a .csv or .npy of bins")
+    parser.add_argument("--scatter", metavar="OUT", help="of the second over the first: a figure, or a .csv or .npy")
+    parser.add_argument("--values", action="store_true", help="compare values, and not fractions of the maxima")
+    parser.add_argument(
+        "--truncation", type=int, metavar="K", help="what a sum over K eigenpairs loses of the biharmonic distance"
+    )
+    parser.add_argument("--size", default="", help="of a chart: 85mm, column, double (default: as wide as a column)")
+    parser.add_argument("--style", default="paper", help="of a chart: paper, uniform, lines or dark (default: paper)")
+    parser.add_argument("--font", default="", metavar="FAMILY", help="of a chart")
+    parser.add_argument("--text", type=float, metavar="POINTS", help="size of the text of a chart (default: 8)")
+    add_areas(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    from bihdist_core.analysis.truncation import truncation_loss
+    from bihdist_core.errors import ParameterError
+    from bihdist_core.whole_file import check_outputs
+
+    words = options.distance or ["biharmonic"]
+    if len(words) > 2:
+        raise ParameterError(f"Two distances can be compared, not {len(words)}.")
+    if options.scatter and len(words) != 2:
+        raise ParameterError("A scatter is of two distances; name both with --distance.")
+    check_outputs((options.histogram, FIGURES + TABLES), (options.scatter, FIGURES + TABLES))
+    with progress_line() as progress:
+        first = field_of(options, words[0], progress)
+        fields = [first, *(field_of(options, each, progress, first.laplacian) for each in words[1:])]
+        loss = None
+        if options.truncation is not None:
+            loss = truncation_loss(first.laplacian, options.source, counts=[options.truncation], progress=progress)
+    for it in fields:
+        _tell(it)
+    if options.histogram:
+        _save_histogram(options, first)
+        print(f"{options.histogram}: histogram of {first.label}")
+    if len(fields) == 2:
+        _compare(options, *fields)
+    if loss is not None:
+        print(
+            f"biharmonic, the first {loss.counts[0]:,} eigenpairs: mean loss {loss.means[0]:.3%} of the maximum, "
+            f"largest {loss.largest[0]:.3%} at vertex {loss.at[0]}"
+        )
+
+
+def _tell(it: FieldOf) -> None:
+    from bihdist_core import field_statistics
+
+    found = field_statistics(it.surface, it.field)
+    print(f"{it.label}{f', {it.unit}' if it.unit else ''}{it.said}")
+    print(f"  greatest {_written(found.greatest, it)} at vertex {found.greatest_at}")
+    print(f"  least {_written(found.least, it)} at vertex {found.least_at}")
+    print(f"  mean by area {_written(found.mean, it)}, standard deviation {_written(found.deviation, it)}")
+    if it.is_signed:
+        print(f"  mean size by area {_written(found.mean_size, it)}")
+    parts = ", ".join(f"{s:.0%} {_written(q, it)}" for s, q in zip(found.shares, found.quantiles, strict=True))
+    print(f"  quantiles by area: {parts}")
+
+
+def _written(value: float, it: FieldOf) -> str:
+    return f"{value:.2f}%" if it.scale == 100 else f"{value:.6g}"
+
+
+def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> None:
+    from bihdist_core import field_agreement
+    from bihdist_core.errors import ParameterError
+
+    if options.values and one.unit != other.unit:
+        units = f"{one.unit or 'none'} and {other.unit or 'none'}"
+        raise ParameterError(f"Values in different units ({units}) cannot be compared; leave out --values.")
+    found = field_agreement(one.surface, one.field, other.field, not options.values)
+    print(f"{other.label} over {one.label}, {found.count:,} vertices")
+    print(f"  rank correlation {found.spearman:.6g}, by area {found.by_area:.6g}")
+    scales = (1.0, 1.0) if options.values else (one.top, other.top)
+    at = found.largest_at
+    sign = -1 if other.field[at] / scales[1] < one.field[at] / scales[0] else 1
+    words = "{:.6g}" if options.values else "{:.2%}"
+    mean, largest = words.format(found.mean), words.format(sign * found.largest)
+    print(f"  mean deviation by area {mean}, largest {largest} at vertex {at}")
+    if options.scatter:
+        _save_scatter(options, one, other, found.spearman, at)
+        print(f"{options.scatter}: scatter of {found.count:,} vertices")
+
+
+def _save_histogram(options: argparse.Namespace, it: FieldOf) -> None:
+    import numpy as np
+
+    from bihdist_core import field_statistics
+    from bihdist_core.formats.field_output import write_array
+
+    found = field_statistics(it.surface, it.field, BINS)
+    if _is_table(options.histogram):
+        table = np.column_stack([found.bins[:-1], found.bins[1:], found.areas])
+        write_array(options.histogram, table, ["from", "to", "area"])
+        return
+    from ...figures.histogram_figure import HistogramFigure, save_histogram_figure
+
+    look = _look(options)
+    shares, colours = found.areas / found.areas.sum(), look.style.bin_colours(found.bins, it.top, it.is_signed)
+    figure = HistogramFigure(found.bins, shares, colours, it.label, it.unit, found.mean, look)
+    save_histogram_figure(figure, options.histogram)
+
+
+def _save_scatter(options: argparse.Namespace, one: FieldOf, other: FieldOf, correlation: float, largest: int) -> None:
+    import numpy as np
+
+    from bihdist_core import field_scatter
+    from bihdist_core.formats.field_output import write_array
+
+    found = field_scatter(one.surface, one.field, other.field, not options.values)
+    if _is_table(options.scatter):
+        write_array(options.scatter, np.column_stack([found.ids, found.x, found.y]), ["vertex", one.word, other.word])
+        return
+    from ...figures.scatter_figure import ScatterFigure, axes_of, save_scatter_figure
+
+    axes = axes_of(found, (one.label, other.label), (one.unit, other.unit), not options.values)
+    figure = ScatterFigure(
+        found, *axes, in_shares=not options.values, correlation=correlation, largest=largest, look=_look(options)
+    )
+    save_scatter_figure(figure, options.scatter)
+
+
+def _is_table(path: str) -> bool:
+    return os.path.splitext(path)[1].lower() in TABLES
+
+
+def _look(options: argparse.Namespace):
+    from ...document.page import Page
+    from ...drawing.style import style_of
+    from ...figures.chart_page import ChartLook
+    from ...figures.scatter_figure import INCHES
+
+    page = Page(size=options.size, style=options.style, font=options.font, text=options.text)
+    return ChartLook.of(page, style_of(page.style), INCHES)

@@ -1,0 +1,297 @@
+"""The field of the active panel in numbers: its histogram, mean, extremes and quantiles, what a truncation loses of it,
+and its isolines as objects."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core.analysis.field_statistics import FieldStatistics, field_statistics, rank_correlation
+from bihdist_core.distances.answers import Answer
+from bihdist_core.formats.field_output import write_array
+from bihdist_core.progress import Progress, part
+
+from ...document.document import Document
+from ...document.field_names import field_names
+from ...document.file_names import file_name
+from ...drawing.style import style_of
+from ...qt.docks.background import Background
+from ...qt.docks.chart_files import save_figure
+from ...qt.docks.fact_table import FactTable
+from ...qt.docks.instrument import NO_FIELD, Instrument
+from ...qt.docks.isoline_files import levels_of
+from ...qt.docks.saving import save, written
+from ...qt.look.look import LOOK
+from ...qt.look.numbers import number, percent, share
+from ...qt.panels.flat_button import FlatButton
+from ...qt.panels.quantity_menu import quantity_name
+from ...session.loaded_mesh import LoadedMesh
+from ...session.questions import DifferenceQuestion, Question
+from .histogram import Histogram
+from .level_box import LevelBox
+from .truncation_box import TruncationBox
+
+if TYPE_CHECKING:
+    from ...figures.histogram_figure import HistogramFigure
+
+BINS = 40
+SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
+
+
+@dataclass(frozen=True, eq=False)
+class _Request:
+    """parts: the question of a difference, whose two fields are correlated."""
+
+    loaded: LoadedMesh
+    answer: Answer
+    parts: DifferenceQuestion | None
+
+
+def _numbers(request: _Request, progress: Progress) -> Iterator[FieldStatistics | float]:
+    surface = request.loaded.surface
+    yield field_statistics(surface, request.answer.field, BINS, SHARES)
+    if request.parts is not None:
+        fields = [
+            request.loaded.answer(question, part(progress, k / 2, (k + 1) / 2)).field
+            for k, question in enumerate((request.parts.minuend, request.parts.subtrahend))
+        ]
+        if all(field is not None for field in fields):
+            there = np.isfinite(fields[0]) & np.isfinite(fields[1]) & (surface.component_of_vertex >= 0)
+            yield rank_correlation(fields[0][there], fields[1][there])
+
+
+class StatisticsDock(Instrument):
+    word, title, area = "statistics", "Statistics", "right"
+
+    def __init__(self, window: Any) -> None:
+        super().__init__(window)
+        self._panel = -1
+        self._asked: tuple[Any, ...] = ()
+        self._request: _Request | None = None
+        self.statistics: FieldStatistics | None = None
+        self._correlation: float | None = None
+        self.name = QtWidgets.QLabel()
+        self.name.setProperty("heading", True)
+        self._unit = QtWidgets.QLabel()
+        self._unit.setProperty("quiet", True)
+        self.histogram = Histogram()
+        self.histogram.pointed.connect(self._say_bin)
+        self.facts, self.quantiles = FactTable(), FactTable()
+        self.truncation, self.levels = TruncationBox(window), LevelBox(window)
+        self.sentence = QtWidgets.QLabel(wordWrap=True)
+        self.sentence.setProperty("quiet", True)
+        sheet = QtWidgets.QWidget()
+        column = QtWidgets.QVBoxLayout(sheet)
+        column.setContentsMargins(12, 10, 12, 12)
+        column.setSpacing(6)
+        top = QtWidgets.QHBoxLayout()
+        top.addWidget(self.name, 1)
+        top.addWidget(self._unit)
+        column.addLayout(top)
+        for widget in (self.sentence, self.histogram, self.facts):
+            column.addWidget(widget)
+        for title, widget in (
+            ("Quantiles, by area", self.quantiles),
+            ("Truncation", self.truncation),
+            ("Isolines and regions", self.levels),
+        ):
+            heading = QtWidgets.QLabel(title)
+            heading.setProperty("heading", True)
+            column.addSpacing(8)
+            column.addWidget(heading)
+            column.addWidget(widget)
+        column.addStretch(1)
+        scroll = QtWidgets.QScrollArea()
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(sheet)
+        scroll.viewport().setAutoFillBackground(False)
+        sheet.setAutoFillBackground(False)
+        around = QtWidgets.QVBoxLayout(self)
+        around.setContentsMargins(0, 0, 0, 0)
+        around.addWidget(scroll)
+        self.setMinimumWidth(240)
+        self._save = FlatButton(self, "save")
+        self._save.setToolTip("Save the histogram as a figure, or its numbers")
+        self._save.setAccessibleName("What to do with the histogram")
+        menu = QtWidgets.QMenu(self._save)
+        menu.addAction("Save the histogram as a figure…", self.save_figure)
+        menu.addAction("Save the histogram's numbers…", self.save_numbers)
+        menu.addAction("Copy the statistics", self.copy)
+        self._save.setMenu(menu)
+        self._background = Background("statistics", _numbers, window)
+        self._background.answered.connect(self._take)
+        self._background.failed.connect(self._refuse)
+        window.grid.activated.connect(self._follow)
+        LOOK.follow(self, self._show)
+
+    def head_widgets(self) -> list[QtWidgets.QWidget]:
+        return [self._save]
+
+    # ------------------------------------------------------------------ what it is about
+    def show_document(self, document: Document, before: Document | None) -> None:
+        self._ask()
+
+    def show_answer(self, panel: int) -> None:
+        if panel == self._panel:
+            self._ask()
+
+    def _follow(self, panel: int) -> None:
+        if self.isVisible():
+            self._ask()
+
+    def _ask(self) -> None:
+        """For the numbers of the active panel, if they are not there."""
+        window = self.window_
+        session, id = window.session, window.grid.active
+        shown, loaded = session.shown.get(id), session.opened_in(id)
+        self._panel = id
+        if loaded is None or shown is None:
+            return  # on its way
+        names = {panel.id: quantity_name(panel.shows) for panel in session.document.panels}
+        self.name.setText(names.get(id, ""))
+        question: Question = shown.asked
+        self.truncation.expect(loaded, question)
+        scene = window.grid.panel(id).view.scene
+        key = (id, shown.answer.field is not None and shown.answer.field.ctypes.data, shown.answer, loaded.surface)
+        lines = (scene.maximum, scene.isolines.tobytes(), scene.style)
+        if (key[:2], key[3], lines) == self._asked:
+            return
+        if self._asked[:2] != (key[:2], key[3]):
+            self.statistics = self._correlation = None
+            if shown.answer.field is None:
+                self._background.ask(None)
+                self._refuse(None, shown.answer.failure or NO_FIELD)
+            else:
+                parts = question if isinstance(question, DifferenceQuestion) else None
+                self._request = _Request(loaded, shown.answer, parts)
+                self._background.ask(self._request)
+        else:
+            self._show()
+        self._asked = (key[:2], key[3], lines)
+        self.levels.show_levels(levels_of(window, id))
+
+    def _refuse(self, request: object, sentence: str) -> None:
+        self.statistics = None
+        self.sentence.setText(sentence)
+        self._show()
+
+    def _take(self, request: _Request, answer: FieldStatistics | float) -> None:
+        if isinstance(answer, FieldStatistics):
+            self.statistics = answer
+        else:
+            self._correlation = answer
+        self._show()
+
+    # ------------------------------------------------------------------ what is seen
+    def _show(self) -> None:
+        found = self.statistics
+        for widget in (self.histogram, self.facts, self.quantiles):
+            widget.setVisible(found is not None)
+        self._save.setEnabled(found is not None)
+        self.sentence.setVisible(found is None and bool(self.sentence.text()))
+        if found is None or self._request is None or self._panel not in self._ids():
+            return
+        answer = self._request.answer
+        scene = self.window_.grid.panel(self._panel).view.scene
+        top, signed = scene.maximum, answer.is_signed
+        colours = scene.style.bin_colours(found.bins, top, signed)
+        self.histogram.show_bins(found.bins, found.areas, colours, answer.unit, signed)
+        self._unit.setText("fraction of the area")
+        self.facts.show_facts(self._facts(found, answer))
+        self.quantiles.show_facts(self._quantiles(found, answer))
+
+    def _ids(self) -> list[int]:
+        return [panel.id for panel in self.window_.grid.panels]
+
+    def _quantiles(self, found: FieldStatistics, answer: Answer, exact: bool = False) -> list[tuple[str, ...]]:
+        return [
+            (f"{100 * part:g} % of the area up to", *self._written(float(value), answer, exact=exact))
+            for part, value in zip(found.shares, found.quantiles, strict=True)
+        ]
+
+    def _facts(self, found: FieldStatistics, answer: Answer, exact: bool = False) -> list[tuple[str, ...]]:
+        """exact: with all digits."""
+
+        def written(value: float, with_sign: bool = True) -> tuple[str, ...]:
+            return self._written(value, answer, with_sign, exact)
+
+        facts: list[tuple[str, ...]] = []
+        if answer.is_signed:
+            sign = answer.field[found.largest_at]
+            facts.append((f"largest, at vertex {found.largest_at}", *written(float(sign))))
+            facts.append(("mean size, by area", *written(found.mean_size, False)))
+        else:
+            facts.append((f"greatest, at vertex {found.greatest_at}", *written(found.greatest)))
+            facts.append((f"least, at vertex {found.least_at}", *written(found.least)))
+        facts.append(("mean, by area", *written(found.mean)))
+        facts.append(("standard deviation", *written(found.deviation, False)))
+        if self._correlation is not None:
+            facts.append(("rank correlation", repr(self._correlation) if exact else number(self._correlation)))
+        return facts
+
+    @staticmethod
+    def _written(value: float, answer: Answer, with_sign: bool = True, exact: bool = False) -> tuple[str, ...]:
+        """The value, and its fraction of the maximum, which means nothing of a difference."""
+        signed = answer.is_signed and with_sign
+        top = 0.0 if answer.signs else answer.maximum
+        said = repr(float(value)) if exact else number(value, signed) + percent(answer.unit)
+        if not top > 0:
+            return (said,)
+        return said, repr(float(value / top)) if exact else share(value / top, signed)
+
+    def _say_bin(self, words: str) -> None:
+        self._unit.setText(words or "fraction of the area")
+
+    # ------------------------------------------------------------------ what is saved
+    def figure(self) -> "HistogramFigure":
+        """The histogram, in the style and the colours of figures."""
+        from ...figures.chart_page import ChartLook
+        from ...figures.histogram_figure import HistogramFigure
+
+        found, answer, window = self.statistics, self._request.answer, self.window_
+        page, document = window.page, window.session.document
+        style = style_of(page.style, document.colours)
+        top = window.grid.panel(self._panel).view.scene.maximum
+        return HistogramFigure(
+            found.bins,
+            found.areas / found.areas.sum(),
+            style.bin_colours(found.bins, top, answer.is_signed),
+            self.name.text(),
+            answer.unit,
+            found.mean,
+            ChartLook.of(page, style),
+        )
+
+    def _file_name(self) -> str:
+        session = self.window_.session
+        words = field_names(session.document, [session.document.panel(self._panel)])
+        return file_name([session.surface_in(self._panel).name], "histogram", *words)
+
+    def save_figure(self, *_: object, path: str = "") -> None:
+        """path: asks for one if it is empty."""
+        from ...figures.histogram_figure import save_histogram_figure
+
+        save_figure(self.window_, "Save the histogram", self._file_name(), save_histogram_figure, self.figure, path)
+
+    def save_numbers(self, *_: object, path: str = "") -> None:
+        """The ends of each bin, and its area."""
+        window, found = self.window_, self.statistics
+        table = np.column_stack([found.bins[:-1], found.bins[1:], found.areas])
+
+        def write(path: str) -> None:
+            write_array(path, table, ["from", "to", "area"])
+
+        if path:
+            written(window, path, write)
+        else:
+            save(window, "Save the histogram's numbers", self._file_name(), (".csv", ".npy"), write)
+
+    def copy(self) -> None:
+        """What the dock says, with tabs and all digits, as spreadsheets read it."""
+        found, answer = self.statistics, self._request.answer
+        facts = [(self.name.text(),), *self._facts(found, answer, True), *self._quantiles(found, answer, True)]
+        QtWidgets.QApplication.clipboard().setText("".join("\t".join(fact) + "\n" for fact in facts))
+        self.window_.say("The statistics are on the clipboard")
