@@ -5,7 +5,6 @@ import argparse
 from bihdist_core.counts import counted
 
 from ..document.field_names import distinct, field_name
-from ..document.quantities import Difference
 from .mesh import Facts, add_meshes, into_each, read_laplacian
 from .options import SOURCE, add_areas, add_distance, quantities, source
 from .terminal import accuracy, progress_line
@@ -52,7 +51,7 @@ def _one(options: argparse.Namespace) -> Facts:
         said = "".join(dict.fromkeys(accuracy(distance) for distance in known))
     labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
     columns, label = fields[0], " − ".join(labels)
-    if isinstance(chosen, Difference):
+    if chosen.is_difference:
         columns, unit = difference_in_unit(*fields, (known[0].unit, known[1].unit), chosen.raw)
         label = f"{label}, {unit}" if unit == PERCENTAGE_POINTS else label
     names = distinct([field_name(chosen, [each]) for each in options.source])

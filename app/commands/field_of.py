@@ -57,15 +57,13 @@ def field_of(
     from bihdist_core.distances.difference import difference_in_unit
     from bihdist_core.sources.pieces import pieces_of
 
-    from ..document.quantities import Difference
-
     (chosen,) = quantities(options, [words])
     laplacian = read_laplacian(options) if laplacian is None else laplacian
     pieces, distances = pieces_of(options.source, laplacian.surface), Distances(laplacian)
     known = [distances.get(spec, progress) for spec in chosen.specs]
     fields = [distance.from_source(options.source, progress) for distance in known]
     unit, field = known[0].unit, fields[0]
-    if isinstance(chosen, Difference):
+    if chosen.is_difference:
         field, unit = difference_in_unit(*fields, (known[0].unit, known[1].unit), chosen.raw)
     return FieldOf(
         laplacian,
@@ -74,5 +72,5 @@ def field_of(
         "_minus_".join(spec.word for spec in chosen.specs),
         unit,
         "".join(dict.fromkeys(accuracy(distance) for distance in known)),
-        isinstance(chosen, Difference),
+        chosen.is_difference,
     )

@@ -270,16 +270,12 @@ def _respecified(shows: "Quantity", options: argparse.Namespace) -> "Quantity":
     """The quantity with those parameters that the options name and its distances have."""
     from bihdist_core.distances.kinds import Spec
 
-    from ..document.quantities import DistanceFrom
-
     given = given_parameters(options)
 
     def respecified(spec: Spec) -> Spec:
         return spec.changed(**{p.name: given[p.name] for p in spec.kind.parameters if p.name in given})
 
-    return shows.with_parts(
-        tuple(replace(p, spec=respecified(p.spec)) if isinstance(p, DistanceFrom) else p for p in shows.parts)
-    )
+    return shows.with_parts(tuple(p.with_spec(respecified(p.specs[0])) if p.is_distance else p for p in shows.parts))
 
 
 def _with_anchors(document: "Document", anchors: tuple[tuple[int, float | None], ...]) -> "Document":

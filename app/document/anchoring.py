@@ -7,8 +7,6 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
 from .document import Anchor, Document, Point, free_names
-from .predicting import show_distances as distances_again
-from .quantities import DistanceFrom, Interpolant, Quantity
 
 MOST_ANCHORS = 500
 """Each has a column of distances for each panel."""
@@ -53,29 +51,3 @@ def remove_anchors(document: Document, points: Iterable[str]) -> Document:
     return replace(
         document, points=tuple(point for point in document.points if point.name not in gone or point.name in kept)
     )
-
-
-def interpolated(shows: Quantity) -> Interpolant | None:
-    """The interpolant that a panel shows by itself; None for another quantity, and for a sum of weights."""
-    (part, *others) = shows.parts
-    return part if isinstance(part, Interpolant) and not others and not part.total else None
-
-
-def interpolate(document: Document) -> Document:
-    """Every panel of a distance shows the interpolant by it; their colour bars, all of the same values, end alike."""
-    return replace(
-        document,
-        range="shared" if document.range == "own" else document.range,
-        panels=tuple(
-            replace(panel, shows=Interpolant(panel.shows.spec), maximum=None)
-            if isinstance(panel.shows, DistanceFrom)
-            else panel
-            for panel in document.panels
-        ),
-    )
-
-
-def show_distances(document: Document) -> Document:
-    """Every panel of an interpolant shows its distance, from where the others start."""
-    document = distances_again(document, Interpolant)
-    return replace(document, range="own" if document.range == "shared" else document.range)

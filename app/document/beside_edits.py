@@ -92,8 +92,7 @@ def renamed(shows: Quantity, points: dict[str, str]) -> Quantity:
     """The same quantity from other points, by the names of the old ones."""
     return shows.with_parts(
         tuple(
-            replace(part, point=points.get(part.point, part.point)) if isinstance(part, DistanceFrom) else part
-            for part in shows.parts
+            part.moved_to(points.get(part.points[0], part.points[0])) if part.points else part for part in shows.parts
         )
     )
 

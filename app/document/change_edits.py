@@ -11,7 +11,7 @@ from .changing import changed_mesh, with_changed, without_changed
 from .document import Document
 from .edits import add_another, show_in
 from .measuring import runs_of, vertices_of
-from .quantities import ChangeOf, DistanceFrom, Quantity
+from .quantities import Quantity
 
 
 def change_mesh(document: Document, change: Perturbation) -> Document:
@@ -39,7 +39,7 @@ def change_as(document: Document) -> Perturbation:
 def can_change(document: Document) -> bool:
     """Whether there is one mesh, or a second that is made from it, and a panel with a distance."""
     alone = len(document.surfaces) == 1 or changed_mesh(document) is not None
-    return alone and any(isinstance(panel.shows, DistanceFrom) for panel in document.panels)
+    return alone and any(panel.shows.is_distance for panel in document.panels)
 
 
 def cut_by(cut: Runs, faces: np.ndarray, is_restored: bool = False) -> Runs:
@@ -60,17 +60,22 @@ def show_in_row(document: Document, panel: int, shows: Quantity) -> Document:
     Of these, before and after are compared with each other.
     """
     before = document.panel(panel)
-    if changed_mesh(document) is None or not isinstance(shows, DistanceFrom | ChangeOf):
+    if changed_mesh(document) is None or not _is_in_row(shows):
         return show_in(document, panel, shows)
-    if not isinstance(before.shows, DistanceFrom | ChangeOf):
+    if not _is_in_row(before.shows):
         return show_in(document, panel, shows)
-    old, roots = before.shows.spec, {point.name: point.image_of or point.name for point in document.points}
-    root = roots[before.shows.point]
+    old, roots = before.shows.specs, {point.name: point.image_of or point.name for point in document.points}
+    root = roots[before.shows.points[0]]
     for other in document.panels:
         now = other.shows
-        if isinstance(now, DistanceFrom | ChangeOf) and now.spec == old and roots[now.point] == root:
-            document = show_in(document, other.id, replace(now, spec=shows.spec))
+        if _is_in_row(now) and now.specs == old and roots[now.points[0]] == root:
+            document = show_in(document, other.id, now.with_spec(shows.specs[0]))
     return document
+
+
+def _is_in_row(shows: Quantity) -> bool:
+    """Whether it is a distance before or after a change, or what the change does to it."""
+    return shows.is_distance or shows.compares_meshes
 
 
 def refuse_change(document: Document) -> None:

@@ -10,12 +10,15 @@ from .document import Document, MeshFile, Panel, Point
 from .instruments import ALONG_ALL_PINS
 from .mapping import without_maps
 from .pairing import remove_pairs
-from .quantities import ChangeOf, DistanceFrom, Prediction
+from .quantities import DistanceFrom, quantity
 
 COLUMNS = 3
 """Before, after, difference."""
 
 CHANGED = "B"
+
+CHANGE = "change of "
+"""What the words of a change begin with."""
 
 
 def changed_mesh(document: Document) -> MeshFile | None:
@@ -34,7 +37,7 @@ def with_changed(document: Document, change: Perturbation, with_others: bool = F
         raise ParameterError(f"One mesh is changed at a time, and here there are {len(document.surfaces)}.")
     (mesh,) = document.surfaces
     name = CHANGED if mesh.name != CHANGED else "A"
-    meant = [panel for panel in document.panels if isinstance(panel.shows, DistanceFrom)]
+    meant = [panel for panel in document.panels if panel.shows.is_distance]
     others = [panel for panel in document.panels if panel not in meant]
     if others and not with_others:
         raise ParameterError(f"What a change does is shown of distances, and {others[0].shows} is none.")
@@ -46,7 +49,7 @@ def with_changed(document: Document, change: Perturbation, with_others: bool = F
         k = len(panels)
         panels.append(replace(panel, id=k))
         panels.append(Panel(k + 1, image, name, panel.maximum))
-        panels.append(Panel(k + 2, ChangeOf(image.spec, image.point), name))
+        panels.append(Panel(k + 2, quantity(f"{CHANGE}{image.spec.in_full}", image.point), name))
     numbers = {panel.id: COLUMNS * k for k, panel in enumerate(meant)}
     numbers |= {panel.id: len(panels) + k for k, panel in enumerate(others)}
     panels += [replace(panel, id=numbers[panel.id]) for panel in others]
@@ -87,7 +90,7 @@ def without_changed(document: Document) -> Document:
         return document
     document = without_maps(remove_pairs(document, document.pairs))
     here = [panel for panel in document.panels if panel.surface not in made]
-    panels = [panel for panel in here if not any(isinstance(part, Prediction) for part in panel.shows.parts)]
+    panels = [panel for panel in here if not any(part.is_prediction for part in panel.shows.parts)]
     panels = panels or _panels_before(document)
     numbers = {panel.id: k for k, panel in enumerate(panels)}
     on_them = {point.name for point in document.points if point.surface in made}
@@ -119,13 +122,13 @@ def _panels_before(document: Document) -> list[Panel]:
 
 def partner(document: Document, panel: Panel) -> Panel | None:
     """The panel that shows the same distance after the change, or before it, if there is one."""
-    if not isinstance(panel.shows, DistanceFrom):
+    if not panel.shows.is_distance:
         return None
-    spec, here = panel.shows.spec, document.point(panel.shows.point)
+    spec, here = panel.shows.specs[0], document.point(panel.shows.points[0])
     for other in document.panels:
-        if not isinstance(other.shows, DistanceFrom) or other.shows.spec != spec or other.surface == panel.surface:
+        if not other.shows.is_distance or other.shows.specs[0] != spec or other.surface == panel.surface:
             continue
-        there = document.point(other.shows.point)
+        there = document.point(other.shows.points[0])
         if there.image_of == here.name or here.image_of == there.name:
             return other
     return None

@@ -14,7 +14,7 @@ from .instruments import ALONG_ALL_PINS
 from .mapping import without_maps
 from .measuring import show_regions
 from .pairing import without_pairs_on
-from .quantities import DistanceFrom, Prediction, Quantity, from_point, own_fields
+from .quantities import DistanceFrom, Quantity, from_point, own_fields
 
 MOST_ADDED = 6
 """Up to which panels can be added; a recipe may have more."""
@@ -154,8 +154,8 @@ def add_another(document: Document, surface: str | None = None) -> Document:
     word = next((word for word in words if word not in shown), words[0])
     surface = document.surfaces[0].name if surface is None else surface
     here = document.panels_of(surface)
-    if here and all(isinstance(panel.shows, Prediction) for panel in here):
-        return add_panel(document, Prediction(Spec.of(word)), surface)
+    if here and all(panel.shows.is_prediction for panel in here):
+        return add_panel(document, here[0].shows.with_spec(Spec.of(word)), surface)
     starting = [name for panel in document.panels_of(surface) for name in panel.shows.points]
     starting += [point.name for point in document.points if point.name == "source" and point.surface == surface]
     if starting:
@@ -175,9 +175,7 @@ def duplicate_panel(document: Document, panel: int) -> Document:
 def can_divide(document: Document, panel: int) -> bool:
     """Whether there are pins for a panel's distance to divide its surface among."""
     shown = document.panel(panel)
-    return isinstance(shown.shows, DistanceFrom) and any(
-        document.point(pin.point).surface == shown.surface for pin in document.pins
-    )
+    return shown.shows.is_distance and any(document.point(pin.point).surface == shown.surface for pin in document.pins)
 
 
 def divide(document: Document, which: str | Sequence[int]) -> Document:

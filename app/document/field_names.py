@@ -7,14 +7,13 @@ from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of
 
 from .document import Document, Panel
-from .quantities import ChangeOf, Difference, Quantity
+from .quantities import Quantity
 
 
 def field_name(shows: Quantity, sources: Sequence[Source]) -> str:
     """ "biharmonic_from_12", "biharmonic_minus_geodesic_percent_from_12": parameters are not named."""
     word = "_minus_".join(part.word.replace(" ", "_") for part in shows.parts)
-    is_percent = isinstance(shows, ChangeOf) or (isinstance(shows, Difference) and not shows.raw)
-    return _from(f"{word}_percent" if is_percent else word, sources)
+    return _from(f"{word}_percent" if shows.in_percent else word, sources)
 
 
 def field_names(document: Document, panels: Sequence[Panel]) -> list[str]:

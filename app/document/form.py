@@ -5,7 +5,6 @@ from typing import Any
 
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
-from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint
 from bihdist_core.sources.words import curve_rows, places_from
@@ -27,8 +26,8 @@ from .instruments import (
 )
 from .json_values import flag, listed, number, numbers, or_none, placed, record, text, whole
 from .looks import AS_IT_IS, OF_THE_STYLE, Colours, Isolines, Shading
-from .map_colours import SAME_FACES, MapColours, MapFile, Truth
-from .quantities import ChangeOf, Difference, DistanceFrom, Interpolant, OwnField, Part, Prediction, Quantity
+from .map_colours import SAME_FACES, MapFile, Truth
+from .quantities import quantity_from, read_spec
 
 LATER: dict[str, Any] = {
     "fields": [],
@@ -63,7 +62,7 @@ def document_data(document: Document) -> dict[str, Any]:
     own: dict[str, Any] = {
         "surfaces": [_mesh_data(mesh) for mesh in document.surfaces],
         "points": [_point_data(point) for point in document.points],
-        "panels": [{**plain(panel), "shows": _quantity_data(panel.shows)} for panel in document.panels],
+        "panels": [{**plain(panel), "shows": panel.shows.to_json()} for panel in document.panels],
         "camera": view_data(document.camera),
         "zooms": [plain(zoom) for zoom in document.zooms],
         "isolines": _isolines_data(document.isolines),
@@ -149,22 +148,6 @@ def _source_data(at: Source | None) -> int | dict[str, Any] | None:
     if isinstance(at, Curve):
         return {"curve": curve_rows(at), "closed": at.closed}
     return at
-
-
-def _quantity_data(shows: Quantity) -> dict[str, Any]:
-    if isinstance(shows, Difference):
-        return {"difference": [_quantity_data(part) for part in shows.parts], "raw": shows.raw}
-    if isinstance(shows, OwnField):
-        return {"field": shows.name}
-    if isinstance(shows, Interpolant):
-        return {"interpolant": shows.spec.in_full, **({"total": True} if shows.total else {})}
-    if isinstance(shows, Prediction):
-        return {"prediction": shows.spec.in_full}
-    if isinstance(shows, MapColours):
-        return {"map": shows.by} if isinstance(shows.by, str) else {"map_by": shows.by.in_full}
-    if isinstance(shows, ChangeOf):
-        return {"change": shows.spec.in_full, "from": shows.point}
-    return {"distance": shows.spec.in_full, "from": shows.point}
 
 
 def document_from(data: Any, where: str = "document") -> Document:
@@ -268,40 +251,8 @@ def _source(data: Any, where: str) -> Source:
 
 
 def _panel(data: Any, where: str) -> Panel:
-    readers = {"id": whole, "shows": _quantity, "surface": text, "maximum": or_none(number)}
+    readers = {"id": whole, "shows": quantity_from, "surface": text, "maximum": or_none(number)}
     return placed(Panel, where, **record(data, where, readers))
-
-
-def _quantity(data: Any, where: str) -> Quantity:
-    if isinstance(data, dict) and "difference" in data:
-        values = record(data, where, {"difference": listed(_part), "raw": flag})
-        if len(values["difference"]) != 2:
-            raise ParameterError(f"{where}.difference must be two distances, not {len(values['difference'])}.")
-        return Difference(values["difference"][0], values["difference"][1], values["raw"])
-    return _part(data, where)
-
-
-def _part(data: Any, where: str) -> Part:
-    if isinstance(data, dict) and "field" in data:
-        return OwnField(record(data, where, {"field": text})["field"])
-    if isinstance(data, dict) and "interpolant" in data:
-        values = record(data, where, {"interpolant": _spec, "total": flag}, {"interpolant"})
-        return Interpolant(values["interpolant"], values.get("total", False))
-    if isinstance(data, dict) and "prediction" in data:
-        return Prediction(record(data, where, {"prediction": _spec})["prediction"])
-    if isinstance(data, dict) and "map" in data:
-        return MapColours(record(data, where, {"map": text})["map"])
-    if isinstance(data, dict) and "map_by" in data:
-        return MapColours(record(data, where, {"map_by": _spec})["map_by"])
-    if isinstance(data, dict) and "change" in data:
-        values = record(data, where, {"change": _spec, "from": text})
-        return ChangeOf(values["change"], values["from"])
-    values = record(data, where, {"distance": _spec, "from": text})
-    return DistanceFrom(values["distance"], values["from"])
-
-
-def _spec(data: Any, where: str) -> Spec:
-    return placed(Spec.parse, where, text=text(data, where))
 
 
 def _anchor(data: Any, where: str) -> Anchor:
@@ -353,7 +304,7 @@ def _pair(data: Any, where: str) -> Pair:
 
 
 def _pin_list(data: Any, where: str) -> PinList:
-    readers = {"distance": or_none(_spec), "shares": flag, "positions": flag}
+    readers = {"distance": or_none(read_spec), "shares": flag, "positions": flag}
     return PinList(**record(data, where, readers, set()))
 
 

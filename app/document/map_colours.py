@@ -1,14 +1,17 @@
 """The quantity of a map between the document's two surfaces, and what the document says of such maps."""
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import whole_number
 
+from .json_values import record, text
 from .looks import one_of
-from .parts import Alone
+from .quantities import Quantity, read_spec
 
 MAP, MAP_BY, POSITIONS = "map ", "map by ", "position colours"
 """What the words of a map begin with, of one that pairs make by a distance, and the words of what it leads to."""
@@ -67,7 +70,7 @@ SAME_FACES = Truth()
 
 
 @dataclass(frozen=True)
-class MapColours(Alone):
+class MapColours(Quantity):
     """Where a map from the document's first surface leads, in colours; see `bihdist_core.applications.carrying`.
 
     by: the distance by which the document's pairs make the map, the path of one of its maps, or "": the surface's own
@@ -75,6 +78,7 @@ class MapColours(Alone):
     """
 
     by: Spec | str = ""
+    is_map = True
 
     def __str__(self) -> str:
         return f"{MAP_BY}{self.by}" if isinstance(self.by, Spec) else f"{MAP}{self.by}" if self.by else POSITIONS
@@ -83,11 +87,12 @@ class MapColours(Alone):
     def specs(self) -> tuple[Spec, ...]:
         return (self.by,) if isinstance(self.by, Spec) else ()
 
+    def with_spec(self, spec: Spec) -> "MapColours":
+        return MapColours(spec)
+
     @property
-    def spec(self) -> Spec:
-        """The distance, of a map that pairs make."""
-        (spec,) = self.specs
-        return spec
+    def done(self) -> str:  # type: ignore[override]
+        return "mapped" if self.specs else ""
 
     @property
     def word(self) -> str:
@@ -98,10 +103,29 @@ class MapColours(Alone):
         return f"{MAP_BY}{self.by.kind.name.lower()}" if isinstance(self.by, Spec) else str(self)
 
     @property
+    def heading(self) -> str:
+        if not self.by:
+            return "Positions"
+        return "Full map" if isinstance(self.by, Spec) else f"Map {MapFile(self.by).name}"
+
+    @property
     def hint(self) -> str:
         if not self.by:
             return "red, green and blue from x, y and z: the colours that maps to this surface have"
         return "each vertex has the colour of the one that it is mapped to"
+
+    def to_json(self) -> dict[str, Any]:
+        return {"map": self.by} if isinstance(self.by, str) else {"map_by": self.by.in_full}
+
+    @classmethod
+    def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:
+        if "map" in data:
+            return cls(record(data, where, {"map": text})["map"])
+        return cls(record(data, where, {"map_by": read_spec})["map_by"]) if "map_by" in data else None
+
+    @classmethod
+    def from_words(cls, words: str, point: str, parameters: Mapping[str, object]) -> Quantity | None:
+        return map_colours(words, **parameters) if words == POSITIONS or words.startswith(MAP) else None
 
 
 def map_colours(text: str, **parameters: object) -> MapColours:

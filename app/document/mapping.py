@@ -38,7 +38,7 @@ def show_maps(document: Document, by: Sequence[Spec | str] | None = None) -> Doc
 
 def shows_maps(document: Document) -> bool:
     """Whether a panel shows one."""
-    return any(isinstance(panel.shows, MapColours) for panel in document.panels)
+    return any(panel.shows.is_map for panel in document.panels)
 
 
 def with_map(document: Document, map: MapFile) -> Document:
@@ -55,13 +55,13 @@ def without_maps(document: Document) -> Document:
 
     A panel of a map by a distance shows that distance; others of maps go, but for the last panel of their surface.
     """
-    kept = [panel for panel in document.panels if not isinstance(panel.shows, MapColours) or panel.shows.specs]
+    kept = [panel for panel in document.panels if not panel.shows.is_map or panel.shows.specs]
     seen = {panel.surface for panel in kept}
     last = {panel.surface: panel for panel in document.panels if panel.surface not in seen}.values()
     document = replace(document, panels=tuple(p for p in document.panels if p in kept or p in last))
     for panel in document.panels:
-        if isinstance(panel.shows, MapColours):
-            spec = panel.shows.spec if panel.shows.specs else Spec.of("biharmonic")
+        if panel.shows.is_map:
+            spec = panel.shows.specs[0] if panel.shows.specs else Spec.of("biharmonic")
             document, name = _with_source(document, panel.surface)
             shown = replace(panel, shows=DistanceFrom(spec, name))
             document = replace(document, panels=tuple(shown if p.id == panel.id else p for p in document.panels))

@@ -1,5 +1,6 @@
 """Edits between panels of distances and panels that predict where a point of one surface is on the other."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec
@@ -7,7 +8,10 @@ from bihdist_core.distances.kinds import Spec
 from .document import Document, Panel, free_names
 from .edits import MOST_ADDED, put_point, source_name
 from .pairing import sides
-from .quantities import DistanceFrom, Part, Prediction
+from .quantities import DistanceFrom, quantity
+
+PREDICTION = "prediction by "
+"""What the words of a prediction begin with."""
 
 
 def predict(document: Document) -> Document:
@@ -26,7 +30,7 @@ def predict(document: Document) -> Document:
             id = ids[surface].pop(0)
         else:
             id, next_id = next_id, next_id + 1
-        panels.append(Panel(id, Prediction(spec), surface))
+        panels.append(Panel(id, quantity(f"{PREDICTION}{spec.in_full}"), surface))
     return replace(document, panels=tuple(panels), next_id=next_id, range="own")
 
 
@@ -37,13 +41,13 @@ def predicts(document: Document) -> bool:
 
 def predicts_in(panel: Panel) -> bool:
     """Whether this one does."""
-    return isinstance(panel.shows, Prediction)
+    return panel.shows.is_prediction
 
 
-def show_distances(document: Document, kind: type[Part] = Prediction) -> Document:
-    """Every panel of a prediction, or another quantity of a distance, shows that distance from where others start."""
+def show_distances(document: Document, is_meant: Callable[[Panel], bool] = predicts_in) -> Document:
+    """Every panel of a prediction, or of what is meant, shows its distance from where others start."""
     for panel in document.panels:
-        if not isinstance(panel.shows, kind):
+        if not is_meant(panel):
             continue
         (spec,), name = panel.shows.specs, source_name(document, panel.id)
         if not name:

@@ -1,34 +1,218 @@
 """What a panel can show: something with a value at every vertex, in words and as data."""
 
-from collections.abc import Collection
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any, ClassVar, NamedTuple
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.kinds import Kind, Spec
 from bihdist_core.errors import ParameterError
 
-from .map_colours import MAP, POSITIONS, MapColours, map_colours
-from .parts import Alone, ByDistance
+from .json_values import flag, listed, placed, record, text
+from .tools import tools
 
 
-@dataclass(frozen=True)
-class DistanceFrom(ByDistance):
-    """The distance of every vertex from a named point."""
+class Choice(NamedTuple):
+    """An entry of the menu of what a panel can show: its words, a tip, the quantity, and whether it is shown now."""
+
+    words: str
+    tip: str
+    shows: "Quantity"
+    is_shown: bool = False
+
+
+class Quantity(ABC):
+    """Something with a value, or a colour, at every vertex; subclasses are frozen dataclasses.
+
+    What a tool adds is a subclass in its folder, which a row of `Tool.quantities` names; its question is made by
+    `question(document, surface)` there.
+    """
+
+    is_distance: ClassVar[bool] = False
+    """Whether it is the distance from a point, and nothing made of it."""
+
+    is_difference: ClassVar[bool] = False
+    """Whether it is one quantity less another, with a sign."""
+
+    is_prediction: ClassVar[bool] = False
+    """Whether its least value is where a point of the other surface is predicted."""
+
+    is_map: ClassVar[bool] = False
+    """Whether it is shown in colours, one at each vertex, and has no values."""
+
+    has_anchors: ClassVar[bool] = False
+    """Whether it is made of the document's anchors."""
+
+    interpolates: bool = False
+    """Whether it has the anchors' values at the anchors, so that extrema elsewhere tell against it."""
+
+    compares_meshes: ClassVar[bool] = False
+    """Whether it says what a change of the mesh does to a distance."""
+
+    in_percent: bool = False
+    """Whether its values are percentage points."""
+
+    done: ClassVar[str] = ""
+    """What is done by its distance, such as "interpolated", where that can be chosen apart from the quantity."""
+
+    @property
+    @abstractmethod
+    def word(self) -> str:
+        """Which quantity it is, whatever its parameters."""
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """Its name within a sentence."""
+
+    @property
+    @abstractmethod
+    def heading(self) -> str:
+        """Its name in heads and charts."""
+
+    @property
+    def short_heading(self) -> str:
+        """A shorter name for a narrow head; "" where there is none."""
+        return ""
+
+    @property
+    @abstractmethod
+    def hint(self) -> str:
+        """What to look for."""
+
+    @property
+    def parts(self) -> "tuple[Quantity, ...]":
+        """The two quantities of a difference; any other quantity has one part, itself."""
+        return (self,)
+
+    def with_parts(self, parts: "tuple[Quantity, ...]") -> "Quantity":
+        """The quantity made of other parts."""
+        (part,) = parts
+        return part
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The names of the points that it starts from."""
+        return ()
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        """The distances it is made of."""
+        return ()
+
+    def with_spec(self, spec: Spec) -> "Quantity":
+        """By another distance, where it is made of one."""
+        return self
+
+    def moved_to(self, point: str) -> "Quantity":
+        """From another point, where it starts from one."""
+        return self
+
+    @property
+    def choices(self) -> tuple[Choice, ...]:
+        """Variants of it, as a menu offers them."""
+        return ()
+
+    @classmethod
+    def choice_by(cls, spec: Spec, has_other: bool) -> Choice | None:
+        """The choice of this kind of quantity in the menu of a distance; has_other: whether there is a second mesh."""
+        return None
+
+    @abstractmethod
+    def to_json(self) -> dict[str, Any]:
+        """As records, texts and flags."""
+
+    @classmethod
+    @abstractmethod
+    def from_json(cls, data: dict[str, Any], where: str) -> "Quantity | None":
+        """What `to_json` has written; None for the data of another kind.
+
+        ParameterError, with the place, for what is wrong.
+        """
+
+    @classmethod
+    def from_words(cls, words: str, point: str, parameters: Mapping[str, object]) -> "Quantity | None":
+        """What `str` has written; None for the words of another kind.
+
+        parameters: values of those that the words do not name.  ParameterError for a wrong distance.
+        """
+        return None
+
+
+class ByDistance(Quantity):
+    """Made by one distance."""
 
     spec: Spec
-    point: str = "source"
+
+    @property
+    def before(self) -> str:
+        """What its words begin with, before those of the distance."""
+        return ""
+
+    def __str__(self) -> str:
+        return f"{self.before}{self.spec}"
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    @property
+    def word(self) -> str:
+        return f"{self.before}{self.spec.word}"
+
+    @property
+    def title(self) -> str:
+        return f"{self.before}{self.spec.kind.name.lower()}"
+
+    def with_spec(self, spec: Spec) -> Quantity:
+        return replace(self, spec=spec)  # type: ignore[type-var]
+
+
+class FromPoint(ByDistance):
+    """Made by one distance from a named point."""
+
+    point: str
 
     @property
     def points(self) -> tuple[str, ...]:
         return (self.point,)
 
-    @property
-    def hint(self) -> str:
-        """What to look for."""
-        return self.spec.kind.hint
+    def moved_to(self, point: str) -> Quantity:
+        return replace(self, point=point)  # type: ignore[type-var]
 
 
 @dataclass(frozen=True)
-class OwnField(Alone):
+class DistanceFrom(FromPoint):
+    """The distance of every vertex from a named point."""
+
+    spec: Spec
+    point: str = "source"
+    is_distance = True
+
+    @property
+    def heading(self) -> str:
+        return kind_name(self.spec.kind)
+
+    @property
+    def hint(self) -> str:
+        return self.spec.kind.hint
+
+    def to_json(self) -> dict[str, Any]:
+        return {"distance": self.spec.in_full, "from": self.point}
+
+    @classmethod
+    def from_json(cls, data: dict[str, Any], where: str) -> Quantity:
+        values = record(data, where, {"distance": read_spec, "from": text})
+        return cls(values["distance"], values["from"])
+
+    @classmethod
+    def from_words(cls, words: str, point: str, parameters: Mapping[str, object]) -> Quantity:
+        return cls(Spec.parse(words, **parameters), point)
+
+
+@dataclass(frozen=True)
+class OwnField(Quantity):
     """One of the document's fields, by its name; it starts nowhere."""
 
     name: str
@@ -45,107 +229,47 @@ class OwnField(Alone):
         return self.name
 
     @property
+    def heading(self) -> str:
+        return self.name
+
+    @property
     def hint(self) -> str:
         return "a field of your own"
 
+    def to_json(self) -> dict[str, Any]:
+        return {"field": self.name}
 
-@dataclass(frozen=True)
-class Interpolant(ByDistance):
-    """The values of the document's anchors, interpolated by a distance (paper, section 5.2); it starts nowhere.
-
-    total: the sum of the anchors' weights instead.
-    """
-
-    spec: Spec
-    total: bool = False
-
-    @property
-    def before(self) -> str:
-        return TOTAL if self.total else INTERPOLANT
-
-    @property
-    def hint(self) -> str:
-        if self.total:
-            return "how far the anchors' influence reaches, as the logarithm of the sum of their weights"
-        return "no extrema but at the anchors, and at tips of the shape without one"
+    @classmethod
+    def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:
+        return cls(record(data, where, {"field": text})["field"]) if "field" in data else None
 
 
 @dataclass(frozen=True)
-class ChangeOf(ByDistance):
-    """How a distance differs on a changed surface from what it was before, each as a fraction of its maximum.
+class Difference(Quantity):
+    """One quantity less another: each as a fraction of its maximum, or, if raw, as it is (in equal units)."""
 
-    At the vertices that both have.  point: on the changed surface.
-    """
-
-    spec: Spec
-    point: str = "source"
-
-    @property
-    def before(self) -> str:
-        return CHANGE
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        return (self.point,)
-
-    @property
-    def hint(self) -> str:
-        return "positive where it is larger after the change, negative where it was before"
-
-
-@dataclass(frozen=True)
-class Prediction(ByDistance):
-    """How badly each vertex fits the point that waits for its partner, by a distance (paper, section 5.2).
-
-    From the document's pairs; it starts nowhere.  Nothing where no point of the other surface waits.
-    """
-
-    spec: Spec
-
-    @property
-    def before(self) -> str:
-        return PREDICTION
-
-    @property
-    def hint(self) -> str:
-        return "least where distances from the pairs are most like those of the point"
-
-
-CHANGE = "change of "
-"""What the words of a change begin with."""
-
-INTERPOLANT, TOTAL = "interpolant by ", "weights by "
-"""What the words of an interpolant begin with."""
-
-PREDICTION = "prediction by "
-"""What the words of a prediction begin with."""
-
-Part = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction | MapColours
-"""What a difference is made of."""
-
-
-@dataclass(frozen=True)
-class Difference:
-    """One distance less another: each as a fraction of its maximum, or, if raw, as it is (in equal units)."""
-
-    minuend: Part
-    subtrahend: Part
+    minuend: Quantity
+    subtrahend: Quantity
     raw: bool = False
+    is_difference = True
 
     def __post_init__(self) -> None:
         for part in self.parts:
-            if isinstance(part, MapColours):
+            if part.is_map:
                 raise ParameterError(f"A difference is of fields, and {part} is shown in colours.")
 
     def __str__(self) -> str:
         return f"{'raw ' if self.raw else ''}{self.minuend} - {self.subtrahend}"
 
     @property
-    def parts(self) -> tuple[Part, ...]:
+    def in_percent(self) -> bool:  # type: ignore[override]
+        return not self.raw
+
+    @property
+    def parts(self) -> tuple[Quantity, ...]:
         return (self.minuend, self.subtrahend)
 
-    def with_parts(self, parts: tuple[Part, ...]) -> "Difference":
-        """The difference of others."""
+    def with_parts(self, parts: tuple[Quantity, ...]) -> "Difference":
         first, second = parts
         return replace(self, minuend=first, subtrahend=second)
 
@@ -155,21 +279,55 @@ class Difference:
 
     @property
     def specs(self) -> tuple[Spec, ...]:
-        """The distances it is made of."""
         return (*self.minuend.specs, *self.subtrahend.specs)
 
     @property
+    def word(self) -> str:
+        return f"{self.minuend.word} - {self.subtrahend.word}"
+
+    @property
+    def title(self) -> str:
+        return f"{self.minuend.title} - {self.subtrahend.title}"
+
+    @property
+    def heading(self) -> str:
+        return quantity_name(self)
+
+    @property
     def hint(self) -> str:
-        """What to look for."""
         return f"positive where {self.minuend.title} is larger, negative where {self.subtrahend.title} is"
 
+    def to_json(self) -> dict[str, Any]:
+        return {"difference": [part.to_json() for part in self.parts], "raw": self.raw}
 
-Quantity = DistanceFrom | OwnField | Interpolant | ChangeOf | Prediction | MapColours | Difference
-"""What a panel can show: something with a value, or a colour, at every vertex."""
+    @classmethod
+    def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:
+        if "difference" not in data:
+            return None
+        values = record(data, where, {"difference": listed(_part_from), "raw": flag})
+        if len(values["difference"]) != 2:
+            raise ParameterError(f"{where}.difference must be two distances, not {len(values['difference'])}.")
+        return cls(values["difference"][0], values["difference"][1], values["raw"])
+
+
+@cache
+def quantity_kinds() -> tuple[type[Quantity], ...]:
+    """What a difference can be made of and a panel can show, in the order in which their words and data are tried."""
+    return (OwnField, *(tool.load(name) for tool in tools() for name in tool.quantities), DistanceFrom)
+
+
+def kind_name(kind: Kind) -> str:
+    """The name of a distance in heads, with the power of the family's weights as a raised letter."""
+    return kind.name.replace("^α", "ᵅ")
+
+
+def quantity_name(shows: Quantity) -> str:
+    """The name of a quantity in the head of a panel: "Biharmonic", "Biharmonic − Geodesic", "1/λᵅ"."""
+    return " − ".join(part.heading.removesuffix(" family") for part in shows.parts)
 
 
 def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
-    """Those that a quantity is made of."""
+    """The fields of the user's own that a quantity is made of."""
     return tuple(part for part in shows.parts if isinstance(part, OwnField))
 
 
@@ -187,22 +345,11 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
     parts = words.removeprefix("raw ").split(" - ")
     if len(parts) > 2:
         raise ParameterError(f"{text!r} has {len(parts)} distances; a difference has two.")
-    found: list[Part] = []
+    found: list[Quantity] = []
     for part in (part.strip() for part in parts):
         try:
-            if part in fields:
-                found.append(OwnField(part))
-            elif part.startswith((INTERPOLANT, TOTAL)):
-                distance = part.removeprefix(INTERPOLANT).removeprefix(TOTAL)
-                found.append(Interpolant(Spec.parse(distance, **parameters), part.startswith(TOTAL)))
-            elif part.startswith(PREDICTION):
-                found.append(Prediction(Spec.parse(part.removeprefix(PREDICTION), **parameters)))
-            elif part == POSITIONS or part.startswith(MAP):
-                found.append(map_colours(part, **parameters))
-            elif part.startswith(CHANGE):
-                found.append(ChangeOf(Spec.parse(part.removeprefix(CHANGE), **parameters), point))
-            else:
-                found.append(DistanceFrom(Spec.parse(part, **parameters), point))
+            read = (kind.from_words(part, point, parameters) for kind in quantity_kinds())
+            found.append(OwnField(part) if part in fields else next(each for each in read if each is not None))
         except ParameterError as error:
             names = f" The fields are {', '.join(fields)}." if fields else ""
             raise ParameterError(f"{error}{names}") from None
@@ -213,10 +360,26 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
     return Difference(found[0], found[1], words.startswith("raw "))
 
 
+def quantity_from(data: Any, where: str) -> Quantity:
+    """What `to_json` of a quantity has written; ParameterError, with the place, for anything else."""
+    found = Difference.from_json(data, where) if isinstance(data, dict) else None
+    return _part_from(data, where) if found is None else found
+
+
+def _part_from(data: Any, where: str) -> Quantity:
+    if not isinstance(data, dict):
+        return DistanceFrom.from_json(data, where)
+    read = (kind.from_json(data, where) for kind in quantity_kinds())
+    return next(each for each in read if each is not None)
+
+
+def read_spec(data: Any, where: str) -> Spec:
+    """A distance from its words in full; ParameterError, with the place, for anything else."""
+    return placed(Spec.parse, where, text=text(data, where))
+
+
 def from_point(shows: "Spec | Quantity", point: str) -> Quantity:
-    """The same quantity from another point."""
+    """A quantity, or a distance, from another point."""
     if isinstance(shows, Spec):
         return DistanceFrom(shows, point)
-    return shows.with_parts(
-        tuple(replace(part, point=point) if isinstance(part, DistanceFrom | ChangeOf) else part for part in shows.parts)
-    )
+    return shows.with_parts(tuple(part.moved_to(point) for part in shows.parts))

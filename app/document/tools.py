@@ -24,6 +24,7 @@ class Tool:
     with an `&` before the letter of its key there; key: opens and closes the dock; tip: what it is for, in a few words;
     icon: a name of `assets/icons`; in_bar: whether it has a button of its own; synonyms: other words by which it is
     found.  dock: its `Instrument`, if it has one.  commands: modules of commands, by their words.
+    quantities: subclasses of `Quantity` that panels can show.
     """
 
     package: str
@@ -37,6 +38,7 @@ class Tool:
     synonyms: str = ""
     dock: str = ""
     commands: Mapping[str, str] = field(default_factory=dict)
+    quantities: tuple[str, ...] = ()
 
     def load(self, name: str) -> Any:
         """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""

@@ -11,7 +11,6 @@ from ..document.document import Document
 from ..document.edits import with_ends, with_range
 from ..document.file import read_recipe
 from ..document.looks import RANGES
-from ..document.quantities import Difference
 from ..session.array_store import ArrayStore
 from .export import compute, figure_of, open_document
 
@@ -38,7 +37,7 @@ def ends_in(path: str | os.PathLike[str], progress: Progress | None = None) -> t
         End(
             str(panel.shows),
             top / answer.scale if answer.field is not None else 0.0,
-            isinstance(panel.shows, Difference),
+            panel.shows.is_difference,
         )
         for panel, answer, top in zip(document.panels, answers, tops, strict=True)
     )
@@ -85,7 +84,7 @@ def ended_as(document: Document, ends: Sequence[End], name: str) -> tuple[Docume
             taken[panel.id] = found
             left.remove(found)
     for place, panel in enumerate(document.panels):
-        is_alike = place < len(ends) and ends[place].is_difference == isinstance(panel.shows, Difference)
+        is_alike = place < len(ends) and ends[place].is_difference == panel.shows.is_difference
         if panel.id not in taken and is_alike and ends[place].end > 0:
             taken[panel.id] = (place, ends[place])
     if not taken:

@@ -23,7 +23,6 @@ from ..document.looks import NO_LINES, Isolines
 from ..document.measuring import vertices_of
 from ..document.page import Recipe
 from ..document.profile_words import shows_path
-from ..document.quantities import ChangeOf
 from ..document.sourcing import members_of
 from ..drawing.levels import in_unit
 from ..drawing.selected import selected_colours
@@ -203,7 +202,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answ
     document, surface = recipe.document, loaded.surface
     starts = [source_at(document.point(name).at, surface) for name in panel.shows.points]
     heading = answer.label
-    if loaded.origin is not None and not isinstance(panel.shows, ChangeOf):
+    if loaded.origin is not None and not panel.shows.compares_meshes:
         heading += f", after: {loaded.mesh.change}"
     starting = dict.fromkeys(point for point in starting_points(document) if not point.image_of)
     if starts and len(starting) > 1:

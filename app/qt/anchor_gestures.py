@@ -9,7 +9,6 @@ from bihdist_core import ParameterError
 from ..document.anchoring import add_anchor, remove_anchors
 from ..document.document import Document
 from ..document.edits import put_point
-from ..document.quantities import Interpolant
 
 if TYPE_CHECKING:
     from ..drawing.picking import Hit
@@ -25,7 +24,7 @@ class AnchorGestures:
     def are_meant(self, panel: int) -> bool:
         """Whether a panel shows an interpolant, so that what is done there is done to anchors."""
         shows = self._window.session.document.panel(panel).shows
-        return any(isinstance(part, Interpolant) for part in shows.parts)
+        return any(part.has_anchors for part in shows.parts)
 
     def put(self, panel: int, hit: "Hit") -> None:
         """An anchor at a vertex, with the value that the panel has there."""

@@ -177,7 +177,7 @@ class Answering:
         for spec in question.specs:
             loaded.distances(question.areas).get(spec, part(preparing, 0, 0.9))
         asking(0.9, str(question))
-        at_hand = loaded.is_at_hand(question)
+        at_hand = question.is_at_hand(loaded)
         stand_ins = (loaded.distances(question.areas).stand_in(spec) or spec for spec in question.specs)
         quick = question.with_specs(tuple(stand_ins))
         if (

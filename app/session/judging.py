@@ -27,9 +27,8 @@ from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document
-from ..document.map_colours import SAME_IDS, MapColours, MapFile, Truth
+from ..document.map_colours import SAME_IDS, MapFile, Truth
 from ..document.pairing import whole_pairs
-from ..document.quantities import Prediction
 from .loaded_mesh import LoadedMesh
 from .map_answers import map_in
 from .prediction_answers import correspondence
@@ -51,7 +50,7 @@ Map = Spec | MapFile
 
 def maps_of(document: Document) -> tuple[Map, ...]:
     """Those that the panels show, or predict a point of, each once; and those of the document's files."""
-    shown = [panel.shows for panel in document.panels if isinstance(panel.shows, Prediction | MapColours)]
+    shown = [panel.shows for panel in document.panels if panel.shows.is_prediction or panel.shows.is_map]
     return (*dict.fromkeys(spec for each in shown for spec in each.specs), *document.maps)
 
 

@@ -5,60 +5,41 @@ import threading
 from collections.abc import Callable, Collection
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from bihdist_core import (
-    BihdistError,
-    Cancelled,
-    Laplacian,
-    ParameterError,
-    ShepardInterpolant,
-    Surface,
-    VertexError,
-    read_surface,
-)
+from bihdist_core import Laplacian, ParameterError, Surface, read_surface
 from bihdist_core.analysis.first_view import FirstLook, first_look
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.perturbation import perturbed
-from bihdist_core.distances.accuracy import ErrorEstimate
-from bihdist_core.distances.answers import Answer, Distances, difference_of, failed
+from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.kinds import Spec
-from bihdist_core.progress import Progress, part
+from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
 from ..document.camera import View
-from ..document.document import Document, MeshFile, starting_points
+from ..document.document import Document, FieldArray, MeshFile, starting_points
 from ..document.edits import put_point
 from ..document.file import checksum
 from ..samples import mesh_path
 from .array_store import ArrayStore
-from .map_answers import mapped, positions
-from .perturbed_meshes import carried, change_of
-from .prediction_answers import KnownColumns, is_known, predicted
-from .questions import (
-    ChangeQuestion,
-    DifferenceQuestion,
-    FieldQuestion,
-    InterpolantQuestion,
-    MapQuestion,
-    PositionQuestion,
-    PredictionQuestion,
-    Question,
-    source_at,
-    vertex_at,
-)
-
-NO_ANCHORS = "There is no anchor with a value: click the surface to set one."
-"""What a panel of an interpolant says before there is one."""
+from .perturbed_meshes import carried
+from .questions import Question, source_at
 
 REMEMBERED = 8
 """Answers that a surface keeps itself."""
 
-VALUE = "value"
-"""The unit of what is interpolated, which is the user's own."""
+
+class Memory(Protocol):
+    """What questions of one kind remember of a surface, for any thread."""
+
+    def keep(self, areas: str, wanted: set[Spec]) -> None:
+        """Forget what was found with other areas, or is of no use for these distances."""
+
+
+MemoryKind = TypeVar("MemoryKind", bound=Memory)
 
 
 class LoadedMesh:
@@ -83,11 +64,9 @@ class LoadedMesh:
         self._given = given or ArrayStore()
         self._looks: dict[str, FirstLook] = {}
         self._distances: dict[str, Distances] = {}
-        self._interpolants: dict[tuple[str, Spec], ShepardInterpolant] = {}
+        self._memories: dict[type, Any] = {}
         self._last: dict[Question, Answer] = {}
-        self.columns = 0  # of distances from anchors, solved for so far
         self.beside: tuple[LoadedMesh, ...] = ()  # what is shown with it
-        self.columns_of_pairs = KnownColumns()
         self._lock = threading.Lock()
 
     def is_of(self, mesh: MeshFile) -> bool:
@@ -130,27 +109,8 @@ class LoadedMesh:
         progress: Progress | None = None,
         at_once: Callable[[Answer], None] | None = None,
     ) -> Answer:
-        """See `Distances.answer`."""
-        if isinstance(question, DifferenceQuestion):
-            first = self.answer(question.minuend, part(progress, 0, 0.5))
-            second = self.answer(question.subtrahend, part(progress, 0.5, 1))
-            return difference_of(first, second, question.raw)
-        if isinstance(question, FieldQuestion):
-            field = self._given.field(question.field.sha256, question.field.name)
-            is_signed = bool(np.nanmin(field, initial=0.0) < 0)
-            return Answer(label=question.field.name, field=field, error_estimate=ErrorEstimate(), is_signed=is_signed)
-        if isinstance(question, InterpolantQuestion):
-            return self._interpolated(question, progress)
-        if isinstance(question, PredictionQuestion):
-            return predicted(question, self, progress)
-        if isinstance(question, PositionQuestion):
-            return positions(question, self)
-        if isinstance(question, MapQuestion):
-            return mapped(question, self, progress)
-        if isinstance(question, ChangeQuestion):
-            return change_of(question, self, progress)
-        source = source_at(question.at, self.surface)
-        return self.distances(question.areas).answer(question.spec, source, progress, at_once)
+        """See `Question.answer`."""
+        return question.answer(self, progress, at_once)
 
     def standing_beside(self, mesh: MeshFile | None) -> "LoadedMesh | None":
         """A surface that is shown with this one, or itself; None if it is not there."""
@@ -169,52 +129,15 @@ class LoadedMesh:
                     del self._last[next(iter(self._last))]
         return known
 
-    def is_at_hand(self, question: Question) -> bool:
-        """Whether nothing has to be solved for the answer: of anchors or pairs whose distances are known."""
-        if isinstance(question, PredictionQuestion):
-            return is_known(question, self)
-        if not isinstance(question, InterpolantQuestion):
-            return False
-        with self._lock:
-            last = self._interpolants.get((question.areas, question.spec))
-        if last is None:
-            return False
-        known = {*last.anchors.tolist()}.difference(last.missing)
-        return all(vertex_at(at, self.surface) in known for at, _ in question.anchors)
+    def own_field(self, field: FieldArray) -> np.ndarray:
+        """(n,) a field of the user's own."""
+        return self._given.field(field.sha256, field.name)
 
-    def _interpolated(self, question: InterpolantQuestion, progress: Progress | None) -> Answer:
-        """What is known of the last interpolant by the same distance is used again."""
-        if not question.anchors:
-            return Answer(label=str(question), failure=NO_ANCHORS)
-        key = (question.areas, question.spec)
-        try:
-            distance = self.distances(question.areas).get(question.spec, part(progress, 0, 0.8))
-            vertices = [vertex_at(at, self.surface) for at, _ in question.anchors]
-            values = [value for _, value in question.anchors]
-            weights = question.weights
-            with self._lock:
-                last = self._interpolants.get(key)
-            if last is None or last.distance is not distance:
-                last = ShepardInterpolant(distance, vertices, values)
-            interpolant = last.changed(vertices, values, weights.exponent, weights.smoothness)
-            new = len(interpolant.missing)
-            found = interpolant.sum_of_weights if question.total else interpolant.evaluate
-            field = found(part(progress, 0.8, 1))
-        except (Cancelled, VertexError):
-            raise
-        except (BihdistError, MemoryError) as error:
-            return failed(str(question), error)
+    def memory(self, kind: type[MemoryKind]) -> MemoryKind:
+        """What questions of one kind remember of this surface, empty at first."""
         with self._lock:
-            self._interpolants[key] = interpolant
-            self.columns += new
-        if question.total:
-            # At the anchors themselves it is infinite.
-            field = np.minimum(field, field[np.isfinite(field)].max(initial=0.0))
-        field.flags.writeable = False
-        is_signed = bool(np.nanmin(field, initial=0.0) < 0)
-        label = f"{'weights' if question.total else 'interpolant'} by {distance.label}"
-        unit = "powers of ten" if question.total else VALUE
-        return Answer(label=label, unit=unit, field=field, error_estimate=ErrorEstimate(), is_signed=is_signed)
+            found: MemoryKind = self._memories.setdefault(kind, kind())
+            return found
 
     def settled(self, document: Document) -> Document:
         """The document with this surface's checksum, and its points on it.
@@ -267,13 +190,12 @@ class LoadedMesh:
         return self.up if up == "auto" else up
 
     def keep(self, areas: str, wanted: Collection[Spec]) -> None:
-        """Forget distances with other areas, and of these what `Distances.keep` forgets."""
+        """Forget distances with other areas, of these what `Distances.keep` forgets, and what was made of them."""
         with self._lock:
             self._distances = {known: d for known, d in self._distances.items() if known == areas}
-            self._interpolants = {
-                key: i for key, i in self._interpolants.items() if key[0] == areas and key[1] in wanted
-            }
-        self.columns_of_pairs.keep(areas, {*wanted})
+            memories = tuple(self._memories.values())
+        for memory in memories:
+            memory.keep(areas, {*wanted})
         if areas in self._distances:
             self._distances[areas].keep(wanted)
 

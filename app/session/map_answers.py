@@ -1,5 +1,7 @@
 """Maps between the two surfaces of a document: in files or from its pairs, and the colours that say where they lead."""
 
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,13 +11,17 @@ from bihdist_core.applications.carrying import carried_back, position_colours
 from bihdist_core.applications.correspondence import NOWHERE
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed
+from bihdist_core.distances.kinds import Spec
 from bihdist_core.formats.vertex_maps import read_map
 from bihdist_core.progress import Progress, part
+from bihdist_core.sources.source import Source
 
+from ..document.document import Document, MeshFile
 from ..document.file import checksum
-from ..document.map_colours import SAME_IDS, MapFile
-from .prediction_answers import NO_OTHER, correspondence
-from .questions import MapQuestion, PositionQuestion
+from ..document.map_colours import SAME_IDS, MapColours, MapFile
+from ..document.pairing import other_side
+from .prediction_answers import NO_OTHER, correspondence, pairs_on
+from .questions import Question
 
 if TYPE_CHECKING:
     from .loaded_mesh import LoadedMesh
@@ -24,35 +30,90 @@ NO_PAIRS = "There is no pair yet, and pairs make the map."
 """What a panel of a map says where there can be none."""
 
 
-def positions(question: PositionQuestion, loaded: "LoadedMesh") -> Answer:
-    """A surface in colours by position."""
-    colours = position_colours(loaded.surface)
-    colours.flags.writeable = False
-    return Answer(label=str(question), colours=colours, error_estimate=ErrorEstimate())
+@dataclass(frozen=True)
+class PositionQuestion(Question):
+    """The colours of a surface by position."""
+
+    mesh: MeshFile
+    areas: str
+
+    def __str__(self) -> str:
+        return str(MapColours())
+
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+    ) -> Answer:
+        colours = position_colours(loaded.surface)
+        colours.flags.writeable = False
+        return Answer(label=str(self), colours=colours, error_estimate=ErrorEstimate())
 
 
-def mapped(question: MapQuestion, loaded: "LoadedMesh", progress: Progress | None) -> Answer:
-    """Each vertex in the colour of the one that it is mapped to."""
-    other = loaded.standing_beside(question.other)
-    if other is None:
-        return Answer(label=str(question), failure=NO_OTHER)
-    try:
-        if isinstance(question.by, MapFile):
-            found, label = map_in(question.by, loaded.surface, other.surface), f"map {question.by.name}"
-        elif not question.pairs:
-            return Answer(label=str(question), failure=NO_PAIRS)
-        else:
-            known = correspondence(question.areas, question.by, question.pairs, loaded, other, part(progress, 0, 0.5))
-            found, label = known.map(progress=part(progress, 0.5, 1)), f"map by {known.distance_m.label}"
-        colours = carried_back(position_colours(other.surface), found)
-    except (Cancelled, VertexError):
-        raise
-    except (BihdistError, MemoryError) as error:
-        return failed(str(question), error)
-    found.flags.writeable = colours.flags.writeable = False
-    return Answer(
-        label=label, colours=colours, leads_to=found, error_estimate=ErrorEstimate(), remark=_said(found, other.surface)
-    )
+@dataclass(frozen=True)
+class MapQuestion(Question):
+    """Where a map to another surface leads: one in a file, or one that pairs of points here and there make.
+
+    other: that surface, None if there is none.
+    """
+
+    mesh: MeshFile
+    areas: str
+    by: Spec | MapFile
+    other: MeshFile | None
+    pairs: tuple[tuple[Source | None, Source | None], ...]
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        return (self.by,) if isinstance(self.by, Spec) else ()
+
+    def with_specs(self, specs: tuple[Spec, ...]) -> "MapQuestion":
+        return replace(self, by=specs[0]) if specs else self
+
+    @property
+    def about(self) -> Hashable:
+        """All but the pairs."""
+        return (self.mesh, self.areas, self.by, self.other, "map")
+
+    @property
+    def others(self) -> tuple[MeshFile, ...]:
+        return () if self.other is None else (self.other,)
+
+    def __str__(self) -> str:
+        return str(MapColours(self.by.path if isinstance(self.by, MapFile) else self.by))
+
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+    ) -> Answer:
+        """Each vertex in the colour of the one that it is mapped to."""
+        other = loaded.standing_beside(self.other)
+        if other is None:
+            return Answer(label=str(self), failure=NO_OTHER)
+        try:
+            if isinstance(self.by, MapFile):
+                found, label = map_in(self.by, loaded.surface, other.surface), f"map {self.by.name}"
+            elif not self.pairs:
+                return Answer(label=str(self), failure=NO_PAIRS)
+            else:
+                known = correspondence(self.areas, self.by, self.pairs, loaded, other, part(progress, 0, 0.5))
+                found, label = known.map(progress=part(progress, 0.5, 1)), f"map by {known.distance_m.label}"
+            colours = carried_back(position_colours(other.surface), found)
+        except (Cancelled, VertexError):
+            raise
+        except (BihdistError, MemoryError) as error:
+            return failed(str(self), error)
+        found.flags.writeable = colours.flags.writeable = False
+        remark = _said(found, other.surface)
+        return Answer(label=label, colours=colours, leads_to=found, error_estimate=ErrorEstimate(), remark=remark)
+
+
+def map_question(shows: MapColours, document: Document, surface: str) -> PositionQuestion | MapQuestion:
+    """What the colours of a map ask of a document's surface."""
+    mesh, areas, there = document.mesh(surface), document.areas, other_side(document, surface)
+    if not shows.by:
+        return PositionQuestion(mesh, areas)
+    other = None if there is None else document.mesh(there)
+    if isinstance(shows.by, str):
+        return MapQuestion(mesh, areas, document.map(shows.by), other, ())
+    return MapQuestion(mesh, areas, shows.by, other, () if there is None else pairs_on(document, surface, there))
 
 
 def _said(found: np.ndarray, onto: Surface) -> str:

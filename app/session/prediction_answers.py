@@ -1,7 +1,8 @@
 """Where a point of one surface is on another, as the pairs of a document predict it."""
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,10 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from .questions import PredictionQuestion, vertex_at
+from ..document.document import Document, MeshFile
+from ..document.pairing import other_side, waiting_point, whole_pairs
+from ..document.predicting import PREDICTION
+from .questions import ByDistance, vertex_at
 
 if TYPE_CHECKING:
     from .loaded_mesh import LoadedMesh
@@ -57,7 +61,7 @@ class KnownColumns:
             for vertex in spare[: max(len(spare) - SPARE, 0)]:
                 del known[vertex]
 
-    def keep(self, areas: str, wanted: "set[Spec]") -> None:
+    def keep(self, areas: str, wanted: set[Spec]) -> None:
         """Forget what is known with other areas and by other distances, but for the last of each word.
 
         That may be the method that both surfaces have, or a stand-in; a slider leaves one at every step.
@@ -68,28 +72,88 @@ class KnownColumns:
             self._columns = {key: c for key, c in self._columns.items() if key[0] == areas and key[1] in spared}
 
 
-def predicted(question: PredictionQuestion, loaded: "LoadedMesh", progress: Progress | None) -> Answer:
-    """The misfit of every vertex to the point; neither field nor failure where no point waits, or no pair is known."""
-    other = loaded.standing_beside(question.other)
-    if question.other is None or other is None:
-        return Answer(label=str(question), failure=NO_OTHER)
-    if question.at is None or not question.pairs:
-        return Answer(label=str(question), unit=MISFIT, error_estimate=ErrorEstimate())
-    try:
-        pairs = [(there, here) for here, there in question.pairs]
-        known = correspondence(question.areas, question.spec, pairs, other, loaded, progress)
-        field = known.misfit(vertex_at(question.at, other.surface))
-    except (Cancelled, VertexError):
-        raise
-    except (BihdistError, MemoryError) as error:
-        return failed(str(question), error)
-    field.flags.writeable = False
-    label = f"prediction by {known.distance_n.label}"
-    if np.isnan(field).all():
-        return Answer(label=label, failure="The point is on another component than one of the pairs' points.")
-    best, share = candidate_of(field)
-    said = f"the best is vertex {best}, misfit {field[best]:.4g}, {100 * share:.1f} % of the largest"
-    return Answer(label=label, unit=MISFIT, field=field, error_estimate=ErrorEstimate(), remark=said)
+@dataclass(frozen=True)
+class PredictionQuestion(ByDistance):
+    """How badly each vertex fits a point of another surface, from pairs of points here and there.
+
+    other: that surface, None if there is none.  at: the point there; None where no point of it waits, or none can be
+    predicted.
+    """
+
+    mesh: MeshFile
+    areas: str
+    spec: Spec
+    other: MeshFile | None
+    pairs: tuple[tuple[Source | None, Source | None], ...]
+    at: Source | None
+
+    @property
+    def about(self) -> Hashable:
+        """All but where the points are, and whether there is one."""
+        return (self.mesh, self.areas, self.spec, self.other, self.at is None, "prediction")
+
+    @property
+    def others(self) -> tuple[MeshFile, ...]:
+        return () if self.other is None else (self.other,)
+
+    def __str__(self) -> str:
+        return f"{PREDICTION}{self.spec}"
+
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+    ) -> Answer:
+        """The misfit of every vertex to the point; neither field nor failure where none waits, or no pair is known."""
+        other = loaded.standing_beside(self.other)
+        if self.other is None or other is None:
+            return Answer(label=str(self), failure=NO_OTHER)
+        if self.at is None or not self.pairs:
+            return Answer(label=str(self), unit=MISFIT, error_estimate=ErrorEstimate())
+        try:
+            pairs = [(there, here) for here, there in self.pairs]
+            known = correspondence(self.areas, self.spec, pairs, other, loaded, progress)
+            field = known.misfit(vertex_at(self.at, other.surface))
+        except (Cancelled, VertexError):
+            raise
+        except (BihdistError, MemoryError) as error:
+            return failed(str(self), error)
+        field.flags.writeable = False
+        label = f"prediction by {known.distance_n.label}"
+        if np.isnan(field).all():
+            return Answer(label=label, failure="The point is on another component than one of the pairs' points.")
+        best, share = candidate_of(field)
+        said = f"the best is vertex {best}, misfit {field[best]:.4g}, {100 * share:.1f} % of the largest"
+        return Answer(label=label, unit=MISFIT, field=field, error_estimate=ErrorEstimate(), remark=said)
+
+    def is_at_hand(self, loaded: "LoadedMesh") -> bool:
+        """Whether the distances from all points of the pairs are known, or nothing waits."""
+        other = loaded.standing_beside(self.other)
+        if other is None or self.at is None:
+            return True
+        sides = loaded.distances(self.areas), other.distances(self.areas)
+        if not all(side.is_ready(self.spec) for side in sides):
+            return False
+        spec = same_on(self.spec, sides)
+        for side, each in enumerate((loaded, other)):
+            known = each.memory(KnownColumns).of(self.areas, spec)
+            if any(vertex_at(pair[side], each.surface) not in known for pair in self.pairs):
+                return False
+        return True
+
+
+def prediction_question(document: Document, surface: str, spec: Spec) -> PredictionQuestion:
+    """What a prediction by a distance asks of a document's surface."""
+    there, waiting = other_side(document, surface), waiting_point(document)
+    other = None if there is None else document.mesh(there)
+    asked = PredictionQuestion(document.mesh(surface), document.areas, spec, other, (), None)
+    if there is None or waiting is None or waiting.surface != there or not whole_pairs(document):
+        return asked  # what is plain is the same whatever pairs there are
+    return replace(asked, pairs=pairs_on(document, surface, there), at=waiting.at)
+
+
+def pairs_on(document: Document, surface: str, there: str) -> tuple[tuple[Source | None, Source | None], ...]:
+    """Of the whole pairs of a document, where their points are on one surface and on the other."""
+    on = [{document.point(name).surface: document.point(name).at for name in p.points} for p in whole_pairs(document)]
+    return tuple((each[surface], each[there]) for each in on)
 
 
 def correspondence(
@@ -108,27 +172,11 @@ def correspondence(
     on_one = one.distances(areas).get(spec, part(progress, 0.0, 0.3))
     on_two = two.distances(areas).get(spec, part(progress, 0.3, 0.6))
     places = [(vertex_at(a, one.surface), vertex_at(b, two.surface)) for a, b in pairs]
-    columns = one.columns_of_pairs.of(areas, spec), two.columns_of_pairs.of(areas, spec)
+    columns = one.memory(KnownColumns).of(areas, spec), two.memory(KnownColumns).of(areas, spec)
     found = Correspondence(on_one, on_two, places, None, part(progress, 0.6, 1.0), columns)
     for side, loaded in enumerate((one, two)):
-        loaded.columns_of_pairs.put(areas, spec, columns[side], {place[side] for place in places})
+        loaded.memory(KnownColumns).put(areas, spec, columns[side], {place[side] for place in places})
     return found
-
-
-def is_known(question: PredictionQuestion, loaded: "LoadedMesh") -> bool:
-    """Whether nothing has to be solved for the answer."""
-    other = loaded.standing_beside(question.other)
-    if other is None or question.at is None:
-        return True
-    sides = loaded.distances(question.areas), other.distances(question.areas)
-    if not all(side.is_ready(question.spec) for side in sides):
-        return False
-    spec = same_on(question.spec, sides)
-    for side, each in enumerate((loaded, other)):
-        known = each.columns_of_pairs.of(question.areas, spec)
-        if any(vertex_at(pair[side], each.surface) not in known for pair in question.pairs):
-            return False
-    return True
 
 
 def candidate_of(field: np.ndarray) -> tuple[int, float]:

@@ -31,10 +31,9 @@ from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 from bihdist_core.surface import Surface
 
-from .extrema import start_of
 from .latest_request_worker import LatestRequestWorker
 from .loaded_mesh import LoadedMesh
-from .questions import DifferenceQuestion, DistanceQuestion, FieldQuestion, Question, vertex_at
+from .questions import DistanceQuestion, Question, vertex_at
 
 GEODESIC = Spec.of("geodesic")
 
@@ -130,8 +129,8 @@ class Quality:
             # Of a question that is new, those that the distance was last asked for.
             component = self._components.get(question, self._components.get(question.about, 0))
             sample = self._samples.get((question.about, component), Found())
-        if not isinstance(question, DistanceQuestion):
-            reason = ONE_SOURCE if isinstance(question, FieldQuestion) else NO_DISTANCE
+        if not question.is_distance:
+            reason = ONE_SOURCE if question.is_own_field else NO_DISTANCE
             return replace(found, triangles_failure=reason)
         return replace(
             found,
@@ -160,7 +159,7 @@ class Quality:
             return
         progress(0.0, "extrema")
         try:
-            found = Found(other_extrema(each.surface, each.field, start_of(each.question, each.field, each.surface)))
+            found = Found(other_extrema(each.surface, each.field, each.question.start(each.field, each.surface)))
         except Exception as error:
             found = Found(failure=failure_in_words(error))
         self._remember(each.question, found)
@@ -172,9 +171,9 @@ class Quality:
         progress(0.0, "circles and kinks")
         surface = each.surface
         try:
-            source = start_of(each.question, each.field, surface)
+            source = each.question.start(each.field, surface)
             near = None if source is None else self._nearness(each, source, request, progress)
-            if isinstance(each.question, DifferenceQuestion) or source is None or near is None:
+            if len(each.question.parts) > 1 or source is None or near is None:
                 whole = difference_quality(surface, each.field, near, source)
             else:
                 whole = field_quality(surface, each.field, near, source)

@@ -1,208 +1,176 @@
 """From a document to its questions: for each panel all that its answer depends on, and nothing else."""
 
-from collections.abc import Hashable
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from functools import singledispatch
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
 from bihdist_core import Surface
 from bihdist_core.analysis.first_view import first_look
-from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
+from bihdist_core.analysis.quality import apparent_source
+from bihdist_core.distances.accuracy import ErrorEstimate
+from bihdist_core.distances.answers import Answer, difference_of
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.progress import Progress, part
 from bihdist_core.sources.pieces import Pieces, pieces_of
-from bihdist_core.sources.source import Source
+from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.document import Document, FieldArray, MeshFile
-from ..document.map_colours import MapColours, MapFile
-from ..document.pairing import other_side, waiting_point, whole_pairs
-from ..document.quantities import ChangeOf, Difference, Interpolant, OwnField, Part, Prediction, Quantity
+from ..document.map_colours import MapColours
+from ..document.quantities import Difference, DistanceFrom, OwnField
+from ..document.sourcing import members_of
+
+if TYPE_CHECKING:
+    from .loaded_mesh import LoadedMesh
 
 
-@dataclass(frozen=True)
-class _ByDistance:
-    """What is answered by one distance.  mesh: the surface, by path and checksum; areas: of its operators."""
+Asked = TypeVar("Asked", bound="Question")
+
+
+class Question(ABC):
+    """What a panel asks of a surface; subclasses are frozen dataclasses, and equal questions have equal answers.
+
+    mesh: the surface, by path and checksum; areas: of its operators.
+    """
 
     mesh: MeshFile
     areas: str
+
+    is_distance: ClassVar[bool] = False
+    """Whether it asks for a distance, and nothing made of it."""
+
+    is_own_field: ClassVar[bool] = False
+    """Whether it asks for a field of the user's own, which is known from one source only."""
+
+    starts_at_point: ClassVar[bool] = False
+    """Whether it is of a distance from a point that the document names."""
+
+    @property
+    def parts(self) -> "tuple[Question, ...]":
+        """The two questions of a difference; any other question has one part, itself."""
+        return (self,)
+
+    @property
+    def specs(self) -> tuple[Spec, ...]:
+        """The distances that the answer is made of."""
+        return ()
+
+    def with_specs(self: Asked, specs: tuple[Spec, ...]) -> Asked:
+        """By as many other distances."""
+        return self
+
+    @property
+    def about(self) -> Hashable:
+        """What two questions have in common that ask for one thing from two places."""
+        return self
+
+    @property
+    def others(self) -> tuple[MeshFile, ...]:
+        """Other surfaces on whose distances the answer depends, too."""
+        return ()
+
+    @abstractmethod
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+    ) -> Answer:
+        """The answer on a surface; `at_once` is called with a rougher one that is there at once, if there is one.
+
+        VertexError or ParameterError for a point that is not on the surface; Cancelled as `progress` raises it.
+        """
+
+    def is_at_hand(self, loaded: "LoadedMesh") -> bool:
+        """Whether nothing has to be solved for the answer."""
+        return False
+
+    def start(self, field: np.ndarray, surface: Surface) -> Source | None:
+        """Where the field (n,) of the answer starts; VertexError or ParameterError for a point not on the surface."""
+        return apparent_source(field)
+
+
+class ByDistance(Question):
+    """What is answered by one distance; subclasses have the fields mesh, areas and spec."""
+
     spec: Spec
 
     @property
     def specs(self) -> tuple[Spec, ...]:
         return (self.spec,)
 
-    def with_specs(self: "Asked", specs: tuple[Spec, ...]) -> "Asked":
-        """The same by another distance."""
+    def with_specs(self: Asked, specs: tuple[Spec, ...]) -> Asked:
         (spec,) = specs
-        return replace(self, spec=spec)
-
-
-Asked = TypeVar("Asked", bound=_ByDistance)
+        return replace(self, spec=spec)  # type: ignore[type-var]
 
 
 @dataclass(frozen=True)
-class _ByNothing:
-    """What is known without a distance."""
+class DistanceQuestion(ByDistance):
+    """The distance of every vertex from a source."""
 
     mesh: MeshFile
     areas: str
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return ()
-
-    def with_specs(self: "Known", specs: tuple[Spec, ...]) -> "Known":
-        return self
-
-    @property
-    def about(self) -> Hashable:
-        return self
-
-
-Known = TypeVar("Known", bound=_ByNothing)
-
-
-@dataclass(frozen=True)
-class DistanceQuestion(_ByDistance):
-    """The distance of every vertex from a source; equal questions have equal answers."""
-
+    spec: Spec
     at: Source | None
+    is_distance = True
+    starts_at_point = True
 
     @property
     def about(self) -> Hashable:
-        """All but from where."""
         return (self.mesh, self.areas, self.spec)
 
     def __str__(self) -> str:
         return str(self.spec)
 
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+    ) -> Answer:
+        source = source_at(self.at, loaded.surface)
+        return loaded.distances(self.areas).answer(self.spec, source, progress, at_once)
+
+    def start(self, field: np.ndarray, surface: Surface) -> Source | None:
+        return source_at(self.at, surface)
+
 
 @dataclass(frozen=True)
-class FieldQuestion(_ByNothing):
+class FieldQuestion(Question):
     """A field of the user's own."""
 
+    mesh: MeshFile
+    areas: str
     field: FieldArray
+    is_own_field = True
 
     def __str__(self) -> str:
         return self.field.name
 
-
-@dataclass(frozen=True)
-class InterpolantQuestion(_ByDistance):
-    """Values at vertices, interpolated by a distance; or, if total, the sum of the weights."""
-
-    anchors: tuple[tuple[Source | None, float], ...]
-    weights: Weights = INVERSE_DISTANCES
-    total: bool = False
-
-    @property
-    def about(self) -> Hashable:
-        """All but where the anchors are, and their values."""
-        return (self.mesh, self.areas, self.spec, self.total, "interpolant")
-
-    def __str__(self) -> str:
-        return str(Interpolant(self.spec, self.total))
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+    ) -> Answer:
+        field = loaded.own_field(self.field)
+        is_signed = bool(np.nanmin(field, initial=0.0) < 0)
+        return Answer(label=self.field.name, field=field, error_estimate=ErrorEstimate(), is_signed=is_signed)
 
 
 @dataclass(frozen=True)
-class ChangeQuestion(_ByDistance):
-    """How a distance from a vertex of a changed surface differs from what it was before."""
-
-    at: Source | None
-
-    @property
-    def about(self) -> Hashable:
-        """All but from where."""
-        return (self.mesh, self.areas, self.spec, "change")
-
-    def __str__(self) -> str:
-        return str(ChangeOf(self.spec))
-
-
-@dataclass(frozen=True)
-class PredictionQuestion(_ByDistance):
-    """How badly each vertex fits a point of another surface, from pairs of points here and there.
-
-    other: that surface, None if there is none.  at: the point there; None where no point of it waits, or none can be
-    predicted.
-    """
-
-    other: MeshFile | None
-    pairs: tuple[tuple[Source | None, Source | None], ...]
-    at: Source | None
-
-    @property
-    def about(self) -> Hashable:
-        """All but where the points are, and whether there is one."""
-        return (self.mesh, self.areas, self.spec, self.other, self.at is None, "prediction")
-
-    def __str__(self) -> str:
-        return str(Prediction(self.spec))
-
-
-@dataclass(frozen=True)
-class PositionQuestion(_ByNothing):
-    """The colours of a surface by position."""
-
-    def __str__(self) -> str:
-        return str(MapColours())
-
-
-@dataclass(frozen=True)
-class MapQuestion:
-    """Where a map to another surface leads: one in a file, or one that pairs of points here and there make.
-
-    other: that surface, None if there is none.
-    """
-
-    mesh: MeshFile
-    areas: str
-    by: Spec | MapFile
-    other: MeshFile | None
-    pairs: tuple[tuple[Source | None, Source | None], ...]
-
-    @property
-    def specs(self) -> tuple[Spec, ...]:
-        return (self.by,) if isinstance(self.by, Spec) else ()
-
-    def with_specs(self, specs: tuple[Spec, ...]) -> "MapQuestion":
-        return replace(self, by=specs[0]) if specs else self
-
-    @property
-    def about(self) -> Hashable:
-        """All but the pairs."""
-        return (self.mesh, self.areas, self.by, self.other, "map")
-
-    def __str__(self) -> str:
-        return str(MapColours(self.by.path if isinstance(self.by, MapFile) else self.by))
-
-
-PartQuestion = (
-    DistanceQuestion
-    | FieldQuestion
-    | InterpolantQuestion
-    | ChangeQuestion
-    | PredictionQuestion
-    | PositionQuestion
-    | MapQuestion
-)
-
-
-@dataclass(frozen=True)
-class DifferenceQuestion:
+class DifferenceQuestion(Question):
     """One answer less another, on the same surface."""
 
-    minuend: PartQuestion
-    subtrahend: PartQuestion
+    minuend: Question
+    subtrahend: Question
     raw: bool = False
 
     @property
-    def mesh(self) -> MeshFile:
+    def mesh(self) -> MeshFile:  # type: ignore[override]
         return self.minuend.mesh
 
     @property
-    def areas(self) -> str:
+    def areas(self) -> str:  # type: ignore[override]
         return self.minuend.areas
+
+    @property
+    def parts(self) -> tuple[Question, ...]:
+        return (self.minuend, self.subtrahend)
 
     @property
     def specs(self) -> tuple[Spec, ...]:
@@ -217,11 +185,25 @@ class DifferenceQuestion:
     def about(self) -> Hashable:
         return (self.minuend.about, self.subtrahend.about, self.raw)
 
+    @property
+    def others(self) -> tuple[MeshFile, ...]:
+        return (*self.minuend.others, *self.subtrahend.others)
+
     def __str__(self) -> str:
         return f"{self.minuend} - {self.subtrahend}"
 
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+    ) -> Answer:
+        first = self.minuend.answer(loaded, part(progress, 0, 0.5))
+        second = self.subtrahend.answer(loaded, part(progress, 0.5, 1))
+        return difference_of(first, second, self.raw)
 
-Question = PartQuestion | DifferenceQuestion
+    def start(self, field: np.ndarray, surface: Surface) -> Source | None:
+        """All that the distances start from that it is made of."""
+        starts = [each.start(field, surface) for each in self.parts if each.starts_at_point]
+        members = tuple(dict.fromkeys(member for start in starts if start is not None for member in members_of(start)))
+        return SourceSet(members) if len(members) > 1 else next(iter(members), None)
 
 
 def are_about_the_same(one: Question, other: Question) -> bool:
@@ -231,62 +213,42 @@ def are_about_the_same(one: Question, other: Question) -> bool:
 
 def asks_of(question: Question, mesh: MeshFile) -> bool:
     """Whether an answer depends on distances on this surface, too, on which it is not."""
-    parts = (question.minuend, question.subtrahend) if isinstance(question, DifferenceQuestion) else (question,)
-    others = [each.other for each in parts if isinstance(each, PredictionQuestion | MapQuestion)]
     # Whatever they are called in documents.
-    return any(other is not None and replace(other, name=mesh.name) == mesh for other in others)
+    return any(replace(other, name=mesh.name) == mesh for other in question.others)
 
 
 def questions(document: Document) -> dict[int, Question]:
     """The question of each panel, by the panel's id."""
-    return {panel.id: _question(document, panel.surface, panel.shows) for panel in document.panels}
+    return {panel.id: question_of(panel.shows, document, panel.surface) for panel in document.panels}
 
 
-def _question(document: Document, surface: str, shows: Quantity) -> Question:
-    mesh, areas = document.mesh(surface), document.areas
-
-    def asked(part: Part) -> PartQuestion:
-        if isinstance(part, OwnField):
-            return FieldQuestion(mesh, areas, document.field(part.name))
-        if isinstance(part, Interpolant):
-            anchors = [(document.point(anchor.point), anchor) for anchor in document.anchors if not anchor.left_out]
-            known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
-            return InterpolantQuestion(mesh, areas, part.spec, known, document.weights, part.total)
-        if isinstance(part, MapColours):
-            return _mapped(document, surface, part)
-        if isinstance(part, Prediction):
-            return _predicted(document, surface, part.spec)
-        kind = ChangeQuestion if isinstance(part, ChangeOf) else DistanceQuestion
-        return kind(mesh, areas, part.spec, document.point(part.point).at)
-
-    if isinstance(shows, Difference):
-        return DifferenceQuestion(asked(shows.minuend), asked(shows.subtrahend), shows.raw)
-    return asked(shows)
+@singledispatch
+def question_of(shows: Any, document: Document, surface: str) -> Question:
+    """What a quantity asks of a document's surface; quantities of tools say so themselves."""
+    return shows.question(document, surface)
 
 
-def _predicted(document: Document, surface: str, spec: Spec) -> PredictionQuestion:
-    there, waiting = other_side(document, surface), waiting_point(document)
-    other = None if there is None else document.mesh(there)
-    asked = PredictionQuestion(document.mesh(surface), document.areas, spec, other, (), None)
-    if there is None or waiting is None or waiting.surface != there or not whole_pairs(document):
-        return asked  # what is plain is the same whatever pairs there are
-    return replace(asked, pairs=_places(document, surface, there), at=waiting.at)
+@question_of.register
+def _(shows: DistanceFrom, document: Document, surface: str) -> Question:
+    return DistanceQuestion(document.mesh(surface), document.areas, shows.spec, document.point(shows.point).at)
 
 
-def _mapped(document: Document, surface: str, shows: MapColours) -> PositionQuestion | MapQuestion:
-    mesh, areas, there = document.mesh(surface), document.areas, other_side(document, surface)
-    if not shows.by:
-        return PositionQuestion(mesh, areas)
-    other = None if there is None else document.mesh(there)
-    if isinstance(shows.by, str):
-        return MapQuestion(mesh, areas, document.map(shows.by), other, ())
-    return MapQuestion(mesh, areas, shows.by, other, () if there is None else _places(document, surface, there))
+@question_of.register
+def _(shows: OwnField, document: Document, surface: str) -> Question:
+    return FieldQuestion(document.mesh(surface), document.areas, document.field(shows.name))
 
 
-def _places(document: Document, surface: str, there: str) -> tuple[tuple[Source | None, Source | None], ...]:
-    """Of the pairs, on one surface and on the other."""
-    on = [{document.point(name).surface: document.point(name).at for name in p.points} for p in whole_pairs(document)]
-    return tuple((each[surface], each[there]) for each in on)
+@question_of.register
+def _(shows: Difference, document: Document, surface: str) -> Question:
+    first, second = (question_of(each, document, surface) for each in shows.parts)
+    return DifferenceQuestion(first, second, shows.raw)
+
+
+@question_of.register
+def _(shows: MapColours, document: Document, surface: str) -> Question:
+    from .map_answers import map_question
+
+    return map_question(shows, document, surface)
 
 
 def source_at(at: Source | None, surface: Surface, up: str = "y") -> Source:

@@ -20,7 +20,6 @@ from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document, MeshFile
-from ..document.quantities import DistanceFrom
 from .latest_request_worker import LatestRequestWorker
 from .loaded_mesh import LoadedMesh
 
@@ -60,9 +59,9 @@ def regions_questions(document: Document) -> dict[int, RegionsQuestion]:
     found = {}
     for panel in document.panels:
         places = tuple(at for at in pinned(document, panel.surface) if at is not None)
-        if panel.id in document.regions and places and isinstance(panel.shows, DistanceFrom):
+        if panel.id in document.regions and places and panel.shows.is_distance:
             mesh = document.mesh(panel.surface)
-            found[panel.id] = RegionsQuestion(mesh, document.areas, panel.shows.spec, places)
+            found[panel.id] = RegionsQuestion(mesh, document.areas, panel.shows.specs[0], places)
     return found
 
 

@@ -28,10 +28,11 @@ from app.document.pairing import (
     whole_pairs,
 )
 from app.document.predicting import predict, predicts, show_distances
-from app.document.quantities import Prediction, quantity
+from app.document.quantities import quantity
 from app.figures.export import compute, open_document
 from app.session.array_store import ArrayStore
 from app.session.prediction_answers import NO_OTHER, SPARE, KnownColumns, candidate_of
+from app.tools.correspondence.quantity import Prediction
 from bihdist_core import BiharmonicDistance, Correspondence, ParameterError, write_mesh
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, two_pieces
@@ -212,7 +213,7 @@ def test_a_new_pair_costs_a_solve_and_another_point_none(desk, meshes):
     work.until(lambda: session.surface is not None)
 
     def solved():
-        return tuple(session.loaded(name).columns_of_pairs.solved for name in "AB")
+        return tuple(session.loaded(name).memory(KnownColumns).solved for name in "AB")
 
     session.show(place_point(add_pairs(session.document, PAIRS), "A", 44))
     work.complete()
@@ -236,10 +237,10 @@ def test_what_the_other_surface_alone_is_asked_is_kept(desk, meshes):
     session.show(replace(session.document, panels=tuple(panels)))
     session.show(place_point(add_pairs(session.document, PAIRS), "B", 44))
     work.complete()
-    before = [session.loaded(name).columns_of_pairs.solved for name in "AB"]
+    before = [session.loaded(name).memory(KnownColumns).solved for name in "AB"]
     session.show(place_point(session.document, "B", 45))
     work.complete()
-    assert [session.loaded(name).columns_of_pairs.solved for name in "AB"] == before == [4, 4]
+    assert [session.loaded(name).memory(KnownColumns).solved for name in "AB"] == before == [4, 4]
 
 
 def test_columns_of_what_is_dragged_are_forgotten():

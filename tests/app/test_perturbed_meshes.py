@@ -20,11 +20,12 @@ from app.document.file import checksum, read_recipe, recipe_text
 from app.document.form import document_data, document_from
 from app.document.instruments import Scatter
 from app.document.page import Page, Recipe
-from app.document.quantities import ChangeOf, quantity
+from app.document.quantities import quantity
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.session.array_store import ArrayStore
 from app.session.surfaces import SPARED_MADE
+from app.tools.robustness.quantity import ChangeOf
 from bihdist_core import BiharmonicDistance, ParameterError, Surface, SurfacePoint, VertexError, write_mesh
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.perturbation import image_of, perturbed

@@ -23,7 +23,7 @@ def anchor_moved(size: Size) -> Iterator[Line]:
     """The whole field with another value at one of the anchors, as a share of one column of distances."""
     from app.document.document import MeshFile
     from app.session.loaded_mesh import open_mesh
-    from app.session.questions import InterpolantQuestion
+    from app.tools.interpolation.answers import InterpolantQuestion
 
     case = main_case(size)
     with mesh_file(*case.arrays) as path:

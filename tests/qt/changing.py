@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.quantities import ChangeOf
+from app.tools.robustness.quantity import ChangeOf
 from bihdist_core import BiharmonicDistance, GeodesicDistance
 from bihdist_core.applications.perturbation import perturbed
 from bihdist_core.distances.kinds import Spec

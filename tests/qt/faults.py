@@ -37,9 +37,9 @@ def faults(hands: Hands) -> list[str]:
 
 
 def _untrue(hands: Hands) -> list[str]:
+    from app.document.quantities import quantity_name
     from app.qt.look.canvas import canvas_style
     from app.qt.look.look import LOOK
-    from app.qt.panels.quantity_menu import quantity_name
     from app.session.bar_ends import bar_end
     from app.session.questions import questions, source_at, vertex_at
     from bihdist_core.sources.words import words_of

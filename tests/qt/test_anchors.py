@@ -7,7 +7,9 @@ import pytest
 
 from app.document.anchoring import add_anchor
 from app.document.edits import show_in
-from app.document.quantities import Interpolant, quantity
+from app.document.quantities import quantity
+from app.tools.interpolation.answers import InterpolantMemory
+from app.tools.interpolation.quantity import Interpolant
 from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolant, farthest_points, other_extrema
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import SourceSet
@@ -286,7 +288,7 @@ def test_a_value_is_followed_without_a_solve_even_while_it_moves(loaded):
     s = loaded
     for vertex in s.seen(3):
         click(s, 0, vertex)
-    columns = s.session.loaded().columns
+    columns = s.session.loaded().memory(InterpolantMemory).columns
     row = list(dock_of(s).rows.values())[2]
     row.slider.setSliderDown(True)
     for step in (200, 400, 600):
@@ -295,7 +297,7 @@ def test_a_value_is_followed_without_a_solve_even_while_it_moves(loaded):
         assert "heat" not in s.answers[1].label
     row.slider.setSliderDown(False)
     complete(s)
-    assert s.session.loaded().columns == columns
+    assert s.session.loaded().memory(InterpolantMemory).columns == columns
     assert "no solve" in s.window.status.message.text
 
 

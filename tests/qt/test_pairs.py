@@ -8,9 +8,10 @@ import pytest
 from app.document.edits import duplicate_panel
 from app.document.file import read_recipe
 from app.document.pairing import half_pair
-from app.document.quantities import Prediction
 from app.figures.export import compute, figure_of, open_document
 from app.session.array_store import ArrayStore
+from app.session.prediction_answers import KnownColumns
+from app.tools.correspondence.quantity import Prediction
 from bihdist_core import BiharmonicDistance, Correspondence, GeodesicDistance, Surface
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
@@ -200,7 +201,7 @@ def test_a_drag_of_a_drop_is_one_step_and_of_the_waiting_point_costs_no_solve(tw
     click(s, 0, start)
 
     def solved():
-        return [s.session.loaded(name).columns_of_pairs.solved for name in "AB"]
+        return [s.session.loaded(name).memory(KnownColumns).solved for name in "AB"]
 
     before, view = solved(), s.panels[0].view
     drag(s, view, s.point_of(s.panels[0], start), s.point_of(s.panels[0], stop))
@@ -241,7 +242,7 @@ def test_live_the_point_that_waits_follows_the_pointer_until_its_partner_is_clic
         hover(s, 0, vertex)
         s.until(lambda vertex=vertex: places(s)[-1] == (vertex,))
         complete(s)
-        solved.append([s.session.loaded(name).columns_of_pairs.solved for name in "AB"])
+        solved.append([s.session.loaded(name).memory(KnownColumns).solved for name in "AB"])
     assert solved[0] == solved[1]  # a point that follows costs nothing
     assert s.answers[1].field == pytest.approx(misfit(s, BiharmonicDistance, stop), abs=1e-9)
     there = s.seen(6, 1)[-1]

@@ -7,7 +7,6 @@ from contextlib import suppress
 
 from qtpy import QtCore
 
-from ...document.anchoring import interpolated
 from ...document.document import Panel
 from ...session.quality import Found, Quality
 from ...session.questions import Question, are_about_the_same, questions
@@ -100,7 +99,7 @@ class Findings(QtCore.QObject):
     def _is_marked(self, panel: Panel) -> bool:
         """Whether the extrema of what a panel shows are drawn there."""
         document = self._window.session.document
-        has_anchors = "anchors" in document.docks and interpolated(panel.shows) is not None
+        has_anchors = "anchors" in document.docks and panel.shows.interpolates
         return self._is_judging or ((document.extrema or has_anchors) and self._is_there)
 
     @property

@@ -10,7 +10,7 @@ from ...document.beside_edits import letter_of
 from ...document.document import Panel
 from ...document.field_names import field_names
 from ...document.file_names import file_name
-from ...document.quantity_names import quantity_name
+from ...document.quantities import quantity_name
 
 
 class FieldFiles:

@@ -9,7 +9,6 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 from bihdist_core.analysis.upright import axis_of
 
 from ...document.camera import Camera, View
-from ...document.quantities import Difference
 from ...drawing.camera import camera_seen, carried, outwards_at, show_camera, standard_camera
 from ...drawing.height_field import rise
 from ...session.loaded_mesh import LoadedMesh
@@ -90,7 +89,7 @@ class Eye(QtCore.QObject):
         if not isinstance(view, Camera):
             points, up = self._loaded.prepared.points, self.rise
             if up:
-                signed = any(isinstance(panel.shows, Difference) for panel in document.panels_of(self.surface))
+                signed = any(panel.shows.is_difference for panel in document.panels_of(self.surface))
                 down = np.array([0, 0, up if signed else 0])
                 points = np.concatenate([points - down, points + np.array([0, 0, up])])
             name = "relief" if up and view == "home" else view

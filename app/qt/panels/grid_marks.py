@@ -8,7 +8,6 @@ from qtpy import QtGui
 from ...document.document import Document, Panel
 from ...document.pairing import pair_words
 from ...document.predicting import predicts_in
-from ...document.quantities import Interpolant
 from ...session.anchors import anchors_on
 from ...session.isoline_points import IsolinePoint, passed
 from ...session.map_answers import colours_words
@@ -77,7 +76,7 @@ class GridMarks:
             loaded, marks = self._session.loaded(panel.surface), self._panels[panel.id].marks
             anchors = anchors_on(document, panel.surface, loaded)
             self._panels[panel.id].mark_anchors([vertex for vertex, _ in anchors])
-            if not any(isinstance(part, Interpolant) for part in panel.shows.parts):
+            if not any(part.has_anchors for part in panel.shows.parts):
                 marks.hold_anchors(None)
                 continue
             here = [a for a in document.anchors if document.point(a.point).surface == panel.surface]

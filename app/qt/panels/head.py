@@ -9,14 +9,13 @@ from bihdist_core import Surface
 from bihdist_core.distances.kinds import Spec
 
 from ...document.edits import PANEL_EDITS
-from ...document.map_colours import MapColours
-from ...document.quantities import ChangeOf, Difference, Interpolant, Prediction, Quantity
+from ...document.quantities import Difference, Quantity, kind_name, quantity_name
 from ..look.icons import pixmap
 from ..look.look import LOOK
 from .flat_button import ICON_SIDE, FlatButton
 from .number_box import PopUp
 from .parameters import ChoiceControl, Control, FixedWord, NumberControl, parameter_control, signs
-from .quantity_menu import RAW_WORDS, Choices, fill_menu, kind_name, offered_kinds, part_name, quantity_name
+from .quantity_menu import RAW_WORDS, Choices, fill_menu, offered_kinds
 
 HEIGHT, COMPACT_HEIGHT = 36, 32
 
@@ -132,7 +131,7 @@ class PanelHead(QtWidgets.QWidget):
     def _show_method(self) -> None:
         specs, method = self._method
         control = self._of_parameter.get((0, "method"))
-        if isinstance(control, ChoiceControl) and not isinstance(self.shows, Difference):
+        if isinstance(control, ChoiceControl) and not self.shows.is_difference:
             control.show_meant(method if specs == self.shows.specs else "")
             self._lay_out()
 
@@ -220,14 +219,14 @@ class PanelHead(QtWidgets.QWidget):
             control.hide()
             control.deleteLater()
         parts = [part for part in self.shows.parts if part.specs]
-        signed = iter(signs([p for part in parts for p in part.spec.kind.parameters]))
+        signed = iter(signs([p for part in parts for p in part.specs[0].kind.parameters]))
         self._mode: ChoiceControl | None = None
         self._by: ChoiceControl | None = None
         self._of_parameter: dict[tuple[int, str], Control] = {}
-        is_difference = isinstance(self.shows, Difference)
+        is_difference = self.shows.is_difference
         for place, part in enumerate(self.shows.parts):
-            for parameter in part.spec.kind.parameters if part.specs else ():
-                of_what = f" ({('first', 'second')[place]}: {part_name(part)})" if is_difference else ""
+            for parameter in part.specs[0].kind.parameters if part.specs else ():
+                of_what = f" ({('first', 'second')[place]}: {part.heading})" if is_difference else ""
                 bounded = self._choices.bounded(parameter)
                 control = parameter_control(self, bounded, next(signed), of_what)
                 control.chosen.connect(lambda value, of=(place, parameter.name): self._set(*of, value))
@@ -239,11 +238,9 @@ class PanelHead(QtWidgets.QWidget):
                 lambda raw: self._choose(Difference(self.shows.minuend, self.shows.subtrahend, raw))
             )
             self.controls.append(self._mode)
-        elif isinstance(self.shows, Interpolant | Prediction | MapColours) and self.shows.specs:
+        elif self.shows.done:
             words = {kind.word: f"by {kind_name(kind).lower()}" for kind in offered_kinds()}
-            done = "interpolated" if isinstance(self.shows, Interpolant) else "predicted"
-            done = "mapped" if isinstance(self.shows, MapColours) else done
-            self._by = ChoiceControl(self, words, f"By which distance it is {done}")
+            self._by = ChoiceControl(self, words, f"By which distance it is {self.shows.done}")
             self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
             self.controls.insert(0, self._by)
         elif not self.controls and self.shows.word in EXACT:
@@ -260,11 +257,11 @@ class PanelHead(QtWidgets.QWidget):
 
     def _show_values(self) -> None:
         for (place, name), control in self._of_parameter.items():
-            control.show_value(self.shows.parts[place].spec[name])
+            control.show_value(self.shows.parts[place].specs[0][name])
         if self._mode is not None:
             self._mode.show_value(self.shows.raw)
         if self._by is not None:
-            self._by.show_value(self.shows.spec.word)
+            self._by.show_value(self.shows.specs[0].word)
         self._lay_out()
 
     # ------------------------------------------------------------------ where things are
@@ -302,8 +299,8 @@ class PanelHead(QtWidgets.QWidget):
             # By which distance it is tells panels apart, and what it is does not.
             self.name.setText(f"{self._by.text()[:1].upper()}{self._by.text()[1:]}")
             name = self.name.sizeHint().width()
-        elif isinstance(self.shows, ChangeOf) and not self._plain and name + warning > right - left:
-            self.name.setText(f"Δ {kind_name(self.shows.spec.kind).lower()}")
+        elif self.shows.short_heading and not self._plain and name + warning > right - left:
+            self.name.setText(self.shows.short_heading)
             name = self.name.sizeHint().width()
         if has_info:
             right -= ICON_SIDE

@@ -1,18 +1,21 @@
 """The menu of what a panel can show: distances, the user's own fields, and differences of two."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from qtpy import QtWidgets
 
 from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.kinds import Kind, Parameter, Spec, kind_of, kinds
 
-from ...document.map_colours import MapColours
-from ...document.quantities import Difference, DistanceFrom, Interpolant, OwnField, Part, Prediction, Quantity
-from ...document.quantity_names import kind_name as kind_name
-from ...document.quantity_names import part_name as part_name
-from ...document.quantity_names import quantity_name as quantity_name
+from ...document.quantities import (
+    Difference,
+    DistanceFrom,
+    OwnField,
+    Quantity,
+    kind_name,
+    quantity_kinds,
+    quantity_name,
+)
 from .parameters import tick
 
 RAW_WORDS = {False: "fractions of the maximum", True: "in units"}
@@ -42,8 +45,8 @@ class Choices:
     def keep(self, shows: Quantity) -> None:
         """Remember the parameters of what is shown, for each place of a difference."""
         for before, part in zip(self._before, shows.parts, strict=False):
-            if part.specs:
-                before[part.spec.word] = part.spec
+            for spec in part.specs:
+                before[spec.word] = spec
 
     def bounded(self, parameter: Parameter) -> Parameter:
         """With the values that it can have on the surface."""
@@ -55,18 +58,15 @@ class Choices:
         # Where distances start, nobody chooses here.
         point = [*parts[place].points, *shows.points, "source"][0]
         now, found = parts[place], self._part(chosen, place, point)
-        if isinstance(now, Interpolant | Prediction) and isinstance(found, DistanceFrom):
-            found = replace(now, spec=found.spec)  # it goes over to another distance
-        elif isinstance(now, MapColours) and now.specs and isinstance(found, DistanceFrom):
-            found = MapColours(found.spec)
-        parts[place] = found
+        # What is made by a distance goes over to another.
+        parts[place] = now.with_spec(found.specs[0]) if now.done and found.is_distance else found
         return shows.with_parts(tuple(parts))
 
-    def difference(self, shows: Part, chosen: str | OwnField) -> Difference:
+    def difference(self, shows: Quantity, chosen: str | OwnField) -> Difference:
         """What is shown less another."""
         return Difference(shows, self._part(chosen, 1, [*shows.points, "source"][0]))
 
-    def _part(self, chosen: str | OwnField | Spec, place: int, point: str) -> Part:
+    def _part(self, chosen: str | OwnField | Spec, place: int, point: str) -> Quantity:
         if isinstance(chosen, OwnField):
             return chosen
         if isinstance(chosen, Spec):
@@ -78,65 +78,47 @@ class Choices:
 def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: Callable[[Quantity], None]) -> None:
     """Make the entries; `choose` is called with the quantity that one stands for."""
     menu.clear()
-    if isinstance(shows, Difference):
+    if shows.is_difference:
         _fill_for_difference(menu, shows, choices, choose)
         return
-    if isinstance(shows, Interpolant):
-        _fill_for_interpolant(menu, shows, choices, choose)
-        return
-    if isinstance(shows, Prediction) or (isinstance(shows, MapColours) and shows.specs):
+    if shows.done:
         _fill_distances(menu, shows, choices, choose)
         return
     _add_parts(menu, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
     menu.addSeparator()
-    if isinstance(shows, DistanceFrom):
-        interpolant = Interpolant(shows.spec)
-        _add(menu, "Interpolant by it", "Values at anchors, interpolated by this distance", lambda: choose(interpolant))
-    if isinstance(shows, DistanceFrom) and choices.has_other:
-        prediction, tip = Prediction(shows.spec), "Where points of the other mesh are on this one, by this distance"
-        _add(menu, "Prediction by it", tip, lambda: choose(prediction))
-    if isinstance(shows, MapColours):
+    offered = [kind.choice_by(shows.specs[0], choices.has_other) for kind in quantity_kinds() if shows.is_distance]
+    for each in filter(None, offered):
+        _add(menu, each.words, each.tip, lambda shows=each.shows: choose(shows))
+    if shows.is_map:
         return  # of colours there are no differences
     inner = _inner(menu, "Difference with")
     _add_parts(inner, choices, None, lambda chosen: choose(choices.difference(shows, chosen)), _can_differ_from(shows))
 
 
-def _fill_for_interpolant(
-    menu: QtWidgets.QMenu, shows: Interpolant, choices: Choices, choose: Callable[[Quantity], None]
-) -> None:
-    """By which distance; and back to the distance."""
-    for total, words, tip in (
-        (False, "Interpolant", "Values at anchors, interpolated"),
-        (True, "Sum of weights", "How far the anchors' influence reaches"),
-    ):
-        other = replace(shows, total=total)
-        tick(_add(menu, words, tip, lambda other=other: choose(other)), shows.total == total)
-    menu.addSeparator()
-    _fill_distances(menu, shows, choices, choose)
-
-
 def _fill_distances(
-    menu: QtWidgets.QMenu,
-    shows: Interpolant | Prediction | MapColours,
-    choices: Choices,
-    choose: Callable[[Quantity], None],
+    menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: Callable[[Quantity], None]
 ) -> None:
-    """By which; and back to the distance itself."""
-    inner = _inner(menu, f"By {kind_name(shows.spec.kind)}")
+    """Variants; by which distance; and back to the distance itself."""
+    for each in shows.choices:
+        tick(_add(menu, each.words, each.tip, lambda shows=each.shows: choose(shows)), each.is_shown)
+    if shows.choices:
+        menu.addSeparator()
+    (spec,) = shows.specs
+    inner = _inner(menu, f"By {kind_name(spec.kind)}")
     _add_parts(inner, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
-    _add(menu, "The distance itself", "", lambda: choose(DistanceFrom(shows.spec)))
+    _add(menu, "The distance itself", "", lambda: choose(DistanceFrom(spec)))
 
 
-def _can_differ_from(shows: Part) -> Callable[[Part], bool]:
+def _can_differ_from(shows: Quantity) -> Callable[[Quantity], bool]:
     """Less itself it would be zero, unless a parameter can be another."""
-    return lambda part: part.word != shows.word or (isinstance(part, DistanceFrom) and bool(part.spec.values))
+    return lambda part: part.word != shows.word or (part.is_distance and bool(part.specs[0].values))
 
 
 def _fill_for_difference(
     menu: QtWidgets.QMenu, shows: Difference, choices: Choices, choose: Callable[[Quantity], None]
 ) -> None:
     for place, (word, part) in enumerate(zip(("First", "Second"), shows.parts, strict=True)):
-        inner = _inner(menu, f"{word}: {part_name(part)}")
+        inner = _inner(menu, f"{word}: {part.heading}")
         _add_parts(inner, choices, part, lambda chosen, place=place: choose(choices.with_part(shows, place, chosen)))
     swapped = Difference(shows.subtrahend, shows.minuend, shows.raw)
     _add(menu, "Swap them", f"Show {quantity_name(swapped)}", lambda: choose(swapped))
@@ -147,22 +129,22 @@ def _fill_for_difference(
         entry = f"{words[0].upper()}{words[1:]}"
         tick(_add(menu, entry, tip, lambda other=other: choose(other)), raw == shows.raw)
     menu.addSeparator()
-    _add(menu, "Show the first alone", f"Show {part_name(shows.minuend)}", lambda: choose(shows.minuend))
+    _add(menu, "Show the first alone", f"Show {shows.minuend.heading}", lambda: choose(shows.minuend))
 
 
 def _add_parts(
     menu: QtWidgets.QMenu,
     choices: Choices,
-    now: Part | None,
+    now: Quantity | None,
     choose: Callable[[str | OwnField], None],
-    is_offered: Callable[[Part], bool] = lambda part: True,
+    is_offered: Callable[[Quantity], bool] = lambda part: True,
 ) -> None:
     """Every distance, then every field."""
     for kind in offered_kinds():
         if is_offered(DistanceFrom(Spec.of(kind.word))):
             hint = f"{kind.hint[:1].upper()}{kind.hint[1:]}"
             action = _add(menu, kind_name(kind), hint, lambda word=kind.word: choose(word))
-            tick(action, now is not None and bool(now.specs) and now.spec.word == kind.word)
+            tick(action, now is not None and bool(now.specs) and now.specs[0].word == kind.word)
     fields = [field for field in map(OwnField, choices.fields) if is_offered(field)]
     if fields:
         menu.addSeparator()

@@ -14,4 +14,5 @@ TOOL = Tool(
     synonyms="match map landmarks shape second",
     dock="dock:PairsDock",
     commands={"correspond": "command", "evaluate": "evaluate_command"},
+    quantities=("quantity:Prediction", "quantity:MapColours"),
 )

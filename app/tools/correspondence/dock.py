@@ -13,7 +13,7 @@ from ...document.instruments import Pair
 from ...document.mapping import shows_maps
 from ...document.pairing import add_pairs, half_pair, number_of, remove_pairs
 from ...document.predicting import predict, predicts, show_distances
-from ...document.quantity_names import kind_name
+from ...document.quantities import kind_name
 from ...drawing.style import PINS, WAITING
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument

@@ -17,8 +17,7 @@ from ...document.map_colours import MapColours, MapFile
 from ...document.mapping import show_maps, shows_maps
 from ...document.pairing import whole_pairs
 from ...document.predicting import predict
-from ...document.quantities import Prediction
-from ...document.quantity_names import kind_name
+from ...document.quantities import kind_name
 from ...qt.docks.background import Background
 from ...qt.docks.dock import PAD
 from ...qt.docks.panel_dots import curve_colour
@@ -206,8 +205,8 @@ class MapErrors(QtWidgets.QWidget):
         document, found = self._document, {}
         for panel in document.panels:
             shows = panel.shows
-            if isinstance(shows, Prediction) and panel.surface == document.surfaces[1].name:
-                found[panel.id] = self._colour_of(shows.spec)
+            if shows.is_prediction and panel.surface == document.surfaces[1].name:
+                found[panel.id] = self._colour_of(shows.specs[0])
             elif isinstance(shows, MapColours) and shows.by:
                 found[panel.id] = self._colour_of(document.map(shows.by) if isinstance(shows.by, str) else shows.by)
         return found
@@ -239,10 +238,10 @@ class MapErrors(QtWidgets.QWidget):
         found = {}
         for panel in self._document.panels:
             shown = session.shown.get(panel.id)
-            is_by_pairs = isinstance(panel.shows, MapColours) and panel.shows.specs
+            is_by_pairs = panel.shows.is_map and panel.shows.specs
             is_there = is_by_pairs and shown is not None and session.is_answered(panel.id)
             if is_there and shown.answer.leads_to is not None:
-                found[panel.shows.spec] = shown.answer.leads_to
+                found[panel.shows.specs[0]] = shown.answer.leads_to
         return found
 
     def _fill_maps(self) -> None:

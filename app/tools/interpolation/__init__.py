@@ -14,4 +14,5 @@ TOOL = Tool(
     synonyms="interpolate values blend weights",
     dock="dock:AnchorsDock",
     commands={"interpolate": "command"},
+    quantities=("quantity:Interpolant",),
 )

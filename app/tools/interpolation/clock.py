@@ -8,6 +8,8 @@ import time
 from qtpy import QtCore
 
 from ...document.document import Anchor
+from ...session.loaded_mesh import LoadedMesh
+from .answers import InterpolantMemory
 
 
 class AnchorClock:
@@ -24,7 +26,7 @@ class AnchorClock:
         session = self._window.session
         loaded = session.loaded()
         if loaded is not None and anchors != session.document.anchors:
-            self._begun, self._columns, self._anchors = time.perf_counter(), loaded.columns, anchors
+            self._begun, self._columns, self._anchors = time.perf_counter(), _columns(loaded), anchors
 
     def note(self) -> None:
         """A panel shows another field; once all do it is said, after they have been painted."""
@@ -39,6 +41,11 @@ class AnchorClock:
         loaded = self._window.session.loaded()
         if begun is None or loaded is None:
             return
-        count = loaded.columns - self._columns
+        count = _columns(loaded) - self._columns
         solved = "no solve" if not count else f"{count} {'column' if count == 1 else 'columns'} solved for"
         self._window.say(f"repainted in {1000 * (time.perf_counter() - begun):.0f} ms, {solved}")
+
+
+def _columns(loaded: LoadedMesh) -> int:
+    """Of distances from anchors, solved for so far."""
+    return loaded.memory(InterpolantMemory).columns

@@ -9,10 +9,9 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
-from ...document.anchoring import add_anchor, change_anchor, interpolate, interpolated, remove_anchors, show_distances
+from ...document.anchoring import add_anchor, change_anchor, remove_anchors
 from ...document.document import Anchor, Document
 from ...document.file_names import file_name
-from ...document.quantities import Interpolant
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.plain import fill
@@ -24,6 +23,7 @@ from ...qt.panels.flat_button import FlatButton
 from ...session.questions import vertex_at
 from .clock import AnchorClock
 from .extrema import AnchorExtrema
+from .quantity import Interpolant, interpolate, interpolated, show_distances
 from .row import BOX, AnchorRow
 from .samples import AnchorSamples
 

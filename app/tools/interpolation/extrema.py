@@ -8,11 +8,11 @@ from qtpy import QtWidgets
 
 from bihdist_core.applications.tips import at_tips, tips
 
-from ...document.anchoring import interpolated
 from ...document.document import Document
+from ...document.quantities import kind_name
 from ...qt.docks.background import Background
 from ...qt.docks.fact_table import FactTable
-from ...qt.panels.quantity_menu import kind_name
+from .quantity import interpolated
 
 
 class AnchorExtrema(FactTable):

@@ -8,9 +8,9 @@ from bihdist_core.sources.source import SourceSet
 
 from ...document.anchoring import add_anchor
 from ...document.document import Document, Panel
-from ...document.quantities import Interpolant
 from ...session.questions import first_source, vertex_at
 from ...session.sampling import Sampled, SamplesQuestion, Sampling
+from .quantity import Interpolant
 
 USUAL, MOST = 5, 100
 """More anchors at first, and at most at once."""
@@ -89,4 +89,4 @@ class AnchorSamples(QtWidgets.QWidget):
         """The active one, or the first of those that show an interpolant."""
         document, active = self._window.session.document, self._window.grid.active
         panels = sorted(document.panels, key=lambda panel: panel.id != active)
-        return next((p for p in panels if len(p.shows.parts) == 1 and isinstance(p.shows.parts[0], Interpolant)), None)
+        return next((p for p in panels if isinstance(p.shows, Interpolant)), None)

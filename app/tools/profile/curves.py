@@ -9,7 +9,7 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.difference import PERCENTAGE_POINTS
 
 from ...document.document import Document
-from ...document.quantity_names import quantity_name
+from ...document.quantities import quantity_name
 
 
 @dataclass(frozen=True, eq=False)

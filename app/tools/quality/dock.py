@@ -6,13 +6,13 @@ from bihdist_core.analysis.quality import TRIANGLE_POINTS
 
 from ...document.document import Document
 from ...document.measuring import mark_extrema
+from ...document.quantities import quantity_name
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.panel_dots import curve_colour
 from ...qt.docks.plain import fill, lie_on_dock
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
-from ...qt.panels.quantity_menu import quantity_name
 from ...session.quality import Found
 from .measures import MEASURES, NONE, WAITING
 from .polar_chart import PolarChart

@@ -13,6 +13,7 @@ from ...document.document import Document, Panel
 from ...document.edits import can_divide
 from ...document.file_names import file_name
 from ...document.measuring import show_regions
+from ...document.quantities import quantity_name
 from ...drawing.style import PINS
 from ...qt.docks.badges import BADGE, Badge, paint_badge
 from ...qt.docks.dock import PAD
@@ -24,7 +25,6 @@ from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, share
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
-from ...qt.panels.quantity_menu import quantity_name
 from .sampler import Sampler
 
 ROW, HEAD = 30, 32

@@ -12,9 +12,8 @@ from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
 from ...document.document import Panel
 from ...document.file_names import file_name
 from ...document.measuring import add_pins
-from ...document.quantities import DistanceFrom
+from ...document.quantities import quantity_name
 from ...qt.docks.saving import save, written
-from ...qt.panels.quantity_menu import quantity_name
 from ...session.sampling import Sampled, SamplesQuestion, Sampling
 
 USUAL, MOST = 10, 10_000
@@ -149,7 +148,7 @@ class Sampler(QtWidgets.QWidget):
         """The active one, or the first of those that show a distance."""
         document, active = self._window.session.document, self._window.grid.active
         panels = sorted(document.panels, key=lambda panel: panel.id != active)
-        return panels[0] if panels and isinstance(panels[0].shows, DistanceFrom) else None
+        return panels[0] if panels and panels[0].shows.is_distance else None
 
     def _say(self, text: str, is_error: bool = False) -> None:
         self.words.setText(text)

@@ -14,4 +14,5 @@ TOOL = Tool(
     synonyms="compare noise holes decimate perturb remesh difference",
     dock="dock:RobustnessDock",
     commands={"perturb": "command"},
+    quantities=("quantity:ChangeOf",),
 )

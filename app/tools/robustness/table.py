@@ -13,14 +13,13 @@ from bihdist_core import BihdistError, Cancelled
 from bihdist_core.progress import Progress
 
 from ...document.document import Document
-from ...document.quantities import ChangeOf
-from ...document.quantity_names import kind_name
+from ...document.quantities import kind_name
 from ...qt.docks.background import Background
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, number_width, paint_number, share
 from ...session.loaded_mesh import LoadedMesh
-from ...session.perturbed_meshes import ChangeNumbers, change_numbers
-from ...session.questions import ChangeQuestion, questions
+from ...session.questions import questions
+from .answers import ChangeNumbers, ChangeQuestion, change_numbers
 
 LINE, HEAD = 24.0, 18.0
 """Height of a line and of each of the two above, in logical pixels."""
@@ -64,7 +63,7 @@ class ChangeTable(QtWidgets.QWidget):
         asked = []
         for panel, question in zip(document.panels, questions(document).values(), strict=True):
             loaded = session.loaded(panel.surface)
-            if isinstance(panel.shows, ChangeOf) and isinstance(question, ChangeQuestion) and loaded is not None:
+            if isinstance(question, ChangeQuestion) and loaded is not None:
                 asked.append((panel.id, question, loaded))
         names = _names([question for _, question, _ in asked])
         if names != [name for name, _ in self.rows]:

@@ -17,6 +17,7 @@ from bihdist_core.progress import Progress
 from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.measuring import vertices_of
+from ...document.quantities import quantity_name
 from ...drawing.density import axis_ends
 from ...drawing.style import PINS, style_of
 from ...qt.docks.background import Background
@@ -30,7 +31,6 @@ from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, share
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
-from ...qt.panels.quantity_menu import quantity_name
 from .chart import ScatterChart
 from .selection_list import SelectionList
 

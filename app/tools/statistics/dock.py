@@ -16,6 +16,7 @@ from bihdist_core.progress import Progress, part
 from ...document.document import Document
 from ...document.field_names import field_names
 from ...document.file_names import file_name
+from ...document.quantities import quantity_name
 from ...drawing.style import style_of
 from ...qt.docks.background import Background
 from ...qt.docks.chart_files import save_figure
@@ -26,7 +27,6 @@ from ...qt.docks.saving import save, written
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, percent, share
 from ...qt.panels.flat_button import FlatButton
-from ...qt.panels.quantity_menu import quantity_name
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import DifferenceQuestion, Question
 from .histogram import Histogram
@@ -165,7 +165,7 @@ class StatisticsDock(Instrument):
                 self._background.ask(None)
                 self._refuse(None, shown.answer.failure or NO_FIELD)
             else:
-                parts = question if isinstance(question, DifferenceQuestion) else None
+                parts = question if len(question.parts) > 1 else None
                 self._request = _Request(loaded, shown.answer, parts)
                 self._background.ask(self._request)
         else:

@@ -16,7 +16,7 @@ from ...qt.docks.fact_table import FactTable
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import share
 from ...session.loaded_mesh import LoadedMesh
-from ...session.questions import DistanceQuestion, Question
+from ...session.questions import Question
 
 MOST = 200
 """Eigenpairs at most."""
@@ -76,7 +76,7 @@ class TruncationBox(QtWidgets.QWidget):
 
     def expect(self, loaded: LoadedMesh | None, question: Question | None) -> None:
         """The question of the panel that it is about."""
-        is_meant = isinstance(question, DistanceQuestion) and question.spec.word == "biharmonic"
+        is_meant = question is not None and question.is_distance and question.specs[0].word == "biharmonic"
         source = question.at if is_meant else None
         self._wanted = None
         if loaded is None or not is_meant:

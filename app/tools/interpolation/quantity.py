@@ -1,0 +1,109 @@
+"""Values at anchors, interpolated by a distance, as what a panel can show."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from bihdist_core.distances.kinds import Spec
+
+from ...document.document import Document
+from ...document.json_values import flag, record
+from ...document.predicting import show_distances as distances_again
+from ...document.quantities import ByDistance, Choice, Quantity, read_spec
+
+if TYPE_CHECKING:
+    from .answers import InterpolantQuestion
+
+INTERPOLANT, TOTAL = "interpolant by ", "weights by "
+"""What the words of an interpolant begin with."""
+
+
+@dataclass(frozen=True)
+class Interpolant(ByDistance):
+    """The values of the document's anchors, interpolated by a distance (paper, section 5.2); it starts nowhere.
+
+    total: the sum of the anchors' weights instead.
+    """
+
+    spec: Spec
+    total: bool = False
+    has_anchors = True
+    done = "interpolated"
+
+    @property
+    def interpolates(self) -> bool:
+        return not self.total
+
+    @property
+    def before(self) -> str:
+        return TOTAL if self.total else INTERPOLANT
+
+    @property
+    def heading(self) -> str:
+        return "Weights" if self.total else "Interpolant"
+
+    @property
+    def hint(self) -> str:
+        if self.total:
+            return "how far the anchors' influence reaches, as the logarithm of the sum of their weights"
+        return "no extrema but at the anchors, and at tips of the shape without one"
+
+    @property
+    def choices(self) -> tuple[Choice, ...]:
+        words = {
+            False: ("Interpolant", "Values at anchors, interpolated"),
+            True: ("Sum of weights", "How far the anchors' influence reaches"),
+        }
+        return tuple(Choice(*words[total], replace(self, total=total), total == self.total) for total in words)
+
+    @classmethod
+    def choice_by(cls, spec: Spec, has_other: bool) -> Choice:
+        return Choice("Interpolant by it", "Values at anchors, interpolated by this distance", cls(spec))
+
+    def question(self, document: Document, surface: str) -> "InterpolantQuestion":
+        from .answers import InterpolantQuestion
+
+        anchors = [(document.point(anchor.point), anchor) for anchor in document.anchors if not anchor.left_out]
+        known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
+        mesh = document.mesh(surface)
+        return InterpolantQuestion(mesh, document.areas, self.spec, known, document.weights, self.total)
+
+    def to_json(self) -> dict[str, Any]:
+        return {"interpolant": self.spec.in_full, **({"total": True} if self.total else {})}
+
+    @classmethod
+    def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:
+        if "interpolant" not in data:
+            return None
+        values = record(data, where, {"interpolant": read_spec, "total": flag}, {"interpolant"})
+        return cls(values["interpolant"], values.get("total", False))
+
+    @classmethod
+    def from_words(cls, words: str, point: str, parameters: Mapping[str, object]) -> Quantity | None:
+        for total, before in ((False, INTERPOLANT), (True, TOTAL)):
+            if words.startswith(before):
+                return cls(Spec.parse(words.removeprefix(before), **parameters), total)
+        return None
+
+
+def interpolated(shows: Quantity) -> Interpolant | None:
+    """The interpolant that a panel shows by itself; None for another quantity, and for a sum of weights."""
+    return shows if isinstance(shows, Interpolant) and shows.interpolates else None
+
+
+def interpolate(document: Document) -> Document:
+    """Every panel of a distance shows the interpolant by it; their colour bars, all of the same values, end alike."""
+    return replace(
+        document,
+        range="shared" if document.range == "own" else document.range,
+        panels=tuple(
+            replace(panel, shows=Interpolant(panel.shows.specs[0]), maximum=None) if panel.shows.is_distance else panel
+            for panel in document.panels
+        ),
+    )
+
+
+def show_distances(document: Document) -> Document:
+    """Every panel of an interpolant shows its distance, from where the others start."""
+    document = distances_again(document, lambda panel: isinstance(panel.shows, Interpolant))
+    return replace(document, range="own" if document.range == "shared" else document.range)
