@@ -98,8 +98,10 @@ def outward_faces(mesh: vtkPolyData) -> np.ndarray | None:
 
     None if no inside can be seen.
     """
-    if not has_backs(mesh):
-        return None
-    faces, copies = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3), copies_of(mesh)
-    count = mesh.GetNumberOfPoints() - len(copies)
-    return np.append(np.arange(count), copies)[faces]
+    return vertex_faces(mesh) if has_backs(mesh) else None
+
+
+def vertex_faces(mesh: vtkPolyData) -> np.ndarray:
+    """(m, 3) vertices of the surface's faces, wound as they are drawn."""
+    copies = copies_of(mesh)
+    return np.append(np.arange(mesh.GetNumberOfPoints() - len(copies)), copies)[faces_of(mesh)]

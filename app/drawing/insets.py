@@ -2,12 +2,21 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
-from vtkmodules.vtkRenderingCore import vtkActor, vtkActor2D, vtkCamera, vtkCoordinate, vtkPolyDataMapper2D, vtkRenderer
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkActor2D,
+    vtkCamera,
+    vtkCoordinate,
+    vtkPolyDataMapper2D,
+    vtkProp3D,
+    vtkRenderer,
+)
 
 from ..document.document import Zoom, isolines_in
 from .camera import array_of
@@ -15,6 +24,9 @@ from .corners import SIDE, Rectangle, chosen_corners, corner_boxes, joins, sourc
 from .field_actor import FieldActor, light
 from .levels import Levels
 from .style import Style
+
+if TYPE_CHECKING:
+    from .panel_plotter import PanelPlotter
 
 GAP = 4.0
 """Pixels (of which `scale` says how many the device has) between an inset and the sides of its view."""
@@ -30,15 +42,16 @@ class InsetPart:
 
 
 class Insets:
-    """Shows `actors` of a panel's renderer and its field once more for each zoom.
+    """Shows `actors` of a panel, its field and what others have added to its plotter once more for each zoom.
 
     scale: device pixels per pixel.
     """
 
     def __init__(
-        self, renderer: vtkRenderer, actors: Sequence[vtkActor], field: FieldActor, style: Style, scale: float
+        self, plotter: "PanelPlotter", actors: Sequence[vtkActor], field: FieldActor, style: Style, scale: float
     ) -> None:
-        self._main, self._actors, self._style, self._scale = renderer, actors, style, scale
+        self._plotter, self._main = plotter, plotter.renderer
+        self._actors, self._style, self._scale = actors, style, scale
         self._zooms: tuple[Zoom, ...] = ()
         self._positions = np.empty((0, 3))
         self._corners: list[str] = []
@@ -49,9 +62,10 @@ class Insets:
         self._field = field
         self._proportion = 1.0
         self._own: list[FieldActor | None] = []  # for those with isolines of their own
+        self._added: list[vtkProp3D] = []
         self._frames = self._lines()
-        renderer.AddActor(self._frames)
-        self._observer = renderer.AddObserver("StartEvent", lambda *_: self._place())
+        plotter.add_own(self._frames)
+        self._observer = self._main.AddObserver("StartEvent", lambda *_: self._place())
 
     def show(self, zooms: tuple[Zoom, ...], vertices: np.ndarray) -> None:
         """These and no others; vertices (n, 3) of the surface."""
@@ -180,6 +194,7 @@ class Insets:
         if not self._is_settled:
             marks = self._pixels(self._marks)
             self._corners, self._is_settled = chosen_corners(self._zooms, boxes, sources, surface, marks), True
+        self._follow_added()
         projection, loops = self._projection(), []
         is_taken = taken_by(surface, (width, height), [boxes[corner] for corner in self._corners])
         self._in_sight = []
@@ -198,6 +213,17 @@ class Insets:
             _enlarge(renderer.GetActiveCamera(), self._main.GetActiveCamera(), projection, source, (width, height))
             loops += [*_rectangles(source, box), *joins(source, box, is_taken)]
         _draw(self._frames, loops)
+
+    def _follow_added(self) -> None:
+        """Show what others have added to the panel, and nothing that they have removed."""
+        added = self._plotter.added
+        for renderer in self.renderers:
+            for actor in self._added:
+                if actor not in added:
+                    renderer.RemoveViewProp(actor)
+            for actor in added:
+                renderer.AddViewProp(actor)  # which does nothing where it is already
+        self._added = added
 
     def _new_renderer(self) -> vtkRenderer:
         renderer = vtkRenderer()

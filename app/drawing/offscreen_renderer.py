@@ -1,4 +1,4 @@
-"""The one OpenGL window, off the screen, in which all panels of a window are drawn, one after the other.
+"""The one off-screen plotter of PyVista's in whose OpenGL window all panels of a window are drawn, one after the other.
 
 What is drawn comes out as an array, so that the toolkit can put anything over it without drawing it again; and panels
 that show the same surface share its vertices in the graphics memory, and the compiled shaders.
@@ -6,17 +6,24 @@ that show the same surface share its vertices in the graphics memory, and the co
 
 import os
 import sys
+from collections.abc import Callable
+from functools import cached_property
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import numpy as np
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the classes below are abstract without it)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkUnsignedCharArray
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
+from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 from .camera import stand_back
 from .scene import PanelScene
 from .style import PAPER, Style
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from .panel_plotter import PanelPlotter
 
 
 class OffscreenRenderer:
@@ -27,28 +34,45 @@ class OffscreenRenderer:
             # VTK would otherwise try an X server first, and complain that there is none.
             os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
         self.pictures = 0
-        self._window = vtkRenderWindow()
-        self._window.SetOffScreenRendering(True)
-        # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
-        # the picture afterwards (FXAA) is nearly free.
-        self._window.SetMultiSamples(0)
         self._scenes: list[PanelScene] = []
         self._read = vtkUnsignedCharArray()
 
-    def new_scene(self, style: Style = PAPER, scale: float = 1.0) -> PanelScene:
-        """A scene that is drawn here until it is removed."""
-        renderer = vtkRenderer()
-        renderer.UseFXAAOn()
-        renderer.DrawOff()
-        self._window.AddRenderer(renderer)
-        scene = PanelScene(renderer, style, scale)
+    @cached_property
+    def plotter(self) -> "pyvista.Plotter":
+        """The `pyvista.Plotter`, made with the first panel: the window opens before PyVista is imported."""
+        import pyvista
+
+        from .panel_plotter import spare
+
+        plotter = pyvista.Plotter(off_screen=True, notebook=False, lighting="none", theme=pyvista.themes.Theme())
+        spare(plotter)
+        # Its own renderers, one for what is plotted and one for pointing, would be drawn beneath and over each panel.
+        plotter.render_window.GetRenderers().RemoveAllItems()
+        # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
+        # the picture afterwards (FXAA) is nearly free.
+        plotter.render_window.SetMultiSamples(0)
+        return plotter
+
+    @cached_property
+    def _window(self) -> vtkRenderWindow:
+        return self.plotter.render_window  # asked once: a plotter that is closed denies it to what is still queued
+
+    def new_plotter(self, redraw: Callable[[], None] = lambda: None) -> "PanelPlotter":
+        """A panel's plotter; redraw: called when something was added to it or removed."""
+        from .panel_plotter import PanelPlotter
+
+        return PanelPlotter(self._window, redraw)
+
+    def new_scene(self, style: Style = PAPER, scale: float = 1.0, plotter: "PanelPlotter | None" = None) -> PanelScene:
+        """A scene that is drawn here until it is removed, by a plotter of its own if none is given."""
+        scene = PanelScene(plotter or self.new_plotter(), style, scale)
         self._scenes.append(scene)
         return scene
 
     def remove(self, scene: PanelScene) -> None:
+        """It is drawn no longer; its plotter is left for another, with what others have added to it."""
         scene.remove()
         self._scenes.remove(scene)
-        self._window.RemoveRenderer(scene.renderer)
 
     def fit(self, size: tuple[int, int]) -> None:
         """Let the pictures have this width and height in pixels from now on."""
@@ -62,8 +86,9 @@ class OffscreenRenderer:
             for renderer in other.renderers:
                 renderer.DrawOff()
         scene.renderer.DrawOn()
-        stand_back(scene.renderer.GetActiveCamera(), scene.bounds)
-        scene.renderer.ResetCameraClippingRange(*scene.bounds)
+        bounds = scene.whole_bounds
+        stand_back(scene.renderer.GetActiveCamera(), bounds)
+        scene.renderer.ResetCameraClippingRange(*bounds)
         start = perf_counter()
         self._window.Render()
         self.pictures += 1
@@ -86,4 +111,6 @@ class OffscreenRenderer:
         """Give back what the graphics have."""
         for scene in tuple(self._scenes):
             self.remove(scene)
-        self._window.Finalize()
+            scene.plotter.leave()
+        if "plotter" in self.__dict__:
+            self.plotter.close()

@@ -1,9 +1,10 @@
-"""Drawing in the window: a surface with a field on it, and marks, in a panel's renderer."""
+"""Drawing in the window: a surface with a field on it, and marks, by a panel's plotter."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkBoundingBox, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from ..document.looks import Isolines, Shading
@@ -16,15 +17,19 @@ from .region_lines import RegionLines
 from .stand_in import StandIn
 from .style import PAPER, Style
 
+if TYPE_CHECKING:
+    from .panel_plotter import PanelPlotter
+
 
 class PanelScene:
-    """One surface with one field in one renderer.
+    """One surface with one field in the renderer of one plotter.
 
-    scale: device pixels per pixel of the style's widths.  bounds: (x, x, y, y, z, z) of all there is to see.
+    scale: device pixels per pixel of the style's widths.  bounds: (x, x, y, y, z, z) of the surface.
     """
 
-    def __init__(self, renderer: vtkRenderer, style: Style = PAPER, scale: float = 1.0) -> None:
-        self.renderer = renderer
+    def __init__(self, plotter: "PanelPlotter", style: Style = PAPER, scale: float = 1.0) -> None:
+        self.plotter = plotter
+        self.renderer: vtkRenderer = plotter.renderer
         self.style = style
         self.scale = scale
         self.bounds: Sequence[float] = (0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
@@ -40,13 +45,20 @@ class PanelScene:
         solid += [self._field.stand_in.actor]
         self._sized = (self._regions, self._lines, *marks)
         self._proportion = 1.0
-        self.insets = Insets(renderer, solid, self._field, style, scale)
-        renderer.SetBackground(*style.background)
-        # To find out what is out of sight VTK would go over all vertices, and here nothing ever is.
-        renderer.GetCullers().RemoveAllItems()
-        for actor in solid:
-            renderer.AddActor(actor)
-        light(renderer)
+        self.insets = Insets(plotter, solid, self._field, style, scale)
+        self.renderer.SetBackground(*style.background)
+        plotter.add_own(*solid)
+        light(self.renderer)
+
+    @property
+    def whole_bounds(self) -> Sequence[float]:
+        """(x, x, y, y, z, z) of the surface and of what others have added."""
+        box, bounds = vtkBoundingBox(), [0.0] * 6
+        box.AddBounds(self.bounds)
+        for actor in self.plotter.added:
+            box.AddBounds(actor.GetBounds())
+        box.GetBounds(bounds)
+        return bounds
 
     @property
     def renderers(self) -> list[vtkRenderer]:
@@ -63,9 +75,9 @@ class PanelScene:
             self.insets.set_proportion(share)
 
     def remove(self) -> None:
-        """Leave the renderer to another."""
+        """Leave the plotter to another."""
         self.insets.remove()
-        self.renderer.RemoveAllViewProps()
+        self.plotter.remove_own()
 
     # ------------------------------------------------------------------ the surface and its field
     def show_surface(self, mesh: vtkPolyData, bounds: Sequence[float]) -> None:

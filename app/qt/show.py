@@ -10,6 +10,7 @@ import sys
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -35,8 +36,11 @@ from .main_window import MainWindow
 from .preferences import load
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Hit
+    import pyvista
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+    from ..drawing.panel_plotter import PanelPlotter
+    from ..drawing.picking import Hit
 
 WAKE_MS = 100
 """How often a notebook's kernel is woken once it has Qt's event loop."""
@@ -62,7 +66,13 @@ class Pick:
 
 @dataclass(frozen=True, eq=False)
 class ShownPanel:
-    """What a panel shows: field (n,) in the unit given, NaN where undefined; or None, and the failure in words."""
+    """What a panel shows: field (n,) in the unit given, NaN where undefined; or None, and the failure in words.
+
+    plotter: the panel as a `pyvista.BasePlotter`.  What is put there by `add_mesh`, `add_points`, `add_lines` or
+    `add_arrows` turns with the surface and is in pictures of the window, until `remove_actor` takes it away or the
+    panel shows another surface; after other changes of it, such as of its points, call `render`.  Clicks go through it.
+    Figures are made from the document alone, and do not show it.
+    """
 
     id: int
     quantity: str
@@ -70,6 +80,18 @@ class ShownPanel:
     unit: str
     field: np.ndarray | None
     failure: str
+    plotter: "PanelPlotter"
+    _drawn: "vtkPolyData"
+
+    @cached_property
+    def mesh(self) -> "pyvista.PolyData":
+        """The surface as it is drawn, with the field as an array (n,) under the panel's quantity; vertex k is point k.
+
+        A copy: what is written into it changes neither the panel nor the field.
+        """
+        from ..drawing.panel_plotter import mesh_of  # PyVista comes with the first panel
+
+        return mesh_of(self._drawn, {} if self.field is None else {self.quantity: self.field})
 
 
 class Viewer:
@@ -128,14 +150,14 @@ class Viewer:
         self._complete()
         found = []
         for panel in self.document.panels:
-            shown = self._session.shown.get(panel.id)
+            shown, name = self._session.shown.get(panel.id), str(panel.shows)
             if shown is None or shown.is_preview:
-                found.append(ShownPanel(panel.id, str(panel.shows), str(panel.shows), "", None, "It was stopped."))
+                result = name, "", None, "It was stopped."
             else:
                 answer = shown.answer
-                found.append(
-                    ShownPanel(panel.id, str(panel.shows), answer.label, answer.unit, answer.field, answer.failure)
-                )
+                result = answer.label, answer.unit, answer.field, answer.failure
+            view = self._there.grid.panel(panel.id).view
+            found.append(ShownPanel(panel.id, name, *result, view.plotter, view.scene.mesh))
         return tuple(found)
 
     def screenshot(self, path: str | os.PathLike[str]) -> Path:

@@ -114,7 +114,7 @@ def start(size: Size) -> Iterator[Line]:
             # Names are imported when they are asked for; this is what a program waits for in fact.
             (IMPORT, 1.0, ["-c", IMPORT], False),
             ("window shown", 2.5, ["-c", FIRST_PAINT, "view", size.sample], True),
-            ("first picture", 5.0, ["-m", "app", "view", size.sample, "--screenshot", picture], True),
+            ("first picture", 5.5, ["-m", "app", "view", size.sample, "--screenshot", picture], True),
         ]
         for name, bound, arguments, needs_display in programs:
             if needs_display and not has_display():

@@ -1,10 +1,11 @@
 """The camera from which the panels of a surface are seen, and how those of two surfaces move together."""
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore
-from vtkmodules.vtkRenderingCore import vtkCamera
 
 from bihdist_core.analysis.upright import axis_of
 
@@ -15,6 +16,9 @@ from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import vertex_at
 from ...session.session import Session
 from .panel import DistancePanel
+
+if TYPE_CHECKING:
+    import pyvista
 
 
 class Eye(QtCore.QObject):
@@ -34,10 +38,15 @@ class Eye(QtCore.QObject):
     ) -> None:
         super().__init__(parent)
         self._session, self._panels, self._place = session, panels, place
-        self.camera = vtkCamera()
         self.known: Camera | None = None
         self.is_turntable = False  # whether what is up stays upright while the surface turns
         self._fitted = QtCore.QSize()  # of the views that the camera was placed for
+
+    @cached_property
+    def camera(self) -> "pyvista.Camera":
+        import pyvista  # with the first panel, not with the window
+
+        return pyvista.Camera()
 
     @property
     def surface(self) -> str:

@@ -215,7 +215,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Let a panel be one of the document's, without a field yet."""
         panel.id, panel.surface = shown.id, shown.surface
         loaded, eye = self._session.loaded(panel.surface), self.eye_of(panel.surface)
-        panel.view.scene.renderer.SetActiveCamera(eye.camera)
+        panel.view.plotter.look_through(eye.camera)
         panel.show_style(self._style)
         if loaded is not None:
             panel.show_surface(loaded)

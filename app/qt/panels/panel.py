@@ -113,6 +113,10 @@ class DistancePanel(QtWidgets.QWidget):
 
     def rest(self) -> None:
         """Show nothing, and keep nothing of what was shown."""
+        self.view.plotter.clear()
+        self._forget()
+
+    def _forget(self) -> None:
         self._opened = self.answer = self._shape = self._raised = self._drawn = None
         self._zooms = ()
         self.marks.rest()
@@ -126,8 +130,10 @@ class DistancePanel(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ state into pixels
     def show_surface(self, loaded: LoadedMesh) -> None:
-        """Another surface, without a field yet."""
-        self.rest()
+        """Another surface, without a field yet; or the same in another look, with what others have added to it."""
+        if loaded is not self._opened:
+            self.view.plotter.clear()
+        self._forget()
         self._opened = loaded
         self.head.show_surface(loaded.surface)
         self.marks.begin(loaded.surface)

@@ -63,7 +63,8 @@ class View(QtWidgets.QWidget):
         super().__init__(parent)
         self.offscreen = offscreen
         self.over, self.pointer = MarksOver(self), Pointer(self)
-        self.scene = offscreen.new_scene(scale=self.devicePixelRatioF())
+        self.plotter = offscreen.new_plotter(self.redraw)
+        self.scene = offscreen.new_scene(scale=self.devicePixelRatioF(), plotter=self.plotter)
         self.picker: Picker | None = None
         self.handles = np.empty((0, 3))  # where the source's marks are
         self.wheel_factor = 1.0  # -1 for a wheel that goes the other way
@@ -122,10 +123,8 @@ class View(QtWidgets.QWidget):
         ratio = self.devicePixelRatioF()
         if (style, ratio) == (self.scene.style, self.scene.scale):
             return False
-        camera = self.camera
         self.offscreen.remove(self.scene)
-        self.scene = self.offscreen.new_scene(style, ratio)
-        self.scene.renderer.SetActiveCamera(camera)
+        self.scene = self.offscreen.new_scene(style, ratio, self.plotter)
         self.redraw()
         return True
 
