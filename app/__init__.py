@@ -1,8 +1,8 @@
 """The viewer, the figures, the command line, and the library under one name: `import bihdist`.
 
 From the bottom up, each folder using only what stands before it: `document` (what is shown, as data), `session` (what
-is open, asked and answered), `drawing` (VTK), `figures` (and movies), `paper` (the paper's figures on one page), `qt`
-(the window), `commands` (the command line).
+is open, asked and answered), `scene` (VTK and PyVista), `figures` (and movies), `paper` (the paper's figures on one
+page), `qt` (the window), `commands` (the command line).
 
 In a checkout this folder is called `app`; installed it is the package `bihdist`.  The library's names are those of
 `bihdist_core`, imported when they are first asked for, with `figure` and `figure_again`, which draw, and `show`, which

@@ -14,10 +14,10 @@ from ..document.camera import Camera, View
 from ..document.document import Document
 from ..document.file import recipe_from_text
 from ..document.page import Recipe
-from ..drawing.camera import Margins, aimed, frame
 from ..figures.contact_sheet import as_jpeg, thumbnail
 from ..figures.draw import save_figure
 from ..figures.export import Surfaces, compute, figure_of, open_document
+from ..scene.camera import Margins, aimed, frame
 from ..session.array_store import ArrayStore
 from .storage import Folder
 from .work_order import SIZE, thumbnail_name

@@ -38,7 +38,7 @@ def with_colours(document: "Document", options: argparse.Namespace) -> "Document
     """In the colours that are named; ParameterError for none."""
     colours = document.colours
     if options.colours is not None:
-        from ..drawing.colour_file import colours_named
+        from ..scene.colour_file import colours_named
 
         colours = colours_named(options.colours, colours)
     given = {name: getattr(options, name) for name in ("reversed", "bands") if getattr(options, name) is not None}
@@ -47,7 +47,7 @@ def with_colours(document: "Document", options: argparse.Namespace) -> "Document
 
 def tell_if_unseen(style: str, options: argparse.Namespace, say: Callable[[str], None]) -> None:
     """A sentence on colours that are named for a style that has none."""
-    from ..drawing.style import STYLES
+    from ..scene.style import STYLES
 
     named = [f"--{name}" for name in ("colours", "reversed", "bands") if getattr(options, name)]
     if named and style in STYLES and not STYLES[style].coloured:

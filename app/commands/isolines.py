@@ -83,7 +83,7 @@ def _values(it: FieldOf, wanted: "Isolines", through: Sequence[int]) -> "np.ndar
     """Those that a figure would have lines at."""
     from bihdist_core.errors import ParameterError
 
-    from ..drawing.levels import levels, too_many
+    from ..scene.levels import levels, too_many
 
     it.surface.check_vertices(list(through))
     found = levels(wanted, it.top, it.top, it.is_signed, [float(it.field[vertex]) for vertex in through])

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..drawing.axes import ARM, LETTER, arms, middle
+from ..scene.axes import ARM, LETTER, arms, middle
 from .boxes import Box
 from .shots import Shot
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from bihdist_core.distances.answers import with_unit
 
-from ..drawing.bands import beyond
+from ..scene.bands import beyond
 from .boxes import Box, Words
 from .description import Figure
 from .words import BOUND, LINE, Lettering

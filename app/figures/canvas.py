@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..drawing.field_actor import CASING
-from ..drawing.levels import BOLD, width_of
-from ..drawing.style import RIM, Colour
+from ..scene.field_actor import CASING
+from ..scene.levels import BOLD, width_of
+from ..scene.style import RIM, Colour
 from .axes import draw_axes
 from .description import Figure
 from .fonts import families, has_cff_outlines

@@ -14,7 +14,7 @@ from bihdist_core.progress import Progress, silent
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.page import Page
-from ..drawing.style import PAPER, Style
+from ..scene.style import PAPER, Style
 from .canvas import matplotlib_settings
 from .draw import FIGURE_FORMATS
 from .fonts import check_font

@@ -10,9 +10,9 @@ from ..document.camera import View, checked_view
 from ..document.document import Zoom
 from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
 from ..document.page import TITLES
-from ..drawing.camera import is_flat
-from ..drawing.source_lines import SourceLine
-from ..drawing.style import PAPER, Style
+from ..scene.camera import is_flat
+from ..scene.source_lines import SourceLine
+from ..scene.style import PAPER, Style
 from .fonts import check_font
 from .size import Size
 

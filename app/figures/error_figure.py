@@ -15,7 +15,7 @@ from bihdist_core.applications.map_errors import LIMIT, ErrorCurve, MeanCurve
 from bihdist_core.progress import Progress
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..drawing.style import CURVES
+from ..scene.style import CURVES
 from .chart_page import FAINT, USUAL_LOOK, ChartLook, save_chart, style_axes
 from .draw import FIGURE_FORMATS
 

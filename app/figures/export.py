@@ -24,10 +24,10 @@ from ..document.measuring import vertices_of
 from ..document.page import Recipe
 from ..document.profile_words import shows_path
 from ..document.sourcing import members_of
-from ..drawing.levels import in_unit
-from ..drawing.selected import selected_colours
-from ..drawing.source_lines import SourceLine, source_lines
-from ..drawing.style import PINS, style_of
+from ..scene.levels import in_unit
+from ..scene.selected import selected_colours
+from ..scene.source_lines import SourceLine, source_lines
+from ..scene.style import PINS, style_of
 from ..session.anchors import anchor_value, anchors_on
 from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
@@ -336,7 +336,7 @@ def _source_marks(starts: Sequence[Source], surface: Surface) -> list[Mark]:
 
 
 def _dots(through: Sequence[IsolinePoint], answer: Answer) -> list[Mark]:
-    """On isolines through points; see `drawing.levels` on the values that have one."""
+    """On isolines through points; see `scene.levels` on the values that have one."""
     low = -answer.maximum if answer.is_signed else 0.0
     on_lines = [point for point in through if low < point.value < answer.maximum]
     return [Mark(p.vertices[0], is_passed=True, corners=p.vertices, weights=p.weights) for p in on_lines]

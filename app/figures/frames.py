@@ -13,7 +13,7 @@ import numpy as np
 from bihdist_core import BihdistError
 from bihdist_core.progress import Progress
 
-from ..drawing.style import Style
+from ..scene.style import Style
 from .composition import KeptWords
 from .description import Figure
 from .draw import draw_figure

@@ -9,8 +9,8 @@ import numpy as np
 from bihdist_core import Surface
 
 from ..document.camera import Camera, View
-from ..drawing.camera import Margins, Projection, outwards_at, standard_camera
-from ..drawing.height_field import rise, warp_by_scalar
+from ..scene.camera import Margins, Projection, outwards_at, standard_camera
+from ..scene.height_field import rise, warp_by_scalar
 from .boxes import Box
 from .description import FigurePanel
 

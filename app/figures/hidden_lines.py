@@ -8,9 +8,9 @@ import numpy as np
 from bihdist_core import Surface
 from bihdist_core.analysis.isoline_tracing import isolines
 
-from ..drawing.camera import Projection, SeenNow
-from ..drawing.levels import Levels
-from ..drawing.line_labels import Contour
+from ..scene.camera import Projection, SeenNow
+from ..scene.levels import Levels
+from ..scene.line_labels import Contour
 from .occlusion import Occlusion
 
 SHORTEST = 0.25

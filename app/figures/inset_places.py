@@ -6,7 +6,7 @@ import numpy as np
 
 from bihdist_core import ParameterError, Surface
 
-from ..drawing.corners import SIDE, chosen_corners, corner_boxes, cover, source_box
+from ..scene.corners import SIDE, chosen_corners, corner_boxes, cover, source_box
 from .boxes import Box
 from .description import Figure
 from .framing import Framed, Seen, places

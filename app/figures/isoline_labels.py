@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..drawing.field_actor import CASING
-from ..drawing.line_labels import Contour, Label
-from ..drawing.line_labels import labelled as labelled_lines
-from ..drawing.style import RIM
+from ..scene.field_actor import CASING
+from ..scene.line_labels import Contour, Label
+from ..scene.line_labels import labelled as labelled_lines
+from ..scene.style import RIM
 from .description import Figure
 from .layout import Layout
 from .marks import POINT
@@ -27,7 +27,7 @@ LABEL_SIZE = 0.85
 def labelled(
     shot: Shot, size: float, width: Callable[[str], float], marks: float, written: Sequence[tuple[float, float]] = ()
 ) -> tuple[list[Contour], list[Label]]:
-    """The shot's isolines with gaps, and what stands in them, see `drawing.line_labels`.
+    """The shot's isolines with gaps, and what stands in them, see `scene.line_labels`.
 
     size: of the letters; width: of a text in them; marks: how far words keep from the middle of a mark; written:
     middles of single signs that stand in the picture.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..drawing.corners import SIDE
-from ..drawing.style import PAPER
+from ..scene.corners import SIDE
+from ..scene.style import PAPER
 from . import bars
 from .bars import Bar
 from .boxes import Box, Words

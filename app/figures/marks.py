@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..drawing.corners import Rectangle, inside, joins
-from ..drawing.marks import DOT
-from ..drawing.source_disc import DASHED, DASHES, HALO, RIM
+from ..scene.corners import Rectangle, inside, joins
+from ..scene.marks import DOT
+from ..scene.source_disc import DASHED, DASHES, HALO, RIM
 from .boxes import Box, Words
 from .crosses import cross_of
 from .description import Mark

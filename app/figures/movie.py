@@ -23,7 +23,7 @@ from ..document.camera import View
 from ..document.document import Document, Panel
 from ..document.edits import put_point
 from ..document.page import Recipe
-from ..drawing.camera import turned
+from ..scene.camera import turned
 from ..session.array_store import ArrayStore
 from ..session.questions import Question, questions, vertex_at
 from .description import Figure

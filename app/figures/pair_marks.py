@@ -8,7 +8,7 @@ from ..document.document import Document, Panel
 from ..document.map_colours import Truth
 from ..document.pairing import pair_words, waiting_point
 from ..document.predicting import predicts_in
-from ..drawing.style import PINS, WAITING
+from ..scene.style import PINS, WAITING
 from ..session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
 from ..session.loaded_mesh import LoadedMesh
 from ..session.pair_locations import candidate_in, located_pair_points

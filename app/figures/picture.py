@@ -29,7 +29,7 @@ from ..document.measuring import add_pins, runs_from_words, runs_of, select_inst
 from ..document.page import Page, Recipe
 from ..document.profile_words import with_profile
 from ..document.quantities import Quantity
-from ..drawing.colour_file import colours_named
+from ..scene.colour_file import colours_named
 from ..session.array_store import ArrayStore, Mesh, comparison_of_arrays, with_beside
 from ..version import version
 from .description import Figure

@@ -9,8 +9,8 @@ import numpy as np
 from bihdist_core import BihdistError
 from bihdist_core.progress import Progress, silent
 
-from ..drawing.camera import Projection
-from ..drawing.style import Style
+from ..scene.camera import Projection
+from ..scene.style import Style
 
 FINER = 2
 """Pixels drawn for each pixel of a figure, along each side."""
@@ -41,7 +41,7 @@ class RenderWindow:
         import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the classes below are abstract without it)
         from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
-        from ..drawing.field_actor import FieldActor, light
+        from ..scene.field_actor import FieldActor, light
 
         self._finer = finer
         self.shown = FieldActor(style)

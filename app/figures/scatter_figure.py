@@ -11,7 +11,7 @@ import numpy as np
 from bihdist_core.analysis.field_scatter import FieldScatter
 from bihdist_core.progress import Progress
 
-from ..drawing.density import axis_ends, cell_size, density_picture
+from ..scene.density import axis_ends, cell_size, density_picture
 from .chart_page import ChartLook, save_chart, style_axes
 
 if TYPE_CHECKING:

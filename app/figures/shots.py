@@ -14,12 +14,12 @@ from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..drawing.bands import band_edges
-from ..drawing.drawable import drawable, normals_shading, outward_faces
-from ..drawing.levels import levels, too_many
-from ..drawing.line_labels import Contour, Line
-from ..drawing.source_lines import SourceLine
-from ..drawing.style import Style
+from ..scene.bands import band_edges
+from ..scene.drawable import drawable, normals_shading, outward_faces
+from ..scene.levels import levels, too_many
+from ..scene.line_labels import Contour, Line
+from ..scene.source_lines import SourceLine
+from ..scene.style import Style
 from .description import Figure, Mark
 from .framing import Framed, shown_surface
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
@@ -40,7 +40,7 @@ class Shot:
     """A rectangle of the page with a picture in it.
 
     image: (h, w, 4) uint8, colours multiplied by alpha; isolines: in the order of their values; marks: their index in
-    the panel, and where (x, y) on the page; frame: (3, 3) of the camera, see `drawing.camera.frame`; ghosts: of marks
+    the panel, and where (x, y) on the page; frame: (3, 3) of the camera, see `scene.camera.frame`; ghosts: of marks
     that the shape hides, the same; lines, regions: what is seen of those that the field starts from, and of boundaries
     of regions; source: for an inset, what it enlarges; seen: the names of the lines of which something is seen; path:
     what is seen of a profile's; course: all of that.

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..drawing import path_lines, region_lines, source_lines
-from ..drawing.style import WHITE, Colour, Style
+from ..scene import path_lines, region_lines, source_lines
+from ..scene.style import WHITE, Colour, Style
 from .shots import Line, Shot
 
 

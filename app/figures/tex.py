@@ -12,7 +12,7 @@ from bihdist_core.sources.words import short_words_of
 
 from ..document.page import Recipe
 from ..document.sourcing import members_of
-from ..drawing.levels import round_step, steps_to_top
+from ..scene.levels import round_step, steps_to_top
 from ..session.questions import source_at
 from .description import Figure
 from .layout import lay_out

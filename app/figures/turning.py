@@ -13,9 +13,9 @@ from bihdist_core.analysis.view_directions import FIRST_VIEWS
 
 from ..document.camera import Camera, View
 from ..document.looks import Shading
-from ..drawing.camera import VIEW_ANGLE, Projection, directions, outwards_at, standard_camera, turned
-from ..drawing.drawable import drawable
-from ..drawing.height_field import rise
+from ..scene.camera import VIEW_ANGLE, Projection, directions, outwards_at, standard_camera, turned
+from ..scene.drawable import drawable
+from ..scene.height_field import rise
 from .description import Figure
 from .grid import grid_of
 from .layout import lay_out

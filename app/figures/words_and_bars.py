@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..drawing.bands import band_edges, bar_parts
-from ..drawing.field_actor import CASING
-from ..drawing.levels import BOLD, levels
-from ..drawing.style import RIM, Colour
+from ..scene.bands import band_edges, bar_parts
+from ..scene.field_actor import CASING
+from ..scene.levels import BOLD, levels
+from ..scene.style import RIM, Colour
 from .bars import TICK, Bar
 from .boxes import Box, Words
 from .layout import Cell

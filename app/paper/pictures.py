@@ -12,12 +12,12 @@ from bihdist_core.experiments.result import MARKS
 
 from ..document.camera import Camera, View
 from ..document.looks import Isolines
-from ..drawing.camera import directions, outwards_at
-from ..drawing.style import PAPER
 from ..figures.description import Entry
 from ..figures.draw import Figure, FigurePanel, Mark
 from ..figures.framing import seen
 from ..figures.size import Size
+from ..scene.camera import directions, outwards_at
+from ..scene.style import PAPER
 
 ACROSS, ACROSS_NARROW = {1: 4, 2: 3}, {1: 6, 2: 3}
 """Panels side by side at most, by how many views they have; of shapes higher than wide there may be more."""

@@ -11,7 +11,7 @@ from ..document.document import Document
 from ..document.edits import put_point
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Hit
+    from ..scene.picking import Hit
 
 
 class AnchorGestures:

@@ -4,7 +4,7 @@
 """
 
 from ..document.document import Anchor, Document, Point
-from ..drawing.style import Style
+from ..scene.style import Style
 from ..session.loaded_mesh import LoadedMesh
 from .look.canvas import canvas_style
 from .look.look import LOOK

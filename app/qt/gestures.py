@@ -18,7 +18,7 @@ from .pin_gestures import PinGestures
 from .source_gestures import SourceGestures
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Hit
+    from ..scene.picking import Hit
 
 CLOSER = 2.0
 """By how much "zoom to it" enlarges."""

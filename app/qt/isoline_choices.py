@@ -8,7 +8,7 @@ from bihdist_core import ParameterError
 
 from ..document.isoline_edits import pass_through, pass_through_none
 from ..document.looks import MOST_ISOLINES
-from ..drawing.levels import levels, too_many
+from ..scene.levels import levels, too_many
 from .bars.isoline_menu import BOLD
 
 IN_UNIT = "in each panel's unit (0.05 for 5 % of a difference)"

@@ -12,8 +12,8 @@ from qtpy import QtCore, QtGui, QtWidgets
 from ..document.camera import View as CameraView
 from ..document.document import Document
 from ..document.page import Page, Recipe
-from ..drawing.prepared import prepare
-from ..drawing.style import STYLES
+from ..scene.prepared import prepare
+from ..scene.style import STYLES
 from ..session.loaded_mesh import LoadedMesh
 from ..session.session import Session
 from . import remembered

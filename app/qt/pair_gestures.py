@@ -22,7 +22,7 @@ from ..document.predicting import predicts_in
 from ..session.pair_locations import Candidate, candidate_in
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Hit
+    from ..scene.picking import Hit
 
 
 class PairGestures:

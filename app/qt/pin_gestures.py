@@ -12,7 +12,7 @@ from ..document.instruments import Pin
 from ..document.measuring import add_pins, remove_pins
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Hit
+    from ..scene.picking import Hit
     from .source_gestures import SourceGestures
 
 

@@ -26,7 +26,7 @@ from ..document.beside_edits import MOST_SHOWN
 from ..document.document import Document, Point
 from ..document.edits import move_source
 from ..document.quantities import Quantity
-from ..drawing.style import map_of
+from ..scene.style import map_of
 from ..session.array_store import Mesh, comparison_of_arrays, with_beside
 from ..session.loaded_mesh import checked_path
 from ..session.questions import source_at
@@ -39,8 +39,8 @@ if TYPE_CHECKING:
     import pyvista
     from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-    from ..drawing.panel_plotter import PanelPlotter
-    from ..drawing.picking import Hit
+    from ..scene.panel_plotter import PanelPlotter
+    from ..scene.picking import Hit
 
 WAKE_MS = 100
 """How often a notebook's kernel is woken once it has Qt's event loop."""
@@ -89,7 +89,7 @@ class ShownPanel:
 
         A copy: what is written into it changes neither the panel nor the field.
         """
-        from ..drawing.panel_plotter import mesh_of  # PyVista comes with the first panel
+        from ..scene.panel_plotter import mesh_of  # PyVista comes with the first panel
 
         return mesh_of(self._drawn, {} if self.field is None else {self.quantity: self.field})
 

@@ -19,7 +19,7 @@ from ..session.stroke_sources import source_from_strokes
 from .live_rate import LiveRate
 
 if TYPE_CHECKING:
-    from ..drawing.picking import Hit
+    from ..scene.picking import Hit
 
 NEAR = 24.0
 """Pixels from the pointer to a member of the source, or to a boundary, that a menu means."""

@@ -6,10 +6,10 @@ import numpy as np
 import pyvista
 
 from app.document.looks import Isolines
-from app.drawing.camera import Margins, aimed, show_camera
-from app.drawing.drawable import drawable
-from app.drawing.field_actor import FieldActor, light
-from app.drawing.style import PAPER
+from app.scene.camera import Margins, aimed, show_camera
+from app.scene.drawable import drawable
+from app.scene.field_actor import FieldActor, light
+from app.scene.style import PAPER
 from bihdist_core import Surface
 
 MARGINS = Margins(side=0.04, top=0.04, bottom=0.04)

@@ -14,7 +14,7 @@ from app.document.history import History
 from app.document.measuring import add_pins
 from app.document.page import Recipe
 from app.document.quantities import quantity
-from app.drawing.camera import carried, frame, turned
+from app.scene.camera import carried, frame, turned
 from bihdist_core.errors import ParameterError
 
 FIRST = comparison("first.off", (quantity("biharmonic"), quantity("biharmonic - geodesic")), (3,))

@@ -8,8 +8,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 
 from app.document.looks import Shading
-from app.drawing.creases import face_normals, point_normals, to_length_one
-from app.drawing.drawable import drawable
+from app.scene.creases import face_normals, point_normals, to_length_one
+from app.scene.drawable import drawable
 from bihdist_core import Surface
 from tests.shapes import bumpy, fin, grid, slivers, torus, two_pieces
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from app.drawing.levels import round_step
 from app.main import main
+from app.scene.levels import round_step
 from bihdist_core import BiharmonicDistance, GeodesicDistance, band, difference, isolines, read_surface
 from bihdist_core.analysis.level_words import region_from_words, value_from_words
 from bihdist_core.errors import ParameterError

@@ -9,7 +9,7 @@ from app.document.document import Anchor, comparison
 from app.document.edits import open_mesh
 from app.document.isoline_edits import pass_through, pass_through_none
 from app.document.looks import TWENTY_STEPS, Isolines
-from app.drawing.levels import half_steps, in_unit, levels, round_step, too_many, with_kept_step
+from app.scene.levels import half_steps, in_unit, levels, round_step, too_many, with_kept_step
 
 
 def values(isolines, maximum=1.0, own=1.0, **how):

@@ -5,7 +5,6 @@ import itertools
 import numpy as np
 import pytest
 
-from app.drawing.camera import directions
 from app.figures.composition import page_pixels
 from app.figures.draw import Composition, draw_figure, lay_out, take_shots
 from app.paper.charts import colours_of, drawn, plain
@@ -13,6 +12,7 @@ from app.paper.drawing import Pictures, png
 from app.paper.page import Section, page
 from app.paper.pictures import ANCHOR, CANDIDATE, FINER, TARGET, WIDTH, figures
 from app.paper.reproduce import reproduce
+from app.scene.camera import directions
 from bihdist_core import BihdistError
 from bihdist_core.experiments import EXPERIMENTS, Chart, Mark, Panel, Result, Series
 from bihdist_core.progress import silent

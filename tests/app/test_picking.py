@@ -5,8 +5,8 @@ import pytest
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (makes render windows)
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
-from app.drawing.face_blocks import BLOCK, BLOCKS_AT_ONCE, FaceBlocks
-from app.drawing.picking import Picker
+from app.scene.face_blocks import BLOCK, BLOCKS_AT_ONCE, FaceBlocks
+from app.scene.picking import Picker
 from bihdist_core import Surface
 from tests.shapes import bumpy, fin, grid, slivers, sphere, torus, two_pieces
 

@@ -7,13 +7,13 @@ import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from app.document.looks import AS_IT_IS, Isolines, Shading, shaded
-from app.drawing.camera import Projection, standard_camera
-from app.drawing.creases import face_normals as normals_of_faces
-from app.drawing.drawable import copies_of, drawable, has_backs, poly_data
-from app.drawing.style import PAPER
-from app.drawing.winding import winding
 from app.figures.raster import RenderWindow
 from app.samples import mesh_path, sample_names
+from app.scene.camera import Projection, standard_camera
+from app.scene.creases import face_normals as normals_of_faces
+from app.scene.drawable import copies_of, drawable, has_backs, poly_data
+from app.scene.style import PAPER
+from app.scene.winding import winding
 from bihdist_core import Surface, read_surface
 from tests.shapes import MESHES, bumpy, fin, grid, needs_meshes, slivers, sphere, torus, two_pieces
 

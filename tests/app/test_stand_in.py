@@ -5,10 +5,10 @@ import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from app.document.looks import Shading
-from app.drawing.drawable import drawable, faces_of, has_backs
-from app.drawing.field_actor import UNDEFINED
-from app.drawing.offscreen_renderer import OffscreenRenderer
-from app.drawing.stand_in import stand_in
+from app.scene.drawable import drawable, faces_of, has_backs
+from app.scene.field_actor import UNDEFINED
+from app.scene.offscreen_renderer import OffscreenRenderer
+from app.scene.stand_in import stand_in
 from bihdist_core import Surface
 from bihdist_core.applications.carrying import position_colours
 from tests.app.test_shading import box, turned, without

@@ -41,7 +41,7 @@ def _moving(size: Size) -> tuple[float, float, float, float, int, int]:
 
     The field is a distance in space: nothing is solved.
     """
-    from app.drawing import moves
+    from app.scene import moves
 
     with mesh_file(*bumpy_sphere(size.moving)) as path, _window(path) as (application, window):
         _wait(application, lambda: window.session.surface is not None)

@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 
-from app.drawing.style import STYLES, Style
+from app.scene.style import STYLES, Style
 
 DEFICIENCIES = {
     "protanopia": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],

@@ -19,10 +19,6 @@ from app.document.file import read_recipe, recipe_text
 from app.document.form import view_data
 from app.document.looks import UPS
 from app.document.page import Recipe
-from app.drawing.axes import BEYOND, arms, middle
-from app.drawing.camera import Projection, directions, frame, outwards_at, standard_camera
-from app.drawing.drawable import drawable
-from app.drawing.style import PAPER
 from app.figures.draw import Figure, FigurePanel, draw_figure
 from app.figures.hidden_lines import HiddenLineRemoval
 from app.figures.raster import RenderWindow
@@ -31,6 +27,10 @@ from app.figures.worker import Worker
 from app.main import main
 from app.paper import reproduce
 from app.samples import mesh_path
+from app.scene.axes import BEYOND, arms, middle
+from app.scene.camera import Projection, directions, frame, outwards_at, standard_camera
+from app.scene.drawable import drawable
+from app.scene.style import PAPER
 from app.session.questions import first_source
 from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.upright import axes_of, axis_of

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.drawing.density import density_picture
-from app.drawing.style import DARK
 from app.figures.chart_page import ChartLook
 from app.figures.histogram_figure import HistogramFigure, save_histogram_figure
 from app.figures.scatter_figure import ScatterAxis, ScatterFigure, save_scatter_figure
+from app.scene.density import density_picture
+from app.scene.style import DARK
 from bihdist_core import BihdistError, field_scatter, field_statistics
 from tests.shapes import bumpy
 

@@ -11,12 +11,12 @@ from scipy.spatial import cKDTree
 
 from app.document.camera import Camera
 from app.document.looks import Isolines
-from app.drawing.camera import Projection
-from app.drawing.style import STYLES
 from app.figures.description import Figure, FigurePanel
 from app.figures.draw import VECTOR_DPI, draw_figure, save_figure
 from app.figures.layout import lay_out
 from app.figures.shots import take_shots
+from app.scene.camera import Projection
+from app.scene.style import STYLES
 from bihdist_core.progress import silent
 from tests.shapes import sphere
 

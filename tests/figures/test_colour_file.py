@@ -7,8 +7,8 @@ import pytest
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
 
 from app.document.looks import Colours
-from app.drawing.colour_file import colours_named, read_stops
-from app.drawing.colour_maps import colours_at
+from app.scene.colour_file import colours_named, read_stops
+from app.scene.colour_maps import colours_at
 from bihdist_core import ParameterError
 
 THREE = ((0.0, (0.0, 0.0, 0.2)), (0.5, (1.0, 0.4, 0.2)), (1.0, (1.0, 1.0, 1.0)))

@@ -13,9 +13,9 @@ from app.document.edits import end_at, has_ends, with_range
 from app.document.file import read_recipe
 from app.document.looks import Colours
 from app.document.quantities import quantity
-from app.drawing.colour_maps import MAPS
 from app.figures.ends import End, ended_as, ends_in, ranged
 from app.main import main
+from app.scene.colour_maps import MAPS
 from bihdist_core import ParameterError
 
 SMALL = ["--size", "300x200"]

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.drawing.style import PAPER
 from app.figures.draw import Figure, FigurePanel, Mark, check_offscreen, draw_figure
 from app.figures.size import Size
+from app.scene.style import PAPER
 from bihdist_core import BihdistError
 from tests.shapes import bumpy, grid, two_pieces
 

@@ -9,11 +9,11 @@ import pytest
 from app.document.document import comparison
 from app.document.edits import stand
 from app.document.page import Recipe
-from app.drawing.camera import Projection, directions, standard_camera
 from app.figures.export import open_document
 from app.figures.hidden_lines import HiddenLineRemoval
 from app.figures.picture import figure
 from app.samples import mesh_path, sample_names
+from app.scene.camera import Projection, directions, standard_camera
 from app.session.array_store import ArrayStore
 from app.session.questions import first_source
 from bihdist_core import Surface, read_surface

@@ -7,12 +7,12 @@ import pytest
 from scipy.spatial import cKDTree
 
 from app.document.looks import Isolines
-from app.drawing.line_labels import value_text
 from app.figures.description import Figure, FigurePanel
 from app.figures.draw import draw_figure
 from app.figures.isoline_labels import labelled
 from app.figures.layout import lay_out
 from app.figures.shots import take_shots
+from app.scene.line_labels import value_text
 from bihdist_core.progress import silent
 from tests.shapes import sphere
 

@@ -11,8 +11,6 @@ from PIL import Image
 
 from app.document.document import comparison
 from app.document.page import Page, Recipe
-from app.drawing.camera import Projection, turned
-from app.drawing.style import STYLES
 from app.figures import canvas
 from app.figures.description import Figure, FigurePanel
 from app.figures.frames import drawn_frames
@@ -23,6 +21,8 @@ from app.figures.size import Size
 from app.figures.turning import fitted_size, start_and_axis
 from app.figures.worker import Worker
 from app.main import main
+from app.scene.camera import Projection, turned
+from app.scene.style import STYLES
 from bihdist_core import BihdistError, Cancelled, OutputError, ParameterError, Surface
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import silent

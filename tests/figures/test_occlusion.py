@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from app.drawing.camera import Camera, Projection, standard_camera
 from app.figures.hidden_lines import Curve, HiddenLineRemoval
 from app.figures.occlusion import Occlusion
+from app.scene.camera import Camera, Projection, standard_camera
 from bihdist_core import Surface, read_surface
 from bihdist_core.analysis.isoline_tracing import isolines
 from tests.figures.hidden_line_reference import seen_by_rays

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from app.drawing.camera import Camera
-from app.drawing.source_lines import source_lines
-from app.drawing.style import DARK, PAPER, STYLES
 from app.figures import raster
 from app.figures.draw import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
 from app.figures.layout import lay_out
 from app.figures.size import Size
+from app.scene.camera import Camera
+from app.scene.source_lines import source_lines
+from app.scene.style import DARK, PAPER, STYLES
 from bihdist_core import Curve, ParameterError, Surface, SurfacePoint
 from bihdist_core.sources.pieces import pieces_of
 from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces

@@ -7,10 +7,10 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import app
-from app.drawing.style import PINS
 from app.figures.description import FigurePanel, Mark
 from app.figures.draw import Figure, draw_figure
 from app.figures.size import Size
+from app.scene.style import PINS
 from bihdist_core import ParameterError
 from tests.shapes import bumpy
 

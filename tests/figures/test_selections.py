@@ -8,10 +8,10 @@ from PIL import Image
 
 from app.document.file import read_recipe
 from app.document.measuring import vertices_of
-from app.drawing.selected import selected_colours
-from app.drawing.style import PINS
 from app.figures.picture import figure
 from app.main import main
+from app.scene.selected import selected_colours
+from app.scene.style import PINS
 from tests.figures.recipes import SMALL
 from tests.shapes import bumpy
 

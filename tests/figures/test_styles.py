@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.drawing.style import DARK, LINES, PAPER, STYLES, UNIFORM
+from app.scene.style import DARK, LINES, PAPER, STYLES, UNIFORM
 from tests.figures.colour_vision import DEFICIENCIES, lab, seen_with, steps, variants
 
 

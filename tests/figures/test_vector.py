@@ -8,12 +8,12 @@ from scipy.spatial import cKDTree
 from scipy.special import eval_legendre
 
 from app.document.looks import Isolines
-from app.drawing.camera import Camera, Projection, standard_camera
-from app.drawing.drawable import drawable, outward_faces
-from app.drawing.levels import levels
 from app.figures.hidden_lines import Curve, HiddenLineRemoval
 from app.figures.outlines import outlines
 from app.figures.simplified import simplified
+from app.scene.camera import Camera, Projection, standard_camera
+from app.scene.drawable import drawable, outward_faces
+from app.scene.levels import levels
 from bihdist_core import Surface
 from bihdist_core.analysis.isoline_tracing import isolines
 from tests.shapes import grid, sphere, torus

@@ -13,8 +13,6 @@ import pytest
 from matplotlib.patches import Rectangle
 
 from app.document.document import Zoom
-from app.drawing.levels import round_step
-from app.drawing.style import LINES
 from app.figures.bars import bar_words, ends, shared_words
 from app.figures.canvas import Composition, drawn, matplotlib_settings
 from app.figures.draw import Figure, FigurePanel, Mark, draw_figure, save_figure
@@ -25,6 +23,8 @@ from app.figures.size import Size
 from app.figures.tex import escaped, sources_in_words
 from app.figures.words import LAST, LEAST, Lettering
 from app.main import main
+from app.scene.levels import round_step
+from app.scene.style import LINES
 from bihdist_core import OutputError, ParameterError
 from bihdist_core.progress import silent
 from bihdist_core.sources.source import checked_source

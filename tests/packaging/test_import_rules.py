@@ -100,7 +100,7 @@ def test_document_and_session_load_nothing_that_draws():
 
 def test_only_the_window_and_what_tools_have_in_it_load_qt():
     folders = {path.parent.name for path in (ROOT / "app").glob("*/__init__.py")}
-    assert {"document", "session", "drawing", "figures", "paper", "qt", "commands", "tools"} <= folders
+    assert {"document", "session", "scene", "figures", "paper", "qt", "commands", "tools"} <= folders
     tools = [f"tools/{path.parent.name}" for path in (ROOT / "app" / "tools").glob("*/__init__.py")]
     models = [name for name in modules(*tools) if name.rpartition(".")[2] in WITHOUT_QT]
     assert {f"app.tools.{name}" for name in ("pins", "profile.command", "profile.figure")} <= {*models}

@@ -155,7 +155,7 @@ class RandomHands(InstrumentHands):
             choices.range(way)
 
     def colours(self) -> None:
-        from app.drawing.colour_maps import MAPS
+        from app.scene.colour_maps import MAPS
 
         choices, menu = self.window.choices, self.window.menus.colours
         way = self.chance.choice(["map", "map", "file", "reversed", "bands"])

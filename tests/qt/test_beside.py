@@ -9,7 +9,7 @@ from qtpy import QtCore, QtTest
 from app.document.beside_edits import open_beside
 from app.document.document import MeshFile
 from app.document.file import read_recipe
-from app.drawing.camera import frame
+from app.scene.camera import frame
 from bihdist_core import Surface
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid

@@ -13,8 +13,8 @@ from app.document.document import comparison
 from app.document.looks import Colours
 from app.document.page import Recipe
 from app.document.quantities import quantity
-from app.drawing.colour_maps import MAPS
-from app.drawing.style import STYLES
+from app.scene.colour_maps import MAPS
+from app.scene.style import STYLES
 from app.session.array_store import ArrayStore
 from app.session.recipe_file import recipe_written
 from tests.shapes import bumpy

@@ -9,7 +9,7 @@ from app.document.document import Anchor, Point, Zoom, comparison
 from app.document.edits import move_source
 from app.document.file import recipe_text
 from app.document.page import Page, Recipe
-from app.drawing.style import STYLES
+from app.scene.style import STYLES
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 

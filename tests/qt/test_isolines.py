@@ -9,8 +9,8 @@ from app.document.document import Zoom
 from app.document.edits import move_source
 from app.document.looks import Isolines
 from app.document.quantities import Difference
-from app.drawing.levels import round_step
-from app.drawing.line_labels import value_text
+from app.scene.levels import round_step
+from app.scene.line_labels import value_text
 from bihdist_core import ParameterError
 from tests.shapes import bumpy
 

@@ -7,8 +7,8 @@ import pytest
 
 from app.document.edits import add_panel, move_source, remove_panel
 from app.document.quantities import DistanceFrom, quantity
-from app.drawing.levels import round_step
 from app.qt.look.numbers import number
+from app.scene.levels import round_step
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 

@@ -23,7 +23,7 @@ def colour_at(s, panel, place):
 def test_shift_click_pins_a_vertex_on_all_panels_and_leaves_the_source(loaded):
     from qtpy import QtCore
 
-    from app.drawing.style import PINS
+    from app.scene.style import PINS
 
     s = loaded
     first, second = seen_vertices(s, 2)
@@ -48,7 +48,7 @@ def test_a_pin_on_the_far_side_is_hollow(loaded):
     from qtpy import QtCore
 
     from app.document.measuring import add_pins
-    from app.drawing.style import PINS
+    from app.scene.style import PINS
 
     s = loaded
     view = s.panels[0].view

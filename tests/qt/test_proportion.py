@@ -12,10 +12,10 @@ from qtpy import QtCore
 from app.document.document import Anchor, Point
 from app.document.looks import Isolines
 from app.document.measuring import add_pins
-from app.drawing.levels import BOLD, ZERO, width_of
-from app.drawing.proportion import LEAST, USUAL, proportion
-from app.drawing.style import PAPER
 from app.qt.panels import pin_marks
+from app.scene.levels import BOLD, ZERO, width_of
+from app.scene.proportion import LEAST, USUAL, proportion
+from app.scene.style import PAPER
 from tests.shapes import bumpy
 
 

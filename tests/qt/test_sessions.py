@@ -18,7 +18,7 @@ from app.document.file import read_recipe, recipe_text
 from app.document.looks import Colours
 from app.document.page import Page, Recipe
 from app.document.quantities import quantity
-from app.drawing.picking import Hit
+from app.scene.picking import Hit
 from app.session.array_store import comparison_of_arrays
 from app.session.recipe_file import recipe_written
 from bihdist_core.distances.kinds import Spec

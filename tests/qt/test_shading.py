@@ -5,8 +5,8 @@ import pytest
 from qtpy import QtCore, QtGui, QtWidgets
 from qtpy.QtTest import QTest
 
-import app.drawing.stand_in
 import app.qt.panels.shades
+import app.scene.stand_in
 from app.document.looks import AS_IT_IS, Shading
 from bihdist_core.distances.kinds import Spec
 from tests.app.test_shading import box
@@ -129,7 +129,7 @@ def test_large_surfaces_are_split_on_a_thread_of_its_own(loaded, monkeypatch):
 @pytest.fixture
 def large(loaded, monkeypatch):
     """For which something stands in, and that is slow to draw."""
-    monkeypatch.setattr(app.drawing.stand_in.stand_in, "__defaults__", (400,))
+    monkeypatch.setattr(app.scene.stand_in.stand_in, "__defaults__", (400,))
     s = loaded(bumpy(4000))
     s.window.grid.moving.fluent = 0.0
     s.settle(0.1)

@@ -297,7 +297,7 @@ def test_where_nothing_is_defined_a_pick_has_no_value(shown):
 
 
 def _met(surface, vertex):
-    from app.drawing.picking import Hit
+    from app.scene.picking import Hit
 
     face = int(np.flatnonzero((surface.faces == vertex).any(axis=1))[0])
     weights = (surface.faces[face] == vertex).astype(float)

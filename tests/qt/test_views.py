@@ -10,8 +10,8 @@ import pytest
 
 from app.document.camera import Camera
 from app.document.camera_text import camera_text
-from app.drawing.camera import frame
 from app.samples import mesh_path
+from app.scene.camera import frame
 from bihdist_core import read_surface
 from bihdist_core.analysis.upright import axis_of
 from bihdist_core.distances.kinds import Spec
@@ -277,7 +277,7 @@ def test_a_camera_is_copied_and_pasted(hare):
 
 def test_a_session_without_perspective_is_seen_as_its_figure(hare, tmp_path):
     """The window and a figure of its document put a vertex in the same share of their pictures."""
-    from app.drawing.camera import Projection
+    from app.scene.camera import Projection
 
     s = hare
     press(s, "o")

@@ -6,8 +6,8 @@ import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.looks import Colours, Stops
-from ...drawing.colour_maps import MAPS, backwards, colours_at
-from ...drawing.style import map_of, style_of
+from ...scene.colour_maps import MAPS, backwards, colours_at
+from ...scene.style import map_of, style_of
 from ..look.canvas import map_word, offered_styles, style_name
 from ..look.look import LOOK
 

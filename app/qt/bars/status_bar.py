@@ -12,7 +12,7 @@ from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.distances.answers import Answer
 
 from ...document.page import Recipe
-from ...drawing.style import Style
+from ...scene.style import Style
 from ..look.icons import pixmap
 from ..look.look import LOOK
 from ..look.numbers import number, number_width, paint_number

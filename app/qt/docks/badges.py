@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.document import Document
-from ...drawing.style import PINS
+from ...scene.style import PINS
 from ..look.look import LOOK
 from ..panels.flat_button import FlatButton
 

@@ -12,12 +12,12 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document, free_names
 from ...document.measuring import select, vertices_of
-from ...drawing.selected import selected_colours
-from ...drawing.style import PINS
+from ...scene.selected import selected_colours
+from ...scene.style import PINS
 from .background import Background
 
 if TYPE_CHECKING:
-    from ...drawing.picking import Hit
+    from ...scene.picking import Hit
 
 RADII = (4, 28)
 """Of the brush, in logical pixels: a cursor can be no larger."""

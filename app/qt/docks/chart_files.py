@@ -7,7 +7,7 @@ from typing import Any
 from bihdist_core.errors import BihdistError
 from bihdist_core.whole_file import check_output
 
-from ...drawing.style import style_of
+from ...scene.style import style_of
 from ..look.theme import DARK, LIGHT, Theme, lightness
 from .saving import ask_path
 

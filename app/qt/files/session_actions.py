@@ -18,8 +18,8 @@ from ...document.file import checksum, read_recipe, with_paths
 from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...document.work import work_in
-from ...drawing.style import style_of
 from ...samples import mesh_path
+from ...scene.style import style_of
 from ...session.array_store import ArrayStore
 from ...session.recipe_file import recipe_written
 from ...version import version

@@ -5,7 +5,7 @@ from dataclasses import replace
 from qtpy import QtGui
 
 from ...document.looks import OF_THE_STYLE, Colours
-from ...drawing.style import STYLES, Colour, Style, style_of
+from ...scene.style import STYLES, Colour, Style, style_of
 from .theme import Theme
 
 STYLE_NAMES = {"paper": "White ground", "lines": "Lines only", "dark": "Dark ground"}

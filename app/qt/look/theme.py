@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from qtpy import QtGui
 
-from ...drawing.style import CURVES, CURVES_ON_DARK
+from ...scene.style import CURVES, CURVES_ON_DARK
 
 
 @dataclass(frozen=True)

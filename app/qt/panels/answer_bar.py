@@ -4,8 +4,8 @@ import numpy as np
 
 from bihdist_core.distances.answers import Answer
 
-from ...drawing.bands import beyond
-from ...drawing.scene import PanelScene
+from ...scene.bands import beyond
+from ...scene.panel_scene import PanelScene
 from ..look.numbers import number
 from .colour_bar import ColourBar
 

@@ -10,8 +10,8 @@ from qtpy import QtCore
 from bihdist_core.analysis.upright import axis_of
 
 from ...document.camera import Camera, View
-from ...drawing.camera import camera_seen, carried, outwards_at, show_camera, standard_camera
-from ...drawing.height_field import rise
+from ...scene.camera import camera_seen, carried, outwards_at, show_camera, standard_camera
+from ...scene.height_field import rise
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import vertex_at
 from ...session.session import Session

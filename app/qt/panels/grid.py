@@ -13,8 +13,8 @@ from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
 from ...document.mapping import shows_maps
 from ...document.predicting import predicts
-from ...drawing.offscreen_renderer import OffscreenRenderer
-from ...drawing.style import PAPER, Style
+from ...scene.offscreen_renderer import OffscreenRenderer
+from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
 from ...session.session import Session
 from ..look.look import LOOK

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.field_actor import CASING
-from ...drawing.levels import BOLD
-from ...drawing.line_labels import PAD, STRAIGHT
-from ...drawing.style import RIM, Style
+from ...scene.field_actor import CASING
+from ...scene.levels import BOLD
+from ...scene.line_labels import PAD, STRAIGHT
+from ...scene.style import RIM, Style
 from ..look.look import LOOK
 
 FONT_SIZE = 11.0

@@ -11,11 +11,11 @@ from qtpy import QtCore, QtGui
 
 from bihdist_core import Surface
 
-from ...drawing.camera import SeenNow
-from ...drawing.corners import Rectangle
-from ...drawing.drawable import outward_faces
-from ...drawing.levels import Levels
-from ...drawing.line_labels import Contour, Label, Line, labelled, value_text
+from ...scene.camera import SeenNow
+from ...scene.corners import Rectangle
+from ...scene.drawable import outward_faces
+from ...scene.levels import Levels
+from ...scene.line_labels import Contour, Label, Line, labelled, value_text
 from ..look.look import LOOK
 from .label_painting import FONT_SIZE, Written, label_font, painted
 from .moving import REST_MS

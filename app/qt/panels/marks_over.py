@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.axes import arms, middle
-from ...drawing.camera import camera_seen, frame
-from ...drawing.lines_of_sight import pixels_in
-from ...drawing.picking import pixel_of
+from ...scene.axes import arms, middle
+from ...scene.camera import camera_seen, frame
+from ...scene.lines_of_sight import pixels_in
+from ...scene.picking import pixel_of
 from . import overlay
 from .anchor_labels import AnchorLabel, paint_anchor_labels
 from .extremum_marks import ExtremumMarks, paint_note

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.axes import ARM, Arm
-from ...drawing.source_lines import RIM, WIDTH
-from ...drawing.style import Colour
+from ...scene.axes import ARM, Arm
+from ...scene.source_lines import RIM, WIDTH
+from ...scene.style import Colour
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
 

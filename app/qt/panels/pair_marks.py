@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.picking import pixel_of
+from ...scene.picking import pixel_of
 from ..look.look import LOOK
 from . import overlay
 from .extremum_marks import LOW, NOTE_LEFT, NOTE_TOP

@@ -14,14 +14,14 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import COMPARISON, Zoom
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
 from ...document.quantities import DistanceFrom
-from ...drawing.bands import band_edges
-from ...drawing.drawable import drawable
-from ...drawing.height_field import rise, warp_by_scalar
-from ...drawing.levels import in_unit, with_kept_step
-from ...drawing.offscreen_renderer import OffscreenRenderer
-from ...drawing.picking import LatePicker
-from ...drawing.prepared import Drawn
-from ...drawing.style import Style
+from ...scene.bands import band_edges
+from ...scene.drawable import drawable
+from ...scene.height_field import rise, warp_by_scalar
+from ...scene.levels import in_unit, with_kept_step
+from ...scene.offscreen_renderer import OffscreenRenderer
+from ...scene.picking import LatePicker
+from ...scene.prepared import Drawn
+from ...scene.style import Style
 from ...session.answering import Shown
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh

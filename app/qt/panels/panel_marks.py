@@ -9,8 +9,8 @@ from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.region_boundaries import Boundary
 from bihdist_core.sources.pieces import Pieces
 
-from ...drawing.source_lines import SourceLine, source_lines
-from ...drawing.style import PINS, WAITING
+from ...scene.source_lines import SourceLine, source_lines
+from ...scene.style import PINS, WAITING
 from ...session.isoline_points import IsolinePoint
 from ...session.pair_locations import Candidate, LocatedPairPoint
 from ...session.pin_locations import LocatedPin

@@ -3,10 +3,10 @@
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.lines_of_sight import seen_in
-from ...drawing.offscreen_renderer import OffscreenRenderer
-from ...drawing.path_lines import DOTS, NARROW, THINNER, WIDE
-from ...drawing.scene import PanelScene
+from ...scene.lines_of_sight import seen_in
+from ...scene.offscreen_renderer import OffscreenRenderer
+from ...scene.panel_scene import PanelScene
+from ...scene.path_lines import DOTS, NARROW, THINNER, WIDE
 from .overlay import BRIGHT, DARK
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
-from ...drawing import moves
+from ...scene import moves
 
 if TYPE_CHECKING:
     from .view import View

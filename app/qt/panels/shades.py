@@ -6,7 +6,7 @@ from threading import Thread
 from qtpy import QtCore
 
 from ...document.looks import Shading
-from ...drawing.prepared import Drawn, Meshes
+from ...scene.prepared import Drawn, Meshes
 
 LARGE = 100_000
 """Faces from which on it takes a tenth of a second and more."""

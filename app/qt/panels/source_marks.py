@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.picking import pixel_of
-from ...drawing.source_disc import DASHED, DASHES, HALO, RIM
-from ...drawing.style import Colour
+from ...scene.picking import pixel_of
+from ...scene.source_disc import DASHED, DASHES, HALO, RIM
+from ...scene.style import Colour
 from .seen_places import SeenPlaces
 
 

@@ -7,11 +7,11 @@ import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
-from ...drawing import moves
-from ...drawing.offscreen_renderer import OffscreenRenderer
-from ...drawing.picking import Hit, Picker, pixel_of
-from ...drawing.proportion import proportion
-from ...drawing.style import Style
+from ...scene import moves
+from ...scene.offscreen_renderer import OffscreenRenderer
+from ...scene.picking import Hit, Picker, pixel_of
+from ...scene.proportion import proportion
+from ...scene.style import Style
 from ..look.look import LOOK
 from .marks_over import MarksOver
 from .pointer import Pointer

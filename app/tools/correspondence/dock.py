@@ -14,13 +14,13 @@ from ...document.mapping import shows_maps
 from ...document.pairing import add_pairs, half_pair, number_of, remove_pairs
 from ...document.predicting import predict, predicts, show_distances
 from ...document.quantities import kind_name
-from ...drawing.style import PINS, WAITING
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.plain import fill
 from ...qt.docks.saving import save
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
+from ...scene.style import PINS, WAITING
 from ...session.pair_locations import vertex_pairs
 from ...session.questions import vertex_at
 from .map_errors import MapErrors

@@ -144,9 +144,9 @@ class MapTruth:
 
     def save_figure(self, path: str = "") -> None:
         """In the style of the page, in the colours that go with its ground."""
-        from ...drawing.style import style_of
         from ...figures.chart_page import ChartLook
         from ...figures.error_figure import ErrorFigure, save_error_figure
+        from ...scene.style import style_of
 
         window = self._window
         page, colours = window.page, paper_theme(window).curves

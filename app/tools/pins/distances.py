@@ -12,11 +12,11 @@ from bihdist_core.sources.source import Source
 
 from ...document.document import Document
 from ...document.quantities import kind_name
-from ...drawing.style import PINS
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number
 from ...qt.panels.flat_button import FlatButton
 from ...qt.panels.quantity_menu import offered_kinds
+from ...scene.style import PINS
 from ...session.pairwise_distances import PairwiseDistances
 from ...session.pin_locations import LocatedPin
 from .matrix import PinMatrix

@@ -14,12 +14,12 @@ from bihdist_core.sources.words import short_words_of, source_from_words
 from ...document.document import Document
 from ...document.measuring import add_pins, change_pin, move_pin, remove_pins
 from ...document.quantities import quantity_name
-from ...drawing.style import PINS
 from ...qt.docks.instrument import Instrument
 from ...qt.look.numbers import number, percent, share
 from ...qt.look.segments import Segments
 from ...qt.look.text_box import TextBox, mark_wrong
 from ...qt.panels.flat_button import FlatButton
+from ...scene.style import PINS
 from ...session.pin_locations import LocatedPin, located_pins
 from ...session.questions import source_at
 from .distances import PinDistances

@@ -3,7 +3,7 @@
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.edits import move_source
-from ...drawing.style import PINS
+from ...scene.style import PINS
 
 COLOURS = ("Green", "Orange", "Violet", "Olive", "Plum", "Slate", "Brown", "Teal", "Blue", "Ochre")
 

@@ -10,8 +10,8 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import Document
 from ...document.measuring import points_along
 from ...document.page import Page
-from ...drawing.style import PINS, Style, curve_colours, style_of
 from ...figures.chart_page import ChartLook
+from ...scene.style import PINS, Style, curve_colours, style_of
 from .curves import profile_curve
 from .figure import ProfileFigure, ProfileKnot
 

@@ -14,7 +14,6 @@ from ...document.edits import can_divide
 from ...document.file_names import file_name
 from ...document.measuring import show_regions
 from ...document.quantities import quantity_name
-from ...drawing.style import PINS
 from ...qt.docks.badges import BADGE, Badge, paint_badge
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
@@ -25,6 +24,7 @@ from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, share
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
+from ...scene.style import PINS
 from .sampler import Sampler
 
 ROW, HEAD = 30, 32

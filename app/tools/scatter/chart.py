@@ -7,10 +7,10 @@ from qtpy import QtCore, QtGui
 
 from bihdist_core.analysis.field_scatter import FieldScatter
 
-from ...drawing.density import cell_size, density_picture
-from ...drawing.style import PINS
 from ...qt.docks.chart import Axis, Chart, paint_dot
 from ...qt.look.look import LOOK
+from ...scene.density import cell_size, density_picture
+from ...scene.style import PINS
 
 REACH = 12.0
 """Pixels from the pointer to the point that it means."""

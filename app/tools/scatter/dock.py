@@ -18,8 +18,6 @@ from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.measuring import vertices_of
 from ...document.quantities import quantity_name
-from ...drawing.density import axis_ends
-from ...drawing.style import PINS, style_of
 from ...qt.docks.background import Background
 from ...qt.docks.chart import Axis
 from ...qt.docks.chart_files import save_figure
@@ -31,6 +29,8 @@ from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, share
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
+from ...scene.density import axis_ends
+from ...scene.style import PINS, style_of
 from .chart import ScatterChart
 from .selection_list import SelectionList
 

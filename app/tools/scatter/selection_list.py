@@ -12,9 +12,9 @@ from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.instruments import Selection
 from ...document.measuring import change_selection, select, vertices_of
-from ...drawing.style import PINS
 from ...qt.docks.saving import save
 from ...qt.look.look import LOOK
+from ...scene.style import PINS
 
 WAYS = {"ids": "Save vertex ids…", "field": "Save as a field…", "mesh": "Save the cut-out mesh…"}
 COLOUR_NAMES = (

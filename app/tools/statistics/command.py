@@ -144,9 +144,9 @@ def _is_table(path: str) -> bool:
 
 def _look(options: argparse.Namespace):
     from ...document.page import Page
-    from ...drawing.style import style_of
     from ...figures.chart_page import ChartLook
     from ...figures.scatter_figure import INCHES
+    from ...scene.style import style_of
 
     page = Page(size=options.size, style=options.style, font=options.font, text=options.text)
     return ChartLook.of(page, style_of(page.style), INCHES)

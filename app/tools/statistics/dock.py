@@ -17,7 +17,6 @@ from ...document.document import Document
 from ...document.field_names import field_names
 from ...document.file_names import file_name
 from ...document.quantities import quantity_name
-from ...drawing.style import style_of
 from ...qt.docks.background import Background
 from ...qt.docks.chart_files import save_figure
 from ...qt.docks.fact_table import FactTable
@@ -27,6 +26,7 @@ from ...qt.docks.saving import save, written
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, percent, share
 from ...qt.panels.flat_button import FlatButton
+from ...scene.style import style_of
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import DifferenceQuestion, Question
 from .histogram import Histogram

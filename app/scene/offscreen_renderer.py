@@ -17,7 +17,7 @@ from vtkmodules.vtkCommonCore import vtkFloatArray, vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 from .camera import stand_back
-from .scene import PanelScene
+from .panel_scene import PanelScene
 from .style import PAPER, Style
 
 if TYPE_CHECKING:
