@@ -1,4 +1,4 @@
-"""The one off-screen plotter of PyVista's in whose OpenGL window all panels of a window are drawn, one after the other.
+"""The one OpenGL window, off the screen, in which all panels of a window are drawn, one after the other.
 
 What is drawn comes out as an array, so that the toolkit can put anything over it without drawing it again; and panels
 that show the same surface share its vertices in the graphics memory, and the compiled shaders.
@@ -7,11 +7,11 @@ that show the same surface share its vertices in the graphics memory, and the co
 import os
 import sys
 from collections.abc import Callable
-from functools import cached_property
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the window below is abstract without it)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
@@ -21,8 +21,6 @@ from .panel_scene import PanelScene
 from .style import PAPER, Style
 
 if TYPE_CHECKING:
-    import pyvista
-
     from .panel_plotter import PanelPlotter
 
 
@@ -34,32 +32,18 @@ class OffscreenRenderer:
             # VTK would otherwise try an X server first, and complain that there is none.
             os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
         self.pictures = 0
+        # Not that of a `pyvista.Plotter`, which first opens another to see whether it can: a third of a second.
+        self._window = vtkRenderWindow()
+        self._window.SetOffScreenRendering(True)
+        # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
+        # the picture afterwards (FXAA) is nearly free.
+        self._window.SetMultiSamples(0)
         self._scenes: list[PanelScene] = []
         self._read = vtkUnsignedCharArray()
 
-    @cached_property
-    def plotter(self) -> "pyvista.Plotter":
-        """The `pyvista.Plotter`, made with the first panel: the window opens before PyVista is imported."""
-        import pyvista
-
-        from .panel_plotter import spare
-
-        plotter = pyvista.Plotter(off_screen=True, notebook=False, lighting="none", theme=pyvista.themes.Theme())
-        spare(plotter)
-        # Its own renderers, one for what is plotted and one for pointing, would be drawn beneath and over each panel.
-        plotter.render_window.GetRenderers().RemoveAllItems()
-        # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
-        # the picture afterwards (FXAA) is nearly free.
-        plotter.render_window.SetMultiSamples(0)
-        return plotter
-
-    @cached_property
-    def _window(self) -> vtkRenderWindow:
-        return self.plotter.render_window  # asked once: a plotter that is closed denies it to what is still queued
-
     def new_plotter(self, redraw: Callable[[], None] = lambda: None) -> "PanelPlotter":
         """A panel's plotter; redraw: called when something was added to it or removed."""
-        from .panel_plotter import PanelPlotter
+        from .panel_plotter import PanelPlotter  # with the first panel: the window opens before PyVista is imported
 
         return PanelPlotter(self._window, redraw)
 
@@ -112,5 +96,4 @@ class OffscreenRenderer:
         for scene in tuple(self._scenes):
             self.remove(scene)
             scene.plotter.leave()
-        if "plotter" in self.__dict__:
-            self.plotter.close()
+        self._window.Finalize()

@@ -16,12 +16,6 @@ from vtkmodules.vtkRenderingCore import vtkProp, vtkProp3D, vtkRenderWindow
 from .drawable import copies_of, vertex_faces
 
 
-def spare(plotter: pyvista.BasePlotter) -> None:
-    """Have a plotter left open by `pyvista.close_all`, which is not meant for those of the window."""
-    # PyVista has no option for a plotter that it is not to know of.
-    plotting._ALL_PLOTTERS.pop(plotter._id_name, None)
-
-
 def mesh_of(drawn: vtkPolyData, fields: Mapping[str, np.ndarray]) -> pyvista.PolyData:
     """A surface as it is drawn, in memory of its own: vertex k is point k; fields (n,) by name are its arrays."""
     points = vtk_to_numpy(drawn.GetPoints().GetData())
@@ -45,7 +39,8 @@ class PanelPlotter(pyvista.BasePlotter):
         self.ren_win = window
         self.redraw = redraw
         self._own: list[vtkProp] = []
-        spare(self)
+        # `pyvista.close_all` is not meant for the window's; PyVista has no option for a plotter it is not to know of.
+        plotting._ALL_PLOTTERS.pop(self._id_name, None)
         renderer = self.renderer
         renderer.UseFXAAOn()
         renderer.DrawOff()
