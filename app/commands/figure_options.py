@@ -9,7 +9,10 @@ from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
+from ..document.anchors import Anchors
 from ..document.looks import PROJECTIONS
+from ..document.pins import Pins
+from ..document.profile import Profile
 from .colour_options import add_colours, add_range, tell_if_unseen, with_colours, with_range
 from .isoline_options import add_isolines, with_isolines
 from .map_options import add_maps, with_maps
@@ -159,8 +162,8 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     from bihdist_core.applications.changes import change_from_words
 
     from ..document.camera import Camera
-    from ..document.changing import COLUMNS, split, with_changed
     from ..document.looks import shaded
+    from ..document.perturbation import COLUMNS, split, with_changed
 
     document, change = split(recipe.document)
     page = recipe.page
@@ -171,11 +174,11 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     document, rows = _with_panels(document, options)
     if options.anchors is not None:
         document = _with_anchors(document, options.anchors)
-    weights = replace(document.weights, **_given(options, "exponent", "smoothness"))
-    document = with_pins(replace(document, weights=weights), options)
+    weights = replace(document[Anchors].weights, **_given(options, "exponent", "smoothness"))
+    document = with_pins(document.with_part(replace(document[Anchors], weights=weights)), options)
     document = with_path(document, options)
     if options.regions is not None:
-        from ..document.edits import divide
+        from ..document.regions import divide
 
         document = divide(document, options.regions)
     document = with_selections(document, options)
@@ -246,8 +249,8 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
             what = "--distance" if words else f"{len(options.source)} times --source"
             raise ParameterError(f"{what} makes the panels of one mesh, and this recipe has {len(document.surfaces)}.")
         surface, sources = document.surfaces[0].name, tuple(options.source or document.sources)
-        used = {*(anchor.point for anchor in document.anchors), *document.isolines.through}
-        used |= {*(pin.point for pin in document.pins), *document.profile.points}
+        used = {*(anchor.point for anchor in document[Anchors].anchors), *document.isolines.through}
+        used |= {*(pin.point for pin in document[Pins].pins), *document[Profile].points}
         kept = [point for point in document.points if point.name in used]
         names = free_names("source", len(sources), [point.name for point in kept])
         points = [Point(name, at, surface) for name, at in zip(names, sources, strict=True)]
@@ -281,19 +284,20 @@ def _respecified(shows: "Quantity", options: argparse.Namespace) -> "Quantity":
 def _with_anchors(document: "Document", anchors: tuple[tuple[int, float | None], ...]) -> "Document":
     from bihdist_core import ParameterError
 
-    from ..document.document import Anchor, Point, free_names
+    from ..document.anchors import Anchor
+    from ..document.document import Point, free_names
 
     if len(document.surfaces) != 1:
         raise ParameterError(f"--anchors are on one mesh, and this recipe has {len(document.surfaces)}.")
     shown = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
-    shown |= {*(pin.point for pin in document.pins), *document.profile.points}
-    gone = {anchor.point for anchor in document.anchors} - shown
+    shown |= {*(pin.point for pin in document[Pins].pins), *document[Profile].points}
+    gone = {anchor.point for anchor in document[Anchors].anchors} - shown
     kept = [point for point in document.points if point.name not in gone]
     names = free_names("anchor", len(anchors), [point.name for point in kept])
     surface = document.surfaces[0].name
     new = [Point(name, vertex, surface) for name, (vertex, _) in zip(names, anchors, strict=True)]
     values = tuple(Anchor(point.name, value) for point, (_, value) in zip(new, anchors, strict=True))
-    return replace(document, points=(*kept, *new), anchors=values)
+    return document.with_part(replace(document[Anchors], anchors=values), points=(*kept, *new))
 
 
 def _camera(text: str) -> tuple[tuple[float, ...], ...]:

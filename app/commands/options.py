@@ -10,8 +10,8 @@ from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import source_from_words
 
 from ..document.document import AREAS, COMPARISON, Document
-from ..document.instruments import WAYS
 from ..document.looks import UPS
+from ..document.profile import WAYS
 from ..document.quantities import Quantity, quantity
 
 PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
@@ -85,7 +85,7 @@ def with_path(document: Document, options: argparse.Namespace) -> Document:
         if options.way is not None or options.across is not None:
             raise ParameterError("--way and --across go with --profile, the path that is drawn.")
         return document
-    from ..document.profile_words import with_profile, words_in
+    from ..document.profile import with_profile, words_in
 
     return with_profile(document, words_in(options.profile), options.way or "auto", options.across)
 
@@ -104,7 +104,7 @@ def with_pins(document: Document, options: argparse.Namespace) -> Document:
     """The document with the pins that are named, if any are, and no others."""
     if options.pin is None:
         return document
-    from ..document.measuring import pin_instead
+    from ..document.pins import pin_instead
 
     return pin_instead(document, options.pin, document.surfaces[0].name)
 
@@ -120,7 +120,7 @@ def with_selections(document: Document, options: argparse.Namespace) -> Document
         return document
     from bihdist_core.analysis.selecting import is_ids_file, read_ids
 
-    from ..document.measuring import runs_from_words, runs_of, select_instead
+    from ..document.selections import runs_from_words, runs_of, select_instead
 
     chosen = [runs_of(read_ids(word)) if is_ids_file(word) else runs_from_words(word) for word in options.select]
     return select_instead(document, chosen, document.surfaces[0].name)

@@ -9,11 +9,9 @@ from .beside import Beside
 from .camera import View, view_alike
 from .document import Document, MeshFile, Panel, Point, free_names
 from .edits import MOST_ADDED, add_panel, put_point
-from .instruments import ALONG_ALL_PINS
-from .mapping import without_maps
-from .pairing import remove_pairs
-from .predicting import show_distances
+from .prediction import show_distances
 from .quantities import DistanceFrom, Quantity, own_fields
+from .removal import without_surfaces
 
 MOST_SHOWN = 2
 """Surfaces that stand beside each other in the window."""
@@ -50,20 +48,13 @@ def close_beside(document: Document) -> Document:
     if len(document.surfaces) < 2:
         return document
     first = document.surfaces[0].name
-    document = without_maps(remove_pairs(document, document.pairs))
-    gone = {point.name for point in document.points if point.surface != first}
-    through = tuple(name for name in document.isolines.through if name not in gone)
+    document = without_surfaces(document, {mesh.name for mesh in document.surfaces[1:]})
     document = replace(
         document,
         surfaces=document.surfaces[:1],
         points=tuple(point for point in document.points if point.surface == first),
         panels=document.panels_of(first),
         fields=tuple(field for field in document.fields if field.surface == first),
-        anchors=tuple(anchor for anchor in document.anchors if anchor.point not in gone),
-        isolines=replace(document.isolines, through=through),
-        pins=tuple(pin for pin in document.pins if pin.point not in gone),
-        profile=ALONG_ALL_PINS if set(document.profile.points) & gone else document.profile,
-        selections=tuple(each for each in document.selections if each.surface == first),
         beside=(),
     )
     if document.panels:

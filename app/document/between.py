@@ -7,10 +7,9 @@ from bihdist_core.errors import ParameterError
 
 from .document import Document
 from .file import checksum
-from .map_colours import SAME_IDS, MapFile
-from .mapping import show_maps
-from .pairing import drop_half, pair_instead, place_point
-from .predicting import predict
+from .maps import SAME_IDS, MapFile, Maps, show_maps
+from .pairs import Pairs, drop_half, pair_instead, place_point
+from .prediction import predict
 
 PAIRS = "pairs"
 """In the place of a map's file: the maps that pairs make, by each distance that is shown."""
@@ -28,7 +27,7 @@ def with_prediction(document: Document, vertex: int) -> Document:
     ParameterError without pairs, or a second surface.
     """
     _check_two(document, "--predict", "predict=")
-    if not any(not pair.is_half for pair in document.pairs):
+    if not any(not pair.is_half for pair in document[Pairs].pairs):
         raise ParameterError("--predict goes by pairs; name their file with --pairs (in Python, give pairs=).")
     return place_point(drop_half(predict(document)), document.surfaces[0].name, vertex)
 
@@ -39,13 +38,13 @@ def with_maps(document: Document, names: Sequence[str]) -> Document:
     ParameterError without a second surface, without pairs for PAIRS, and for a file that cannot be read.
     """
     _check_two(document, "--map", "maps=")
-    if PAIRS in names and not document.pairs:
+    if PAIRS in names and not document[Pairs].pairs:
         raise ParameterError(f"--map {PAIRS} is made by pairs; name their file with --pairs (in Python, give pairs=).")
     files = [name for name in dict.fromkeys(names) if name != PAIRS]
     maps = tuple(MapFile(path, "" if path == SAME_IDS else checksum(path)) for path in files)
     specs = dict.fromkeys(spec for panel in document.panels for spec in panel.shows.specs)
     by = [each for name in dict.fromkeys(names) for each in (specs if name == PAIRS else [name])]
-    return show_maps(replace(document, maps=maps), by)
+    return show_maps(document.with_part(replace(document[Maps], maps=maps)), by)
 
 
 def _check_two(document: Document, option: str, argument: str) -> None:

@@ -4,32 +4,18 @@ A document says what is wanted and holds nothing that is computed.  It is hashab
 (`file`); the functions in `edits` lead from one to the next.
 """
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 from bihdist_core.applications.changes import Perturbation
-from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, checked_source, whole_number
 
 from .beside import Beside
 from .camera import View, checked_view
-from .fitting import check_names
-from .instruments import (
-    ALONG_ALL_PINS,
-    AS_LISTED,
-    DOCKS,
-    FIRST_TWO,
-    DockPlaces,
-    Pair,
-    Pin,
-    PinList,
-    Profile,
-    Scatter,
-    Selection,
-    check_name,
-)
+from .docks import DockPlaces
 from .looks import (
     AS_IT_IS,
     LARGEST,
@@ -43,8 +29,11 @@ from .looks import (
     Shading,
     one_of,
 )
-from .map_colours import SAME_FACES, MapFile, Truth
+from .part import Part
 from .quantities import OwnField, Quantity, from_point, own_fields
+from .tools import docked_tools
+
+AnyPart = TypeVar("AnyPart", bound=Part)
 
 COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
 """The panels of the window and of figures where nothing else is asked for."""
@@ -157,41 +146,19 @@ def isolines_in(zoom: Zoom, isolines: Isolines) -> Isolines:
 
 
 @dataclass(frozen=True)
-class Anchor:
-    """A marked point, filled with the colour of a value; of the field's own there if it is None.
-
-    Interpolants have the values of those that have one, unless they are left out.  name: for the user, that of the
-    point if empty.
-    """
-
-    point: str
-    value: float | None = None
-    left_out: bool = False
-    name: str = ""
-
-    def __post_init__(self) -> None:
-        check_name(self.name, "anchor")
-        if self.value is not None:
-            object.__setattr__(self, "value", float(self.value))
-        if self.value is not None and not abs(self.value) <= LARGEST:
-            raise ParameterError(f"The value of an anchor is a number up to {LARGEST:g}, not {self.value:g}.")
-
-
-@dataclass(frozen=True)
 class Document:
     """See the module; ParameterError for parts that do not fit together.
 
     areas: which vertex areas the operators have.  range: where colour bars end, one of RANGES.  height: a flat surface
     becomes a height field whose highest point is this share of its extent.  next_id: of the panel that is added next.
     fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
-    projection: one of PROJECTIONS.  axes: whether their directions are shown.  weights: of anchors, for interpolants.
-    regions: the panels, by id, that show the regions of the pins by their distance.  extrema: whether those of the
-    fields are marked.  docks: those of DOCKS that are open; dock_places: where they were when this was saved, None for
+    projection: one of PROJECTIONS.  axes: whether their directions are shown.  extrema: whether those of the fields
+    are marked.  docks: the words of those that are open; dock_places: where they were when this was saved, None for
     where docks are at first.
     snap: whether the pointer puts sources on vertices, and not anywhere in faces.
     beside: how surfaces but the first are seen, and linked: whether turning one of them turns the others.
-    pairs: of corresponding points on the first two surfaces, the last of them perhaps half a pair.
-    maps: from the first surface to the second, in files; truth: what such maps are measured by.
+    parts: of tools, those that are not as usual (`document[Pins]` has the usual one as well), in the order of their
+    names.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
@@ -202,8 +169,6 @@ class Document:
     range: str = "own"
     camera: View = "auto"
     zooms: tuple[Zoom, ...] = ()
-    anchors: tuple[Anchor, ...] = ()
-    weights: Weights = INVERSE_DISTANCES
     height: float = 0.0
     tool: str = "source"
     next_id: int = 0
@@ -213,33 +178,28 @@ class Document:
     up: str = "auto"
     projection: str = "perspective"
     axes: bool = False
-    pins: tuple[Pin, ...] = ()
-    pin_list: PinList = AS_LISTED
-    profile: Profile = ALONG_ALL_PINS
-    scatter: Scatter = FIRST_TWO
-    selections: tuple[Selection, ...] = ()
-    regions: tuple[int, ...] = ()
     extrema: bool = False
     docks: tuple[str, ...] = ()
     dock_places: DockPlaces | None = None
     snap: bool = True
     beside: tuple[Beside, ...] = ()
     linked: bool = True
-    pairs: tuple[Pair, ...] = ()
-    maps: tuple[MapFile, ...] = ()
-    truth: Truth = SAME_FACES
+    parts: tuple[Part, ...] = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
             object.__setattr__(self, "isolines", Isolines(self.isolines))  # a number of steps does
-        check_names(self)
         ids = {panel.id for panel in self.panels}
         # Of panels that are gone nothing more is shown.
-        object.__setattr__(self, "regions", tuple(id for id in self.regions if id in ids))
-        across, up = (id if id in ids else None for id in (self.scatter.across, self.scatter.up))
-        object.__setattr__(self, "scatter", replace(self.scatter, across=across, up=up))
+        parts = {type(part): part.renumbered({id: id for id in ids}) for part in self.parts}
+        if len(parts) < len(self.parts):
+            raise ParameterError("A document has one part of a kind.")
+        kept = (part for kind, part in parts.items() if part != kind())
+        object.__setattr__(self, "parts", tuple(sorted(kept, key=lambda part: type(part).__qualname__)))
+        self._check_names()
+        unlike(self.docks, "dock")
         for dock in self.docks:
-            one_of(dock, DOCKS, "dock")
+            one_of(dock, tuple(docked_tools()), "dock")
         if ids and max(ids) >= self.next_id:
             raise ParameterError(f"next_id is {self.next_id}, and there is a panel {max(ids)}.")
         if len(self.panels) > MOST_PANELS:
@@ -256,6 +216,41 @@ class Document:
             )
         checked_view(self.camera)
 
+    def _check_names(self) -> None:
+        """ParameterError for two of one name, and for the name of nothing."""
+        surfaces = unlike([mesh.name for mesh in self.surfaces], "surface")
+        points = unlike([point.name for point in self.points], "point")
+        fields = unlike([field.name for field in self.fields], "field")
+        unlike([panel.id for panel in self.panels], "panel")
+        unlike([each.surface for each in self.beside], "surface")
+        for placed in (self.points, self.panels, self.fields, self.beside):
+            known([each.surface for each in placed], surfaces, "surface")
+        known([point.image_of for point in self.points if point.image_of], points, "point")
+        known([name for panel in self.panels for name in panel.shows.points], points, "point")
+        known(self.isolines.through, points, "point")
+        known([part.name for panel in self.panels for part in own_fields(panel.shows)], fields, "field")
+        for panel in self.panels:
+            panel.shows.check(self, panel.surface)
+        for part in self.parts:
+            known(part.surfaces, surfaces, "surface")
+            known(part.points, points, "point")
+            part.check(self)
+
+    def __getitem__(self, kind: type[AnyPart]) -> AnyPart:
+        """The part of this type; the usual one where nothing is said."""
+        return next((part for part in self.parts if isinstance(part, kind)), None) or kind()
+
+    def with_part(self, part: Part, **changes: Any) -> "Document":
+        """With this instead of the part of its type, and with other changes of the document that go with it."""
+        others = (other for other in self.parts if type(other) is not type(part))
+        return replace(self, parts=(*others, part), **changes)
+
+    @property
+    def held_points(self) -> frozenset[str]:
+        """The names of points that panels, isolines and parts need."""
+        of_parts = (part.points for part in self.parts if part.holds_points)
+        return frozenset(self.isolines.through).union(*(panel.shows.points for panel in self.panels), *of_parts)
+
     def mesh(self, name: str = "A") -> MeshFile:
         return _named(self.surfaces, name, "surface")
 
@@ -264,13 +259,6 @@ class Document:
 
     def field(self, name: str) -> FieldArray:
         return _named(self.fields, name, "field")
-
-    def map(self, path: str) -> MapFile:
-        """The map in a file."""
-        found = next((each for each in self.maps if each.path == path), None)
-        if found is None:
-            raise ParameterError(f"There is no map {path!r}.")
-        return found
 
     def panel(self, id: int) -> Panel:
         for panel in self.panels:
@@ -340,6 +328,21 @@ def content(document: Document) -> Document:
     """What two documents have in common that differ in nothing but cameras, open docks and snapping."""
     beside = tuple(Beside(mesh.name, "home", document.up_of(mesh.name)) for mesh in document.surfaces[1:])
     return replace(document, camera="home", docks=(), dock_places=None, snap=True, beside=beside, linked=True)
+
+
+def unlike(names: Sequence[Any], what: str) -> set[Any]:
+    """The names; ParameterError if two of them are alike."""
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            raise ParameterError(f"There are two {what}s {name!r}.")
+    return set(names)
+
+
+def known(names: Iterable[str], there: set[str], what: str) -> None:
+    """ParameterError for a name that is none of those that are there."""
+    for name in names:
+        if name not in there:
+            raise ParameterError(f"There is no {what} {name!r}.")
 
 
 def _named(items: tuple, name: str, what: str) -> Any:

@@ -1,20 +1,17 @@
 """From one document to the next: pure functions, for what `dataclasses.replace` alone does not do."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec, kinds
-from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
 from .camera import view_alike
-from .changing import without_changed
 from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
-from .instruments import ALONG_ALL_PINS
-from .mapping import without_maps
-from .measuring import show_regions
-from .pairing import without_pairs_on
+from .perturbation import without_changed
 from .quantities import DistanceFrom, Quantity, from_point, own_fields
+from .regions import DividedPanels, can_divide, show_regions
+from .removal import without_surfaces
 
 MOST_ADDED = 6
 """Up to which panels can be added; a recipe may have more."""
@@ -23,33 +20,22 @@ MOST_ADDED = 6
 def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> Document:
     """Another mesh under the same name; its own view and way up, and its points are where the first source is.
 
-    What was tied to vertices of the old one (insets, anchors, colour bars with an end of their own, fields of the
-    user's own with the panels that show them) is left out; one panel there always is.
+    What was tied to vertices of the old one (insets, what tools have there, colour bars with an end of their own,
+    fields of the user's own with the panels that show them) is left out; one panel there always is.
     """
-    document = without_maps(without_pairs_on(without_changed(document), mesh.name))
+    document = without_changed(document)
     others = tuple(field for field in document.fields if field.surface != mesh.name)
     names = {field.name for field in others}
     kept = tuple(panel for panel in document.panels if all(part.name in names for part in own_fields(panel.shows)))
     if document.panels and not kept:
         return open_mesh(add_another(replace(document, panels=(), fields=others)), mesh, source)
-    document = replace(document, panels=kept, fields=others)
+    document = without_surfaces(replace(document, panels=kept, fields=others), {mesh.name})
     surfaces = tuple(mesh if other.name == mesh.name else other for other in document.surfaces)
-    points = tuple(replace(p, at=source) if p.surface == mesh.name else p for p in document.points)
-    gone = {point.name for point in points if point.surface == mesh.name}
-    shown = {name for panel in document.panels for name in panel.shows.points}
     return replace(
         document,
         surfaces=surfaces if mesh in surfaces else (*surfaces, mesh),
-        points=tuple(point for point in points if point.name in shown or point.surface != mesh.name),
+        points=tuple(replace(p, at=source) if p.surface == mesh.name else p for p in document.points),
         panels=tuple(replace(p, maximum=None) if p.surface == mesh.name else p for p in document.panels),
-        anchors=tuple(anchor for anchor in document.anchors if anchor.point not in gone),
-        isolines=replace(
-            document.isolines, through=tuple(name for name in document.isolines.through if name not in gone)
-        ),
-        pins=tuple(pin for pin in document.pins if pin.point not in gone),
-        profile=ALONG_ALL_PINS if set(document.profile.points) & gone else document.profile,
-        selections=tuple(each for each in document.selections if each.surface != mesh.name),
-        regions=(),
         zooms=(),
         height=0.0,
         camera="auto",
@@ -172,41 +158,20 @@ def duplicate_panel(document: Document, panel: int) -> Document:
     return move_panel(more, document.next_id, place_of(document, panel) + 1)
 
 
-def can_divide(document: Document, panel: int) -> bool:
-    """Whether there are pins for a panel's distance to divide its surface among."""
-    shown = document.panel(panel)
-    return shown.shows.is_distance and any(document.point(pin.point).surface == shown.surface for pin in document.pins)
-
-
-def divide(document: Document, which: str | Sequence[int]) -> Document:
-    """Let these panels, by their numbers from 1, and no others show the regions of the pins; "all" that can.
-
-    ParameterError where there are no pins, no such panel, or one that shows no distance.
-    """
-    able = [k for k, panel in enumerate(document.panels, 1) if can_divide(document, panel.id)]
-    numbers = able if isinstance(which, str) else which
-    if isinstance(which, str) and which != "all":
-        raise ParameterError(f"Regions are shown by panels 1,2,… or by all, not by {which!r}.")
-    if not document.pins:
-        raise ParameterError("There are no regions without pins; name some with --pin (in Python, pins=).")
-    for number in numbers:
-        if not 1 <= number <= len(document.panels):
-            raise ParameterError(f"There is no panel {number}; they are numbered from 1 to {len(document.panels)}.")
-        if number not in able:
-            raise ParameterError(f"Panel {number} shows no distance from a point, by which pins could have regions.")
-    return replace(document, regions=tuple(document.panels[number - 1].id for number in dict.fromkeys(numbers)))
-
-
-def divided_panels(document: Document) -> str | tuple[int, ...]:
-    """What `divide` takes to let a document show the regions that it shows; empty if there are none."""
-    able = [k for k, panel in enumerate(document.panels, 1) if can_divide(document, panel.id)]
-    shown = tuple(k for k in able if document.panels[k - 1].id in document.regions)
-    return "all" if shown and len(shown) == len(able) else shown
-
-
 def place_of(document: Document, panel: int) -> int:
     """The place of a panel among the others."""
     return document.panels.index(document.panel(panel))
+
+
+def show_dock(document: Document, dock: str, is_open: bool = True) -> Document:
+    """Open or close a dock."""
+    others = tuple(each for each in document.docks if each != dock)
+    return replace(document, docks=(*others, dock) if is_open else others)
+
+
+def mark_extrema(document: Document, is_shown: bool = True) -> Document:
+    """Whether extrema away from the source have triangles, in figures too."""
+    return replace(document, extrema=is_shown)
 
 
 ADD = "Add a panel"
@@ -216,7 +181,9 @@ PANEL_EDITS: dict[str, Callable[[Document, int], Document]] = {
     "Duplicate this panel": duplicate_panel,
     "Move it back": lambda document, panel: move_panel(document, panel, max(place_of(document, panel) - 1, 0)),
     "Move it on": lambda document, panel: move_panel(document, panel, place_of(document, panel) + 1),
-    "Regions of the pins": lambda document, panel: show_regions(document, panel, panel not in document.regions),
+    "Regions of the pins": lambda document, panel: show_regions(
+        document, panel, panel not in document[DividedPanels].regions
+    ),
     "Remove it": remove_panel,
 }
 """What the menu over a panel offers."""
@@ -228,6 +195,6 @@ def possible_edits(document: Document, panel: int, most: int) -> set[str]:
     possible = {ADD, "Duplicate this panel"} if count < most else set()
     possible |= {"Move it back"} if place > 0 else set()
     possible |= {"Move it on"} if place < count - 1 else set()
-    if panel in document.regions or can_divide(document, panel):
+    if panel in document[DividedPanels].regions or can_divide(document, panel):
         possible |= {"Regions of the pins"}
     return possible | ({"Remove it"} if count > 1 else set())

@@ -14,19 +14,15 @@ from typing import Any
 
 from bihdist_core.errors import ParameterError
 
-from .document import MeshFile
-from .form import document_data, document_from, plain, read_view, view_data
-from .json_values import Reader, flag, listed, number, or_none, placed, record, text, whole
-from .mapping import with_map_paths
+from .document import Document, MeshFile
+from .form import READERS, document_data, document_from, written
+from .json_values import reader_of, record, text, whole
 from .page import Page, Recipe
 
 FORMAT = 2
 """Goes up when a file could not be understood by older programs."""
 
 PROGRAM = "bihdist"
-
-LATER = ("title", "font", "text", "anchor_values")
-"""Parts of a page that are written where they are not as usual."""
 
 
 def checksum(path: str | os.PathLike[str]) -> str:
@@ -49,15 +45,9 @@ def recipe_text(recipe: Recipe, version: str) -> str:
         "program": f"{PROGRAM} {version}",
         **({"arrays": recipe.arrays} if recipe.arrays else {}),
         "document": document_data(recipe.document),
-        "page": _page_data(recipe.page),
+        "page": written(recipe.page),
     }
     return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def _page_data(page: Page) -> dict[str, Any]:
-    usual = plain(Page())
-    data = {**plain(page), "views": [view_data(view) for view in page.views]}
-    return {name: value for name, value in data.items() if name not in LATER or value != usual[name]}
 
 
 def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
@@ -72,9 +62,17 @@ def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
 
 def with_meshes_from(recipe: Recipe, file: str | os.PathLike[str]) -> Recipe:
     """The recipe as it is written at a path."""
-    meshes = tuple(with_paths(mesh, lambda path: mesh_reference(path, file)) for mesh in recipe.document.surfaces)
-    document = with_map_paths(recipe.document, lambda path: mesh_reference(path, file))
-    return replace(recipe, document=replace(document, surfaces=meshes))
+    return replace(recipe, document=with_all_paths(recipe.document, lambda path: mesh_reference(path, file)))
+
+
+def with_all_paths(document: Document, named: Callable[[str], str]) -> Document:
+    """The same document with other paths of all files that it names."""
+    return replace(
+        document,
+        surfaces=tuple(with_paths(mesh, named) for mesh in document.surfaces),
+        panels=tuple(replace(panel, shows=panel.shows.with_paths(named)) for panel in document.panels),
+        parts=tuple(part.with_paths(named) for part in document.parts),
+    )
 
 
 def with_paths(mesh: MeshFile, named: Callable[[str], str]) -> MeshFile:
@@ -107,10 +105,8 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
         # os.path, which takes a path that is too long for one that is not there.
         return str(there) if os.path.exists(there) else named
 
-    meshes = [with_paths(mesh, beside) for mesh in recipe.document.surfaces]
     arrays = str(Path(path).parent / recipe.arrays) if recipe.arrays else ""
-    document = with_map_paths(recipe.document, beside)
-    return replace(recipe, document=replace(document, surfaces=tuple(meshes)), arrays=arrays)
+    return replace(recipe, document=with_all_paths(recipe.document, beside), arrays=arrays)
 
 
 def recipe_from_text(words: str) -> Recipe:
@@ -142,26 +138,14 @@ def _recipe(data: Any) -> Recipe:
         )
     if version < FORMAT:
         raise ParameterError(f"format {version} is not read any more; the figure has to be drawn anew.")
-    parts = {"format": whole, "program": text, "arrays": text, "document": document_from, "page": _page}
+    parts = {
+        "format": whole,
+        "program": text,
+        "arrays": text,
+        "document": document_from,
+        "page": reader_of(Page, READERS),
+    }
     values = record(data, "the recipe", parts, {"format", "document"})
     if not values["document"].surfaces:
         raise ParameterError("the recipe names no mesh.")
     return Recipe(values["document"], values.get("page", Page()), made_with, values.get("arrays", ""))
-
-
-def _page(data: Any, where: str) -> Page:
-    readers: dict[str, Reader] = {
-        "size": text,
-        "style": text,
-        "format": text,
-        "views": listed(read_view),
-        "columns": or_none(whole),
-        "hints": flag,
-        "transparent": flag,
-        "crop": flag,
-        "title": text,
-        "font": text,
-        "text": or_none(number),
-        "anchor_values": flag,
-    }
-    return placed(Page, where, **record(data, where, readers, set()))

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from .document import Document, Point, free_names
+from .removal import without_orphans
 
 
 def pass_through(document: Document, vertices: tuple[int, ...], surface: str = "A") -> Document:
@@ -15,8 +16,4 @@ def pass_through(document: Document, vertices: tuple[int, ...], surface: str = "
 
 def pass_through_none(document: Document) -> Document:
     """Without lines through points, and without the points that only these had."""
-    used = {name for panel in document.panels for name in panel.shows.points}
-    used |= {anchor.point for anchor in document.anchors} | {pin.point for pin in document.pins}
-    gone = set(document.isolines.through) - used
-    kept = tuple(point for point in document.points if point.name not in gone)
-    return replace(document, points=kept, isolines=replace(document.isolines, through=()))
+    return without_orphans(document, replace(document, isolines=replace(document.isolines, through=())))

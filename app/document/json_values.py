@@ -6,11 +6,17 @@ A reader is a function of the value and its place, such as `document.panels[2].m
 import json
 import math
 from collections.abc import Callable, Mapping
-from typing import Any
+from dataclasses import MISSING, fields, is_dataclass
+from functools import reduce
+from operator import or_
+from types import NoneType, UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from bihdist_core.errors import ParameterError
 
 Reader = Callable[[Any, str], Any]
+
+NONE: Mapping[Any, Reader] = {}
 
 
 def record(data: Any, where: str, readers: Mapping[str, Reader], needed: set[str] | None = None) -> dict[str, Any]:
@@ -81,6 +87,45 @@ def number(data: Any, where: str) -> float:
     if isinstance(data, bool) or not fits or not math.isfinite(data):
         raise ParameterError(f"{where} must be a number, not {shown(data)}.")
     return float(data)
+
+
+def reader_of(kind: Any, special: Mapping[Any, Reader] = NONE) -> Reader:
+    """The reader of values of a type: of records for dataclasses, of lists for tuples.
+
+    special: readers of types that are written otherwise.  TypeError for a type that JSON has nothing for.
+    """
+    readers = {str: text, bool: flag, int: whole, float: number, **special}
+    if kind in readers:
+        return readers[kind]
+    origin, arguments = get_origin(kind), get_args(kind)
+    if origin in (Union, UnionType) and NoneType in arguments:
+        return or_none(reader_of(reduce(or_, (each for each in arguments if each is not NoneType)), special))
+    if origin is tuple and arguments[-1] is Ellipsis:
+        return listed(reader_of(arguments[0], special))
+    if origin is tuple and set(arguments) == {float}:
+        return numbers(len(arguments))
+    if origin is tuple:
+        return _row([reader_of(each, special) for each in arguments])
+    if not (is_dataclass(kind) and isinstance(kind, type)):
+        raise TypeError(f"Nothing in JSON is a {kind}.")
+    needed = {each.name for each in fields(kind) if each.default is MISSING}
+    named = field_readers(kind, special)
+    return lambda data, where: placed(kind, where, **record(data, where, named, needed))
+
+
+def field_readers(kind: Any, special: Mapping[Any, Reader] = NONE) -> dict[str, Reader]:
+    """The readers of a dataclass' fields."""
+    types = get_type_hints(kind)
+    return {each.name: reader_of(types[each.name], special) for each in fields(kind)}
+
+
+def _row(readers: list[Reader]) -> Reader:
+    def reader(data: Any, where: str) -> tuple:
+        if not isinstance(data, list) or len(data) != len(readers):
+            raise ParameterError(f"{where} must be a list of {len(readers)}, not {shown(data)}.")
+        return tuple(read(value, f"{where}[{k}]") for k, (read, value) in enumerate(zip(readers, data, strict=True)))
+
+    return reader
 
 
 def shown(data: Any) -> str:

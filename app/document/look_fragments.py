@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from .anchors import Anchors
 from .command_fragments import NOTHING, USUAL, CommandFragment, NotExpressible, as_switch, digits, vertex_of, with_value
 from .document import Document
 from .page import Recipe
@@ -41,7 +42,7 @@ def say_isolines(recipe: Recipe) -> CommandFragment:
 def _has_own_points(document: Document) -> bool:
     """Whether the points that isolines pass through are nothing else, and on the first surface."""
     used = {name for panel in document.panels for name in panel.shows.points}
-    used |= {anchor.point for anchor in document.anchors}
+    used |= {anchor.point for anchor in document[Anchors].anchors}
     first = document.surfaces[0].name
     return all(name not in used and document.point(name).surface == first for name in document.isolines.through)
 

@@ -6,12 +6,14 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import SurfacePoint
 from bihdist_core.sources.words import words_of
 
+from .anchors import Anchors
 from .command_fragments import NOTHING, CommandFragment, NotExpressible, digits, if_unusual, vertex_of
-from .edits import divided_panels
-from .instruments import PIN_COLOURS, SECTIONS
-from .measuring import runs_in_words
+from .labels import MARK_COLOURS
 from .page import Recipe
-from .profile_words import profile_words, shows_path
+from .pins import Pins
+from .profile import SECTIONS, Profile, profile_words, shows_path
+from .regions import divided_panels
+from .selections import Selections, runs_in_words
 
 MOST_LETTERS = 1000
 """Of selected vertices in a line that somebody is to read."""
@@ -35,19 +37,19 @@ def say_zooms(recipe: Recipe) -> CommandFragment:
 
 def say_anchors(recipe: Recipe) -> CommandFragment:
     document = recipe.document
-    marks = [(vertex_of(document.point(anchor.point)), anchor.value) for anchor in document.anchors]
+    marks = [(vertex_of(document.point(anchor.point)), anchor.value) for anchor in document[Anchors].anchors]
     if not marks:
         return NOTHING
     if len(dict(marks)) < len(marks) or None in dict(marks):
         raise NotExpressible("Two marks are at one vertex, or one is where nobody has put it.")
-    if any(anchor.left_out for anchor in document.anchors):
+    if any(anchor.left_out for anchor in document[Anchors].anchors):
         raise NotExpressible("An anchor is left out.")
     words = ",".join(f"{vertex}" if value is None else f"{vertex}={digits(value)}" for vertex, value in marks)
     return CommandFragment((("--anchors", words),), {"anchors": dict(marks)})
 
 
 def say_weights(recipe: Recipe) -> CommandFragment:
-    weights = recipe.document.weights
+    weights = recipe.document[Anchors].weights
     found = [
         if_unusual(weights.exponent, 1.0, "--exponent", "exponent"),
         if_unusual(weights.smoothness, 0.0, "--smoothness", "smoothness"),
@@ -58,14 +60,14 @@ def say_weights(recipe: Recipe) -> CommandFragment:
 def say_pins(recipe: Recipe) -> CommandFragment:
     """In the colours that they get by themselves."""
     document = recipe.document
-    places = [document.point(pin.point).at for pin in document.pins]
+    places = [document.point(pin.point).at for pin in document[Pins].pins]
     if not places:
         return NOTHING
-    if any(document.point(pin.point).surface != document.surfaces[0].name for pin in document.pins):
+    if any(document.point(pin.point).surface != document.surfaces[0].name for pin in document[Pins].pins):
         raise NotExpressible("A pin is on another mesh.")
     if len(set(places)) < len(places):
         raise NotExpressible("Two pins are at one place.")
-    if [pin.colour for pin in document.pins] != [k % PIN_COLOURS for k in range(len(places))]:
+    if [pin.colour for pin in document[Pins].pins] != [k % MARK_COLOURS for k in range(len(places))]:
         raise NotExpressible("Pins have other colours than usual.")
     said = [at if isinstance(at, int) else words_of(at) for at in places if isinstance(at, int | SurfacePoint)]
     if len(said) < len(places):
@@ -75,7 +77,7 @@ def say_pins(recipe: Recipe) -> CommandFragment:
 
 def say_profile(recipe: Recipe) -> CommandFragment:
     """Of a path that is drawn: through which points, and how."""
-    document, profile = recipe.document, recipe.document.profile
+    document, profile = recipe.document, recipe.document[Profile]
     if not shows_path(document):
         return NOTHING
     try:
@@ -105,12 +107,12 @@ def say_regions(recipe: Recipe) -> CommandFragment:
 
 def say_selections(recipe: Recipe) -> CommandFragment:
     """In the colours that they get by themselves."""
-    selections = recipe.document.selections
+    selections = recipe.document[Selections].selections
     if not selections:
         return NOTHING
     if any(each.surface != recipe.document.surfaces[0].name for each in selections):
         raise NotExpressible("Vertices of another mesh are selected.")
-    if [each.colour for each in selections] != [k % PIN_COLOURS for k in range(len(selections))]:
+    if [each.colour for each in selections] != [k % MARK_COLOURS for k in range(len(selections))]:
         raise NotExpressible("Selections have other colours than usual.")
     words = [runs_in_words(each.runs) for each in selections]
     if sum(map(len, words)) > MOST_LETTERS:

@@ -18,7 +18,6 @@ from bihdist_core.sources.words import NONE
 
 from ..samples import mesh_path
 from .camera import Camera
-from .changing import COLUMNS, split
 from .command_fragments import (
     NOTHING,
     CommandFragment,
@@ -32,6 +31,7 @@ from .document import COMPARISON
 from .look_fragments import say_colours, say_isolines, say_range, say_shading
 from .mark_fragments import say_anchors, say_pins, say_profile, say_regions, say_selections, say_weights, say_zooms
 from .page import Recipe
+from .perturbation import COLUMNS, split
 from .quantities import Quantity, from_point, own_fields
 from .starts import Starts, as_argument
 
@@ -187,8 +187,8 @@ ROWS = (
     Row(("Document.areas",), of_document("areas", "--areas", "areas")),
     Row(("Document.camera", "Page.views"), _views),
     Row(("Document.zooms", "Zoom.vertex", "Zoom.factor", "Zoom.corner", "Zoom.isolines"), say_zooms),
-    Row(("Document.anchors", "Anchor.point", "Anchor.value", "Anchor.left_out"), say_anchors),
-    Row(("Document.weights",), say_weights),
+    Row(("Anchors.anchors", "Anchor.point", "Anchor.value", "Anchor.left_out"), say_anchors),
+    Row(("Anchors.weights",), say_weights),
     Row(
         (
             "Document.isolines",
@@ -215,11 +215,11 @@ ROWS = (
     Row(("Document.projection",), of_document("projection", "--projection", "projection")),
     Row(("Document.axes",), of_document("axes", "--axes", "axes")),
     Row(("Document.height",), of_document("height", "--height", "height")),
-    Row(("Document.pins", "Pin.point", "Pin.colour"), say_pins),
+    Row(("Pins.pins", "Pin.point", "Pin.colour"), say_pins),
     Row(("Document.extrema",), of_document("extrema", "--extrema", "extrema")),
-    Row(("Document.regions",), say_regions),
-    Row(("Document.selections",), say_selections),
-    Row(("Document.profile", "Document.docks", "Profile.points", "Profile.way", "Profile.across"), say_profile),
+    Row(("DividedPanels.regions",), say_regions),
+    Row(("Selections.selections",), say_selections),
+    Row(("Document.docks", "Profile.points", "Profile.way", "Profile.across"), say_profile),
     Row(("Page.columns",), _columns),
     Row(("Page.hints",), of_page("hints", "--hints", "hints")),
     Row(("Page.size",), of_page("size", "--size", "size")),
@@ -237,8 +237,11 @@ UNSEEN = {
     "Document.next_id": "for panels that are still to come",
     "Document.dock_places": "where instruments stand in the window",
     "Document.snap": "what the pointer does in the window",
-    "Document.pin_list": "for the window's list",
-    "Document.scatter": "for the window's chart",
+    "Pins.pin_list": "for the window's list",
+    "Scatter.across": "for the window's chart",
+    "Scatter.up": "for the window's chart",
+    "Scatter.shares": "for the window's chart",
+    "Document.parts": "each is said by itself",
     "Profile.shares": "for the window's chart",
     "Pin.name": "figures show numbers",
     "Anchor.name": "figures show colours",
@@ -246,9 +249,9 @@ UNSEEN = {
     "Panel.surface": "with one mesh all panels are of it",
     "Document.beside": "with one mesh there is none beside it",
     "Document.linked": "what the cameras of the window do",
-    "Document.pairs": "with one mesh there are none",
-    "Document.maps": "with one mesh there are none",
-    "Document.truth": "what maps are measured by, which no picture shows",
+    "Pairs.pairs": "with one mesh there are none",
+    "Maps.maps": "with one mesh there are none",
+    "Maps.truth": "what maps are measured by, which no picture shows",
     "Page.format": "the file's name says it",
 }
 """Parts that no line names, since no figure shows them, and what they are for."""

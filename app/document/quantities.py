@@ -1,16 +1,19 @@
 """What a panel can show: something with a value at every vertex, in words and as data."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from bihdist_core.distances.kinds import Kind, Spec
 from bihdist_core.errors import ParameterError
 
 from .json_values import flag, listed, placed, record, text
 from .tools import tools
+
+if TYPE_CHECKING:
+    from .document import Document
 
 
 class Choice(NamedTuple):
@@ -85,6 +88,13 @@ class Quantity(ABC):
     def parts(self) -> "tuple[Quantity, ...]":
         """The two quantities of a difference; any other quantity has one part, itself."""
         return (self,)
+
+    def check(self, document: "Document", surface: str) -> None:  # noqa: B027 (most need nothing)
+        """ParameterError if a document has not what it is made of, on a surface of that name."""
+
+    def with_paths(self, named: Callable[[str], str]) -> "Quantity":
+        """The quantity with other paths of the files that it names."""
+        return self
 
     def with_parts(self, parts: "tuple[Quantity, ...]") -> "Quantity":
         """The quantity made of other parts."""

@@ -9,7 +9,7 @@ from bihdist_core.sources.source import Curve, Source
 from bihdist_core.sources.words import words_of
 
 from .document import Document
-from .sourcing import members_of
+from .source_edits import members_of
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,10 @@ from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .part import Part
 
 GROUP = "bihdist.tools"
 """The entry points by which tools of others join; each names a `Tool`."""
@@ -20,11 +23,13 @@ GROUP = "bihdist.tools"
 class Tool:
     """One tool; names such as "dock:PinsDock" are of a module of its package and of something in that.
 
+    A dot before a module is, as in imports, for a package further up.
+
     package: the tool's, by its full name.  word: by which documents know its dock.  title: of the dock; text: in menus,
     with an `&` before the letter of its key there; key: opens and closes the dock; tip: what it is for, in a few words;
     icon: a name of `assets/icons`; in_bar: whether it has a button of its own; synonyms: other words by which it is
     found.  dock: its `Instrument`, if it has one.  commands: modules of commands, by their words.
-    quantities: subclasses of `Quantity` that panels can show.
+    quantities: subclasses of `Quantity` that panels can show.  parts: subclasses of `Part`, of documents.
     """
 
     package: str
@@ -39,11 +44,12 @@ class Tool:
     dock: str = ""
     commands: Mapping[str, str] = field(default_factory=dict)
     quantities: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
 
     def load(self, name: str) -> Any:
         """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""
         module, _, attribute = name.partition(":")
-        found = import_module(f"{self.package}.{module}")
+        found = import_module(f".{module}", self.package)
         return getattr(found, attribute) if attribute else found
 
 
@@ -58,3 +64,9 @@ def tools() -> tuple[Tool, ...]:
 def docked_tools() -> dict[str, Tool]:
     """Those that have a dock, by its word, in the order of the menu."""
     return {tool.word: tool for tool in sorted(tools(), key=lambda tool: tool.word) if tool.dock}
+
+
+@cache
+def part_types() -> "tuple[type[Part], ...]":
+    """The types of the parts of documents that are tools'."""
+    return tuple(tool.load(name) for tool in tools() for name in tool.parts)

@@ -3,17 +3,17 @@
 from bihdist_core.sources.source import Curve
 
 from .document import Document
-from .sourcing import members_of
+from .source_edits import members_of
+from .tools import part_types
 
 
 def work_in(document: Document) -> dict[str, frozenset[object]]:
-    """Pins, pairs and whatever else takes effort to make again, by what it is called; moved, it is other work."""
-    at = {point.name: point for point in document.points}
+    """What takes effort to make again, by what it is called; moved, it is other work."""
+    of_parts: dict[str, frozenset[object]] = {}
+    for kind in part_types():
+        of_parts |= {name: frozenset(each) for name, each in document[kind].work(document).items()}
     return {
-        "pins": frozenset((pin, at[pin.point]) for pin in document.pins),
-        "pairs": frozenset((pair, at.get(pair.first), at.get(pair.second)) for pair in document.pairs),
-        "anchors": frozenset((anchor, at[anchor.point]) for anchor in document.anchors),
-        "selections": frozenset(document.selections),
+        **of_parts,
         "drawn sources": frozenset(
             member for point in document.points for member in members_of(point.at) if isinstance(member, Curve)
         ),

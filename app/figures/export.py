@@ -17,13 +17,14 @@ from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SurfacePoin
 from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
-from ..document.changing import COLUMNS, changed_mesh
 from ..document.document import Document, Panel, Zoom, starting_points
 from ..document.looks import NO_LINES, Isolines
-from ..document.measuring import vertices_of
+from ..document.maps import Maps
 from ..document.page import Recipe
-from ..document.profile_words import shows_path
-from ..document.sourcing import members_of
+from ..document.perturbation import COLUMNS, changed_mesh
+from ..document.profile import shows_path
+from ..document.selections import Selections, vertices_of
+from ..document.source_edits import members_of
 from ..scene.levels import in_unit
 from ..scene.selected import selected_colours
 from ..scene.source_lines import SourceLine, source_lines
@@ -79,9 +80,9 @@ def open_document(recipe: Recipe, given: ArrayStore) -> tuple[Document, Surfaces
         document = loaded.settled(document)
     for loaded in surfaces.values():
         loaded.beside = tuple(surfaces.values())
-    if document.maps:
+    if document[Maps].maps:
         one, two, *_ = surfaces.values()
-        for map in document.maps:
+        for map in document[Maps].maps:
             map_in(map, one.surface, two.surface)
     return document, surfaces
 
@@ -264,7 +265,7 @@ def _zooms(document: Document, loaded: LoadedMesh) -> tuple[Zoom, ...]:
 
 def _selected(document: Document, panel: Panel, surface: Surface) -> np.ndarray | None:
     """The selections of the panel's surface; VertexError where that has no such vertex."""
-    chosen = [each for each in document.selections if each.surface == panel.surface and each.runs]
+    chosen = [each for each in document[Selections].selections if each.surface == panel.surface and each.runs]
     for each in chosen:
         if each.runs[-1][1] >= len(surface.vertices):
             surface.check_vertex(each.runs[-1][1])

@@ -5,9 +5,9 @@ from weakref import WeakKeyDictionary
 from bihdist_core.distances.answers import Answer
 
 from ..document.document import Document, Panel
-from ..document.map_colours import Truth
-from ..document.pairing import pair_words, waiting_point
-from ..document.predicting import predicts_in
+from ..document.maps import Maps, Truth
+from ..document.pairs import pair_words, waiting_point
+from ..document.prediction import predicts_in
 from ..scene.style import PINS, WAITING
 from ..session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
 from ..session.loaded_mesh import LoadedMesh
@@ -36,13 +36,13 @@ def pair_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: Ans
 def _judged(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer, vertex: int) -> CandidatesJudged:
     """Where the point belongs, and how far the candidate is from there, as far as that is known; found once."""
     known = _found.setdefault(answer, {})
-    if document.truth not in known:
-        known[document.truth] = CandidatesJudged((), {})
+    if document[Maps].truth not in known:
+        known[document[Maps].truth] = CandidatesJudged((), {})
         one, two = (loaded.standing_beside(mesh) for mesh in document.surfaces[:2])
         asked = None if one is None or two is None else candidates_asked(document, one, two, {panel.id: vertex})
         for judged in () if asked is None else CandidatesJudging().judge(asked):
-            known[document.truth] = judged
-    return known[document.truth]
+            known[document[Maps].truth] = judged
+    return known[document[Maps].truth]
 
 
 _found: WeakKeyDictionary[Answer, dict[Truth, CandidatesJudged]] = WeakKeyDictionary()

@@ -18,17 +18,19 @@ from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source, checked_source
 
 from ..document import between
+from ..document.anchors import Anchor, Anchors
 from ..document.camera import Camera, View
-from ..document.changing import COLUMNS, with_changed
-from ..document.document import Anchor, Document, Point, Zoom, free_names
-from ..document.edits import divide
+from ..document.document import Document, Point, Zoom, free_names
 from ..document.file import read_recipe
 from ..document.isoline_edits import pass_through
 from ..document.looks import AS_IT_IS, Colours, Isolines, shaded
-from ..document.measuring import add_pins, runs_from_words, runs_of, select_instead
 from ..document.page import Page, Recipe
-from ..document.profile_words import with_profile
+from ..document.perturbation import COLUMNS, with_changed
+from ..document.pins import add_pins
+from ..document.profile import with_profile
 from ..document.quantities import Quantity
+from ..document.regions import divide
+from ..document.selections import runs_from_words, runs_of, select_instead
 from ..scene.colour_file import colours_named
 from ..session.array_store import ArrayStore, Mesh, comparison_of_arrays, with_beside
 from ..version import version
@@ -193,8 +195,6 @@ def figure(
     document = replace(
         document,
         points=(*document.points, *(Point(name, vertex) for name, vertex in zip(names, marked, strict=True))),
-        anchors=tuple(Anchor(name, value) for name, value in zip(names, marked.values(), strict=True)),
-        weights=Weights(exponent, smoothness),
         zooms=tuple(_zoom(zoom) for zoom in zooms),
         isolines=lines,
         colours=replace(found, reversed=reversed or found.reversed, bands=bands or found.bands),
@@ -205,6 +205,11 @@ def figure(
         extrema=extrema,
         shading=shaded(AS_IT_IS, shading, crease, wireframe),
         camera=chosen[0] if chosen else "auto",
+    ).with_part(
+        Anchors(
+            anchors=tuple(Anchor(name, value) for name, value in zip(names, marked.values(), strict=True)),
+            weights=Weights(exponent, smoothness),
+        )
     )
     if len(pins):
         document = add_pins(document, [checked_source(at) for at in pins])

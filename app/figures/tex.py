@@ -11,7 +11,7 @@ from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, Sur
 from bihdist_core.sources.words import short_words_of
 
 from ..document.page import Recipe
-from ..document.sourcing import members_of
+from ..document.source_edits import members_of
 from ..scene.levels import round_step, steps_to_top
 from ..session.questions import source_at
 from .description import Figure

@@ -6,7 +6,7 @@ from qtpy import QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.anchoring import add_anchor, remove_anchors
+from ..document.anchors import Anchors, add_anchor, remove_anchors
 from ..document.document import Document
 from ..document.edits import put_point
 
@@ -41,7 +41,7 @@ class AnchorGestures:
     def _value(self, panel: int, vertex: int) -> float:
         """What is there, so that nothing changes yet; 0 for the first anchor and 1 for the second."""
         session = self._window.session
-        known = [a for a in session.document.anchors if a.value is not None and not a.left_out]
+        known = [a for a in session.document[Anchors].anchors if a.value is not None and not a.left_out]
         shown = session.shown.get(panel)
         field = None if shown is None else shown.answer.field
         if len(known) < 2 or field is None or not session.is_answered(panel):
@@ -63,7 +63,7 @@ class AnchorGestures:
     def remove_chosen(self) -> None:
         """The anchor that stands out, if there is one."""
         name = self._grid.marks.chosen_anchor
-        if any(anchor.point == name for anchor in self._window.session.document.anchors):
+        if any(anchor.point == name for anchor in self._window.session.document[Anchors].anchors):
             self.remove([name])
 
     def drag(self, panel: int, mark: int, hit: "Hit") -> None:
@@ -93,4 +93,4 @@ class AnchorGestures:
 
 def anchor_points(document: Document, surface: str) -> list[str]:
     """The names of the points of the anchors on a surface, in order."""
-    return [a.point for a in document.anchors if document.point(a.point).surface == surface]
+    return [a.point for a in document[Anchors].anchors if document.point(a.point).surface == surface]

@@ -3,7 +3,11 @@
 `window` is the main window.
 """
 
-from ..document.document import Anchor, Document, Point
+from ..document.anchors import Anchor, Anchors
+from ..document.document import Document, Point
+from ..document.pairs import Pairs
+from ..document.pins import Pins
+from ..document.selections import Selections
 from ..scene.style import Style
 from ..session.loaded_mesh import LoadedMesh
 from .look.canvas import canvas_style
@@ -44,9 +48,9 @@ class Changes:
             window.typed_source.show()
         if other_panels or _anchored(document) != _anchored(before):
             grid.marks.mark_anchors(document)
-        if other_panels or (document.points, document.pins) != (before.points, before.pins):
+        if other_panels or (document.points, document[Pins].pins) != (before.points, before[Pins].pins):
             grid.marks.show_pins(document)
-        if other_panels or (document.points, document.pairs) != (before.points, before.pairs):
+        if other_panels or (document.points, document[Pairs].pairs) != (before.points, before[Pairs].pairs):
             grid.marks.show_pairs(document)
         if other_panels or document.zooms != before.zooms:
             grid.marks.show_insets(document)
@@ -61,7 +65,7 @@ class Changes:
                 if session.is_answered(panel.id) or (is_dressed and panel.id in session.shown):
                     window.answer_changed(panel.id)
         window.views.document_changed(before, is_other, is_raised)
-        if other_panels or document.selections != before.selections:
+        if other_panels or document[Selections].selections != before[Selections].selections:
             window.docks.brushing.show(document)
 
     def apply_theme(self) -> None:
@@ -102,4 +106,4 @@ def _is_remade(before: tuple[LoadedMesh | None, ...], after: tuple[LoadedMesh | 
 
 def _anchored(document: Document) -> list[tuple[Anchor, Point]]:
     """Where the anchors are, whatever other points do: a pin that is dragged redraws none."""
-    return [(anchor, document.point(anchor.point)) for anchor in document.anchors]
+    return [(anchor, document.point(anchor.point)) for anchor in document[Anchors].anchors]

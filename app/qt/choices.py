@@ -7,10 +7,10 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.change_edits import add_row
-from ..document.changing import changed_mesh
 from ..document.edits import ADD, MOST_ADDED, PANEL_EDITS, add_another, end_at, has_ends, possible_edits, with_range
 from ..document.looks import Colours
+from ..document.perturbation import changed_mesh
+from ..document.perturbation_edits import add_row
 from ..scene.colour_file import read_stops
 from .bars.colour_menu import colours_in_words
 from .bars.isoline_menu import isolines_in_words

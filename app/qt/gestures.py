@@ -7,8 +7,8 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core.sources.source import Source
 
-from ..document.change_edits import show_in_row
 from ..document.edits import move_source
+from ..document.perturbation_edits import show_in_row
 from ..document.quantities import Quantity
 from .anchor_gestures import AnchorGestures
 from .docks.isoline_files import save_isolines

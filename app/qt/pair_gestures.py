@@ -8,8 +8,9 @@ from qtpy import QtWidgets
 from bihdist_core import ParameterError
 
 from ..document.document import Document
-from ..document.instruments import Pair
-from ..document.pairing import (
+from ..document.pairs import (
+    Pair,
+    Pairs,
     drop_half,
     half_pair,
     move_pair_point,
@@ -18,7 +19,7 @@ from ..document.pairing import (
     waiting_point,
     whole_pairs,
 )
-from ..document.predicting import predicts_in
+from ..document.prediction import predicts_in
 from ..session.pair_locations import Candidate, candidate_in
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ class PairGestures:
     def remove_chosen(self) -> bool:
         """The pair that stands out; whether there is one."""
         name = self._grid.marks.chosen_pair
-        found = [pair for pair in self._document.pairs if name and name in pair.points]
+        found = [pair for pair in self._document[Pairs].pairs if name and name in pair.points]
         if found:
             self.choose("")
             self.remove(found)
@@ -136,23 +137,25 @@ class PairGestures:
         document = self._document
         pair, half = self._pair_at(document.panel(panel).surface, hit.vertex), half_pair(document)
         if pair is not None:
-            number = document.pairs.index(pair) + 1
+            number = document[Pairs].pairs.index(pair) + 1
             menu.addAction(f"Remove pair {number}", lambda: self.remove([pair]))
             return
         waiting = waiting_point(document)
         is_partner = waiting is not None and waiting.surface != document.panel(panel).surface
-        words = f"The partner of point {len(document.pairs)} is here" if is_partner else "A point of a pair is here"
+        words = (
+            f"The partner of point {len(document[Pairs].pairs)} is here" if is_partner else "A point of a pair is here"
+        )
         menu.addAction(f"{words}\tClick", lambda: self.put(panel, hit))
         if half is not None and self.candidate() is not None:
             menu.addAction("Accept the candidate\tEnter", self.accept)
         if half is not None:
-            menu.addAction(f"Give point {len(document.pairs)} up\tEsc", self.drop)
+            menu.addAction(f"Give point {len(document[Pairs].pairs)} up\tEsc", self.drop)
 
     # ------------------------------------------------------------------ drops
     def _click(self, panel: int, number: int) -> None:
         """A candidate is accepted, another drop stands out, or no longer."""
         document = self._document
-        pair, surface = document.pairs[number - 1], document.panel(panel).surface
+        pair, surface = document[Pairs].pairs[number - 1], document.panel(panel).surface
         if not self._has_point(pair, surface):
             shown = self._window.session.shown.get(panel)
             found = candidate_in(document, document.panel(panel), None if shown is None else shown.answer)
@@ -168,7 +171,7 @@ class PairGestures:
     def _drag(self, panel: int, number: int, hit: "Hit") -> None:
         """All the way is one step; a place that another pair has is passed."""
         session, document = self._window.session, self._document
-        surface, pair = document.panel(panel).surface, document.pairs[number - 1]
+        surface, pair = document.panel(panel).surface, document[Pairs].pairs[number - 1]
         names = [name for name in pair.points if document.point(name).surface == surface]
         if not names or document.point(names[0]).at == hit.vertex or self._pair_at(surface, hit.vertex) is not None:
             return

@@ -8,8 +8,7 @@ from bihdist_core import ParameterError
 from bihdist_core.sources.source import Source
 
 from ..document.edits import move_source, put_point
-from ..document.instruments import Pin
-from ..document.measuring import add_pins, remove_pins
+from ..document.pins import Pin, Pins, add_pins, remove_pins
 
 if TYPE_CHECKING:
     from ..scene.picking import Hit
@@ -50,13 +49,13 @@ class PinGestures:
 
     # ------------------------------------------------------------------ what it does
     def _pin(self, number: int) -> Pin:
-        return self._window.session.document.pins[number - 1]
+        return self._window.session.document[Pins].pins[number - 1]
 
     def _number_at(self, panel: int, at: Source) -> int:
         """Of the pin at a place, 0 for none."""
         document = self._window.session.document
         surface = document.panel(panel).surface
-        points = [document.point(pin.point) for pin in document.pins]
+        points = [document.point(pin.point) for pin in document[Pins].pins]
         return next((k for k, point in enumerate(points, 1) if (point.at, point.surface) == (at, surface)), 0)
 
     def _choose(self, panel: int, number: int, is_more: bool) -> None:

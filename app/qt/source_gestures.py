@@ -14,7 +14,7 @@ from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, Sur
 from bihdist_core.sources.words import short_words_of
 
 from ..document.edits import move_source, source_name
-from ..document.sourcing import members_of, place_at, place_in, points_of, with_member, with_moved, without_member
+from ..document.source_edits import members_of, place_at, place_in, points_of, with_member, with_moved, without_member
 from ..session.stroke_sources import source_from_strokes
 from .live_rate import LiveRate
 

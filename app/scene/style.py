@@ -116,7 +116,7 @@ PINS = (
     "#3F4FA8",
     "#99621E",
 )
-"""The colours of pins and selections, `PIN_COLOURS` of them; white numerals on them have a contrast of 5 : 1."""
+"""The colours of pins and selections, `MARK_COLOURS` of them; white numerals on them have a contrast of 5 : 1."""
 
 WAITING = "#14161A"
 """The colour of a pair of points that is not whole yet."""

@@ -8,8 +8,8 @@ import numpy as np
 from bihdist_core.progress import Progress
 
 from ..document.document import Document
-from ..document.map_colours import Truth
-from ..document.pairing import other_side, waiting_point
+from ..document.maps import Maps, Truth
+from ..document.pairs import other_side, waiting_point
 from .judging import KeptGeodesics, right_places
 from .loaded_mesh import LoadedMesh
 from .questions import vertex_at
@@ -62,7 +62,7 @@ def candidates_asked(
     is_on_first = point.surface == document.surfaces[0].name
     vertex = vertex_at(point.at, (one if is_on_first else two).surface)
     found = tuple(sorted(candidates.items()))
-    return CandidatesAsked(one, two, document.areas, document.truth, vertex, is_on_first, found)
+    return CandidatesAsked(one, two, document.areas, document[Maps].truth, vertex, is_on_first, found)
 
 
 class CandidatesJudging:

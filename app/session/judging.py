@@ -27,8 +27,8 @@ from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document
-from ..document.map_colours import SAME_IDS, MapFile, Truth
-from ..document.pairing import whole_pairs
+from ..document.maps import SAME_IDS, MapFile, Maps, Truth
+from ..document.pairs import whole_pairs
 from .loaded_mesh import LoadedMesh
 from .map_answers import map_in
 from .prediction_answers import correspondence
@@ -51,7 +51,7 @@ Map = Spec | MapFile
 def maps_of(document: Document) -> tuple[Map, ...]:
     """Those that the panels show, or predict a point of, each once; and those of the document's files."""
     shown = [panel.shows for panel in document.panels if panel.shows.is_prediction or panel.shows.is_map]
-    return (*dict.fromkeys(spec for each in shown for spec in each.specs), *document.maps)
+    return (*dict.fromkeys(spec for each in shown for spec in each.specs), *document[Maps].maps)
 
 
 # ---------------------------------------------------------------------- the truth
@@ -154,7 +154,7 @@ class Asked:
 def asked_of(document: Document, one: LoadedMesh, two: LoadedMesh) -> Asked:
     """What a document asks of its two surfaces."""
     pairs = tuple((document.point(pair.first).at, document.point(pair.second).at) for pair in whole_pairs(document))
-    return Asked(one, two, document.areas, maps_of(document), pairs, document.truth)
+    return Asked(one, two, document.areas, maps_of(document), pairs, document[Maps].truth)
 
 
 @dataclass(frozen=True, eq=False)

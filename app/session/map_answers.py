@@ -18,8 +18,8 @@ from bihdist_core.sources.source import Source
 
 from ..document.document import Document, MeshFile
 from ..document.file import checksum
-from ..document.map_colours import SAME_IDS, MapColours, MapFile
-from ..document.pairing import other_side
+from ..document.maps import SAME_IDS, MapColours, MapFile, Maps
+from ..document.pairs import other_side
 from .prediction_answers import NO_OTHER, correspondence, pairs_on
 from .questions import Question
 
@@ -112,7 +112,7 @@ def map_question(shows: MapColours, document: Document, surface: str) -> Positio
         return PositionQuestion(mesh, areas)
     other = None if there is None else document.mesh(there)
     if isinstance(shows.by, str):
-        return MapQuestion(mesh, areas, document.map(shows.by), other, ())
+        return MapQuestion(mesh, areas, document[Maps].of(shows.by), other, ())
     return MapQuestion(mesh, areas, shows.by, other, () if there is None else pairs_on(document, surface, there))
 
 

@@ -8,9 +8,8 @@ from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.answers import Answer
 
 from ..document.document import Document, Panel
-from ..document.instruments import Pair
-from ..document.pairing import half_pair, number_of, waiting_point, whole_pairs
-from ..document.predicting import predicts_in
+from ..document.pairs import Pair, Pairs, half_pair, number_of, waiting_point, whole_pairs
+from ..document.prediction import predicts_in
 from .loaded_mesh import LoadedMesh
 from .prediction_answers import candidate_of
 from .questions import vertex_at
@@ -44,7 +43,7 @@ class Candidate:
 def located_pair_points(document: Document, surface: str, loaded: LoadedMesh) -> tuple[LocatedPairPoint, ...]:
     """Those on the surface of a name, which is there; what is no vertex stands at the nearest."""
     found = []
-    for pair in document.pairs:
+    for pair in document[Pairs].pairs:
         for name in pair.points:
             point = document.point(name)
             if point.surface == surface:

@@ -13,7 +13,7 @@ from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.document import Document
-from ..document.sourcing import members_of
+from ..document.source_edits import members_of
 from .questions import Question, questions, source_at, vertex_at
 
 if TYPE_CHECKING:

@@ -8,12 +8,11 @@ import numpy as np
 from bihdist_core import Surface, SurfacePoint
 from bihdist_core.analysis.places import weighted
 from bihdist_core.distances.answers import Answer
-from bihdist_core.formats.pins import Pins
+from bihdist_core.formats import pins as pin_files
 from bihdist_core.sources.words import words_of
 
 from ..document.document import Document
-from ..document.instruments import Pin
-from ..document.measuring import add_pins, change_pin
+from ..document.pins import Pin, Pins, add_pins, change_pin
 from .questions import pieces_at
 
 
@@ -67,7 +66,7 @@ class LocatedPin:
 def located_pins(document: Document, name: str, surface: Surface) -> tuple[LocatedPin, ...]:
     """Those on the surface of a name, which is there; of a source with several places its first."""
     found = []
-    for number, pin in enumerate(document.pins, 1):
+    for number, pin in enumerate(document[Pins].pins, 1):
         point = document.point(pin.point)
         if point.surface != name:
             continue
@@ -82,7 +81,7 @@ def located_pins(document: Document, name: str, surface: Surface) -> tuple[Locat
     return tuple(found)
 
 
-def pins_to_write(places: Sequence[LocatedPin], surface: Surface) -> Pins:
+def pins_to_write(places: Sequence[LocatedPin], surface: Surface) -> pin_files.Pins:
     """All of them, for a file, which has vertices only: of a place in a face, the nearest of its corners, and how far
     that is.  Ids are the numbers that the window shows.
 
@@ -93,15 +92,17 @@ def pins_to_write(places: Sequence[LocatedPin], surface: Surface) -> Pins:
         away = np.linalg.norm(surface.vertices[place.corners] - place.position(surface.vertices), axis=1)
         vertices.append(int(place.corners[away.argmin()]) if place.vertex is None else place.vertex)
         moved.append(float(away.min()) if place.vertex is None else 0.0)
-    pins = Pins.of(surface, vertices, [place.pin.name for place in places], [place.number for place in places])
+    pins = pin_files.Pins.of(
+        surface, vertices, [place.pin.name for place in places], [place.number for place in places]
+    )
     return replace(pins, moved=np.array(moved))
 
 
-def with_pins(document: Document, pins: Pins, surface: str = "A") -> Document:
+def with_pins(document: Document, pins: pin_files.Pins, surface: str = "A") -> Document:
     """The document with those of a file as well, under their names; one that is there already gets the name."""
     document = add_pins(document, [int(vertex) for vertex in pins.vertices], surface)
     names = dict(zip(pins.vertices.tolist(), pins.names, strict=True))
-    for pin in document.pins:
+    for pin in document[Pins].pins:
         point = document.point(pin.point)
         name = names.get(point.at, "") if isinstance(point.at, int) and point.surface == surface else ""
         if name and name != pin.name:

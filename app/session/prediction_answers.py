@@ -15,8 +15,8 @@ from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document, MeshFile
-from ..document.pairing import other_side, waiting_point, whole_pairs
-from ..document.predicting import PREDICTION
+from ..document.pairs import other_side, waiting_point, whole_pairs
+from ..document.prediction import PREDICTION
 from .questions import ByDistance, vertex_at
 
 if TYPE_CHECKING:

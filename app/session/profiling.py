@@ -20,8 +20,8 @@ from bihdist_core.sources.words import words_of
 from bihdist_core.surface import Surface
 
 from ..document.document import Document
-from ..document.instruments import SECTIONS
-from ..document.measuring import points_along
+from ..document.pins import Pins
+from ..document.profile import SECTIONS, Profile, points_along
 from .latest_request_worker import LatestRequestWorker
 from .loaded_mesh import LoadedMesh
 
@@ -68,7 +68,7 @@ def wanted_path(
     names = {point.surface for point in points}
     if len(names) > 1:
         raise ParameterError("A profile lies on one surface; its points are on several.")
-    profile = document.profile
+    profile = document[Profile]
     places = tuple(_place(point.at, point.name) for point in points)
     if SECTIONS.get(profile.way) == "whole" and len(places) > 2:
         raise ParameterError("The whole section is that through two points; choose them above.")
@@ -98,7 +98,7 @@ def path_of(document: Document, surfaces: Mapping[str, LoadedMesh]) -> tuple[str
 
 def point_words(document: Document, name: str) -> str:
     """How a sentence names a point: a pin by its number, what is neither pin nor source by its place."""
-    number = next((k for k, pin in enumerate(document.pins, 1) if pin.point == name), None)
+    number = next((k for k, pin in enumerate(document[Pins].pins, 1) if pin.point == name), None)
     if number is not None:
         return f"pin {number}"
     at = document.point(name).at

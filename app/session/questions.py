@@ -19,9 +19,9 @@ from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.document import Document, FieldArray, MeshFile
-from ..document.map_colours import MapColours
+from ..document.maps import MapColours
 from ..document.quantities import Difference, DistanceFrom, OwnField
-from ..document.sourcing import members_of
+from ..document.source_edits import members_of
 
 if TYPE_CHECKING:
     from .loaded_mesh import LoadedMesh

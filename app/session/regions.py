@@ -20,6 +20,8 @@ from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document, MeshFile
+from ..document.pins import Pins
+from ..document.regions import DividedPanels
 from .latest_request_worker import LatestRequestWorker
 from .loaded_mesh import LoadedMesh
 
@@ -59,7 +61,7 @@ def regions_questions(document: Document) -> dict[int, RegionsQuestion]:
     found = {}
     for panel in document.panels:
         places = tuple(at for at in pinned(document, panel.surface) if at is not None)
-        if panel.id in document.regions and places and panel.shows.is_distance:
+        if panel.id in document[DividedPanels].regions and places and panel.shows.is_distance:
             mesh = document.mesh(panel.surface)
             found[panel.id] = RegionsQuestion(mesh, document.areas, panel.shows.specs[0], places)
     return found
@@ -81,7 +83,7 @@ _last: WeakKeyDictionary[LoadedMesh, dict[Hashable, tuple[RegionsQuestion, Regio
 
 def pinned(document: Document, surface: str) -> list[Source | None]:
     """Where the pins of a surface are, in their order."""
-    points = [document.point(pin.point) for pin in document.pins]
+    points = [document.point(pin.point) for pin in document[Pins].pins]
     return [point.at for point in points if point.surface == surface]
 
 

@@ -17,11 +17,11 @@ from bihdist_core.progress import Progress
 
 from ..document.beside_edits import close_beside, open_beside, see
 from ..document.camera import View as CameraView
-from ..document.change_edits import change_mesh
-from ..document.changing import changed_mesh
 from ..document.document import Document, MeshFile, Point, starting_points
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
+from ..document.perturbation import changed_mesh
+from ..document.perturbation_edits import change_mesh
 from .answering import Answering, AnswerView, Shown
 from .array_store import ArrayStore
 from .loaded_mesh import LoadedMesh, started_alike

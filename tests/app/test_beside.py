@@ -11,8 +11,8 @@ from app.document.document import MeshFile, comparison
 from app.document.edits import MOST_ADDED, add_another, show_in
 from app.document.file import read_recipe, recipe_text
 from app.document.history import History
-from app.document.measuring import add_pins
 from app.document.page import Recipe
+from app.document.pins import Pins, add_pins
 from app.document.quantities import quantity
 from app.scene.camera import carried, frame, turned
 from bihdist_core.errors import ParameterError
@@ -34,7 +34,7 @@ def test_its_panels_show_the_same_from_a_source_of_its_own():
 def test_closed_again_nothing_of_it_is_left():
     document = add_pins(open_beside(FIRST, SECOND), [4], "B")
     closed = close_beside(document)
-    assert (closed.surfaces, closed.points, closed.panels, closed.pins) == (
+    assert (closed.surfaces, closed.points, closed.panels, closed[Pins].pins) == (
         FIRST.surfaces,
         FIRST.points,
         FIRST.panels,

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import pytest
 
+from app.document.anchors import Anchor, Anchors
 from app.document.camera import Camera
-from app.document.document import COMPARISON, Anchor, Document, MeshFile, Panel, Point, Zoom, comparison
+from app.document.document import COMPARISON, Document, MeshFile, Panel, Point, Zoom, comparison
 from app.document.edits import add_panel, move_panel, move_source, open_mesh, put_point, remove_panel, show_in
 from app.document.form import document_data, document_from
 from app.document.history import LONGEST, History
@@ -43,7 +44,7 @@ def test_documents_hash_pickle_and_compare(document):
         (lambda d: replace(d, panels=(*d.panels, d.panels[0])), "two panels 0"),
         (lambda d: replace(d, points=()), "no point 'source'"),
         (lambda d: replace(d, surfaces=()), "no surface 'A'"),
-        (lambda d: replace(d, anchors=(Anchor("tip"),)), "no point 'tip'"),
+        (lambda d: d.with_part(Anchors((Anchor("tip"),))), "no point 'tip'"),
         (lambda d: replace(d, next_id=2), "next_id is 2"),
         (lambda d: replace(d, areas="round"), "no areas 'round'"),
         (lambda d: replace(d, camera="above"), "no view 'above'"),
@@ -91,7 +92,9 @@ def test_another_quantity_has_a_colour_bar_of_its_own(document):
 
 def test_another_mesh_leaves_behind_what_was_tied_to_the_old_one(document):
     tied = put_point(document, "tip", 8)
-    tied = replace(tied, anchors=(Anchor("tip", 1.0),), zooms=(Zoom(3),), height=0.2, camera=FRONT, isolines=7)
+    tied = replace(tied, zooms=(Zoom(3),), height=0.2, camera=FRONT, isolines=7).with_part(
+        Anchors((Anchor("tip", 1.0),))
+    )
     other = open_mesh(tied, MeshFile("A", "b.off"), 4)
     expected = replace(document, surfaces=(MeshFile("A", "b.off"),), points=(Point("source", 4),), isolines=7)
     assert other == expected

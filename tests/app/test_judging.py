@@ -8,11 +8,10 @@ import pytest
 import app.session.judging as judging
 from app.document.beside_edits import open_beside
 from app.document.document import MeshFile, comparison
-from app.document.map_colours import MapFile, Truth
-from app.document.mapping import show_maps
+from app.document.maps import MapFile, Maps, Truth, show_maps, with_truth
 from app.document.page import Recipe
-from app.document.pairing import add_pairs, place_point
-from app.document.predicting import predict
+from app.document.pairs import Pairs, add_pairs, place_point
+from app.document.prediction import predict
 from app.figures.draw import save_figure
 from app.figures.export import compute, figure_of, open_document
 from app.session.array_store import ArrayStore
@@ -69,7 +68,7 @@ def test_the_curve_is_that_of_a_slow_reference(loaded):
     assert whole.curves.keys() == {BIHARMONIC, GEODESIC}
     assert whole.method == "geodesic, exact"
     ids = np.unique(np.linspace(0, 299, 40).astype(int))
-    sampled = last(Judging(), replace(document, truth=Truth(samples=40)), one, two)
+    sampled = last(Judging(), document.with_part(Maps(truth=Truth(samples=40))), one, two)
     assert sampled.wanted == 40
     assert sampled.curves[BIHARMONIC].errors == pytest.approx(np.sort(slow(one, two, truth, ids)), abs=1e-6)
 
@@ -77,7 +76,7 @@ def test_the_curve_is_that_of_a_slow_reference(loaded):
 def test_it_comes_bit_by_bit_and_each_part_is_right(loaded, monkeypatch):
     document, one, two = loaded
     monkeypatch.setattr(judging, "EVERY", 0.0)
-    document = replace(document, truth=Truth(samples=40))
+    document = document.with_part(Maps(truth=Truth(samples=40)))
     found = list(Judging().judge(asked_of(document, one, two)))
     assert [each.known for each in found] == [8, 16, 24, 32, 40]
     ids = np.random.default_rng(judging.KEY).permutation(np.unique(np.linspace(0, 299, 40).astype(int)))
@@ -87,7 +86,7 @@ def test_it_comes_bit_by_bit_and_each_part_is_right(loaded, monkeypatch):
 
 def test_another_pair_costs_no_geodesic_distance(loaded):
     document, one, two = loaded
-    document = replace(document, truth=Truth(samples=40))
+    document = document.with_part(Maps(truth=Truth(samples=40)))
     judge = Judging()
     before = last(judge, document, one, two)
     asked = []
@@ -112,15 +111,15 @@ def test_what_is_kept_is_bounded(loaded, monkeypatch):
 def test_a_map_of_a_file_is_judged_beside_the_others(loaded, tmp_path):
     document, one, two = loaded
     write_map(tmp_path / "ours.txt", np.roll(np.arange(300), 7))
-    document = replace(document, maps=(MapFile(str(tmp_path / "ours.txt")),))
-    assert maps_of(document) == (BIHARMONIC, GEODESIC, document.maps[0])
+    document = document.with_part(Maps(maps=(MapFile(str(tmp_path / "ours.txt")),)))
+    assert maps_of(document) == (BIHARMONIC, GEODESIC, document[Maps].maps[0])
     found = last(Judging(), document, one, two)
     distances = GeodesicDistance(two.surface, "exact").pairwise(np.arange(300))
     errors = distances[np.arange(300), np.roll(np.arange(300), 7)] / np.sqrt(two.surface.face_areas.sum())
-    assert found.curves[document.maps[0]].errors == pytest.approx(np.sort(errors), abs=1e-6)
-    alone = last(Judging(), replace(document, pairs=()), one, two)
-    assert list(alone.curves) == [document.maps[0]]
-    gone = replace(document, maps=(MapFile(str(tmp_path / "gone.npy")),))
+    assert found.curves[document[Maps].maps[0]].errors == pytest.approx(np.sort(errors), abs=1e-6)
+    alone = last(Judging(), document.with_part(Pairs(pairs=())), one, two)
+    assert list(alone.curves) == [document[Maps].maps[0]]
+    gone = document.with_part(Maps(maps=(MapFile(str(tmp_path / "gone.npy")),)))
     assert "gone.npy" in next(iter(last(Judging(), gone, one, two).failures.values()))
 
 
@@ -129,9 +128,9 @@ def test_symmetric_partners_count_where_they_are_to(loaded, tmp_path):
     partners = np.roll(np.arange(300), 150)
     write_map(tmp_path / "half.npy", partners)
     half = MapFile(str(tmp_path / "half.npy"))
-    document = replace(document, maps=(half,), pairs=())
-    without = last(Judging(), replace(document, truth=Truth(partners=half)), one, two)
-    counted = last(Judging(), replace(document, truth=Truth(partners=half, mirror=True)), one, two)
+    document = document.with_part(Maps(maps=(half,))).with_part(Pairs(pairs=()))
+    without = last(Judging(), with_truth(document, Truth(partners=half)), one, two)
+    counted = last(Judging(), with_truth(document, Truth(partners=half, mirror=True)), one, two)
     assert without.curves[half].mean > 0.1
     assert counted.curves[half].mean == 0
 
@@ -150,7 +149,7 @@ def test_same_ids_are_the_truth_where_the_faces_are_the_same(loaded, tmp_path):
 
 def test_without_a_truth_there_is_nothing(loaded):
     document, one, two = loaded
-    assert list(Judging().judge(asked_of(replace(document, truth=Truth("none")), one, two))) == []
+    assert list(Judging().judge(asked_of(with_truth(document, Truth("none")), one, two))) == []
     assert list(Judging().judge(asked_of(replace(document, panels=()), one, two))) == []
 
 
@@ -206,7 +205,7 @@ def test_a_figure_has_a_cross_where_the_point_belongs_and_says_how_far_off_the_c
         best = int(answer.field.argmin())
         error = GeodesicDistance(two.surface, "exact").between(170, best) / np.sqrt(two.surface.face_areas.sum())
         assert f"{best}, {100 * error:.1f} % off" in [mark.text for mark in panel.marks if mark.is_candidate]
-    unknown = figure_of(Recipe(replace(document, truth=Truth("none"))), surfaces, answers)
+    unknown = figure_of(Recipe(with_truth(document, Truth("none"))), surfaces, answers)
     assert not [mark for panel in unknown.panels for mark in panel.marks if mark.is_truth]
     for drawn, name in ((figure, "with.png"), (unknown, "without.png")):
         save_figure(drawn, str(tmp_path / name))
@@ -220,7 +219,7 @@ def test_vertices_of_no_face_are_left_out(tmp_path):
     write_mesh(tmp_path / "b.off", s)
     write_map(tmp_path / "t.txt", np.concatenate([np.arange(60), [3], np.arange(60, 120)]))
     shown = open_beside(comparison(str(tmp_path / "a.off"), (BIHARMONIC,)), MeshFile("", str(tmp_path / "b.off")))
-    shown = replace(shown, truth=Truth("file", MapFile(str(tmp_path / "t.txt"))))
+    shown = with_truth(shown, Truth("file", MapFile(str(tmp_path / "t.txt"))))
     document, surfaces = open_document(Recipe(predict(add_pairs(shown, [(3, 3), (101, 100)]))), ArrayStore())
     found = last(Judging(), document, surfaces["A"], surfaces["B"])
     assert (found.wanted, found.failures) == (120, {})

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.document.document import Anchor, comparison
+from app.document.anchors import Anchor, Anchors
+from app.document.document import comparison
 from app.document.edits import open_mesh
 from app.document.isoline_edits import pass_through, pass_through_none
 from app.document.looks import TWENTY_STEPS, Isolines
@@ -118,7 +119,6 @@ def test_points_come_and_go_with_their_lines():
     assert pass_through_none(document) == comparison("hand")
     other = open_mesh(document, document.mesh().__class__("A", "other.off"))
     assert (other.isolines.through, [point.name for point in other.points]) == ((), ["source"])
-    from dataclasses import replace
 
-    marked = replace(document, anchors=(Anchor("line"),))
+    marked = document.with_part(Anchors(anchors=(Anchor("line"),)))
     assert [point.name for point in pass_through_none(marked).points] == ["source", "line"]

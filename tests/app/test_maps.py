@@ -8,13 +8,22 @@ import pytest
 from app.document.beside_edits import close_beside, open_beside
 from app.document.document import MeshFile, comparison
 from app.document.edits import open_mesh
-from app.document.file import read_recipe, recipe_text, with_meshes_from
+from app.document.file import read_recipe, recipe_text, with_all_paths, with_meshes_from
 from app.document.form import document_data, document_from
-from app.document.map_colours import SAME_FACES, MapColours, MapFile, Truth, map_colours
-from app.document.mapping import show_maps, with_map, with_map_paths, without_maps
+from app.document.maps import (
+    MapColours,
+    MapFile,
+    Maps,
+    Truth,
+    map_colours,
+    show_maps,
+    with_map,
+    with_truth,
+    without_maps,
+)
 from app.document.page import Recipe
-from app.document.pairing import add_pairs
-from app.document.predicting import predict
+from app.document.pairs import Pairs, add_pairs
+from app.document.prediction import predict
 from app.document.quantities import Difference, DistanceFrom, quantity
 from app.figures.export import compute, open_document
 from app.main import main
@@ -128,7 +137,7 @@ def test_the_map_of_a_file_is_shown_beside_those_by_distances(two, tmp_path):
 
 def test_without_pairs_there_is_no_map(two):
     shown = show_maps(two)
-    document = replace(shown, pairs=())
+    document = shown.with_part(Pairs(pairs=()))
     _, (reference, first, _) = answers(document)
     assert reference.colours is not None
     assert "no pair" in first.failure
@@ -144,31 +153,31 @@ def test_predictions_follow_on_maps_by_the_same_distances(two):
 
 def test_with_another_mesh_maps_and_their_truth_are_gone(two, tmp_path):
     write_map(tmp_path / "ours.npy", np.arange(400))
-    shown = replace(with_map(two, MapFile(str(tmp_path / "ours.npy"))), truth=Truth("identity"))
+    shown = with_truth(with_map(two, MapFile(str(tmp_path / "ours.npy"))), Truth("identity"))
     assert {panel.surface for panel in open_mesh(shown, MeshFile("A", "hand")).panels} == {"A", "B"}
     for after in (close_beside(shown), open_mesh(shown, MeshFile("A", "hand")), without_maps(shown)):
-        assert after.maps == ()
-        assert after.truth == SAME_FACES
+        assert after[Maps].maps == ()
+        assert after[Maps].truth == Truth()
         assert after.panels
         assert not any(isinstance(panel.shows, MapColours) for panel in after.panels)
-    alone = replace(shown, pairs=(), panels=shown.panels[:1], points=())
+    alone = shown.with_part(Pairs(), panels=shown.panels[:1], points=())
     assert [str(panel.shows) for panel in without_maps(alone).panels] == ["biharmonic"]
 
 
 def test_documents_of_maps_are_read_as_they_were_written(two, tmp_path):
     truth = Truth("file", MapFile("t.npy", "1"), MapFile("s.txt", "2"), mirror=True)
-    shown = replace(with_map(two, MapFile("ours.npy", "3")), truth=truth)
+    shown = with_truth(with_map(two, MapFile("ours.npy", "3")), truth)
     assert document_from(document_data(shown)) == shown
     assert "truth" not in document_data(two)
     for name in ("ours.npy", "t.npy", "s.txt"):
         write_map(tmp_path / name, np.arange(400))
-    here = with_map_paths(shown, lambda path: str(tmp_path / path))
+    here = with_all_paths(shown, lambda path: str(tmp_path / path))
     file = tmp_path / "session.json"
     file.write_text(recipe_text(with_meshes_from(Recipe(here), file), "1"))
     assert '"ours.npy"' in file.read_text()
     again = read_recipe(file).document
-    assert again.maps == here.maps
-    assert again.truth == here.truth
+    assert again[Maps].maps == here[Maps].maps
+    assert again[Maps].truth == here[Maps].truth
     assert again.panels == here.panels
 
 
@@ -188,7 +197,7 @@ def test_what_makes_no_sense_is_refused(two, tmp_path):
     with pytest.raises(ParameterError, match="from the surface 'A'"):
         replace(two, panels=(replace(two.panels[-1], shows=MapColours(Spec.of("biharmonic"))),))
     with pytest.raises(ParameterError, match="two"):
-        replace(comparison("hand"), maps=(MapFile("x.npy"),))
+        comparison("hand").with_part(Maps(maps=(MapFile("x.npy"),)))
     with pytest.raises(ParameterError, match="file"):
         Truth("file")
     with pytest.raises(ParameterError, match="partners"):

@@ -11,16 +11,18 @@ from hypothesis import strategies as st
 import app
 from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document import one_line
+from app.document.anchors import Anchor, Anchors
 from app.document.camera import VIEWS, Camera
-from app.document.document import Anchor, Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
-from app.document.edits import can_divide, divide
-from app.document.instruments import Pin, Profile
+from app.document.document import Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
-from app.document.measuring import add_pins, points_along, select_instead
 from app.document.page import Page, Recipe
-from app.document.profile_words import shows_path, with_profile
+from app.document.pins import Pin, Pins, add_pins
+from app.document.profile import Profile, points_along, shows_path, with_profile
 from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
+from app.document.regions import DividedPanels, can_divide, divide
+from app.document.selections import select_instead
 from app.document.starts import curves_in
+from app.document.tools import part_types
 from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, SurfacePoint
 from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.kinds import Spec
@@ -70,7 +72,7 @@ def shown(recipe):
     document = recipe.document
     names = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
     renamed = {name: f"source {k}" for k, name in enumerate(names)}
-    marked = [*(each.point for each in (*document.anchors, *document.pins)), *document.isolines.through]
+    marked = [*(each.point for each in (*document[Anchors].anchors, *document[Pins].pins)), *document.isolines.through]
     at = [document.point(name).at for name in (*names, *marked)]
     marks = [f"mark {k}" for k in range(len(marked))]
 
@@ -81,27 +83,27 @@ def shown(recipe):
         replace(p, id=k, shows=p.shows.with_parts(tuple(map(part, p.shows.parts))))
         for k, p in enumerate(document.panels)
     ]
-    anchors = tuple(replace(anchor, point=mark) for anchor, mark in zip(document.anchors, marks, strict=False))
+    anchors = tuple(replace(anchor, point=mark) for anchor, mark in zip(document[Anchors].anchors, marks, strict=False))
     points = tuple(Point(*each) for each in zip([*renamed.values(), *marks], at, strict=True))
-    numbered = marks[len(anchors) : len(anchors) + len(document.pins)]
-    pins = tuple(Pin(mark, "", pin.colour) for pin, mark in zip(document.pins, numbered, strict=True))
+    numbered = marks[len(anchors) : len(anchors) + len(document[Pins].pins)]
+    pins = tuple(Pin(mark, "", pin.colour) for pin, mark in zip(document[Pins].pins, numbered, strict=True))
     isolines = replace(document.isolines, through=tuple(marks[len(anchors) + len(pins) :]))
     through = points_along(document) if shows_path(document) else ()
     along = tuple(Point(f"path {k}", document.point(name).at) for k, name in enumerate(through))
-    way = replace(document.profile, points=tuple(point.name for point in along)) if along else Profile()
+    way = replace(document[Profile], points=tuple(point.name for point in along)) if along else Profile()
+    regions = tuple(k for k, panel in enumerate(document.panels) if panel.id in document[DividedPanels].regions)
+    own = {type(part): part for part in document.parts}
+    own |= {type(part): part for part in (way, Anchors(anchors, document[Anchors].weights), Pins(pins))}
     drawn = replace(
         document,
-        profile=way,
         docks=("profile",) if along else (),
         surfaces=(MeshFile("A", document.surfaces[0].path),),
         points=(*points, *along),
         panels=tuple(panels),
         next_id=len(panels),
-        anchors=anchors,
-        pins=pins,
-        regions=tuple(k for k, panel in enumerate(document.panels) if panel.id in document.regions),
         isolines=isolines,
         camera=recipe.views[0],
+        parts=tuple({**own, DividedPanels: DividedPanels(regions)}.values()),
     )
     views = recipe.views if len(recipe.views) > 1 else ()
     return Recipe(drawn, replace(recipe.page, views=views, format=""))
@@ -120,21 +122,22 @@ EXAMPLES = {
     "Document.range": lambda d, p: (replace(d, range="shared"), p),
     "Document.camera": lambda d, p: (replace(d, camera=CAMERA), p),
     "Document.zooms": lambda d, p: (replace(d, zooms=(Zoom(3), Zoom(9, 1 / 0.3))), p),
-    "Document.anchors": lambda d, p: (
-        replace(d, points=(*d.points, Point("anchor", 8)), anchors=(Anchor("anchor", -1e-7), Anchor("source"))),
+    "Anchors.anchors": lambda d, p: (
+        replace(d, points=(*d.points, Point("anchor", 8))).with_part(
+            Anchors((Anchor("anchor", -1e-7), Anchor("source")))
+        ),
         p,
     ),
     "Document.extrema": lambda d, p: (replace(d, extrema=True), p),
-    "Document.pins": lambda d, p: (add_pins(d, [9, SurfacePoint.of(3, 0.2, 0.5)]), p),
-    "Document.regions": lambda d, p: (divide(add_pins(d, [9, 3]), "all"), p),
-    "Document.selections": lambda d, p: (select_instead(d, [((3, 3), (5, 9)), ((20, 22),)]), p),
-    "Document.profile": lambda d, p: (with_profile(d, ["source", SurfacePoint.of(3, 0.2, 0.5), 9]), p),
+    "Pins.pins": lambda d, p: (add_pins(d, [9, SurfacePoint.of(3, 0.2, 0.5)]), p),
+    "DividedPanels.regions": lambda d, p: (divide(add_pins(d, [9, 3]), "all"), p),
+    "Selections.selections": lambda d, p: (select_instead(d, [((3, 3), (5, 9)), ((20, 22),)]), p),
     "Document.docks": lambda d, p: (replace(add_pins(d, [9, 3]), docks=("profile",)), p),
     "Profile.points": lambda d, p: (with_profile(add_pins(d, [9, 3, 4]), ["pin:3", "pin:1"]), p),
     "Profile.way": lambda d, p: (with_profile(d, ["source", 9], "edges"), p),
     "Profile.across": lambda d, p: (with_profile(d, ["source", 9], "section-longer", (0.1, -1e-7, 1 / 3)), p),
-    "Pin.point": lambda d, p: (replace(d, pins=(Pin("source"),)), p),
-    "Pin.colour": lambda d, p: (replace(d, pins=(Pin("source", colour=4),)), p),
+    "Pin.point": lambda d, p: (d.with_part(Pins((Pin("source"),))), p),
+    "Pin.colour": lambda d, p: (d.with_part(Pins((Pin("source", colour=4),))), p),
     "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
     "Document.shading": lambda d, p: (replace(d, shading=Shading("flat")), p),
     "Document.up": lambda d, p: (replace(d, up="-x"), p),
@@ -151,10 +154,13 @@ EXAMPLES = {
     "Zoom.factor": lambda d, p: (replace(d, zooms=(Zoom(11, 2.5),)), p),
     "Zoom.corner": lambda d, p: (replace(d, zooms=(Zoom(11, corner="top left"),)), p),
     "Zoom.isolines": lambda d, p: (replace(d, zooms=(Zoom(11, isolines=60),)), p),
-    "Anchor.point": lambda d, p: (replace(d, points=(*d.points, Point("m", 8)), anchors=(Anchor("m"),)), p),
-    "Anchor.left_out": lambda d, p: (replace(d, anchors=(Anchor("source", 0.25, left_out=True),)), p),
-    "Document.weights": lambda d, p: (replace(d, weights=Weights(2.5, 0.25)), p),
-    "Anchor.value": lambda d, p: (replace(d, anchors=(Anchor("source", 0.25),)), p),
+    "Anchor.point": lambda d, p: (
+        replace(d, points=(*d.points, Point("m", 8))).with_part(Anchors((Anchor("m"),))),
+        p,
+    ),
+    "Anchor.left_out": lambda d, p: (d.with_part(Anchors((Anchor("source", 0.25, left_out=True),))), p),
+    "Anchors.weights": lambda d, p: (d.with_part(Anchors(weights=Weights(2.5, 0.25))), p),
+    "Anchor.value": lambda d, p: (d.with_part(Anchors((Anchor("source", 0.25),))), p),
     "Isolines.count": lambda d, p: (replace(d, isolines=Isolines(0)), p),
     "Isolines.spacing": lambda d, p: (replace(d, isolines=Isolines(spacing=1 / 3)), p),
     "Isolines.values": lambda d, p: (replace(d, isolines=Isolines(values=(0.1, 0.25))), p),
@@ -201,7 +207,7 @@ WORDLESS = {"Zoom.corner", "Pin.colour", "Anchor.left_out"} | {
 
 PARTS = [
     f"{part.__name__}.{f.name}"
-    for part in (Document, Panel, Zoom, Anchor, Pin, Profile, Isolines, Colours, Shading, Page)
+    for part in (Document, *part_types(), Panel, Zoom, Anchor, Pin, Isolines, Colours, Shading, Page)
     for f in fields(part)
 ]
 
@@ -263,10 +269,8 @@ def test_what_no_line_can_hold_is_said_in_words(mesh):
         (replace(document, surfaces=(*document.surfaces, MeshFile("B", mesh))), "2 meshes"),
         (replace(document, panels=()), "no panels"),
         (
-            replace(
-                document,
-                points=(*document.points, Point("a", SurfacePoint(3, (0.2, 0.2, 0.6)))),
-                anchors=(Anchor("a"),),
+            replace(document, points=(*document.points, Point("a", SurfacePoint(3, (0.2, 0.2, 0.6))))).with_part(
+                Anchors((Anchor("a"),))
             ),
             "no vertex",
         ),
@@ -349,7 +353,6 @@ def recipes(draw):
     document = replace(
         document,
         points=(*document.points, *(Point(f"anchor {vertex}", vertex) for vertex in marks)),
-        anchors=tuple(Anchor(f"anchor {vertex}", value) for vertex, value in marks.items()),
         areas=draw(st.sampled_from(["voronoi", "barycentric"])),
         isolines=Isolines(draw(st.integers(0, 1000)), round=draw(st.booleans())),
         range=draw(st.sampled_from(["own", "shared"])),
@@ -359,7 +362,7 @@ def recipes(draw):
         up=draw(st.sampled_from(UPS)),
         projection=draw(st.sampled_from(PROJECTIONS)),
         axes=draw(st.booleans()),
-    )
+    ).with_part(Anchors(tuple(Anchor(f"anchor {vertex}", value) for vertex, value in marks.items())))
     document = add_pins(document, draw(st.lists(VERTICES, max_size=3)))
     able = [k for k, panel in enumerate(document.panels, 1) if can_divide(document, panel.id)]
     if able:
@@ -388,7 +391,7 @@ def test_any_line_read_again_is_what_it_was_made_from(recipe):
 def test_interpolants_alone_are_said_without_a_source(mesh):
     shows = (quantity("interpolant by biharmonic"), quantity("weights by geodesic"))
     points = (Point("a", 3), Point("b", 9))
-    document = replace(comparison(mesh, shows), points=points, anchors=(Anchor("a", 0.0), Anchor("b", 1.0)))
+    document = replace(comparison(mesh, shows), points=points).with_part(Anchors((Anchor("a", 0.0), Anchor("b", 1.0))))
     line = one_line.command_line(Recipe(document), "f.png")
     assert "--distance 'interpolant by biharmonic' --distance 'weights by geodesic'" in line
     assert "--anchors 3=0.0,9=1.0" in line

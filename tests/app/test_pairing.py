@@ -10,11 +10,11 @@ from app.document.document import Document, MeshFile, Panel, Point, comparison
 from app.document.edits import open_mesh
 from app.document.file import read_recipe, recipe_text
 from app.document.history import History
-from app.document.instruments import Pair
-from app.document.measuring import add_pins, remove_pins
 from app.document.page import Page, Recipe
-from app.document.pairing import (
+from app.document.pairs import (
     MOST_PAIRS,
+    Pair,
+    Pairs,
     add_pairs,
     drop_half,
     half_pair,
@@ -27,7 +27,8 @@ from app.document.pairing import (
     waiting_point,
     whole_pairs,
 )
-from app.document.predicting import predict, predicts, show_distances
+from app.document.pins import Pins, add_pins, remove_pins
+from app.document.prediction import predict, predicts, show_distances
 from app.document.quantities import quantity
 from app.figures.export import compute, open_document
 from app.session.array_store import ArrayStore
@@ -54,7 +55,7 @@ def both(first="first.off", second="second.off", specs=(BIHARMONIC, EDGES)):
 
 
 def places(document):
-    return [tuple(document.point(name).at for name in pair.points) for pair in document.pairs]
+    return [tuple(document.point(name).at for name in pair.points) for pair in document[Pairs].pairs]
 
 
 def test_a_click_on_each_surface_makes_a_pair():
@@ -65,26 +66,26 @@ def test_a_click_on_each_surface_makes_a_pair():
     assert pair_words(both(), "B")[0] == "Click a point, then its partner on A"
     assert pair_words(comparison("first.off"), "A")[0] == "Open a second mesh beside this one"
     moved = place_point(document, "A", 6)
-    assert (len(moved.pairs), waiting_point(moved).at) == (1, 6)
+    assert (len(moved[Pairs].pairs), waiting_point(moved).at) == (1, 6)
     whole = place_point(moved, "B", 9)
     assert (half_pair(whole), places(whole)) == (None, [(6, 9)])
     other_way = place_point(place_point(whole, "B", 11), "A", 12)
     assert places(other_way) == [(6, 9), (12, 11)]
-    assert [pair.colour for pair in other_way.pairs] == [0, 1]
+    assert [pair.colour for pair in other_way[Pairs].pairs] == [0, 1]
     with pytest.raises(ParameterError, match="pair 1 already"):
         place_point(place_point(other_way, "A", 6), "B", 9)
-    assert drop_half(document) == replace(both(), pairs=())
+    assert drop_half(document) == both().with_part(Pairs(pairs=()))
 
 
 def test_pairs_are_moved_and_removed_with_their_points():
     document = add_pairs(both(), PAIRS)
-    moved = move_pair_point(document, document.pairs[1].second, 99)
+    moved = move_pair_point(document, document[Pairs].pairs[1].second, 99)
     assert places(moved)[1] == (20, 99)
-    fewer = remove_pairs(document, [document.pairs[0]])
+    fewer = remove_pairs(document, [document[Pairs].pairs[0]])
     assert places(fewer) == PAIRS[1:]
     assert len(fewer.points) == len(document.points) - 2
-    assert number_of(fewer, document.pairs[1]) == 1
-    assert remove_pairs(document, document.pairs) == both()
+    assert number_of(fewer, document[Pairs].pairs[1]) == 1
+    assert remove_pairs(document, document[Pairs].pairs) == both()
     assert places(pair_instead(document, PAIRS[:2])) == PAIRS[:2]
 
 
@@ -116,9 +117,9 @@ def test_pairs_need_two_surfaces_and_points_on_them():
         ((Pair("", "b"), Pair("a", "c")), "only the last"),
     ):
         with pytest.raises(ParameterError, match=words):
-            Document(surfaces, points, pairs=pairs)
+            Document(surfaces, points, parts=(Pairs(pairs),))
     with pytest.raises(ParameterError, match="not two"):
-        Document(surfaces[:1], points[:1], pairs=(Pair("a"),))
+        Document(surfaces[:1], points[:1], parts=(Pairs((Pair("a"),)),))
     for pair in (("", ""), ("a", "a")):
         with pytest.raises(ParameterError, match="of two points"):
             Pair(*pair)
@@ -133,7 +134,7 @@ def test_pairs_and_predictions_are_read_back_and_taken_back(tmp_path):
     history = History(before)
     for step in (predict(before), add_pairs(predict(before), PAIRS), document):
         history.change(step)
-    assert [len(history.undo().pairs) for _ in range(3)] == [4, 0, 0]
+    assert [len(history.undo()[Pairs].pairs) for _ in range(3)] == [4, 0, 0]
     assert history.present == before
 
 
@@ -155,12 +156,12 @@ def test_the_first_surface_gets_one_panel_and_the_second_one_for_each_distance()
 def test_pairs_go_with_either_surface():
     document = add_pins(add_pairs(predict(both()), PAIRS), [4])
     closed = close_beside(document)
-    assert (closed.pairs, [str(panel.shows) for panel in closed.panels]) == ((), ["biharmonic"])
+    assert (closed[Pairs].pairs, [str(panel.shows) for panel in closed.panels]) == ((), ["biharmonic"])
     for name in "AB":
         other = open_mesh(document, MeshFile(name, "third.off"))
-        assert other.pairs == ()
+        assert other[Pairs].pairs == ()
         assert not any(point.name.startswith("pair") for point in other.points)
-    assert remove_pins(document, [pin.point for pin in document.pins]).pairs == document.pairs
+    assert remove_pins(document, [pin.point for pin in document[Pins].pins])[Pairs].pairs == document[Pairs].pairs
 
 
 def answered(document):

@@ -12,20 +12,20 @@ import app as bihdist
 from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document import one_line
 from app.document.beside_edits import see
-from app.document.change_edits import change_mesh, cut_by
-from app.document.changing import split, with_changed, without_changed
 from app.document.document import Document, comparison
 from app.document.edits import open_mesh as with_mesh
 from app.document.file import checksum, read_recipe, recipe_text
 from app.document.form import document_data, document_from
-from app.document.instruments import Scatter
 from app.document.page import Page, Recipe
+from app.document.perturbation import split, with_changed, without_changed
+from app.document.perturbation_edits import change_mesh, cut_by
 from app.document.quantities import quantity
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.session.array_store import ArrayStore
 from app.session.surfaces import SPARED_MADE
 from app.tools.robustness.quantity import ChangeOf
+from app.tools.scatter.part import Scatter
 from bihdist_core import BiharmonicDistance, ParameterError, Surface, SurfacePoint, VertexError, write_mesh
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
 from bihdist_core.applications.perturbation import image_of, perturbed
@@ -339,10 +339,10 @@ def test_a_distance_before_and_after_ends_alike_in_figures_and_elsewhere_a_typed
 
 def test_without_the_change_nothing_is_left_of_it(mesh):
     base = comparison(mesh, (BIHARMONIC, EDGES), (5,))
-    base = replace(base, scatter=Scatter(across=1, up=0))
+    base = base.with_part(Scatter(across=1, up=0))
     document = see(with_changed(base, CHANGES[0]), "back", "B")
     document = replace(document, isolines=replace(document.isolines, through=("source after",)))
-    assert document.scatter.across == 3
+    assert document[Scatter].across == 3
     assert without_changed(document) == replace(base, beside=())
     first = replace(document, panels=document.panels[2:3])  # the user has removed the others
     assert [str(panel.shows) for panel in without_changed(first).panels] == ["biharmonic"]

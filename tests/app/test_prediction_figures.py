@@ -5,6 +5,7 @@ import pytest
 
 import app as bihdist
 from app.document.file import read_recipe
+from app.document.pairs import Pairs
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.session.array_store import ArrayStore
@@ -60,8 +61,8 @@ def test_another_point_is_predicted_beside_a_recipe(named, tmp_path):
     assert drawn(named, ["A", "B", "--pairs", "P", "--predict", "44", *SMALL], tmp_path / "one.png") == 0
     assert drawn(named, ["--recipe", str(tmp_path / "one.json"), "--predict", "9"], tmp_path / "two.png") == 0
     document = read_recipe(tmp_path / "two.json").document
-    assert len(document.pairs) == 5
-    assert document.point(document.pairs[-1].first).at == 9
+    assert len(document[Pairs].pairs) == 5
+    assert document.point(document[Pairs].pairs[-1].first).at == 9
 
 
 def test_python_draws_what_the_command_draws(named, tmp_path):

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from app.document.document import Panel, Point, comparison
-from app.document.edits import PANEL_EDITS, move_source, possible_edits, put_point
-from app.document.measuring import add_pins, mark_extrema, remove_pins, show_regions
+from app.document.edits import PANEL_EDITS, mark_extrema, move_source, possible_edits, put_point
+from app.document.pins import Pins, add_pins, remove_pins
 from app.document.quantities import OwnField, quantity
+from app.document.regions import DividedPanels, show_regions
 from app.session.quality import Quality
 from app.session.regions import Dividing, regions_questions
 from app.session.sampling import SamplesQuestion, Sampling
@@ -268,12 +269,12 @@ def test_regions_are_those_of_python_and_follow_a_pin(watching):
         assert dividing.divided(id).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
         assert (dividing.divided(id).regions.labels == wanted.labels).all()
     assert dividing.divided(2) is None
-    moved = w.session.document.pins[1].point
+    moved = w.session.document[Pins].pins[1].point
     w.session.show(put_point(w.session.document, moved, 91))
     divided(w, dividing)
     wanted = voronoi_regions(w.session.surface, w.distance(SHOWN[0]).from_sources([7, 91, 300]))
     assert dividing.divided(0).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
-    w.session.show(remove_pins(w.session.document, [pin.point for pin in w.session.document.pins]))
+    w.session.show(remove_pins(w.session.document, [pin.point for pin in w.session.document[Pins].pins]))
     divided(w, dividing)
     assert dividing.divided(0) is None
     assert told[-2:] == [0, 1]
@@ -300,8 +301,8 @@ def test_the_panel_offers_regions_while_there_are_pins(watching):
     with_pins = add_pins(document, [7, 90])
     assert word in possible_edits(with_pins, 0, 6)
     shown = PANEL_EDITS[word](with_pins, 0)
-    assert shown.regions == (0,)
-    assert PANEL_EDITS[word](shown, 0).regions == ()
+    assert shown[DividedPanels].regions == (0,)
+    assert PANEL_EDITS[word](shown, 0)[DividedPanels].regions == ()
 
 
 def test_samples_are_those_of_python(watching):

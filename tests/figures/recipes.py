@@ -1,5 +1,6 @@
 """What the tests of recipes share: small figures, what a command refuses with, where anchors are."""
 
+from app.document.anchors import Anchors
 from app.main import main
 
 SMALL = ["--size", "300x200@96dpi"]
@@ -16,4 +17,4 @@ def refused(capsys, *arguments):
 
 
 def anchors(document):
-    return [(document.point(anchor.point).at, anchor.value) for anchor in document.anchors]
+    return [(document.point(anchor.point).at, anchor.value) for anchor in document[Anchors].anchors]

@@ -16,7 +16,7 @@ from app.document.camera_text import camera_text, read_camera
 from app.document.document import Document, comparison
 from app.document.edits import stand
 from app.document.file import read_recipe, recipe_text
-from app.document.form import view_data
+from app.document.form import written
 from app.document.looks import UPS
 from app.document.page import Recipe
 from app.figures.draw import Figure, FigurePanel, draw_figure
@@ -187,15 +187,15 @@ CAMERA = Camera((1.5, -2.25, 3.0), (0.0, 0.125, 0.0), (0.0, 0.0, 1.0), (0.25, 0.
 def test_a_camera_comes_back_from_text():
     line = camera_text(CAMERA)
     assert line.count(",") == 10
-    document = json.dumps({"format": 3, "document": {"camera": view_data(CAMERA)}})
+    document = json.dumps({"format": 3, "document": {"camera": written(CAMERA)}})
     for text in (
         line,
         f"--camera {line}",
         f" --camera={line}\n",
         f"'{line}'",
         line.replace(",", " "),
-        json.dumps(view_data(CAMERA)),
-        json.dumps({"camera": view_data(CAMERA)}),
+        json.dumps(written(CAMERA)),
+        json.dumps({"camera": written(CAMERA)}),
         document,
     ):
         assert read_camera(text) == CAMERA

@@ -8,7 +8,7 @@ from PIL import Image
 
 import app
 from app.document.page import Recipe
-from app.document.profile_words import profile_words, with_profile, words_in
+from app.document.profile import Profile, profile_words, with_profile, words_in
 from app.figures.draw import FIGURE_FORMATS
 from app.main import main
 from bihdist_core import ParameterError, Surface, SurfacePoint
@@ -123,7 +123,7 @@ def test_the_words_of_a_path(ball):
     document = picture._recipe.document
     assert isinstance(picture._recipe, Recipe)
     assert profile_words(document) == ["pin:2", 7, "f3:0.2,0.5"]
-    assert with_profile(document).profile.points == ()
+    assert with_profile(document)[Profile].points == ()
     for words, said in (
         (["pin:3", 4], "no pin 3 for a profile to go through; there are 2"),
         (["source:2", 4], "no source 2"),

@@ -5,13 +5,18 @@ from dataclasses import replace
 
 import pytest
 
+from app.document.anchors import Anchor, Anchors
 from app.document.camera import Camera
-from app.document.document import Anchor, MeshFile, Zoom, comparison
+from app.document.document import MeshFile, Zoom, comparison
 from app.document.edits import put_point
 from app.document.file import read_recipe, recipe_text
-from app.document.instruments import Pin, Profile, Scatter, Selection
 from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page, Recipe
+from app.document.pins import Pin, Pins
+from app.document.profile import Profile
+from app.document.regions import DividedPanels
+from app.document.selections import Selection, Selections
+from app.tools.scatter.part import Scatter
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
 from tests.figures.recipes import refused
@@ -29,29 +34,31 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
     document = put_point(
         comparison("mesh.off", specs, (3, None), "barycentric"), "tip", SurfacePoint(3, (0.25, 0.5, 0.25))
     )
-    document = replace(
-        document,
-        surfaces=(MeshFile("A", "mesh.off", "ab" * 32),),
-        panels=tuple(replace(panel, maximum=0.1 * panel.id or None) for panel in document.panels),
-        isolines=Isolines(7, values=(0.5, 0.25), bold=5, labels=True, through=("tip",)),
-        range="shares",
-        colours=Colours("mine", ((0.0, (0.0, 0.5, 1.0)), (1.0, (1.0, 1.0, 1.0))), True, True),
-        shading=Shading("creased", 35.0, True),
-        up="-z",
-        projection="orthographic",
-        axes=True,
-        pins=(Pin("tip", "the tip", 3),),
-        profile=Profile(("source", "tip"), "section", (0.0, 1.0, 0.0), False),
-        scatter=Scatter(2, 0, False),
-        selections=(Selection("ear", ((3, 3), (5, 9)), 4),),
-        regions=(1,),
-        extrema=True,
-        docks=("profile", "pins"),
-        camera=Camera((1 / 3, 2.0, 3.0), (0.0, 0.0, 0.1), (0.0, 1.0, 0.0), (0.2, 0.3)),
-        zooms=(Zoom(3, 2.5, "top left", 40),),
-        anchors=(Anchor("tip", 0.5), Anchor("source", None)),
-        height=0.25,
-        next_id=99,
+    document = (
+        replace(
+            document,
+            surfaces=(MeshFile("A", "mesh.off", "ab" * 32),),
+            panels=tuple(replace(panel, maximum=0.1 * panel.id or None) for panel in document.panels),
+            isolines=Isolines(7, values=(0.5, 0.25), bold=5, labels=True, through=("tip",)),
+            range="shares",
+            colours=Colours("mine", ((0.0, (0.0, 0.5, 1.0)), (1.0, (1.0, 1.0, 1.0))), True, True),
+            shading=Shading("creased", 35.0, True),
+            up="-z",
+            projection="orthographic",
+            axes=True,
+            extrema=True,
+            docks=("profile", "pins"),
+            camera=Camera((1 / 3, 2.0, 3.0), (0.0, 0.0, 0.1), (0.0, 1.0, 0.0), (0.2, 0.3)),
+            zooms=(Zoom(3, 2.5, "top left", 40),),
+            height=0.25,
+            next_id=99,
+        )
+        .with_part(Pins(pins=(Pin("tip", "the tip", 3),)))
+        .with_part(Profile(("source", "tip"), "section", (0.0, 1.0, 0.0), False))
+        .with_part(Scatter(2, 0, False))
+        .with_part(Selections(selections=(Selection("ear", ((3, 3), (5, 9)), 4),)))
+        .with_part(DividedPanels(regions=(1,)))
+        .with_part(Anchors(anchors=(Anchor("tip", 0.5), Anchor("source", None))))
     )
     page = Page(
         "160mm@300dpi", "dark", "svg", ("home", document.camera), 2, False, True, True, "caption", "DejaVu Serif", 7.5

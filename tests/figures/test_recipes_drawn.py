@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.document.document import Anchor, MeshFile, Panel, Point, Zoom, comparison
+from app.document.anchors import Anchor, Anchors
+from app.document.document import MeshFile, Panel, Point, Zoom, comparison
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
 from app.document.quantities import DistanceFrom
@@ -113,7 +114,7 @@ def test_options_that_cannot_apply_are_refused_by_name(drawn, mesh, capsys):
 
 def test_anchors_and_panels_may_have_a_point_in_common(drawn):
     recipe = read_recipe(drawn / "f.json")
-    document = replace(recipe.document, anchors=(Anchor("source", 0.5),))
+    document = recipe.document.with_part(Anchors(anchors=(Anchor("source", 0.5),)))
     (drawn / "f.json").write_text(recipe_text(replace(recipe, document=document), "0.1"))
     assert anchors(changed(drawn, "--anchors", "5").document) == [(5, None)]
     other = changed(drawn, "--distance", "commute-time", "--source", "9").document

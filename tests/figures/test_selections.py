@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from app.document.file import read_recipe
-from app.document.measuring import vertices_of
+from app.document.selections import Selections, vertices_of
 from app.figures.picture import figure
 from app.main import main
 from app.scene.selected import selected_colours
@@ -45,7 +45,9 @@ def test_what_is_selected_has_a_rim_and_hatching_and_the_field_is_seen_between(m
     # Where it is changed there is much of the colour, and only above.
     assert (np.abs(shown[differs] - GREEN).max(axis=1) < 40).mean() > 0.1
     assert rows[-1] < 0.62 * len(plain)
-    assert vertices_of(read_recipe(tmp_path / "top.json").document.selections[0].runs).tolist() == top.tolist()
+    assert (
+        vertices_of(read_recipe(tmp_path / "top.json").document[Selections].selections[0].runs).tolist() == top.tolist()
+    )
 
 
 def test_python_and_the_command_draw_the_same(mesh, tmp_path):

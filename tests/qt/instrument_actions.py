@@ -2,6 +2,13 @@
 
 from dataclasses import replace
 
+from app.document.maps import Maps
+from app.document.pairs import Pairs
+from app.document.pins import Pins
+from app.document.profile import Profile
+from app.document.regions import DividedPanels
+from app.document.tools import docked_tools
+
 from .hands import Hands
 
 SOURCES = ("12+40", "f3:0.2,0.5", "loop:0", "5+f9:0.3,0.3", "7", "f1:2,2", "nowhere")
@@ -58,13 +65,13 @@ class InstrumentHands(Hands):
         docks = self.window.docks
         loaded = self.window.session.document.docks
         if not loaded or (len(loaded) < 3 and self.chance.random() < 0.5):
-            docks.toggle(self.chance.choice([word for word in docks.words() if word not in loaded]))
+            docks.toggle(self.chance.choice([word for word in docked_tools() if word not in loaded]))
             self.spin(0.05)
         loaded = self.window.session.document.docks
         return docks._docks[self.chance.choice(loaded)] if loaded else None
 
     def toggle_dock(self) -> None:
-        self.window.docks.toggle(self.chance.choice(list(self.window.docks.words())))
+        self.window.docks.toggle(self.chance.choice(list(docked_tools())))
 
     def in_dock(self) -> None:
         """The pointer goes somewhere in a dock, and clicks, drags or turns the wheel there."""
@@ -130,23 +137,23 @@ class InstrumentHands(Hands):
             dock.show()
 
     def profile(self) -> None:
-        from app.document.instruments import WAYS
+        from app.document.profile import WAYS
 
         session = self.window.session
         document = session.document
-        names = [pin.point for pin in document.pins]
+        names = [pin.point for pin in document[Pins].pins]
         points = tuple(self.chance.sample(names, 2)) if len(names) > 1 and self.chance.random() < 0.5 else ()
         across = (1.0, 0.2, 0.1) if self.chance.random() < 0.5 else None
-        profile = replace(document.profile, points=points, way=self.chance.choice(WAYS), across=across)
-        session.show(replace(document, profile=profile))
+        profile = replace(document[Profile], points=points, way=self.chance.choice(WAYS), across=across)
+        session.show(document.with_part(profile))
 
     def regions(self) -> None:
-        from app.document.measuring import show_regions
+        from app.document.regions import show_regions
 
         session = self.window.session
-        if len(session.document.pins) > 1:
+        if len(session.document[Pins].pins) > 1:
             panel = self.panel()
-            session.show(show_regions(session.document, panel, panel not in session.document.regions))
+            session.show(show_regions(session.document, panel, panel not in session.document[DividedPanels].regions))
 
     def farthest(self) -> None:
         dock = self._dock() and self.window.docks._docks.get("regions")
@@ -244,7 +251,7 @@ class InstrumentHands(Hands):
         """A row of the list, a drop, and the keys of the tool."""
         docks, document = self.window.docks, self.window.session.document
         dock = docks._docks["pairs"].content if "pairs" in docks._docks else None
-        if dock is None or not document.pairs or not dock.isVisible():
+        if dock is None or not document[Pairs].pairs or not dock.isVisible():
             return
         way = self.chance.choice(["accept", "give up", "delete", "keys", "drop", "more"])
         self.done[-1] += f" {way}"
@@ -257,7 +264,7 @@ class InstrumentHands(Hands):
         elif way == "drop":
             self._drag_drop()
         else:
-            from app.document.pairing import add_pairs
+            from app.document.pairs import add_pairs
 
             ids = [(self.chance.randrange(700), self.chance.randrange(700)) for _ in range(3)]
             self.window.session.show(add_pairs(document, ids))
@@ -302,7 +309,7 @@ class InstrumentHands(Hands):
             path.write_text("".join(f"{self.chance.randint(-1, 700)}\n" for _ in range(count)))
             take = truth.take_partners if way == "partners" else self.chance.choice([truth.take, truth.take_map])
             take(str(path))
-        elif way == "mirror" and document.truth.partners is not None:
+        elif way == "mirror" and document[Maps].truth.partners is not None:
             section.mirror.click()
         elif way == "chart" and section.chart.isVisible():
             at = section.chart.mapToGlobal(section.chart.rect().center())

@@ -1,9 +1,11 @@
 """What there is to see of the instruments, for the contact sheet: by mouse and keys, as users open and use them."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import combinations
 from typing import Any
+
+from app.document.pins import Pins
+from app.document.selections import Selections
 
 from .driver import Driver
 
@@ -136,14 +138,14 @@ def _profile(d: Driver) -> None:
 
 def _section(d: Driver) -> None:
     """Through the first two of the pins that a section joins."""
-    from app.document.instruments import Profile
+    from app.document.profile import Profile
     from app.tools.profile.dock import FINDING
 
     dock = _dock(d, "profile", "f")
     before = d.window.session.document
-    for points in combinations([pin.point for pin in before.pins], 2):
+    for points in combinations([pin.point for pin in before[Pins].pins], 2):
         path = dock.path
-        d.window.session.show(replace(before, profile=Profile(points, "section", dock.seen())))
+        d.window.session.show(before.with_part(Profile(points, "section", dock.seen())))
         d.until(lambda path=path: dock.path is not path or dock.chart.sentence not in ("", FINDING))
         if dock.path is not None:
             break
@@ -172,7 +174,7 @@ def _scatter(d: Driver) -> None:
     d.pointer("keyup", "b")
     d.complete()
     d.shot("scatter with selections")
-    while d.window.session.document.selections:
+    while d.window.session.document[Selections].selections:
         d.window.session.undo()
 
 
@@ -195,7 +197,7 @@ def _statistics(d: Driver) -> None:
     dock.levels.select()
     d.complete()
     d.shot("region between two values")
-    while d.window.session.document.selections:
+    while d.window.session.document[Selections].selections:
         d.window.session.undo()
 
 
@@ -225,7 +227,7 @@ def _regions(d: Driver) -> None:
     dock.sampler.count.setValue(8)
     _scroll_of(dock).ensureWidgetVisible(dock.sampler.pin)
     _press(d, dock.sampler.pin)
-    d.until(lambda: len(d.window.session.document.pins) > len(before.pins))
+    d.until(lambda: len(d.window.session.document[Pins].pins) > len(before[Pins].pins))
     d.complete()
     d.spin(1.0)
     d.shot("farthest points")

@@ -21,7 +21,7 @@ def far_apart(places: np.ndarray) -> list[int]:
 def correspondence(d: Driver) -> None:
     """The tool with one mesh, then pairs on two: by hand, from the prediction, and what goes wrong."""
     from app.document.beside_edits import close_beside
-    from app.document.pairing import add_pairs
+    from app.document.pairs import add_pairs
     from app.samples import mesh_path
 
     d.open(mesh_path("beast"))

@@ -2,9 +2,11 @@
 
 import numpy as np
 
+from app.document.pins import Pins
+
 
 def ids(s):
-    return [s.document.point(pin.point).at for pin in s.document.pins]
+    return [s.document.point(pin.point).at for pin in s.document[Pins].pins]
 
 
 def shift_click(s, vertex, panel=0):

@@ -11,6 +11,8 @@ import traceback
 from dataclasses import replace
 from pathlib import Path
 
+from app.document.tools import docked_tools
+
 from .faults import faults
 from .hands import rss
 from .instrument_actions import InstrumentHands
@@ -254,7 +256,7 @@ class RandomHands(InstrumentHands):
         self.spin(0.1)
         while len(session.document.panels) > count:
             self.window.choices.edit_panel(session.document.panels[-1].id, "Remove it")
-        for word in self.window.docks.words():
+        for word in docked_tools():
             self.window.docks.toggle(word)
             self.spin(0.2)
         self.until(lambda: session.is_complete)

@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchoring import add_anchor
+from app.document.anchors import add_anchor
 from app.document.edits import show_in
 from app.document.quantities import quantity
 from app.tools.interpolation.answers import InterpolantMemory
 from app.tools.interpolation.quantity import Interpolant
 from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolant, farthest_points, other_extrema
+from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import SourceSet
 from tests.shapes import bumpy
@@ -18,6 +19,7 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest
 
+from app.document.anchors import Anchors
 from app.qt.panels.anchor_labels import label_boxes
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
@@ -51,9 +53,9 @@ def complete(s):
 
 
 def expected(s, panel, kind):
-    anchors = [a for a in s.document.anchors if not a.left_out]
+    anchors = [a for a in s.document[Anchors].anchors if not a.left_out]
     vertices = [s.document.point(a.point).at for a in anchors]
-    weights = s.document.weights
+    weights = s.document[Anchors].weights
     distance = kind(s.session.surface)
     return ShepardInterpolant(
         distance, vertices, [a.value for a in anchors], weights.exponent, weights.smoothness
@@ -72,13 +74,13 @@ def test_clicks_put_anchors_and_every_panel_interpolates_by_its_distance(loaded)
     vertices = s.seen(3)
     for vertex in vertices:
         click(s, 0, vertex)
-    assert [s.document.point(a.point).at for a in s.document.anchors] == vertices
-    assert [a.value for a in s.document.anchors][:2] == [0, 1]
+    assert [s.document.point(a.point).at for a in s.document[Anchors].anchors] == vertices
+    assert [a.value for a in s.document[Anchors].anchors][:2] == [0, 1]
     check(s)
     before = s.answers[0].field
     click(s, 1, s.seen(5)[-1])  # its value is what the panel has there
     assert np.abs(s.answers[1].field - expected(s, 1, GeodesicDistance)).max() < 1e-9
-    assert len(s.document.anchors) == 4
+    assert len(s.document[Anchors].anchors) == 4
     s.window.session.undo()
     complete(s)
     assert np.array_equal(s.answers[0].field, before)
@@ -94,25 +96,25 @@ def test_values_are_typed_slid_and_left_out_and_undone(loaded):
     QtTest.QTest.keyClicks(rows[1].box, "-2.5")
     QtTest.QTest.keyClick(rows[1].box, QtCore.Qt.Key.Key_Return)
     complete(s)
-    assert s.document.anchors[1].value == -2.5
+    assert s.document[Anchors].anchors[1].value == -2.5
     assert s.answers[0].is_signed
     check(s)
     place = QtCore.QPoint(3 * rows[2].slider.width() // 4, rows[2].slider.height() // 2)
     QtTest.QTest.mouseClick(rows[2].slider, LEFT, pos=place)
     complete(s)
-    assert s.document.anchors[2].value != s.document.anchors[1].value
+    assert s.document[Anchors].anchors[2].value != s.document[Anchors].anchors[1].value
     check(s)
     QtTest.QTest.mouseClick(rows[0].eye, LEFT)
     complete(s)
-    assert s.document.anchors[0].left_out
+    assert s.document[Anchors].anchors[0].left_out
     check(s)
     s.window.session.undo()
     complete(s)
-    assert not s.document.anchors[0].left_out
+    assert not s.document[Anchors].anchors[0].left_out
     rows[0].name.setFocus()
     QtTest.QTest.mouseClick(rows[0].cross, LEFT)
     complete(s)
-    assert len(s.document.anchors) == 2
+    assert len(s.document[Anchors].anchors) == 2
     check(s)
 
 
@@ -125,7 +127,7 @@ def test_letters_for_a_value_are_refused(loaded):
     QtTest.QTest.keyClicks(row.box, "high")
     QtTest.QTest.keyClick(row.box, QtCore.Qt.Key.Key_Return)
     assert row.box.property("wrong")
-    assert s.document.anchors[0].value == 0
+    assert s.document[Anchors].anchors[0].value == 0
 
 
 def test_an_anchor_is_dragged_over_the_surface(loaded):
@@ -140,11 +142,11 @@ def test_an_anchor_is_dragged_over_the_surface(loaded):
         move(view, a + (b - a) * k / 5)
     QtTest.QTest.mouseRelease(view, LEFT, pos=b)
     complete(s)
-    assert s.document.point(s.document.anchors[0].point).at == stop
+    assert s.document.point(s.document[Anchors].anchors[0].point).at == stop
     check(s)
     s.window.session.undo()  # all the way is one step
     complete(s)
-    assert s.document.point(s.document.anchors[0].point).at == start
+    assert s.document.point(s.document[Anchors].anchors[0].point).at == start
 
 
 def move(view, place):
@@ -167,11 +169,11 @@ def test_weights_and_extrema_are_those_of_the_library(loaded):
         QtTest.QTest.keyClicks(box, text)
         QtTest.QTest.keyClick(box, QtCore.Qt.Key.Key_Return)
     complete(s)
-    assert (s.document.weights.exponent, s.document.weights.smoothness) == (2.5, 0.1)
+    assert (s.document[Anchors].weights.exponent, s.document[Anchors].weights.smoothness) == (2.5, 0.1)
     check(s)
     s.until(lambda: "…" not in str(dock.extrema.facts) and s.window.docks.findings.is_complete)
     s.settle(0.05)
-    vertices = SourceSet(tuple(s.document.point(a.point).at for a in s.document.anchors))
+    vertices = SourceSet(tuple(s.document.point(a.point).at for a in s.document[Anchors].anchors))
     for panel, (_, at_tips, elsewhere) in enumerate(dock.extrema.facts[1:]):
         found = other_extrema(s.session.surface, s.answers[panel].field, vertices).vertices
         assert int(at_tips) + int(elsewhere) == len(found)
@@ -183,7 +185,7 @@ def test_extrema_are_marked_on_interpolants_only(loaded):
     for k in range(12):
         document, _ = add_anchor(document, 60 * k, float(k % 3))
     # So steep, the one by the geodesic distance has an extremum elsewhere.
-    s.session.show(replace(document, weights=replace(document.weights, exponent=6.0)))
+    s.session.show(document.with_part(replace(document[Anchors], weights=Weights(6.0))))
     dock, marks = dock_of(s), [panel.view.over.extrema for panel in s.panels]
 
     def rest():
@@ -228,12 +230,12 @@ def test_anchors_are_saved_and_read_and_kept_in_sessions(loaded, tmp_path):
     from app.document.file import read_recipe
 
     kept = read_recipe(str(tmp_path / "session.json")).document
-    assert kept.anchors == before.anchors
-    assert kept.anchors[0].name == "thumb"
+    assert kept[Anchors].anchors == before[Anchors].anchors
+    assert kept[Anchors].anchors[0].name == "thumb"
     assert "anchors" in kept.docks
     dock_of(s).remove_all()
     complete(s)
-    assert not s.document.anchors
+    assert not s.document[Anchors].anchors
     s.window.session.undo()
     complete(s)
     assert np.array_equal(s.answers[0].field, field)
@@ -255,17 +257,17 @@ def test_up_and_down_go_through_the_list_and_delete_removes(loaded):
         click(s, 0, vertex)
     rows, keys = list(dock_of(s).rows.values()), QtCore.Qt.Key
     rows[1].slider.setFocus()
-    values = [anchor.value for anchor in s.document.anchors]
+    values = [anchor.value for anchor in s.document[Anchors].anchors]
     QtTest.QTest.keyClick(rows[1].slider, keys.Key_Down)
     assert s.window.grid.marks.chosen_anchor == rows[2].point
-    assert [anchor.value for anchor in s.document.anchors] == values
+    assert [anchor.value for anchor in s.document[Anchors].anchors] == values
     QtTest.QTest.keyClick(rows[2].slider, keys.Key_Delete)
     complete(s)
-    assert [a.point for a in s.document.anchors] == [rows[0].point, rows[1].point]
+    assert [a.point for a in s.document[Anchors].anchors] == [rows[0].point, rows[1].point]
     assert s.window.grid.marks.chosen_anchor == rows[1].point
     s.window.actions_by_word["remove anchor"].trigger()
     complete(s)
-    assert [a.point for a in s.document.anchors] == [rows[0].point]
+    assert [a.point for a in s.document[Anchors].anchors] == [rows[0].point]
 
 
 def test_samples_are_farthest_from_the_anchors_and_change_no_value_there(loaded):
@@ -277,11 +279,11 @@ def test_samples_are_farthest_from_the_anchors_and_change_no_value_there(loaded)
     dock.samples.count.setValue(3)
     field = s.answers[0].field
     QtTest.QTest.mouseClick(dock.samples.add, LEFT)
-    s.until(lambda: len(s.document.anchors) == 5)
+    s.until(lambda: len(s.document[Anchors].anchors) == 5)
     complete(s)
     expected = farthest_points(BiharmonicDistance(s.session.surface), [first, second], 5)
-    assert [s.document.point(a.point).at for a in s.document.anchors] == expected.tolist()
-    assert [a.value for a in s.document.anchors[2:]] == pytest.approx(field[expected[2:]], abs=5e-4)
+    assert [s.document.point(a.point).at for a in s.document[Anchors].anchors] == expected.tolist()
+    assert [a.value for a in s.document[Anchors].anchors[2:]] == pytest.approx(field[expected[2:]], abs=5e-4)
 
 
 def test_a_value_is_followed_without_a_solve_even_while_it_moves(loaded):

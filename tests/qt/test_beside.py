@@ -9,6 +9,8 @@ from qtpy import QtCore, QtTest
 from app.document.beside_edits import open_beside
 from app.document.document import MeshFile
 from app.document.file import read_recipe
+from app.document.pins import Pins
+from app.document.tools import docked_tools
 from app.scene.camera import frame
 from bihdist_core import Surface
 from bihdist_core.distances.kinds import Spec
@@ -80,7 +82,7 @@ def test_a_click_on_one_moves_only_its_source_and_a_pin_lies_on_its_surface(two)
     click(s, 1, vertex)
     assert [s.document.point(name).at for name in ("source", "source 2")] == [7, vertex]
     click(s, 1, vertex, QtCore.Qt.KeyboardModifier.ShiftModifier)
-    assert s.document.point(s.document.pins[0].point).surface == "B"
+    assert s.document.point(s.document[Pins].pins[0].point).surface == "B"
     s.session.undo()
     s.session.undo()
     assert s.document.point("source 2").at == 7
@@ -174,7 +176,7 @@ def test_all_docks_live_with_a_second_mesh_of_another_size(screen, mesh_file):
     s.open(mesh_file(bumpy(300), "first.off"), 7)
     s.session.show(open_beside(s.document, MeshFile("", str(mesh_file(bumpy(500), "second.off")))))
     s.until(lambda: len(s.document.surfaces) == 2 and s.session.is_complete)
-    for word in s.window.docks.words():
+    for word in docked_tools():
         s.window.docks.toggle(word)
         s.settle(0.1)
         for number in (1, 0):

@@ -9,14 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.document.anchoring import add_anchor
-from app.document.change_edits import change_mesh
+from app.document.anchors import add_anchor
 from app.document.document import comparison
 from app.document.edits import move_source
 from app.document.file import read_recipe, recipe_text
-from app.document.measuring import add_pins, select
 from app.document.page import Recipe
-from app.document.pairing import place_point
+from app.document.pairs import place_point
+from app.document.perturbation_edits import change_mesh
+from app.document.pins import add_pins
+from app.document.selections import select
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.sources.source import Curve, SurfacePoint
 from tests.shapes import bumpy

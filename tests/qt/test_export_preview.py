@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import Anchor, Panel, Point, Zoom
+from app.document.anchors import Anchor, Anchors
+from app.document.document import Panel, Point, Zoom
 from app.document.page import Page
 from app.document.quantities import DistanceFrom
 from bihdist_core import SurfacePoint
@@ -175,7 +176,7 @@ def other_panels(s):
 
 def marked(s):
     points = (Point("source", SurfacePoint(3, (0.2, 0.2, 0.6))), Point("a", 40))
-    document = replace(s.document, points=points, anchors=(Anchor("a", 0.1),), zooms=(Zoom(5, 2.5),))
+    document = replace(s.document, points=points, zooms=(Zoom(5, 2.5),)).with_part(Anchors(anchors=(Anchor("a", 0.1),)))
     s.session.show(replace(document, panels=document.panels[:1]))
 
 

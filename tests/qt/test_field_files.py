@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.document.change_edits import change_mesh
 from app.document.edits import add_panel, move_source
-from app.document.map_colours import MapColours
+from app.document.maps import MapColours
+from app.document.perturbation_edits import change_mesh
 from app.document.quantities import quantity
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.formats.field_output import FIELD_FORMATS

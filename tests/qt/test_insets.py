@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.document import Anchor, Point, Zoom, comparison
+from app.document.anchors import Anchor
+from app.document.document import Point, Zoom, comparison
 from app.document.edits import move_source
 from app.document.file import recipe_text
 from app.document.page import Page, Recipe
@@ -17,6 +18,7 @@ pytest.importorskip("qtpy")
 
 from qtpy.QtGui import QColor
 
+from app.document.anchors import Anchors
 from app.qt.look.canvas import canvas_style
 from app.qt.look.look import LOOK
 
@@ -150,10 +152,10 @@ def test_anchors_are_light_in_their_middle_whatever_their_values(shown):
     vertex, top = facing(s), s.answers[0].maximum
     for value in (None, 0.0, 0.5 * top, 9 * top):
         points = (s.document.point("source"), Point("anchor", vertex))
-        s.session.show(replace(s.document, points=points, anchors=(Anchor("anchor", value),)))
+        s.session.show(replace(s.document, points=points).with_part(Anchors(anchors=(Anchor("anchor", value),))))
         s.settle(0.1)
         assert colour_at(s.panels[0], seen_at(s.panels[0], vertex)).min() > 0.9
-    s.session.show(replace(s.document, anchors=()))
+    s.session.show(s.document.with_part(Anchors(anchors=())))
     s.settle(0.1)
     assert not s.panels[0].view.scene._anchored.actor.GetVisibility()
 
@@ -209,7 +211,7 @@ def test_a_recipe_is_shown_in_its_style_on_the_windows_ground_and_the_next_in_it
 
 def test_another_theme_has_the_twin_of_a_style_and_changes_no_page_and_nothing_of_what_is_shown(shown, theme):
     theme("dark")
-    anchor = {"anchors": (Anchor("source", 0.1),), "height": 0.3}
+    anchor = {"parts": (Anchors((Anchor("source", 0.1),)),), "height": 0.3}
     s = shown(grid(12, 12), Page(style="dark"), zooms=(Zoom(7, corner="top right"),), **anchor)
     pictures, isolines = {}, [panel.view.scene.isolines for panel in s.panels]
     assert all(map(len, isolines))

@@ -13,14 +13,19 @@ from PIL import Image
 
 from app.document.edits import move_source
 from app.document.form import document_data
-from app.document.instruments import PinList, Profile, Scatter
-from app.document.measuring import add_pins, change_pin, select, show_regions
+from app.document.pins import PinList, add_pins, change_pin
+from app.document.profile import Profile
+from app.document.regions import show_regions
+from app.document.selections import select
+from app.tools.scatter.part import Scatter
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import Curve, SourceSet, SurfacePoint
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 from qtpy import QtCore
+
+from app.document.pins import Pins
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCKS = ("statistics", "pins", "quality", "regions", "scatter", "profile")
@@ -33,16 +38,15 @@ def everything(s):
     along = [SurfacePoint(face, (0.2, 0.3, 0.5)) for face in (0, *_neighbours(surface.faces, 0))]
     document = move_source(document, 0, SourceSet((5, SurfacePoint(40, (0.2, 0.5, 0.3)), Curve(tuple(along)))))
     document = add_pins(document, [7, 90, 200, 300])
-    document = change_pin(document, replace(document.pins[1], name="tip", colour=6))
+    document = change_pin(document, replace(document[Pins].pins[1], name="tip", colour=6))
     document = select(select(document, "ear", np.arange(30)), "tail", np.arange(100, 160))
     document = show_regions(document, 1)
-    points = tuple(pin.point for pin in document.pins)
-    document = replace(
-        document,
-        profile=Profile((points[2], points[0], points[3]), "edges", shares=False),
-        scatter=Scatter(across=document.panels[2].id, up=document.panels[0].id),
-        pin_list=PinList(Spec.of("geodesic", method="dijkstra"), shares=True),
-        extrema=True,
+    points = tuple(pin.point for pin in document[Pins].pins)
+    document = (
+        replace(document, extrema=True)
+        .with_part(Profile((points[2], points[0], points[3]), "edges", shares=False))
+        .with_part(Scatter(across=document.panels[2].id, up=document.panels[0].id))
+        .with_part(replace(document[Pins], pin_list=PinList(Spec.of("geodesic", method="dijkstra"), shares=True)))
     )
     s.session.show(document)
     for dock in DOCKS:

@@ -5,9 +5,9 @@ import pytest
 
 import app.session.judging as judging
 from app.document.file import read_recipe
-from app.document.map_colours import MapColours, MapFile
-from app.document.pairing import add_pairs, place_point
-from app.document.predicting import predicts
+from app.document.maps import MapColours, MapFile
+from app.document.pairs import add_pairs, place_point
+from app.document.prediction import predicts
 from app.figures.export import compute, open_document
 from app.session.array_store import ArrayStore
 from bihdist_core import (
@@ -26,6 +26,8 @@ from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest, QtWidgets
+
+from app.document.maps import Maps
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
 BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
@@ -206,7 +208,7 @@ def test_symmetric_partners_count_when_ticked(two, tmp_path, monkeypatch):
     assert section(s).named_curves()["Biharmonic"].mean == pytest.approx(curve.mean, abs=1e-6)
     QtTest.QTest.mouseClick(section(s).mirror, LEFT, pos=QtCore.QPoint(8, section(s).mirror.height() // 2))
     s.until(lambda: whole(s) and numbers(s) == before)
-    assert s.document.truth.partners is not None
+    assert s.document[Maps].truth.partners is not None
     assert len(asked) == 1
 
 
@@ -215,7 +217,7 @@ def test_partners_that_nobody_names_do_not_count(two, monkeypatch):
     monkeypatch.setattr(QtWidgets.QFileDialog, "getOpenFileName", lambda *a: ("", ""))
     QtTest.QTest.mouseClick(section(s).mirror, LEFT, pos=QtCore.QPoint(8, section(s).mirror.height() // 2))
     assert not section(s).mirror.isChecked()
-    assert s.document.truth.partners is None
+    assert s.document[Maps].truth.partners is None
 
 
 # ---------------------------------------------------------------------- the candidate
@@ -322,7 +324,7 @@ def test_a_map_of_a_file_is_shown_and_judged(two, tmp_path):
     s.window.failed = said.append
     section(s).truth.take_map(str(tmp_path / "none.txt"))
     assert "no" in said[0]
-    assert isinstance(s.document.maps[0], MapFile)
+    assert isinstance(s.document[Maps].maps[0], MapFile)
 
 
 # ---------------------------------------------------------------------- kept

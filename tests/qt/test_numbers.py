@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from app.document.measuring import add_pins, show_dock, show_regions
+from app.document.edits import show_dock
+from app.document.pins import add_pins
+from app.document.regions import show_regions
 from bihdist_core import SurfacePoint, field_quality, field_statistics, read_surface
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import MESHES, needs_meshes

@@ -7,7 +7,7 @@ import pytest
 
 from app.document.edits import duplicate_panel
 from app.document.file import read_recipe
-from app.document.pairing import half_pair
+from app.document.pairs import half_pair
 from app.figures.export import compute, figure_of, open_document
 from app.session.array_store import ArrayStore
 from app.session.prediction_answers import KnownColumns
@@ -18,6 +18,8 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
+
+from app.document.pairs import Pairs
 
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
 BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
@@ -67,7 +69,7 @@ def press(s, panel, key):
 
 
 def places(s):
-    return [tuple(s.document.point(name).at for name in pair.points) for pair in s.document.pairs]
+    return [tuple(s.document.point(name).at for name in pair.points) for pair in s.document[Pairs].pairs]
 
 
 def paired(s, count=3):
@@ -140,7 +142,7 @@ def test_a_click_predicts_by_every_distance_and_enter_accepts(two):
         bar = s.panels[panel].bar._reading
         assert (bar.value, bar.unit) == (pytest.approx(expected.min(), abs=1e-9), "misfit of the best")
     assert "waits for its partner on B" in s.panels[0].bar.accessibleDescription()
-    row = dock_of(s).rows[s.document.pairs[-1].points[0]]
+    row = dock_of(s).rows[s.document[Pairs].pairs[-1].points[0]]
     best = int(np.argmin(misfit(s, BiharmonicDistance, vertex)))
     assert (row.first, row.second) == (str(vertex), f"{best} ?")
     press(s, 0, KEYS.Key_Return)
@@ -312,7 +314,7 @@ def test_a_session_keeps_them_and_a_figure_draws_them(two, tmp_path):
     click(s, 0, s.seen(6, 0)[-1])
     s.window.session_file.save(str(tmp_path / "session.json"))
     recipe = read_recipe(str(tmp_path / "session.json"))
-    assert recipe.document.pairs == s.document.pairs
+    assert recipe.document[Pairs].pairs == s.document[Pairs].pairs
     assert "pairs" in recipe.document.docks
     document, surfaces = open_document(recipe, ArrayStore())
     panels = figure_of(replace(recipe, document=document), surfaces, compute(document, surfaces)).panels
@@ -335,8 +337,8 @@ def test_distances_are_shown_again_and_closing_the_second_mesh_leaves_no_pair(tw
     assert dock_of(s).start.isVisible()
     QtTest.QTest.mouseClick(dock_of(s).start, LEFT)
     complete(s)
-    assert len(s.document.pairs) == 3
+    assert len(s.document[Pairs].pairs) == 3
     s.session.close_beside()
     complete(s)
-    assert (s.document.pairs, [panel.shows.spec for panel in s.document.panels]) == ((), [BIHARMONIC])
+    assert (s.document[Pairs].pairs, [panel.shows.spec for panel in s.document.panels]) == ((), [BIHARMONIC])
     assert dock_of(s).open_beside.isVisible()

@@ -6,6 +6,7 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
+from app.document.pins import Pins
 from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click
 
 
@@ -47,7 +48,7 @@ def test_shift_click_pins_a_vertex_on_all_panels_and_leaves_the_source(loaded):
 def test_a_pin_on_the_far_side_is_hollow(loaded):
     from qtpy import QtCore
 
-    from app.document.measuring import add_pins
+    from app.document.pins import add_pins
     from app.scene.style import PINS
 
     s = loaded
@@ -93,7 +94,7 @@ def test_a_drop_that_is_clicked_selects_its_row(loaded):
     shift_click(s, first)
     shift_click(s, second)
     left, control = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.KeyboardModifier.ControlModifier
-    points = [pin.point for pin in s.document.pins]
+    points = [pin.point for pin in s.document[Pins].pins]
 
     def click(vertex, panel=0, *modifiers):
         QtTest.QTest.mouseClick(s.panels[panel].view, left, *modifiers, pos=head_of(s, panel, vertex))

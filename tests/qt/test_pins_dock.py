@@ -7,6 +7,7 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
+from app.document.pins import Pins
 from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click, type_ids
 
 
@@ -168,27 +169,27 @@ def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(loaded):
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
     select_row(s, dock, 0)
-    assert s.window.grid.marks.lit == (s.document.pins[0].point,)
+    assert s.window.grid.marks.lit == (s.document[Pins].pins[0].point,)
     press(s, dock.table, QtCore.Qt.Key.Key_F2)
     editor = next(box for box in dock.table.findChildren(QtWidgets.QLineEdit) if box.isVisible())
     QtTest.QTest.keyClicks(editor, "nose")
     press(s, editor, QtCore.Qt.Key.Key_Return)
-    assert [pin.name for pin in s.document.pins] == ["nose", "", ""]
+    assert [pin.name for pin in s.document[Pins].pins] == ["nose", "", ""]
     assert not any(box.isVisible() for box in dock.table.findChildren(QtWidgets.QLineEdit))
     press(s, dock.table, QtCore.Qt.Key.Key_Down, QtCore.Qt.KeyboardModifier.AltModifier)
     assert ids(s) == [40, 12, 700]
-    assert dock.table.points == (s.document.pins[1].point,)
+    assert dock.table.points == (s.document[Pins].pins[1].point,)
     dock.menu._fill_whole()
     colours = next(action.menu() for action in dock.menu.whole.actions() if action.text() == "Colour")
     colours.actions()[8].trigger()
-    assert s.document.pins[1].colour == 8
+    assert s.document[Pins].pins[1].colour == 8
     press(s, dock.table, QtCore.Qt.Key.Key_Delete)
     assert ids(s) == [40, 700]
     assert s.window.grid.marks.lit == ()
     for _ in range(4):
         s.session.undo()
     assert ids(s) == [12, 40, 700]
-    assert [pin.name for pin in s.document.pins] == ["", "", ""]
+    assert [pin.name for pin in s.document[Pins].pins] == ["", "", ""]
 
 
 def test_a_row_is_dragged_to_another_place(loaded):
@@ -217,18 +218,18 @@ def test_pins_come_back_from_each_format_and_moves_to_vertices_are_said(loaded, 
     s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
-    dock.rename(s.document.pins[1].point, "ear")
+    dock.rename(s.document[Pins].pins[1].point, "ear")
     for extension in ("csv", "json", "pp"):
         path = tmp_path / f"pins.{extension}"
         dock.files.save(str(path))
-        dock.remove([pin.point for pin in s.document.pins])
+        dock.remove([pin.point for pin in s.document[Pins].pins])
         assert ids(s) == []
         dock.files.read(str(path))
         assert ids(s) == [12, 40, 700]
-        assert s.document.pins[1].name == "ear"
+        assert s.document[Pins].pins[1].name == "ear"
         if extension == "pp":
             break
-        for pin in s.document.pins:
+        for pin in s.document[Pins].pins:
             assert pin.name in ("", "ear")
     x, y, z = s.session.surface.vertices[5] * 1.01
     (tmp_path / "off.csv").write_text(f"x,y,z,name\n{x},{y},{z},nearby\n")
@@ -247,7 +248,7 @@ def test_what_is_copied_has_all_digits(loaded):
     s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
-    dock.rename(s.document.pins[0].point, "nose")
+    dock.rename(s.document[Pins].pins[0].point, "nose")
     dock.copy_list()
     head, first, _ = QtWidgets.QApplication.clipboard().text().strip().split("\n")
     cells = dict(zip(head.split("\t"), first.split("\t"), strict=True))
@@ -292,7 +293,7 @@ def test_a_session_brings_pins_and_their_dock_back(loaded, screen, tmp_path):
     s = loaded
     dock = dock_of(s)
     type_ids(s, dock, "12, 40")
-    dock.rename(s.document.pins[0].point, "nose")
+    dock.rename(s.document[Pins].pins[0].point, "nose")
     dock.distances.choose_distance(Spec.of("geodesic", method="dijkstra"))
     dock.list_otherwise(shares=True)
     s.window.session_file.save(str(tmp_path / "all.json"))
@@ -301,7 +302,7 @@ def test_a_session_brings_pins_and_their_dock_back(loaded, screen, tmp_path):
     other.until(lambda: other.session.is_complete)
     other.settle(0.1)
     assert ids(other) == [12, 40]
-    assert [pin.name for pin in other.document.pins] == ["nose", ""]
+    assert [pin.name for pin in other.document[Pins].pins] == ["nose", ""]
     rows = other.window.docks._docks["pins"].content.table.rows.rows
     assert [row.name for row in rows] == ["nose", ""]
     assert [row.values for row in rows] == [row.values for row in dock.table.rows.rows]

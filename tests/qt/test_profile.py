@@ -9,8 +9,8 @@ import pytest
 
 from app.document.document import Document, Point, comparison
 from app.document.edits import move_source
-from app.document.instruments import Pin, Profile
-from app.document.measuring import add_pins, points_along
+from app.document.pins import Pin, Pins, add_pins
+from app.document.profile import Profile, points_along
 from app.session.profiling import wanted_path
 from bihdist_core import Laplacian, ParameterError
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
@@ -132,7 +132,7 @@ def test_values_have_a_chart_for_each_unit(screen, mesh_file):
     assert [len(chart.curves) for chart in charts.shown] == [3]
     dock.scale.buttons["value"].click()
     s.settle()
-    assert s.document.profile == Profile(shares=False)
+    assert s.document[Profile] == Profile(shares=False)
     left, right = charts.shown
     assert [[curve.name for curve in chart.curves] for chart in (left, right)] == [
         ["Biharmonic", "Geodesic"],
@@ -221,30 +221,30 @@ def test_ways_and_ends_are_steps_that_can_be_undone(loaded):
     dock.choices.choose_way("section")
     s.until(lambda: dock.path is not None and dock.path is not first)
     assert dock.path.label == "section by a plane" == dock.way.text()
-    assert s.document.profile.across is not None
-    across = s.document.profile.across
+    assert s.document[Profile].across is not None
+    across = s.document[Profile].across
     shorter = dock.path.length
     s.window.reset_view("back")
     s.settle()
     dock.choices.choose_way("section-whole")
     s.until(lambda: dock.path is not None and dock.path.label == "the whole section by a plane")
     # The plane stays; it comes back to its first point.
-    assert s.document.profile.across == across
+    assert s.document[Profile].across == across
     assert s.document.camera == "back"
     assert [badge.name for _, badge in dock.chart.knots] == ["pin 1", "pin 2", "pin 1"]
     assert dock.chart.knots[1][0] == pytest.approx(shorter)
     dock.choices.turn_plane()
-    assert s.document.profile.across != across
+    assert s.document[Profile].across != across
     s.session.undo()
     s.session.undo()
     dock.choices.type_end(1, "300")
     s.until(lambda: dock._wanted.places[1] == 300)
-    assert s.document.pins[-1].point == s.document.profile.points[1]
+    assert s.document[Pins].pins[-1].point == s.document[Profile].points[1]
     dock.choices.type_end(0, "100000")
     assert "100000" in s.refusals[-1]
     s.session.undo()
     s.session.undo()
-    assert s.document.profile == Profile()
+    assert s.document[Profile] == Profile()
     s.until(lambda: dock.path is not None and dock.path.label == first.label)
     assert np.array_equal(dock.path.points, first.points)
 
@@ -285,7 +285,7 @@ def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(loaded, screen,
     again.until(lambda: again.session.is_complete and "profile" in again.window.docks._docks)
     other = dock_of(again)
     again.until(lambda: other.path is not None)
-    assert again.document.profile == s.document.profile
+    assert again.document[Profile] == s.document[Profile]
     assert np.array_equal(other.path.points, dock.path.points)
     assert all(panel.head._dot for panel in again.panels)
     again.open(mesh_file(bumpy(300), "other.off"), 7)
@@ -319,16 +319,14 @@ def test_without_two_points_it_says_what_to_do(loaded):
 
 def test_what_makes_no_path_is_named():
     document = replace(
-        comparison("", TWO),
-        points=(Point("source", 1), Point("pin", 2), Point("pin 2", 3), Point("loop", "loop:0")),
-        pins=(Pin("pin"), Pin("pin 2")),
-    )
+        comparison("", TWO), points=(Point("source", 1), Point("pin", 2), Point("pin 2", 3), Point("loop", "loop:0"))
+    ).with_part(Pins((Pin("pin"), Pin("pin 2"))))
     surface = bumpy(60)
     assert wanted_path(document, lambda name: surface).places == (2, 3)
-    section = replace(document, profile=Profile(("source", "pin", "pin 2"), "section-whole", (0, 0, 1)))
-    same = replace(document, points=(*document.points, Point("other", 2)), profile=Profile(("pin", "other")))
+    section = document.with_part(Profile(("source", "pin", "pin 2"), "section-whole", (0, 0, 1)))
+    same = replace(document, points=(*document.points, Point("other", 2))).with_part(Profile(("pin", "other")))
     for wrong, said in (
-        (replace(document, profile=Profile(("source", "loop"))), "'loop' is neither"),
+        (document.with_part(Profile(("source", "loop"))), "'loop' is neither"),
         (section, "that through two points"),
         (same, "From pin 1 to vertex 2 there is no path: they are at the same place"),
         (Document(), "pin two points"),

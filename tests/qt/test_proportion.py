@@ -9,9 +9,10 @@ from dataclasses import replace
 
 from qtpy import QtCore
 
-from app.document.document import Anchor, Point
+from app.document.anchors import Anchor, Anchors
+from app.document.document import Point
 from app.document.looks import Isolines
-from app.document.measuring import add_pins
+from app.document.pins import add_pins
 from app.qt.panels import pin_marks
 from app.scene.levels import BOLD, ZERO, width_of
 from app.scene.proportion import LEAST, USUAL, proportion
@@ -83,7 +84,11 @@ def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(loaded):
 def test_anchors_are_dark_rings_with_a_light_halo_whatever_the_field(loaded):
     s = loaded
     vertex = s.seen(3)[1]
-    s.session.show(replace(s.document, points=(*s.document.points, Point("a", vertex)), anchors=(Anchor("a", 0.0),)))
+    s.session.show(
+        replace(s.document, points=(*s.document.points, Point("a", vertex))).with_part(
+            Anchors(anchors=(Anchor("a", 0.0),))
+        )
+    )
     s.until(lambda: s.session.is_complete)
     s.settle()
     view = s.panels[0].view

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from app.document.edits import move_source, put_point
+from app.document.pins import Pins
+from app.document.regions import DividedPanels
 from bihdist_core import farthest_points, read_surface, region_boundaries, region_mesh, voronoi_regions
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
@@ -133,13 +135,13 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     regions = dock(s, "regions")
     regions.sampler.count.setValue(5)
     press(regions.sampler.pin)
-    s.until(lambda: len(s.document.pins) == 5)
+    s.until(lambda: len(s.document[Pins].pins) == 5)
     distance = s.session.loaded().distances("voronoi").get(SHOWN[0])
     wanted = farthest_points(distance, 7, 5)
-    assert [s.document.point(pin.point).at for pin in s.document.pins] == wanted.tolist()
+    assert [s.document.point(pin.point).at for pin in s.document[Pins].pins] == wanted.tolist()
     before = s.pictures()
     press(regions.ticks[0], 8)
-    assert s.document.regions == (0,)
+    assert s.document[DividedPanels].regions == (0,)
     known(s)
     columns = distance.from_sources(wanted)
     found = voronoi_regions(s.session.surface, columns)
@@ -149,7 +151,7 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     assert (before[1] == after[1]).all()
     # The same from the panel's own menu, and back.
     s.panels[1].head.edits["Regions of the pins"].trigger()
-    assert s.document.regions == (0, 1)
+    assert s.document[DividedPanels].regions == (0, 1)
     known(s)
     assert len(regions.text().splitlines()[1].split("\t")) == 3
     menu = regions.save_button.menu()
@@ -161,7 +163,7 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     menu.aboutToShow.emit()
     assert [action.menu() for action in menu.actions()] == [None] * 3
     s.session.undo()
-    assert s.document.regions == ()
+    assert s.document[DividedPanels].regions == ()
     s.settle(0.1)
     assert (s.pictures()[0] == before[0]).all()
     s.session.redo()
@@ -181,12 +183,13 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
 
 
 def test_regions_follow_a_pin_that_is_moved(loaded):
-    from app.document.measuring import add_pins, show_regions
+    from app.document.pins import add_pins
+    from app.document.regions import show_regions
 
     s = loaded
     s.session.show(show_regions(add_pins(s.document, [7, 90, 200]), 0))
     known(s)
-    s.session.show(put_point(s.document, s.document.pins[2].point, 150), key="drag", live=True)
+    s.session.show(put_point(s.document, s.document[Pins].pins[2].point, 150), key="drag", live=True)
     known(s)
     distance = s.session.loaded().distances("voronoi").get(SHOWN[0])
     wanted = voronoi_regions(s.session.surface, distance.from_sources([7, 90, 150]))
@@ -203,7 +206,7 @@ def test_too_many_points_are_refused_in_the_dock(loaded):
     sampler.count.setValue(201)
     press(sampler.pin)
     s.until(lambda: "at most 200 pins" in sampler.words.text())
-    assert s.document.pins == ()
+    assert s.document[Pins].pins == ()
 
 
 def test_the_docks_come_back_with_a_session(loaded, tmp_path):
@@ -213,7 +216,7 @@ def test_the_docks_come_back_with_a_session(loaded, tmp_path):
     sampler = dock(s, "regions").sampler
     sampler.count.setValue(3)
     press(sampler.pin)
-    s.until(lambda: len(s.document.pins) == 3)
+    s.until(lambda: len(s.document[Pins].pins) == 3)
     press(dock(s, "regions").ticks[1], 8)
     known(s)
     areas = dock(s, "regions").text()

@@ -11,6 +11,7 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
+from app.document.selections import Selections
 from tests.qt.changing import change_of, check, complete, dock_of, open_it, press, seen
 
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
@@ -58,7 +59,7 @@ def test_faces_are_cut_out_by_brush_and_come_back(loaded, monkeypatch):
     stroke(s, 3, middle + QtCore.QPoint(0, 30), middle + QtCore.QPoint(30, 30))
     assert count_of(change_of(s).cut) < count_of(more)
     monkeypatch.undo()
-    assert not s.document.selections
+    assert not s.document[Selections].selections
     s.window.actions_by_word["stop"].trigger()  # Esc
     assert not s.window.docks.brushing.cuts
     press(s, dock.cut.cross)

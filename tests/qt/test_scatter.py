@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from app.document.file import read_recipe, recipe_text
-from app.document.measuring import vertices_of
 from app.document.page import Page, Recipe
+from app.document.selections import Selections, vertices_of
+from app.tools.scatter.part import Scatter
 from bihdist_core import field_agreement
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
@@ -50,7 +51,7 @@ def lasso(s, corners, keys=None):
 
 
 def selected(s, name):
-    return vertices_of(next(each.runs for each in s.document.selections if each.name == name))
+    return vertices_of(next(each.runs for each in s.document[Selections].selections if each.name == name))
 
 
 def test_the_numbers_are_those_of_python(loaded):
@@ -72,7 +73,7 @@ def test_a_lasso_selects_what_lies_in_it_on_all_panels_and_is_undone(loaded):
     before = s.pictures()
     # The right half of the plot.
     lasso(s, [(0.5, -0.02), (1.02, -0.02), (1.02, 1.02), (0.5, 1.02)])
-    (selection,) = s.document.selections
+    (selection,) = s.document[Selections].selections
     a = s.answers[0].field
     edge = chart.values(QtCore.QPointF(round(chart.plot.left() + 0.5 * chart.plot.width()), 0))[0]
     right = np.flatnonzero(a / a.max() > edge)
@@ -89,7 +90,7 @@ def test_a_lasso_selects_what_lies_in_it_on_all_panels_and_is_undone(loaded):
     for _ in range(3):
         s.session.undo()
     s.settle(0.2)
-    assert not s.document.selections
+    assert not s.document[Selections].selections
     assert all((x == y).all() for x, y in zip(before, s.pictures(), strict=True))
 
 
@@ -116,7 +117,7 @@ def test_with_the_key_held_a_drag_paints_a_selection_and_not_the_view(loaded):
         s.settle(0.03)
     run("mouseup", 1)
     run("keyup", "b")
-    s.until(lambda: s.document.selections)
+    s.until(lambda: s.document[Selections].selections)
     s.settle(0.3)
     assert panel.view.pointer.brush is None
     assert panel.view.camera.GetPosition() == camera
@@ -167,7 +168,7 @@ def test_selections_are_renamed_coloured_saved_deleted_and_kept(loaded, tmp_path
     s, rows = loaded, loaded.dock.list
     lasso(s, [(0.4, -0.02), (1.02, -0.02), (1.02, 1.02), (0.4, 1.02)])
     lasso(s, [(0.02, 1.02), (0.2, 1.02), (0.2, 0.1), (0.02, 0.1)])
-    assert [each.name for each in s.document.selections] == ["selection", "selection 2"]
+    assert [each.name for each in s.document[Selections].selections] == ["selection", "selection 2"]
     rows.setCurrentItem(rows.topLevelItem(0))
     rows.setFocus()
     rows.editItem(rows.topLevelItem(0), 0)
@@ -176,9 +177,9 @@ def test_selections_are_renamed_coloured_saved_deleted_and_kept(loaded, tmp_path
     QtTest.QTest.keyClicks(editor, "far away")
     QtTest.QTest.keyClick(editor, QtCore.Qt.Key.Key_Return)
     s.settle(0.2)
-    assert [each.name for each in s.document.selections] == ["far away", "selection 2"]
+    assert [each.name for each in s.document[Selections].selections] == ["far away", "selection 2"]
     rows.recolour(4)
-    assert s.document.selections[0].colour == 4
+    assert s.document[Selections].selections[0].colour == 4
     rows.save("ids", str(tmp_path / "far.txt"))
     assert np.loadtxt(tmp_path / "far.txt", dtype=int).tolist() == selected(s, "far away").tolist()
     rows.save("mesh", str(tmp_path / "far.ply"))
@@ -188,13 +189,13 @@ def test_selections_are_renamed_coloured_saved_deleted_and_kept(loaded, tmp_path
     rows.setCurrentItem(rows.topLevelItem(1))
     QtTest.QTest.keyClick(rows, QtCore.Qt.Key.Key_Delete)
     s.settle(0.1)
-    assert [each.name for each in s.document.selections] == ["far away"]
+    assert [each.name for each in s.document[Selections].selections] == ["far away"]
     # A name that another has is refused, and the old one stays.
     s.session.undo()
     s.settle(0.1)
     rows.topLevelItem(0).setText(0, "selection 2")
     s.settle(0.1)
-    assert [each.name for each in s.document.selections] == ["far away", "selection 2"]
+    assert [each.name for each in s.document[Selections].selections] == ["far away", "selection 2"]
     assert "two selections" in s.refusals[-1]
     assert rows.topLevelItem(0).text(0) == "far away"
 
@@ -204,7 +205,7 @@ def test_the_panels_and_the_values_are_chosen_in_the_head(loaded):
     ids = [panel.id for panel in s.document.panels]
     dock.choose_panel("across", ids[1])
     s.until(lambda: np.array_equal(dock.chart.scatter.y, s.answers[0].field / s.answers[0].field.max()))
-    assert (s.document.scatter.across, s.document.scatter.up) == (ids[1], ids[0])
+    assert (s.document[Scatter].across, s.document[Scatter].up) == (ids[1], ids[0])
     dock.shares.buttons["value"].click()
     s.until(lambda: np.array_equal(dock.chart.scatter.y, s.answers[0].field))
     # These have other units, so that their difference would mean nothing.
@@ -232,7 +233,7 @@ def test_a_session_has_its_selections_and_its_dock_again(loaded, screen, tmp_pat
     other.window.show_document(kept.document)
     other.until(lambda: other.session.is_complete)
     other.settle(0.3)
-    assert other.document.selections == s.document.selections
+    assert other.document[Selections].selections == s.document[Selections].selections
     dock = other.window.docks._docks["scatter"].content
     assert dock.isVisible()
     assert dock.list.topLevelItemCount() == 1

@@ -10,6 +10,7 @@ from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
 
+from app.document.pins import Pins
 from tests.qt.sourcing import check_fields, click, ctrl_click, drag, open_file, typed, where
 
 
@@ -167,7 +168,7 @@ def test_a_member_of_a_set_is_dragged_alone(loaded):
 
 
 def test_the_walk_goes_through_sources_of_all_kinds_and_leaves_pins_alone(loaded):
-    from app.document.measuring import add_pins
+    from app.document.pins import add_pins
 
     s = loaded
     for words in ("12+40", "f31:0.25,0.5"):
@@ -177,7 +178,7 @@ def test_the_walk_goes_through_sources_of_all_kinds_and_leaves_pins_alone(loaded
     assert s.source == SourceSet((12, 40))
     s.window.actions_by_word["source before"].trigger()
     assert s.source == 5
-    assert len(s.document.pins) == 1
+    assert len(s.document[Pins].pins) == 1
     s.window.actions_by_word["source after"].trigger()
     assert s.source == SourceSet((12, 40))
 

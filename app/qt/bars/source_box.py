@@ -8,7 +8,7 @@ from bihdist_core import ParameterError
 from bihdist_core.sources.source import Curve, Source
 from bihdist_core.sources.words import source_from_words, words_of
 
-from ...document.sourcing import members_of
+from ...document.source_edits import members_of
 from ..look.look import LOOK
 from ..look.text_box import TextBox, mark_wrong
 

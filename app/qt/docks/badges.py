@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.document import Document
+from ...document.pins import Pins
 from ...scene.style import PINS
 from ..look.look import LOOK
 from ..panels.flat_button import FlatButton
@@ -26,7 +27,7 @@ class Badge:
 
 def badge_of(document: Document, point: str) -> Badge:
     """A pin by its number, another point as a source."""
-    for number, pin in enumerate(document.pins, 1):
+    for number, pin in enumerate(document[Pins].pins, 1):
         if pin.point == point:
             return Badge(str(number), PINS[pin.colour], f"pin {number} {pin.name}".strip())
     return Badge("", SOURCE, point)

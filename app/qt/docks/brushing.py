@@ -11,7 +11,7 @@ from bihdist_core.analysis.selecting import Brush
 from bihdist_core.progress import Progress
 
 from ...document.document import Document, free_names
-from ...document.measuring import select, vertices_of
+from ...document.selections import Selections, select, vertices_of
 from ...scene.selected import selected_colours
 from ...scene.style import PINS
 from .background import Background
@@ -69,7 +69,7 @@ class Brushing(QtCore.QObject):
         for mesh in document.surfaces:
             loaded = self._window.session.loaded(mesh.name)
             if loaded is not None:
-                here = [each for each in document.selections if each.surface == mesh.name]
+                here = [each for each in document[Selections].selections if each.surface == mesh.name]
                 chosen = [(vertices_of(each.runs), each.colour) for each in here]
                 colours[mesh.name] = selected_colours(chosen, len(loaded.surface.vertices))
         self._grid.marks.show_selected(colours)
@@ -78,10 +78,10 @@ class Brushing(QtCore.QObject):
     def colour(self) -> int:
         """The number of the colour that the brush paints in."""
         document = self._window.session.document
-        for each in document.selections:
+        for each in document[Selections].selections:
             if each.name == self.current:
                 return each.colour
-        return select(document, "\N{BULLET}", np.array([0])).selections[-1].colour
+        return select(document, "\N{BULLET}", np.array([0]))[Selections].selections[-1].colour
 
     # ------------------------------------------------------------------ what is chosen
     def choose(self, name: str) -> None:
@@ -92,7 +92,7 @@ class Brushing(QtCore.QObject):
         """A new selection of vertices (k,), or these "added" to or "removed" from the current one."""
         session = self._window.session
         document = session.document
-        known = {each.name: each for each in document.selections}
+        known = {each.name: each for each in document[Selections].selections}
         if way == "new" or self.current not in known:
             if way == "removed" or not len(vertices):
                 return
@@ -102,7 +102,7 @@ class Brushing(QtCore.QObject):
             name, before = self.current, vertices_of(known[self.current].runs)
             wanted = np.union1d(before, vertices) if way == "added" else np.setdiff1d(before, vertices)
         after = select(document, name, wanted)
-        if name in [each.name for each in after.selections]:
+        if name in [each.name for each in after[Selections].selections]:
             self.current = name
         session.show(after)
 
@@ -159,7 +159,7 @@ class Brushing(QtCore.QObject):
         if self._stroke is None or len(self._stroke) != len(surface.vertices):
             self._stroke = np.zeros(len(surface.vertices), bool)
             keys = QtWidgets.QApplication.keyboardModifiers()
-            known = [each.name for each in self._window.session.document.selections]
+            known = [each.name for each in self._window.session.document[Selections].selections]
             has_ctrl = bool(keys & QtCore.Qt.KeyboardModifier.ControlModifier)
             self._is_erasing = has_ctrl and (self.cuts or self.current in known)
         self._faces.add(hit.face)

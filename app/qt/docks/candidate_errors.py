@@ -8,7 +8,7 @@ from typing import Any
 
 from bihdist_core.progress import Progress
 
-from ...document.predicting import predicts_in
+from ...document.prediction import predicts_in
 from ...session.candidate_errors import CandidatesAsked, CandidatesJudged, CandidatesJudging, candidates_asked
 from ...session.pair_locations import candidate_in
 from .background import Background

@@ -2,8 +2,8 @@
 
 from qtpy import QtCore, QtWidgets
 
+from ...document.docks import DockPlaces
 from ...document.document import Document
-from ...document.instruments import DockPlaces
 from ...document.tools import docked_tools
 from .brushing import Brushing
 from .candidate_errors import CandidateErrors

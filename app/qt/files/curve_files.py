@@ -10,7 +10,7 @@ from bihdist_core.sources.words import curve_text, read_curve
 from bihdist_core.whole_file import whole_file
 
 from ...document.file_names import file_name
-from ...document.sourcing import members_of
+from ...document.source_edits import members_of
 from .. import remembered
 from ..docks.saving import ask_path
 

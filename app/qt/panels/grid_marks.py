@@ -5,9 +5,10 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from qtpy import QtGui
 
+from ...document.anchors import Anchors
 from ...document.document import Document, Panel
-from ...document.pairing import pair_words
-from ...document.predicting import predicts_in
+from ...document.pairs import pair_words
+from ...document.prediction import predicts_in
 from ...session.anchors import anchors_on
 from ...session.isoline_points import IsolinePoint, passed
 from ...session.map_answers import colours_words
@@ -79,7 +80,7 @@ class GridMarks:
             if not any(part.has_anchors for part in panel.shows.parts):
                 marks.hold_anchors(None)
                 continue
-            here = [a for a in document.anchors if document.point(a.point).surface == panel.surface]
+            here = [a for a in document[Anchors].anchors if document.point(a.point).surface == panel.surface]
             texts = ["" if a.value is None or a.left_out else tick(float(f"{a.value:.4g}")) for a in here]
             marks.hold_anchors([a.point for a in here], texts, self.chosen_anchor)
 

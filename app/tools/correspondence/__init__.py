@@ -15,4 +15,8 @@ TOOL = Tool(
     dock="dock:PairsDock",
     commands={"correspond": "command", "evaluate": "evaluate_command"},
     quantities=("quantity:Prediction", "quantity:MapColours"),
+    parts=(
+        "..document.pairs:Pairs",
+        "..document.maps:Maps",
+    ),
 )

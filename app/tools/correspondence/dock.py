@@ -9,10 +9,9 @@ from bihdist_core.formats.vertex_maps import PAIR_FORMATS, read_pairs, write_pai
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.instruments import Pair
-from ...document.mapping import shows_maps
-from ...document.pairing import add_pairs, half_pair, number_of, remove_pairs
-from ...document.predicting import predict, predicts, show_distances
+from ...document.maps import shows_maps
+from ...document.pairs import Pair, Pairs, add_pairs, half_pair, number_of, remove_pairs
+from ...document.prediction import predict, predicts, show_distances
 from ...document.quantities import kind_name
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
@@ -108,7 +107,7 @@ class PairsDock(Instrument):
             self.begin()
 
     def show_document(self, document: Document, before: Document | None) -> None:
-        self.said.emit(str(len(document.pairs)) if document.pairs else "")
+        self.said.emit(str(len(document[Pairs].pairs)) if document[Pairs].pairs else "")
         self._show_rows(document)
         self.errors.show_document(document)
 
@@ -126,7 +125,7 @@ class PairsDock(Instrument):
     def _show_rows(self, document: Document) -> None:
         half = half_pair(document)
         found = self.window_.gestures.pairs.candidate(may_be_late=True) if half is not None else None
-        wanted = {pair.points[0]: pair for pair in document.pairs}
+        wanted = {pair.points[0]: pair for pair in document[Pairs].pairs}
         for point in [point for point in self.rows if point not in wanted]:
             gone = self.rows.pop(point)
             gone.hide()
@@ -147,7 +146,7 @@ class PairsDock(Instrument):
             row.show_chosen(self.window_.grid.marks.chosen_pair in pair.points)
         is_alone, is_on = len(document.surfaces) < 2, predicts(document)
         other = "" if half is None else "B" if half.first else "A"
-        self._head.setVisible(bool(document.pairs))
+        self._head.setVisible(bool(document[Pairs].pairs))
         self._waiting.setVisible(half is not None and is_on)
         self.accept.setVisible(found is not None)
         said = f"Click its partner on\u00a0{other}"
@@ -157,7 +156,7 @@ class PairsDock(Instrument):
         self.or_click.setText(said)
         has_maps = shows_maps(document)  # the section of errors leads back to predictions
         self.hint.setVisible(is_alone or (not is_on and not has_maps) or (is_on and half is None))
-        self.hint.setText(ALONE if is_alone else NO_PANEL if not is_on else NEXT if document.pairs else HINT)
+        self.hint.setText(ALONE if is_alone else NO_PANEL if not is_on else NEXT if document[Pairs].pairs else HINT)
         self.start.setVisible(not is_alone and not is_on and not has_maps)
         self.open_beside.setVisible(is_alone)
 
@@ -188,7 +187,7 @@ class PairsDock(Instrument):
         return self.window_.session.document
 
     def _pair(self, point: str) -> Pair:
-        return next(pair for pair in self._document.pairs if point in pair.points)
+        return next(pair for pair in self._document[Pairs].pairs if point in pair.points)
 
     def begin(self) -> None:
         """The first surface in one panel, the second in one for each distance, which predicts."""
@@ -231,7 +230,7 @@ class PairsDock(Instrument):
             self._choose(rows[number])
 
     def remove_all(self) -> None:
-        self.window_.session.show(remove_pairs(self._document, self._document.pairs))
+        self.window_.session.show(remove_pairs(self._document, self._document[Pairs].pairs))
 
     # ------------------------------------------------------------------ files
     def choose_and_read(self) -> None:
@@ -252,7 +251,7 @@ class PairsDock(Instrument):
             self.window_.failed(str(error))
             return
         session.show(changed)
-        new = len(changed.pairs) - len(document.pairs)
+        new = len(changed[Pairs].pairs) - len(document[Pairs].pairs)
         known = f", {len(found) - new} of them known already" if new < len(found) else ""
         self.window_.say(f"Read {len(found):,} pairs from {Path(path).name}{known}")
 

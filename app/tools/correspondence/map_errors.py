@@ -13,10 +13,9 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.map_colours import MapColours, MapFile
-from ...document.mapping import show_maps, shows_maps
-from ...document.pairing import whole_pairs
-from ...document.predicting import predict
+from ...document.maps import MapColours, MapFile, Maps, show_maps, shows_maps
+from ...document.pairs import whole_pairs
+from ...document.prediction import predict
 from ...document.quantities import kind_name
 from ...qt.docks.background import Background
 from ...qt.docks.dock import PAD
@@ -152,9 +151,9 @@ class MapErrors(QtWidgets.QWidget):
             return
         word = self.truth.word
         self.truth.show()
-        self.mirror.setChecked(document.truth.mirror)
+        self.mirror.setChecked(document[Maps].truth.mirror)
         self.mirror.setEnabled(word != "none")
-        has_maps = bool(document.maps or (whole_pairs(document) and asked.maps))
+        has_maps = bool(document[Maps].maps or (whole_pairs(document) and asked.maps))
         judged = self.judgement if word != "none" and has_maps else None
         curves = [] if judged is None else self._curves(judged)
         self.chart.setVisible(bool(curves))
@@ -165,7 +164,7 @@ class MapErrors(QtWidgets.QWidget):
         self.said.setText(NO_TRUTH if word == "none" else NO_MAP if not has_maps else self._over(judged))
         has_full = shows_maps(document)
         self.full.setText("Show predictions" if has_full else "Compute full map")
-        self.full.setEnabled(bool(has_full or document.maps or whole_pairs(document)))
+        self.full.setEnabled(bool(has_full or document[Maps].maps or whole_pairs(document)))
         self.show_answer()
         self._put_dots(self._colours())
 
@@ -208,7 +207,9 @@ class MapErrors(QtWidgets.QWidget):
             if shows.is_prediction and panel.surface == document.surfaces[1].name:
                 found[panel.id] = self._colour_of(shows.specs[0])
             elif isinstance(shows, MapColours) and shows.by:
-                found[panel.id] = self._colour_of(document.map(shows.by) if isinstance(shows.by, str) else shows.by)
+                found[panel.id] = self._colour_of(
+                    document[Maps].of(shows.by) if isinstance(shows.by, str) else shows.by
+                )
         return found
 
     def _put_dots(self, colours: dict[int, str]) -> None:
@@ -224,7 +225,7 @@ class MapErrors(QtWidgets.QWidget):
 
     def _count_mirror(self, counts: bool) -> None:
         self.truth.count_mirror(counts)
-        self.mirror.setChecked(self._document.truth.mirror)
+        self.mirror.setChecked(self._document[Maps].truth.mirror)
 
     # ------------------------------------------------------------------ maps
     def show_or_leave_maps(self) -> None:

@@ -12,8 +12,7 @@ from bihdist_core import BihdistError
 from bihdist_core.formats.vertex_maps import MAP_FORMATS
 
 from ...document.file_names import file_name
-from ...document.map_colours import MapFile
-from ...document.mapping import with_map, with_truth
+from ...document.maps import MapFile, Maps, with_map, with_truth
 from ...qt.docks.chart_files import paper_theme, save_figure
 from ...qt.docks.saving import save
 from ...qt.panels.flat_button import FlatButton
@@ -38,21 +37,21 @@ class MapTruth:
 
     def show(self) -> None:
         """Say what is right now."""
-        truth, word = self._window.session.document.truth, self.word
+        truth, word = self._window.session.document[Maps].truth, self.word
         named = truth.file.name if truth.file is not None else "same ids" if word == "identity" else "not known"
         self.button.setText(f"truth: {named}")
 
     @property
     def word(self) -> str:
         """One of TRUTHS, but for "auto", which means one of the others."""
-        truth, asked = self._window.session.document.truth, self._section.asked
+        truth, asked = self._window.session.document[Maps].truth, self._section.asked
         if truth.word != "auto" or asked is None:
             return truth.word
         return "identity" if is_same_ids(asked.one.surface, asked.two.surface) else "none"
 
     def _fill(self) -> None:
         self._menu.clear()
-        asked, truth, word = self._section.asked, self._window.session.document.truth, self.word
+        asked, truth, word = self._section.asked, self._window.session.document[Maps].truth, self.word
         if asked is None:
             return
         has_ids = len(asked.one.surface.vertices) == len(asked.two.surface.vertices)
@@ -79,7 +78,7 @@ class MapTruth:
 
     def _choose(self, **changes: Any) -> None:
         session = self._window.session
-        session.show(with_truth(session.document, replace(session.document.truth, **changes)))
+        session.show(with_truth(session.document, replace(session.document[Maps].truth, **changes)))
 
     # ------------------------------------------------------------------ by a dialog
     def choose(self) -> None:
@@ -121,7 +120,7 @@ class MapTruth:
 
     def count_mirror(self, counts: bool) -> None:
         """Whether symmetric partners count; what they are is asked for where it is not known."""
-        if counts and self._window.session.document.truth.partners is None:
+        if counts and self._window.session.document[Maps].truth.partners is None:
             self.choose_partners()
         else:
             self._choose(mirror=counts)

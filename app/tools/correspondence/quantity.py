@@ -8,8 +8,8 @@ from bihdist_core.distances.kinds import Spec
 
 from ...document.document import Document
 from ...document.json_values import record
-from ...document.map_colours import MapColours as MapColours
-from ...document.predicting import PREDICTION
+from ...document.maps import MapColours as MapColours
+from ...document.prediction import PREDICTION
 from ...document.quantities import ByDistance, Choice, Quantity, read_spec
 
 if TYPE_CHECKING:

@@ -15,4 +15,5 @@ TOOL = Tool(
     dock="dock:AnchorsDock",
     commands={"interpolate": "command"},
     quantities=("quantity:Interpolant",),
+    parts=("..document.anchors:Anchors",),
 )

@@ -7,7 +7,7 @@ import time
 
 from qtpy import QtCore
 
-from ...document.document import Anchor
+from ...document.anchors import Anchor, Anchors
 from ...session.loaded_mesh import LoadedMesh
 from .answers import InterpolantMemory
 
@@ -25,13 +25,13 @@ class AnchorClock:
         """The values become these."""
         session = self._window.session
         loaded = session.loaded()
-        if loaded is not None and anchors != session.document.anchors:
+        if loaded is not None and anchors != session.document[Anchors].anchors:
             self._begun, self._columns, self._anchors = time.perf_counter(), _columns(loaded), anchors
 
     def note(self) -> None:
         """A panel shows another field; once all do it is said, after they have been painted."""
         session = self._window.session
-        if session.document.anchors != self._anchors:
+        if session.document[Anchors].anchors != self._anchors:
             self._begun = None  # something else has been done meanwhile
         if self._begun is not None and all(session.is_answered(panel.id) for panel in session.document.panels):
             QtCore.QTimer.singleShot(0, self._say)

@@ -9,9 +9,10 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
-from ...document.anchoring import add_anchor, change_anchor, remove_anchors
-from ...document.document import Anchor, Document
+from ...document.anchors import Anchor, Anchors, add_anchor, change_anchor, remove_anchors
+from ...document.document import Document
 from ...document.file_names import file_name
+from ...document.pins import Pins
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.plain import fill
@@ -133,7 +134,7 @@ class AnchorsDock(Instrument):
         self.start.setVisible(not is_on)
         self.hint.setText(HINT if is_on else NO_PANEL)
         self._more.setVisible(is_on)
-        weights = document.weights
+        weights = document[Anchors].weights
         for box, value in ((self.exponent, weights.exponent), (self.smoothness, weights.smoothness)):
             if not box.isModified():
                 box.setText(f"{value:.6g}")
@@ -155,7 +156,9 @@ class AnchorsDock(Instrument):
 
     def _anchors(self, document: Document) -> list[Anchor]:
         surface = document.surfaces[0].name
-        return [a for a in document.anchors if document.point(a.point).surface == surface and a.value is not None]
+        return [
+            a for a in document[Anchors].anchors if document.point(a.point).surface == surface and a.value is not None
+        ]
 
     def _show_rows(self, anchors: list[Anchor]) -> None:
         names = [anchor.point for anchor in anchors]
@@ -202,7 +205,7 @@ class AnchorsDock(Instrument):
         return self.window_.session.document
 
     def _anchor(self, point: str) -> Anchor:
-        return next(anchor for anchor in self._document.anchors if anchor.point == point)
+        return next(anchor for anchor in self._document[Anchors].anchors if anchor.point == point)
 
     def begin(self) -> None:
         """Every panel shows the interpolant by its distance."""
@@ -214,7 +217,7 @@ class AnchorsDock(Instrument):
     def _value(self, point: str, value: float, is_live: bool) -> None:
         self._choose(point)
         changed = change_anchor(self._document, replace(self._anchor(point), value=value))
-        self._clock.begin(changed.anchors)
+        self._clock.begin(changed[Anchors].anchors)
         self._show(changed, f"value of {point}", is_live)
 
     def _name(self, point: str, name: str) -> None:
@@ -258,12 +261,12 @@ class AnchorsDock(Instrument):
             if not box.isModified():
                 continue
             try:
-                weights = replace(self._document.weights, **{name: float(box.text())})
+                weights = replace(self._document[Anchors].weights, **{name: float(box.text())})
             except (ValueError, ParameterError):
                 mark_wrong(box, True)
                 continue
             box.setModified(False)
-            self._show(replace(self._document, weights=weights), name)
+            self._show(self._document.with_part(replace(self._document[Anchors], weights=weights)), name)
 
     def _show_total(self, word: str) -> None:
         def shown(shows):
@@ -276,7 +279,7 @@ class AnchorsDock(Instrument):
     def take_pins(self) -> None:
         """An anchor at each pin that is at a vertex, from 0 for the first to 1 for the last."""
         document = self._document
-        pins = [(pin, document.point(pin.point)) for pin in document.pins]
+        pins = [(pin, document.point(pin.point)) for pin in document[Pins].pins]
         there = [(pin, point) for pin, point in pins if isinstance(point.at, int)]
         for k, (pin, point) in enumerate(there):
             value = round(k / max(1, len(there) - 1), 3)

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from bihdist_core.distances.kinds import Spec
 
+from ...document.anchors import Anchors
 from ...document.document import Document
 from ...document.json_values import flag, record
-from ...document.predicting import show_distances as distances_again
+from ...document.prediction import show_distances as distances_again
 from ...document.quantities import ByDistance, Choice, Quantity, read_spec
 
 if TYPE_CHECKING:
@@ -63,10 +64,12 @@ class Interpolant(ByDistance):
     def question(self, document: Document, surface: str) -> "InterpolantQuestion":
         from .answers import InterpolantQuestion
 
-        anchors = [(document.point(anchor.point), anchor) for anchor in document.anchors if not anchor.left_out]
+        anchors = [
+            (document.point(anchor.point), anchor) for anchor in document[Anchors].anchors if not anchor.left_out
+        ]
         known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
         mesh = document.mesh(surface)
-        return InterpolantQuestion(mesh, document.areas, self.spec, known, document.weights, self.total)
+        return InterpolantQuestion(mesh, document.areas, self.spec, known, document[Anchors].weights, self.total)
 
     def to_json(self) -> dict[str, Any]:
         return {"interpolant": self.spec.in_full, **({"total": True} if self.total else {})}

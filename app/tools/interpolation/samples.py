@@ -6,7 +6,7 @@ from qtpy import QtWidgets
 from bihdist_core import BihdistError
 from bihdist_core.sources.source import SourceSet
 
-from ...document.anchoring import add_anchor
+from ...document.anchors import Anchors, add_anchor
 from ...document.document import Document, Panel
 from ...session.questions import first_source, vertex_at
 from ...session.sampling import Sampled, SamplesQuestion, Sampling
@@ -49,7 +49,7 @@ class AnchorSamples(QtWidgets.QWidget):
             return
         (part,) = panel.shows.parts
         document = session.document
-        points = [document.point(anchor.point) for anchor in document.anchors]
+        points = [document.point(anchor.point) for anchor in document[Anchors].anchors]
         there = [vertex_at(point.at, loaded.surface) for point in points if point.surface == panel.surface]
         start = there or [first_source(loaded.surface, loaded.up)]
         self._asked = (document, np.array(there, int), panel.id)
@@ -64,7 +64,7 @@ class AnchorSamples(QtWidgets.QWidget):
             self._window.failed(sampled.failure)
             return
         document, there, panel = asked
-        if (document.anchors, document.points) != (session.document.anchors, session.document.points):
+        if (document[Anchors].anchors, document.points) != (session.document[Anchors].anchors, session.document.points):
             return  # they are farthest from others
         shown = session.shown.get(panel)
         field = shown.answer.field if shown is not None and len(there) > 1 and session.is_answered(panel) else None

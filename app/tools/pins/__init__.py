@@ -13,4 +13,5 @@ TOOL = Tool(
     in_bar=True,
     synonyms="measure distance between points markers landmarks matrix table",
     dock="dock:PinsDock",
+    parts=("..document.pins:Pins",),
 )

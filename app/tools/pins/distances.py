@@ -11,6 +11,7 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import Source
 
 from ...document.document import Document
+from ...document.pins import Pins
 from ...document.quantities import kind_name
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number
@@ -75,7 +76,7 @@ class PinDistances(QtWidgets.QWidget):
         """By a distance of the panels unless another has been chosen."""
         self._places = tuple(places)
         self.setVisible(len(self._places) > 1)
-        self.spec = document.pin_list.distance or self._specs(document)[0]
+        self.spec = document[Pins].pin_list.distance or self._specs(document)[0]
         self._ask()
 
     def end(self) -> None:
@@ -116,7 +117,9 @@ class PinDistances(QtWidgets.QWidget):
         """Whose distances among pins are shown."""
         session = self.window_.session
         document = session.document
-        session.show(replace(document, pin_list=replace(document.pin_list, distance=spec)))
+        session.show(
+            document.with_part(replace(document[Pins], pin_list=replace(document[Pins].pin_list, distance=spec)))
+        )
 
     @property
     def _compared(self) -> list[Spec]:

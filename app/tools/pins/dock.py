@@ -12,7 +12,7 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.words import short_words_of, source_from_words
 
 from ...document.document import Document
-from ...document.measuring import add_pins, change_pin, move_pin, remove_pins
+from ...document.pins import Pins, add_pins, change_pin, move_pin, remove_pins
 from ...document.quantities import quantity_name
 from ...qt.docks.instrument import Instrument
 from ...qt.look.numbers import number, percent, share
@@ -147,7 +147,7 @@ class PinsDock(Instrument):
         if loaded is None:
             return
         self.places = located_pins(document, document.surfaces[0].name, loaded.surface)
-        self.ways.choose("share" if document.pin_list.shares else "value")
+        self.ways.choose("share" if document[Pins].pin_list.shares else "value")
         self.said.emit(str(len(self.places)) if self.places else "")
         self.empty.setVisible(not self.places)
         self.table.setVisible(bool(self.places))
@@ -160,7 +160,7 @@ class PinsDock(Instrument):
 
     def _choose(self, panel: int, number: int, is_more: bool) -> None:
         """A drop has been clicked: its row is selected, or only it is no longer; is_more: besides the others."""
-        point = self.window_.session.document.pins[number - 1].point
+        point = self.window_.session.document[Pins].pins[number - 1].point
         if "pins" in self.window_.session.document.docks:
             chosen = set(self.table.points)
             self.table.select(tuple(chosen ^ {point}) if is_more else () if chosen == {point} else (point,))
@@ -191,7 +191,7 @@ class PinsDock(Instrument):
         if surface is None:
             return
         answers = self.answers()
-        listed = self.window_.session.document.pin_list
+        listed = self.window_.session.document[Pins].pin_list
         rows = []
         for place in self.places:
             at = place.position(surface.vertices)
@@ -230,14 +230,18 @@ class PinsDock(Instrument):
     @property
     def has_positions(self) -> bool:
         """Whether the list has columns of places."""
-        return self.window_.session.document.pin_list.positions
+        return self.window_.session.document[Pins].pin_list.positions
 
     def show_positions(self, is_on: bool) -> None:
         self.list_otherwise(positions=is_on)
 
     def list_otherwise(self, **changes: object) -> None:
         """Fields of the document's `PinList`."""
-        self._show(lambda document: replace(document, pin_list=replace(document.pin_list, **changes)))
+        self._show(
+            lambda document: document.with_part(
+                replace(document[Pins], pin_list=replace(document[Pins].pin_list, **changes))
+            )
+        )
 
     def copy_matrix(self) -> None:
         """The distances among the pins."""

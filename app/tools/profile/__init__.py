@@ -14,4 +14,5 @@ TOOL = Tool(
     synonyms="measure plot graph along geodesic path curve section",
     dock="dock:ProfileDock",
     commands={"profile": "command"},
+    parts=("..document.profile:Profile",),
 )

@@ -9,8 +9,8 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.analysis.plane_sections import PARTS
 
 from ...document.document import Document
-from ...document.instruments import SECTIONS
-from ...document.measuring import pinned_at, points_along
+from ...document.pins import Pins, pinned_at
+from ...document.profile import SECTIONS, Profile, points_along
 from ...qt.docks.badges import badge_of
 from ...qt.look.text_box import TextBox
 
@@ -29,11 +29,11 @@ class ProfileChoices:
         self._dock = dock
 
     def show(self, document: Document, **profile: object) -> None:
-        self._dock.window_.session.show(replace(document, profile=replace(document.profile, **profile)))
+        self._dock.window_.session.show(document.with_part(replace(document[Profile], **profile)))
 
     def choose_way(self, way: str) -> None:
         """A section keeps its plane whatever part of it is taken; another one's is turned to the view."""
-        across = (self._dock.document.profile.across or self._dock.seen()) if way in SECTIONS else None
+        across = (self._dock.document[Profile].across or self._dock.seen()) if way in SECTIONS else None
         self.show(self._dock.document, way=way, across=across)
 
     def turn_plane(self) -> None:
@@ -47,7 +47,7 @@ class ProfileChoices:
         other = (
             through[k - 1]
             if len(through) > 1
-            else next((each for each in ("source", *(pin.point for pin in document.pins)) if each != name), "")
+            else next((each for each in ("source", *(pin.point for pin in document[Pins].pins)) if each != name), "")
         )
         if other == name:  # then it goes the other way
             other = through[-k] if len(through) > 1 else ""
@@ -73,7 +73,7 @@ class ProfileChoices:
         menu.clear()
         through = points_along(document)
         points = [*(point.name for point in document.points if point.name.startswith("source"))]
-        for name in [*points, *(pin.point for pin in document.pins)]:
+        for name in [*points, *(pin.point for pin in document[Pins].pins)]:
             badge = badge_of(document, name)
             action = menu.addAction(badge.name[:1].upper() + badge.name[1:], partial(self.choose_end, k, name))
             action.setCheckable(True)
@@ -103,15 +103,15 @@ class ProfileChoices:
                 menu.addSeparator()
             action = menu.addAction(words[:1].upper() + words[1:], partial(self.choose_way, way))
             action.setCheckable(True)
-            action.setChecked(document.profile.way == way)
+            action.setChecked(document[Profile].way == way)
             action.setEnabled(len(through) < 3 or SECTIONS.get(way) != "whole")
         plane = menu.addAction("Turn the plane to the view", self.turn_plane)
-        plane.setEnabled(document.profile.way in SECTIONS)
+        plane.setEnabled(document[Profile].way in SECTIONS)
         menu.addSeparator()
         along = menu.addAction("Through all pins, in order", partial(self.show, document, points=()))
         along.setCheckable(True)
-        along.setChecked(not document.profile.points)
-        along.setEnabled(len(document.pins) > 1)
+        along.setChecked(not document[Profile].points)
+        along.setEnabled(len(document[Pins].pins) > 1)
         turn = menu.addAction("The other way round", partial(self.show, document, points=through[::-1]))
         turn.setEnabled(len(through) > 1)
 

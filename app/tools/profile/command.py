@@ -7,6 +7,7 @@ from ...commands.mesh import check_mesh
 from ...commands.options import SOURCE, add_areas, add_distance, add_way, quantities, source
 from ...commands.pairs import pins_in
 from ...commands.terminal import judged, progress_line, tell_repairs
+from ...document.profile import Profile
 
 WORDS = "distances along a path through points of a mesh, as numbers and as a chart"
 TEXT = ".csv"
@@ -46,9 +47,9 @@ def run(options: argparse.Namespace) -> int:
     from bihdist_core.whole_file import check_output
 
     from ...document.document import COMPARISON, comparison
-    from ...document.measuring import add_pins
     from ...document.page import Page, Recipe
-    from ...document.profile_words import with_profile, words_in
+    from ...document.pins import add_pins
+    from ...document.profile import with_profile, words_in
     from ...figures.draw import FIGURE_FORMATS
     from ...figures.export import compute, open_document
     from ...session.array_store import ArrayStore
@@ -70,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
             document = add_pins(document, [int(vertex) for vertex in pins_in(options.pins, surface).vertices])
         through = words_in(options.through or "")
         document = with_profile(document, through, options.way or "auto", options.across)
-        document = replace(document, profile=replace(document.profile, shares=not options.values))
+        document = document.with_part(replace(document[Profile], shares=not options.values))
         _, path = path_of(document, surfaces)
         found = compute(document, surfaces, progress)
     answers = dict(zip((panel.id for panel in document.panels), found, strict=True))

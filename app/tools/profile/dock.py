@@ -11,7 +11,7 @@ from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.surface_paths import SurfacePath
 
 from ...document.document import Document
-from ...document.measuring import points_along
+from ...document.profile import Profile, points_along
 from ...qt.docks.badges import BadgeButton, BadgeRow, badge_of
 from ...qt.docks.instrument import Instrument
 from ...qt.look.look import LOOK
@@ -88,7 +88,7 @@ class ProfileDock(Instrument):
 
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document, before: Document | None) -> None:
-        self.scale.choose("share" if document.profile.shares else "value")
+        self.scale.choose("share" if document[Profile].shares else "value")
         through = points_along(document)
         for k, button in enumerate(self.ends):
             button.show_badge(badge_of(document, through[-k]) if len(through) > 1 else None)
@@ -210,7 +210,7 @@ class ProfileDock(Instrument):
             panel.marks.show_path(places if panel in self._panels else None)
 
     def _show_way(self) -> None:
-        self.way.setText(self.path.label if self.path is not None else WAYS[self.document.profile.way])
+        self.way.setText(self.path.label if self.path is not None else WAYS[self.document[Profile].way])
         self.way.setToolTip(f"How the profile goes from point to point: {self.way.text()}")
         self.way.updateGeometry()
 
@@ -237,7 +237,7 @@ class ProfileDock(Instrument):
 
     def _show_curves(self) -> None:
         order = [panel.id for panel in self.document.panels if panel.id in self.curves]
-        self.chart.show_curves([self.curves[id] for id in order], self.document.profile.shares)
+        self.chart.show_curves([self.curves[id] for id in order], self.document[Profile].shares)
 
     # ------------------------------------------------------------------ the pointer
     def _point(self, at: tuple[float, float] | None) -> None:

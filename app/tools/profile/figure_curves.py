@@ -8,8 +8,9 @@ from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document
-from ...document.measuring import points_along
 from ...document.page import Page
+from ...document.pins import Pins
+from ...document.profile import Profile, points_along
 from ...figures.chart_page import ChartLook
 from ...scene.style import PINS, Style, curve_colours, style_of
 from .curves import profile_curve
@@ -33,7 +34,7 @@ def profile_figure(document: Document, page: Page, path: SurfacePath, answers: M
     names = (*names, *names[:1])  # a whole section may come back to the first
     knots = [_knot(document, name, float(path.arcs[at]), style) for at, name in zip(path.knots, names, strict=False)]
     return ProfileFigure(
-        path.arcs, curves, document.profile.shares, "mesh units", tuple(knots), ChartLook.of(page, style)
+        path.arcs, curves, document[Profile].shares, "mesh units", tuple(knots), ChartLook.of(page, style)
     )
 
 
@@ -57,7 +58,7 @@ def profile_fields(document: Document, answers: Mapping[int, Answer]) -> dict[st
 
 def _knot(document: Document, name: str, arc: float, style: Style) -> ProfileKnot:
     """A pin by its number; what is neither pin nor source has no disc."""
-    for number, pin in enumerate(document.pins, 1):
+    for number, pin in enumerate(document[Pins].pins, 1):
         if pin.point == name:
             return ProfileKnot(arc, str(number), PINS[pin.colour])
     is_source = any(name in panel.shows.points for panel in document.panels)

@@ -5,7 +5,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core.analysis.quality import TRIANGLE_POINTS
 
 from ...document.document import Document
-from ...document.measuring import mark_extrema
+from ...document.edits import mark_extrema
 from ...document.quantities import quantity_name
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument

@@ -13,4 +13,5 @@ TOOL = Tool(
     synonyms="sampling voronoi segmentation clusters",
     dock="dock:RegionsDock",
     commands={"samples": "samples_command", "regions": "command"},
+    parts=("..document.regions:DividedPanels",),
 )

@@ -10,10 +10,10 @@ from bihdist_core.analysis.region_output import LABEL_FORMATS, REGION_MESH_FORMA
 from bihdist_core.formats.curve_output import CURVE_FORMATS
 
 from ...document.document import Document, Panel
-from ...document.edits import can_divide
 from ...document.file_names import file_name
-from ...document.measuring import show_regions
+from ...document.pins import Pins
 from ...document.quantities import quantity_name
+from ...document.regions import DividedPanels, can_divide, show_regions
 from ...qt.docks.badges import BADGE, Badge, paint_badge
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
@@ -141,8 +141,8 @@ class RegionsDock(Instrument):
             self._ticks.addWidget(tick)
             tick.setText(quantity_name(panel.shows))
             tick.setIcon(dot(curve_colour(k)))
-            tick.setChecked(panel.id in document.regions)
-            tick.setEnabled(can_divide(document, panel.id) or panel.id in document.regions)
+            tick.setChecked(panel.id in document[DividedPanels].regions)
+            tick.setEnabled(can_divide(document, panel.id) or panel.id in document[DividedPanels].regions)
             tick.setToolTip("Draw the boundaries on this panel, and list the areas")
 
     def _tick(self, panel: int, is_on: bool) -> None:
@@ -154,39 +154,41 @@ class RegionsDock(Instrument):
     def _shown(self) -> list[tuple[int, Panel]]:
         """The panels with regions, with their places among all."""
         document = self.window_.session.document
-        return [(k, panel) for k, panel in enumerate(document.panels) if panel.id in document.regions]
+        return [(k, panel) for k, panel in enumerate(document.panels) if panel.id in document[DividedPanels].regions]
 
     def _make_table(self, document: Document) -> None:
         shown = self._shown
         self.table.setColumnCount(len(shown))
-        self.table.setRowCount(len(document.pins))
+        self.table.setRowCount(len(document[Pins].pins))
         for column, (_, panel) in enumerate(shown):
             item = QtWidgets.QTableWidgetItem(quantity_name(panel.shows))
             item.setTextAlignment(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
             item.setToolTip(quantity_name(panel.shows))
             self.table.setHorizontalHeaderItem(column, item)
-        for row, pin in enumerate(document.pins):
+        for row, pin in enumerate(document[Pins].pins):
             item = QtWidgets.QTableWidgetItem(_badge(row + 1, PINS[pin.colour]), pin.name)
             self.table.setVerticalHeaderItem(row, item)
             for column in range(len(shown)):
                 cell = QtWidgets.QTableWidgetItem()
                 cell.setTextAlignment(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
                 self.table.setItem(row, column, cell)
-        self.table.setVisible(bool(shown and document.pins))
-        self._words.setText(NO_PINS if not document.pins else "" if shown else NO_PANEL)
+        self.table.setVisible(bool(shown and document[Pins].pins))
+        self._words.setText(NO_PINS if not document[Pins].pins else "" if shown else NO_PANEL)
         self._words.setVisible(bool(self._words.text()))
         self._measure()
 
     def _fill(self) -> None:
         document, shown = self.window_.session.document, self._shown
-        if (len(document.pins), len(shown)) != (self.table.rowCount(), self.table.columnCount()):
+        if (len(document[Pins].pins), len(shown)) != (self.table.rowCount(), self.table.columnCount()):
             return  # the document's change is on its way
         failure = ""
         for column, (_, panel) in enumerate(shown):
             divided = self._findings.divided(panel.id)
             regions = None if divided is None else divided.regions
             failure = failure or ("" if divided is None else divided.failure)
-            rows = [k for k, pin in enumerate(document.pins) if document.point(pin.point).surface == panel.surface]
+            rows = [
+                k for k, pin in enumerate(document[Pins].pins) if document.point(pin.point).surface == panel.surface
+            ]
             known = regions is not None and len(regions.areas) == len(rows)
             total = float(self.window_.session.loaded(panel.surface).surface.face_areas.sum())
             for row in range(self.table.rowCount()):
@@ -199,7 +201,7 @@ class RegionsDock(Instrument):
         if failure:
             self._words.setText(failure)
             self._words.show()
-        is_on_its_way = any(not self._findings.is_divided(panel.id) for _, panel in shown) and bool(document.pins)
+        is_on_its_way = any(not self._findings.is_divided(panel.id) for _, panel in shown) and bool(document[Pins].pins)
         self.said.emit("dividing…" if is_on_its_way else "")
 
     def text(self) -> str:
@@ -246,7 +248,7 @@ class RegionsDock(Instrument):
             return
         name = document.panel(panel).surface
         surface = self.window_.session.loaded(name).surface
-        numbers = [k for k, pin in enumerate(document.pins, 1) if document.point(pin.point).surface == name]
+        numbers = [k for k, pin in enumerate(document[Pins].pins, 1) if document.point(pin.point).surface == name]
         if way == "labels":
             write_labels(path, surface, divided.regions, numbers)
         elif way == "mesh":

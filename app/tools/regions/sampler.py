@@ -11,7 +11,7 @@ from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
 
 from ...document.document import Panel
 from ...document.file_names import file_name
-from ...document.measuring import add_pins
+from ...document.pins import add_pins
 from ...document.quantities import quantity_name
 from ...qt.docks.saving import save, written
 from ...session.sampling import Sampled, SamplesQuestion, Sampling

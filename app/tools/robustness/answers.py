@@ -15,7 +15,7 @@ from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source, SourceSet
 
 from ...document.document import MeshFile
-from ...document.sourcing import members_of
+from ...document.source_edits import members_of
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import ByDistance, DistanceQuestion, source_at
 from .quantity import ChangeOf

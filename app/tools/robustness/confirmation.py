@@ -7,7 +7,7 @@ from qtpy import QtCore
 
 from bihdist_core.applications.changes import Perturbation
 
-from ...document.change_edits import change_as
+from ...document.perturbation_edits import change_as
 
 SOON_MS = 60
 """Between two changes that are asked for while a slider moves."""

@@ -11,10 +11,10 @@ from bihdist_core.applications.changes import Perturbation, count_of
 from bihdist_core.counts import counted
 from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
 
-from ...document.change_edits import cut_by, refuse_change
-from ...document.changing import changed_mesh
 from ...document.document import Document
 from ...document.file_names import file_name
+from ...document.perturbation import changed_mesh
+from ...document.perturbation_edits import cut_by, refuse_change
 from ...qt.docks.brushing import RADII
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from bihdist_core.distances.kinds import Spec
 
-from ...document.changing import CHANGE
 from ...document.json_values import record, text
+from ...document.perturbation import CHANGE
 from ...document.quantities import FromPoint, Quantity, kind_name, read_spec
 
 if TYPE_CHECKING:

@@ -13,4 +13,8 @@ TOOL = Tool(
     in_bar=True,
     synonyms="compare plot correlation difference select",
     dock="dock:ScatterDock",
+    parts=(
+        "part:Scatter",
+        "..document.selections:Selections",
+    ),
 )

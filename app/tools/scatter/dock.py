@@ -16,8 +16,8 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.measuring import vertices_of
 from ...document.quantities import quantity_name
+from ...document.selections import Selections, vertices_of
 from ...qt.docks.background import Background
 from ...qt.docks.chart import Axis
 from ...qt.docks.chart_files import save_figure
@@ -32,6 +32,7 @@ from ...qt.panels.flat_button import FlatButton
 from ...scene.density import axis_ends
 from ...scene.style import PINS, style_of
 from .chart import ScatterChart
+from .part import Scatter
 from .selection_list import SelectionList
 
 if TYPE_CHECKING:
@@ -157,15 +158,17 @@ class ScatterDock(Instrument):
 
     # ------------------------------------------------------------------ what is shown
     def show_document(self, document: Document, before: Document | None) -> None:
-        self.shares.choose("shares" if document.scatter.shares else "value")
+        self.shares.choose("shares" if document[Scatter].shares else "value")
         across, up = self._pair(document)
         for button, id in ((self.across_button, across), (self.up_button, up)):
             button.setText("" if id is None else self._name(document, id))
             button.updateGeometry()
-        if before is None or document.selections != before.selections:
-            self.chart.show_selections([(vertices_of(each.runs), each.colour) for each in document.selections])
-        self.list.show_selections(document.selections, self.window_.docks.brushing.current)
-        self._below.setCurrentWidget(self.list if document.selections else self._hint)
+        if before is None or document[Selections].selections != before[Selections].selections:
+            self.chart.show_selections(
+                [(vertices_of(each.runs), each.colour) for each in document[Selections].selections]
+            )
+        self.list.show_selections(document[Selections].selections, self.window_.docks.brushing.current)
+        self._below.setCurrentWidget(self.list if document[Selections].selections else self._hint)
         self._compare()
 
     def show_answer(self, panel: int) -> None:
@@ -187,7 +190,7 @@ class ScatterDock(Instrument):
     def _pair(document: Document) -> tuple[int | None, int | None]:
         """The panels across and up: those that are chosen, or the first that are left."""
         ids = [panel.id for panel in document.panels_of()]
-        across, up = (id if id in ids else None for id in (document.scatter.across, document.scatter.up))
+        across, up = (id if id in ids else None for id in (document[Scatter].across, document[Scatter].up))
         if across is None:
             across = next((id for id in ids if id != up), ids[0] if ids else None)
         if up is None:
@@ -209,7 +212,7 @@ class ScatterDock(Instrument):
         if session.surface is None or across not in shown or up not in shown:
             return  # on its way
         answers = shown[across].answer, shown[up].answer
-        key = (*(id(answer.field) for answer in answers), document.scatter.shares, across, up, document.panels)
+        key = (*(id(answer.field) for answer in answers), document[Scatter].shares, across, up, document.panels)
         if key == self._asked:
             return
         self._asked = key
@@ -218,7 +221,7 @@ class ScatterDock(Instrument):
                 self._background.ask(None)
                 self._refuse(None, answer.failure or NO_FIELD)
                 return
-        self._request = _Request(session.surface, *answers, document.scatter.shares)
+        self._request = _Request(session.surface, *answers, document[Scatter].shares)
         self._background.ask(self._request)
 
     def _refuse(self, request: object, sentence: str) -> None:
@@ -290,12 +293,12 @@ class ScatterDock(Instrument):
         if pair[other] == id:
             pair[other] = pair[side]
         pair[side] = id
-        session.show(replace(session.document, scatter=replace(session.document.scatter, **pair)))
+        session.show(session.document.with_part(replace(session.document[Scatter], **pair)))
 
     def _choose_shares(self, word: str) -> None:
         session = self.window_.session
-        scatter = replace(session.document.scatter, shares=word == "shares")
-        session.show(replace(session.document, scatter=scatter))
+        scatter = replace(session.document[Scatter], shares=word == "shares")
+        session.show(session.document.with_part(scatter))
 
     def _select(self, corners: np.ndarray, keys: QtCore.Qt.KeyboardModifiers) -> None:
         modifier = QtCore.Qt.KeyboardModifier
@@ -307,7 +310,7 @@ class ScatterDock(Instrument):
 
     def _begin(self) -> None:
         self.window_.docks.brushing.choose("")
-        self.list.show_selections(self.window_.session.document.selections, "")
+        self.list.show_selections(self.window_.session.document[Selections].selections, "")
 
     def _open_menu(self) -> None:
         if self.list.current:
@@ -335,14 +338,16 @@ class ScatterDock(Instrument):
         document, page = window.session.document, window.page
         axes = []
         for id, axis in zip(self._pair(document), (self.chart.across, self.chart.up), strict=True):
-            unit = "% of the maximum" if document.scatter.shares else axis.unit
+            unit = "% of the maximum" if document[Scatter].shares else axis.unit
             axes.append(ScatterAxis(self._name(document, id), unit, axis.low, axis.high))
         return ScatterFigure(
             self.chart.scatter,
             *axes,
-            in_shares=document.scatter.shares,
+            in_shares=document[Scatter].shares,
             is_common=request.has_common_unit,
-            selections=tuple((each.name, vertices_of(each.runs), PINS[each.colour]) for each in document.selections),
+            selections=tuple(
+                (each.name, vertices_of(each.runs), PINS[each.colour]) for each in document[Selections].selections
+            ),
             correlation=None if found is None else found.spearman,
             largest=found.largest_at if found is not None and request.has_common_unit else None,
             look=ChartLook.of(page, style_of(page.style, document.colours), INCHES),
@@ -368,9 +373,9 @@ class ScatterDock(Instrument):
             return
         document = window.session.document
         header = ["vertex", *(self._name(document, id) for id in self._pair(document))]
-        chosen = [np.isin(scatter.ids, vertices_of(each.runs)) for each in document.selections]
+        chosen = [np.isin(scatter.ids, vertices_of(each.runs)) for each in document[Selections].selections]
         table = np.column_stack([scatter.ids, scatter.x, scatter.y, *chosen])
-        header += [each.name for each in document.selections]
+        header += [each.name for each in document[Selections].selections]
 
         def write(path: str) -> None:
             write_array(path, table, header)

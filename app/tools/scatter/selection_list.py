@@ -10,8 +10,7 @@ from bihdist_core.analysis.selecting import SELECTION_WAYS, write_selection
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.instruments import Selection
-from ...document.measuring import change_selection, select, vertices_of
+from ...document.selections import Selection, Selections, change_selection, select, vertices_of
 from ...qt.docks.saving import save
 from ...qt.look.look import LOOK
 from ...scene.style import PINS
@@ -103,7 +102,7 @@ class SelectionList(QtWidgets.QTreeWidget):
         QtCore.QTimer.singleShot(0, lambda: self._show_renamed(document, new.strip()))
 
     def _show_renamed(self, document: Document, name: str) -> None:
-        is_current = name in [each.name for each in document.selections]
+        is_current = name in [each.name for each in document[Selections].selections]
         self._window.docks.brushing.choose(name if is_current else "")
         self._window.session.show(document)
 
@@ -124,7 +123,7 @@ class SelectionList(QtWidgets.QTreeWidget):
 
     def save(self, way: str, path: str | None = None) -> None:
         """The one that is chosen, as one of SELECTION_WAYS; asks where if no path is given."""
-        found = [each for each in self._document.selections if each.name == self.current]
+        found = [each for each in self._document[Selections].selections if each.name == self.current]
         surface = self._window.session.surface
         if not found or surface is None:
             return

@@ -7,10 +7,8 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 
 from .document import Document, MeshFile, Panel, Point
-from .instruments import ALONG_ALL_PINS
-from .mapping import without_maps
-from .pairing import remove_pairs
 from .quantities import DistanceFrom, quantity
+from .removal import without_surfaces
 
 COLUMNS = 3
 """Before, after, difference."""
@@ -67,15 +65,8 @@ def with_changed(document: Document, change: Perturbation, with_others: bool = F
 
 def _numbered(document: Document, panels: list[Panel], numbers: dict[int, int]) -> Document:
     """With these panels, and all that names panels by their numbers before."""
-    scatter = document.scatter
-    across, up = (None if id is None else numbers.get(id) for id in (scatter.across, scatter.up))
-    return replace(
-        document,
-        panels=tuple(panels),
-        regions=tuple(numbers[id] for id in document.regions if id in numbers),
-        scatter=replace(scatter, across=across, up=up),
-        next_id=len(panels),
-    )
+    parts = tuple(part.renumbered(numbers) for part in document.parts)
+    return replace(document, panels=tuple(panels), parts=parts, next_id=len(panels))
 
 
 def image_name(point: str) -> str:
@@ -88,23 +79,16 @@ def without_changed(document: Document) -> Document:
     made = {mesh.name for mesh in document.surfaces if mesh.change is not None}
     if not made:
         return document
-    document = without_maps(remove_pairs(document, document.pairs))
+    document = without_surfaces(document, made)
     here = [panel for panel in document.panels if panel.surface not in made]
     panels = [panel for panel in here if not any(part.is_prediction for part in panel.shows.parts)]
     panels = panels or _panels_before(document)
     numbers = {panel.id: k for k, panel in enumerate(panels)}
-    on_them = {point.name for point in document.points if point.surface in made}
-    through = tuple(name for name in document.isolines.through if name not in on_them)
     document = replace(
         document,
         surfaces=tuple(mesh for mesh in document.surfaces if mesh.name not in made),
-        points=tuple(point for point in document.points if point.name not in on_them),
+        points=tuple(point for point in document.points if point.surface not in made),
         panels=tuple(panels),
-        anchors=tuple(anchor for anchor in document.anchors if anchor.point not in on_them),
-        isolines=replace(document.isolines, through=through),
-        pins=tuple(pin for pin in document.pins if pin.point not in on_them),
-        profile=ALONG_ALL_PINS if set(document.profile.points) & on_them else document.profile,
-        selections=tuple(each for each in document.selections if each.surface not in made),
         fields=tuple(field for field in document.fields if field.surface not in made),
         beside=tuple(each for each in document.beside if each.surface not in made),
     )

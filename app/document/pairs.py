@@ -1,16 +1,81 @@
-"""Edits of a document's pairs of corresponding points; pure functions, as in `edits`."""
+"""Pairs of corresponding points on two surfaces; pure edits of them."""
 
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import dataclass, replace
 
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
 from .document import Document, Point, free_names
-from .instruments import PIN_COLOURS, Pair
+from .labels import check_colour, next_colour
+from .part import Part
+from .removal import without_orphans
 
 MOST_PAIRS = 200
 """Each has a column of distances on both surfaces for each panel."""
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two points that correspond, by their names among the document's points.
+
+    first: on the document's first surface, second: on its second; one of them is empty as long as it waits for its
+    partner.  colour: one of PIN_COLOURS.
+    """
+
+    first: str = ""
+    second: str = ""
+    colour: int = 0
+
+    def __post_init__(self) -> None:
+        if not (self.first or self.second) or self.first == self.second:
+            raise ParameterError(f"A pair is of two points, not of {self.first!r} and {self.second!r}.")
+        check_colour(self.colour)
+
+    @property
+    def is_half(self) -> bool:
+        """Whether one of its points still waits for the other."""
+        return not (self.first and self.second)
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The names of those that it has."""
+        return tuple(name for name in (self.first, self.second) if name)
+
+
+@dataclass(frozen=True)
+class Pairs(Part):
+    """The pairs, in their order: of points on the first two surfaces, the last of them perhaps half a pair."""
+
+    pairs: tuple[Pair, ...] = ()
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return tuple(name for pair in self.pairs for name in pair.points)
+
+    def check(self, document: Document) -> None:
+        if len(set(self.points)) < len(self.points):
+            raise ParameterError("Two pairs have a point in common.")
+        if self.pairs and len(document.surfaces) < 2:
+            raise ParameterError("Pairs are of points on two surfaces, and there are not two.")
+        for pair in self.pairs:
+            for name, mesh in zip((pair.first, pair.second), document.surfaces, strict=False):
+                if name and document.point(name).surface != mesh.name:
+                    raise ParameterError(f"The point {name!r} of a pair is not on the surface {mesh.name!r}.")
+        if any(pair.is_half for pair in self.pairs[:-1]):
+            raise ParameterError("Of all pairs only the last may still wait for one of its points.")
+
+    def without_points(self, points: Set[str]) -> "Pairs":
+        return Pairs(tuple(pair for pair in self.pairs if not points & set(pair.points)))
+
+    def work(self, document: Document) -> Mapping[str, Iterable[object]]:
+        at = {point.name: point for point in document.points}
+        return {"pairs": [(pair, at.get(pair.first), at.get(pair.second)) for pair in self.pairs]}
+
+
+def with_pairs(document: Document, pairs: Iterable[Pair]) -> Document:
+    """With these pairs and no others; their points are there."""
+    return document.with_part(Pairs(tuple(pairs)))
 
 
 def sides(document: Document) -> tuple[str, str]:
@@ -28,12 +93,12 @@ def other_side(document: Document, surface: str) -> str | None:
 
 def half_pair(document: Document) -> Pair | None:
     """The pair that still waits for one of its points."""
-    return document.pairs[-1] if document.pairs and document.pairs[-1].is_half else None
+    return document[Pairs].pairs[-1] if document[Pairs].pairs and document[Pairs].pairs[-1].is_half else None
 
 
 def whole_pairs(document: Document) -> tuple[Pair, ...]:
     """All others, in order; their numbers are their places among these, from 1."""
-    return tuple(pair for pair in document.pairs if not pair.is_half)
+    return tuple(pair for pair in document[Pairs].pairs if not pair.is_half)
 
 
 def waiting_point(document: Document) -> Point | None:
@@ -55,12 +120,12 @@ def place_point(document: Document, surface: str, at: Source) -> Document:
         return move_pair_point(document, half.points[0], at)
     document, name = _with_point(document, surface, at)
     if half is None:
-        if len(document.pairs) >= MOST_PAIRS:
+        if len(document[Pairs].pairs) >= MOST_PAIRS:
             raise ParameterError(f"There are at most {MOST_PAIRS:,} pairs.")
-        new = Pair(*((name, "") if side == 0 else ("", name)), colour=_next_colour(document))
-        return replace(document, pairs=(*document.pairs, new))
+        new = Pair(*((name, "") if side == 0 else ("", name)), colour=next_colour(document[Pairs].pairs))
+        return with_pairs(document, (*document[Pairs].pairs, new))
     whole = replace(half, second=name) if side else replace(half, first=name)
-    document = replace(document, pairs=(*document.pairs[:-1], whole))
+    document = with_pairs(document, (*document[Pairs].pairs[:-1], whole))
     number = _same(document, whole)
     if number:
         raise ParameterError(f"That is pair {number} already.")
@@ -75,13 +140,8 @@ def drop_half(document: Document) -> Document:
 
 def remove_pairs(document: Document, pairs: Iterable[Pair]) -> Document:
     """Without these; those after them have lower numbers then."""
-    gone = set(pairs) & set(document.pairs)
-    names = {name for pair in gone for name in pair.points}
-    document = replace(document, pairs=tuple(pair for pair in document.pairs if pair not in gone))
-    kept = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
-    kept |= {pin.point for pin in document.pins} | {anchor.point for anchor in document.anchors}
-    kept |= set(document.profile.points)
-    return replace(document, points=tuple(p for p in document.points if p.name not in names or p.name in kept))
+    gone = set(pairs)
+    return without_orphans(document, with_pairs(document, (pair for pair in document[Pairs].pairs if pair not in gone)))
 
 
 def move_pair_point(document: Document, name: str, at: Source) -> Document:
@@ -96,34 +156,29 @@ def add_pairs(document: Document, places: Iterable[tuple[int, int]]) -> Document
     """
     half = half_pair(document)
     if half is not None:
-        document = replace(document, pairs=document.pairs[:-1])
-    known = {tuple(document.point(name).at for name in pair.points) for pair in document.pairs}
+        document = with_pairs(document, document[Pairs].pairs[:-1])
+    known = {tuple(document.point(name).at for name in pair.points) for pair in document[Pairs].pairs}
     new = [pair for pair in dict.fromkeys(places) if pair not in known]
-    if len(document.pairs) + len(new) + (half is not None) > MOST_PAIRS:
-        raise ParameterError(f"There are at most {MOST_PAIRS:,} pairs, not {len(document.pairs) + len(new):,}.")
+    if len(document[Pairs].pairs) + len(new) + (half is not None) > MOST_PAIRS:
+        raise ParameterError(f"There are at most {MOST_PAIRS:,} pairs, not {len(document[Pairs].pairs) + len(new):,}.")
     for places_of_both in new:
         found = []
         for surface, at in zip(sides(document), places_of_both, strict=True):
             document, name = _with_point(document, surface, at)
             found.append(name)
-        pair = Pair(found[0], found[1], _next_colour(document))
-        document = replace(document, pairs=(*document.pairs, pair))
-    return document if half is None else replace(document, pairs=(*document.pairs, half))
+        pair = Pair(found[0], found[1], next_colour(document[Pairs].pairs))
+        document = with_pairs(document, (*document[Pairs].pairs, pair))
+    return document if half is None else with_pairs(document, (*document[Pairs].pairs, half))
 
 
 def pair_instead(document: Document, places: Iterable[tuple[int, int]]) -> Document:
     """Pairs of these vertices, and no others."""
-    return add_pairs(remove_pairs(document, document.pairs), places)
-
-
-def without_pairs_on(document: Document, surface: str) -> Document:
-    """Without pairs that have a point on a surface."""
-    return remove_pairs(document, [p for p in document.pairs if any(_is_on(document, n, surface) for n in p.points)])
+    return add_pairs(remove_pairs(document, document[Pairs].pairs), places)
 
 
 def number_of(document: Document, pair: Pair) -> int:
     """From 1, in the order of the document."""
-    return document.pairs.index(pair) + 1
+    return document[Pairs].pairs.index(pair) + 1
 
 
 def pair_words(document: Document, surface: str) -> tuple[str, ...]:
@@ -155,16 +210,7 @@ def _with_point(document: Document, surface: str, at: Source) -> tuple[Document,
 def _same(document: Document, pair: Pair) -> int:
     """The number of a pair before this one at the same places; 0 if there is none."""
     places = [document.point(name).at for name in pair.points]
-    for number, each in enumerate(document.pairs, 1):
+    for number, each in enumerate(document[Pairs].pairs, 1):
         if each is not pair and not each.is_half and [document.point(name).at for name in each.points] == places:
             return number
     return 0
-
-
-def _is_on(document: Document, name: str, surface: str) -> bool:
-    return document.point(name).surface == surface
-
-
-def _next_colour(document: Document) -> int:
-    counts = [sum(pair.colour == colour for pair in document.pairs) for colour in range(PIN_COLOURS)]
-    return counts.index(min(counts))

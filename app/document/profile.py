@@ -1,19 +1,63 @@
-"""The path of a profile in words: `source`, `pin:2`, a vertex or a place in a face; and back."""
+"""The path of a profile: through which points and how, also in words such as `source`, `pin:2` or a vertex."""
 
 import re
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Sequence, Set
+from dataclasses import dataclass, replace
 
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, SurfacePoint, checked_source
 from bihdist_core.sources.words import words_of
 
 from .document import Document, Point, free_names
-from .instruments import SECTIONS
-from .measuring import points_along, show_dock
+from .edits import show_dock
+from .looks import one_of
+from .part import Part
+from .pins import Pins
+
+SECTIONS = {"section": "shorter", "section-longer": "longer", "section-whole": "whole"}
+"""Ways of a profile by a plane through two points and a direction, and the part of the section that each takes."""
+
+WAYS = ("auto", "exact", "straightened", "edges", *SECTIONS)
+"""How a profile goes from point to point: `GeodesicPaths`' methods, or by planes."""
 
 _ONE = re.compile(r"f[0-9]+:[^,\s]+,[^,\s]+|[^,\s]+")
 _POINT = re.compile(r"(source|pin)(?::([0-9]{1,9}))?")
+
+
+@dataclass(frozen=True)
+class Profile(Part):
+    """The path along which fields are shown.
+
+    points: names of the points that it goes through, all pins in their order if empty.  way: one of WAYS.  across: for
+    a section, the direction (3,) that lies in its plane with the two points.  shares: of the maxima instead of values.
+    """
+
+    key = "profile"
+    holds_points = False
+
+    points: tuple[str, ...] = ()
+    way: str = "auto"
+    across: tuple[float, float, float] | None = None
+    shares: bool = True
+
+    def __post_init__(self) -> None:
+        one_of(self.way, WAYS, "way")
+        if len(self.points) == 1:
+            raise ParameterError("A profile goes through two points or more.")
+        if self.across is not None and not any(self.across):
+            raise ParameterError("A section needs a direction across, not 0, 0, 0.")
+
+    def without_points(self, points: Set[str]) -> "Profile":
+        return replace(self, points=()) if points & set(self.points) else self
+
+
+def points_along(document: Document) -> tuple[str, ...]:
+    """The names of the points that the profile goes through; of one pin alone, from the source to it."""
+    if document[Profile].points:
+        return document[Profile].points
+    pins = document[Pins].points
+    known = [point.name for point in document.points]
+    return ("source", *pins) if len(pins) == 1 and "source" in known and "source" not in pins else pins
 
 
 def words_in(text: str) -> list[str]:
@@ -49,8 +93,8 @@ def with_profile(
         document = replace(document, points=(*document.points, Point(name, at, document.surfaces[0].name)))
         names.append(name)
     x = None if across is None else (float(across[0]), float(across[1]), float(across[2]))
-    profile = replace(document.profile, points=tuple(names), way=way, across=x)
-    document = show_dock(replace(document, profile=profile), "profile")
+    profile = replace(document[Profile], points=tuple(names), way=way, across=x)
+    document = show_dock(document.with_part(profile), "profile")
     if len(points_along(document)) < 2:
         raise ParameterError("A profile goes through two points or more; name them, or pins.")
     return document
@@ -63,12 +107,12 @@ def shows_path(document: Document) -> bool:
 
 def profile_words(document: Document) -> list[int | str]:
     """What `with_profile` takes for the points of a document's path; ParameterError where it cannot be said."""
-    return [_word(document, name) for name in document.profile.points]
+    return [_word(document, name) for name in document[Profile].points]
 
 
 def _named(document: Document, what: str, number: int) -> str:
     """The name of a source or a pin, by its number from 1."""
-    points = _sources(document) if what == "source" else [pin.point for pin in document.pins]
+    points = _sources(document) if what == "source" else list(document[Pins].points)
     if not 1 <= number <= len(points):
         raise ParameterError(f"There is no {what} {number} for a profile to go through; there are {len(points)}.")
     return points[number - 1]
@@ -80,7 +124,7 @@ def _sources(document: Document) -> list[str]:
 
 
 def _word(document: Document, name: str) -> int | str:
-    pins, sources, at = [pin.point for pin in document.pins], _sources(document), document.point(name).at
+    pins, sources, at = document[Pins].points, _sources(document), document.point(name).at
     if name in pins:
         return f"pin:{pins.index(name) + 1}"
     if name in sources:

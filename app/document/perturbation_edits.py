@@ -7,11 +7,11 @@ import numpy as np
 from bihdist_core.applications.changes import Perturbation, Runs
 from bihdist_core.errors import ParameterError
 
-from .changing import changed_mesh, with_changed, without_changed
 from .document import Document
 from .edits import add_another, show_in
-from .measuring import runs_of, vertices_of
+from .perturbation import changed_mesh, with_changed, without_changed
 from .quantities import Quantity
+from .selections import runs_of, vertices_of
 
 
 def change_mesh(document: Document, change: Perturbation) -> Document:

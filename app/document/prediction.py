@@ -7,7 +7,7 @@ from bihdist_core.distances.kinds import Spec
 
 from .document import Document, Panel, free_names
 from .edits import MOST_ADDED, put_point, source_name
-from .pairing import sides
+from .pairs import sides
 from .quantities import DistanceFrom, quantity
 
 PREDICTION = "prediction by "

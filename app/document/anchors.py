@@ -1,0 +1,90 @@
+"""Anchors: marked points with values, which interpolants have there; pure edits of them."""
+
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import dataclass, replace
+
+from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
+from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import Source
+
+from .document import Document, Point, free_names
+from .labels import check_name
+from .looks import LARGEST
+from .part import Part
+from .removal import without_orphans
+
+MOST_ANCHORS = 500
+"""Each has a column of distances for each panel."""
+
+
+@dataclass(frozen=True)
+class Anchor:
+    """A marked point, filled with the colour of a value; of the field's own there if it is None.
+
+    Interpolants have the values of those that have one, unless they are left out.  name: for the user, that of the
+    point if empty.
+    """
+
+    point: str
+    value: float | None = None
+    left_out: bool = False
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        check_name(self.name, "anchor")
+        if self.value is not None:
+            object.__setattr__(self, "value", float(self.value))
+        if self.value is not None and not abs(self.value) <= LARGEST:
+            raise ParameterError(f"The value of an anchor is a number up to {LARGEST:g}, not {self.value:g}.")
+
+
+@dataclass(frozen=True)
+class Anchors(Part):
+    """The anchors in their order, and how interpolants weigh them."""
+
+    anchors: tuple[Anchor, ...] = ()
+    weights: Weights = INVERSE_DISTANCES
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return tuple(anchor.point for anchor in self.anchors)
+
+    def without_points(self, points: Set[str]) -> "Anchors":
+        return replace(self, anchors=tuple(anchor for anchor in self.anchors if anchor.point not in points))
+
+    def work(self, document: Document) -> Mapping[str, Iterable[object]]:
+        return {"anchors": [(anchor, document.point(anchor.point)) for anchor in self.anchors]}
+
+
+def with_anchors(document: Document, anchors: Iterable[Anchor]) -> Document:
+    """With these anchors and no others; their points are there."""
+    return document.with_part(replace(document[Anchors], anchors=tuple(anchors)))
+
+
+def add_anchor(
+    document: Document, at: Source, value: float | None, surface: str = "A", name: str = ""
+) -> tuple[Document, str]:
+    """With an anchor there, and the name of its point; one that is there already gets the value.
+
+    ParameterError beyond MOST_ANCHORS.
+    """
+    anchors = document[Anchors].anchors
+    for anchor in anchors:
+        point = document.point(anchor.point)
+        if (point.at, point.surface) == (at, surface):
+            return change_anchor(document, replace(anchor, value=value, left_out=False)), anchor.point
+    if len(anchors) >= MOST_ANCHORS:
+        raise ParameterError(f"There are at most {MOST_ANCHORS} anchors.")
+    (point_name,) = free_names("anchor", 1, [point.name for point in document.points])
+    document = replace(document, points=(*document.points, Point(point_name, at, surface)))
+    return with_anchors(document, (*anchors, Anchor(point_name, value, name=name))), point_name
+
+
+def change_anchor(document: Document, anchor: Anchor) -> Document:
+    """Another value or name of the anchor at a point."""
+    return with_anchors(document, (anchor if old.point == anchor.point else old for old in document[Anchors].anchors))
+
+
+def remove_anchors(document: Document, points: Iterable[str]) -> Document:
+    """Without the anchors at these points."""
+    return without_orphans(document, document.with_part(document[Anchors].without_points(set(points))))

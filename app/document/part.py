@@ -1,0 +1,56 @@
+"""What a tool adds to documents: a frozen value of a type of its own."""
+
+from collections.abc import Callable, Iterable, Mapping, Set
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+if TYPE_CHECKING:
+    from .document import Document
+
+
+@dataclass(frozen=True)
+class Part:
+    """A tool's part of a document, by its defaults as long as nothing is said; subclasses are frozen dataclasses.
+
+    A row of the tools' table names it (`Tool.parts`); `document[Pins]` is the document's part of that type, and
+    `document.with_part(pins)` the document with another.  In files its fields stand beside the document's own, or under
+    one `key`; their types say how they are read (`form`).
+    """
+
+    key: ClassVar[str] = ""
+
+    holds_points: ClassVar[bool] = True
+    """Whether the points that it refers to are there for it, and not for others, whose removal it follows."""
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The names of the document's points that it refers to."""
+        return ()
+
+    @property
+    def surfaces(self) -> tuple[str, ...]:
+        """The names of the document's surfaces that it refers to."""
+        return ()
+
+    def check(self, document: "Document") -> None:
+        """ParameterError if it does not fit the document; that its points and surfaces are there is known."""
+
+    def without_points(self, points: Set[str]) -> "Part":
+        """The part without what refers to these points."""
+        return self
+
+    def renumbered(self, numbers: Mapping[int, int]) -> "Part":
+        """The part with other ids of panels, by those it has; panels that have none are gone."""
+        return self
+
+    def without_surfaces(self, document: "Document", surfaces: Set[str]) -> "Document":
+        """The document, which still has these surfaces, without what of this part needs them and is no point there."""
+        return document
+
+    def with_paths(self, named: Callable[[str], str]) -> "Part":
+        """The part with other paths of the files that it names."""
+        return self
+
+    def work(self, document: "Document") -> Mapping[str, Iterable[object]]:
+        """What takes effort to make again, by what it is called; what has moved is other work."""
+        return {}

@@ -1,0 +1,64 @@
+"""Which panels show the regions of the pins, nearest to each by the panel's distance; pure edits of that."""
+
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass
+
+from bihdist_core.errors import ParameterError
+
+from .document import Document
+from .part import Part
+from .pins import Pins
+
+
+@dataclass(frozen=True)
+class DividedPanels(Part):
+    """The panels that show regions, by id."""
+
+    regions: tuple[int, ...] = ()
+
+    def renumbered(self, numbers: Mapping[int, int]) -> "DividedPanels":
+        return DividedPanels(tuple(numbers[id] for id in self.regions if id in numbers))
+
+    def without_surfaces(self, document: Document, surfaces: Set[str]) -> Document:
+        there = {panel.id for panel in document.panels if panel.surface in surfaces}
+        return document.with_part(DividedPanels(tuple(id for id in self.regions if id not in there)))
+
+
+def show_regions(document: Document, panel: int, is_shown: bool = True) -> Document:
+    """Whether a panel shows the regions of the pins by its distance."""
+    others = tuple(id for id in document[DividedPanels].regions if id != panel)
+    return document.with_part(DividedPanels((*others, panel) if is_shown else others))
+
+
+def can_divide(document: Document, panel: int) -> bool:
+    """Whether there are pins for a panel's distance to divide its surface among."""
+    shown = document.panel(panel)
+    return shown.shows.is_distance and any(
+        document.point(name).surface == shown.surface for name in document[Pins].points
+    )
+
+
+def divide(document: Document, which: str | Sequence[int]) -> Document:
+    """Let these panels, by their numbers from 1, and no others show the regions of the pins; "all" that can.
+
+    ParameterError where there are no pins, no such panel, or one that shows no distance.
+    """
+    able = [k for k, panel in enumerate(document.panels, 1) if can_divide(document, panel.id)]
+    numbers = able if isinstance(which, str) else which
+    if isinstance(which, str) and which != "all":
+        raise ParameterError(f"Regions are shown by panels 1,2,… or by all, not by {which!r}.")
+    if not document[Pins].pins:
+        raise ParameterError("There are no regions without pins; name some with --pin (in Python, pins=).")
+    for number in numbers:
+        if not 1 <= number <= len(document.panels):
+            raise ParameterError(f"There is no panel {number}; they are numbered from 1 to {len(document.panels)}.")
+        if number not in able:
+            raise ParameterError(f"Panel {number} shows no distance from a point, by which pins could have regions.")
+    return document.with_part(DividedPanels(tuple(document.panels[number - 1].id for number in dict.fromkeys(numbers))))
+
+
+def divided_panels(document: Document) -> str | tuple[int, ...]:
+    """What `divide` takes to let a document show the regions that it shows; empty if there are none."""
+    able = [k for k, panel in enumerate(document.panels, 1) if can_divide(document, panel.id)]
+    shown = tuple(k for k in able if document.panels[k - 1].id in document[DividedPanels].regions)
+    return "all" if shown and len(shown) == len(able) else shown

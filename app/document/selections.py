@@ -1,0 +1,126 @@
+"""Selections: vertices of a surface under a name; pure edits of them."""
+
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bihdist_core.applications.changes import Runs, joined_runs
+from bihdist_core.errors import ParameterError
+
+from .document import Document, free_names, unlike
+from .labels import MARK_COLOURS, check_colour, check_name, next_colour
+from .part import Part
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Vertices of a surface under a name, in one of PIN_COLOURS."""
+
+    name: str
+    runs: Runs
+    colour: int = 0
+    surface: str = "A"
+
+    def __post_init__(self) -> None:
+        check_name(self.name, "selection")
+        check_colour(self.colour)
+        ends = [end for run in self.runs for end in run]
+        apart = all(a[1] + 1 < b[0] for a, b in zip(self.runs[:-1], self.runs[1:], strict=True))
+        if ends != sorted(ends) or (ends and ends[0] < 0) or not apart:
+            raise ParameterError("A selection is runs of vertex ids that go up and do not touch.")
+
+
+@dataclass(frozen=True)
+class Selections(Part):
+    """The selections, in their order."""
+
+    selections: tuple[Selection, ...] = ()
+
+    @property
+    def surfaces(self) -> tuple[str, ...]:
+        return tuple(each.surface for each in self.selections)
+
+    def check(self, document: Document) -> None:
+        unlike([each.name for each in self.selections], "selection")
+
+    def without_surfaces(self, document: Document, surfaces: Set[str]) -> Document:
+        return document.with_part(Selections(tuple(each for each in self.selections if each.surface not in surfaces)))
+
+    def work(self, document: Document) -> Mapping[str, Iterable[object]]:
+        return {"selections": self.selections}
+
+
+def select(document: Document, name: str, vertices: np.ndarray, surface: str = "A") -> Document:
+    """Vertices (k,) as the selection of a name, instead of the old one of that name; none at all remove it."""
+    before = document[Selections].selections
+    if not len(vertices):
+        return document.with_part(Selections(tuple(each for each in before if each.name != name)))
+    old = next((each for each in before if each.name == name), None)
+    if old is None:
+        new = Selection(name, runs_of(vertices), next_colour(before), surface)
+        return document.with_part(Selections((*before, new)))
+    new = Selection(name, runs_of(vertices), old.colour, surface)
+    return document.with_part(Selections(tuple(new if each is old else each for each in before)))
+
+
+def change_selection(document: Document, name: str, new_name: str | None = None, colour: int | None = None) -> Document:
+    """Another name or colour for a selection; ParameterError for a name that is empty or that another has."""
+    if name not in [each.name for each in document[Selections].selections]:
+        raise ParameterError(f"There is no selection {name!r}.")
+    wanted = name if new_name is None else new_name.strip()
+    if not wanted:
+        raise ParameterError("A selection needs a name.")
+    changed = (
+        replace(each, name=wanted, colour=each.colour if colour is None else colour) if each.name == name else each
+        for each in document[Selections].selections
+    )
+    return document.with_part(Selections(tuple(changed)))
+
+
+def runs_of(vertices: np.ndarray) -> Runs:
+    """Vertex ids (k,) as runs."""
+    ids = np.unique(np.asarray(vertices, np.int64))
+    if not len(ids):
+        return ()
+    breaks = np.flatnonzero(np.diff(ids) > 1)
+    firsts, lasts = ids[np.append(0, breaks + 1)], ids[np.append(breaks, len(ids) - 1)]
+    return tuple(zip(firsts.tolist(), lasts.tolist(), strict=True))
+
+
+def vertices_of(runs: Runs) -> np.ndarray:
+    """(k,) the vertex ids of runs."""
+    firsts, lasts = np.array(runs, np.int64).reshape(-1, 2).T
+    counts = lasts - firsts + 1
+    # A scattered selection has as many runs as vertices.
+    return np.arange(counts.sum()) + np.repeat(firsts - np.cumsum(counts) + counts, counts)
+
+
+def runs_in_words(runs: Runs) -> str:
+    """ "3,5-9"."""
+    return ",".join(f"{first}" if first == last else f"{first}-{last}" for first, last in runs)
+
+
+def runs_from_words(text: str) -> Runs:
+    """Vertex ids and ranges of them, both ends included, in any order; ParameterError for other words."""
+    runs: list[tuple[int, int]] = []
+    for word in text.split(","):
+        ends = word.strip().split("-")
+        if len(ends) > 2 or not all(end.strip().isdecimal() for end in ends):
+            raise ParameterError(f"{word!r} is no vertex id or range of them, such as 12 or 40-77.")
+        first, last = int(ends[0]), int(ends[-1])
+        if last < first:
+            raise ParameterError(f"The range {word.strip()} ends before it begins.")
+        runs.append((first, last))
+    return joined_runs(runs)
+
+
+def select_instead(document: Document, chosen: Iterable[Runs], surface: str = "A") -> Document:
+    """Each of these as a selection, and no others."""
+    found = list(chosen)
+    names = free_names("selection", len(found), [])
+    selections = [
+        Selection(name, runs, k % MARK_COLOURS, surface)
+        for k, (name, runs) in enumerate(zip(names, found, strict=True))
+    ]
+    return document.with_part(Selections(tuple(selections)))
