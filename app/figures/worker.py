@@ -1,73 +1,100 @@
 """A process that stays alive and draws: it is asked one thing after another, and is sent each large array only once.
 
-A window asks it for previews, a movie asks several for its frames.  It ends with whoever started it.
+A window asks it for previews and for files, a movie asks several for its frames.  It ends with whoever started it.
 """
 
 import io
-import os
 import pickle
-import subprocess
-import sys
+import threading
 from collections.abc import Callable
-from contextlib import suppress
+from queue import SimpleQueue
 from typing import Any, BinaryIO
 
 import numpy as np
 
-from bihdist_core import BihdistError, Surface
+from bihdist_core import BihdistError, Cancelled, Surface
+from bihdist_core.child_process import ANSWER, DIED, REPORT, SERVED, WRONG, ChildProcess, framed, send, unframed
+from bihdist_core.progress import Progress, silent
 
 LARGE = 1 << 15
 """Bytes from which an array is sent once and then named."""
 
 GONE = "The process that draws ended without a word; perhaps there is not enough memory, or no OpenGL."
 
+Ended = Callable[[str | None], None]
+"""Called with nothing when the file is there, otherwise with the sentence why not; "" if it was cancelled."""
+
 
 class Worker:
-    """Only one thread may ask at a time; any may `close`.
+    """Only one thread may ask at a time; any may `stop` or `close`.
 
     threads: how many its numerical libraries and software OpenGL may use, as many as they like if None.
     """
 
     def __init__(self, threads: int | None = None) -> None:
-        # The package is called app in a checkout and otherwise when installed; it is found where this one was.
-        paths = os.pathsep.join(p or os.getcwd() for p in sys.path)
-        limits = {name: str(threads) for name in ("LP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")}
         self._sent: dict[int, Any] = {}
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", __name__],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            env={**os.environ, "PYTHONPATH": paths, **(limits if threads else {})},
-            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
-        )
+        self._child = ChildProcess(SERVED, framed(__name__.encode()), threads)
 
-    def ask(self, function: Callable[..., Any], *arguments: Any) -> Any:
-        """What the function makes of the arguments there; all three must pickle.  BihdistError if it cannot."""
+    def ask(self, function: Callable[..., Any], *arguments: Any, progress: Progress | None = None) -> Any:
+        """What the function makes of the arguments there; all three must pickle.  BihdistError if it cannot.
+
+        progress: if there is one, the function gets one, too, as an argument of that name; it is called from another
+        thread.
+        """
         file = io.BytesIO()
         sender = _Sender(file, self._sent)
-        sender.dump((function, arguments))
+        sender.dump((function, arguments, progress is not None))
         # What this does not need is not needed any more, here and there.
         self._sent = sender.used
-        try:
-            _send(self._process.stdin, file.getbuffer())
-            answer = _received(self._process.stdout)
-        except (OSError, ValueError):  # its pipe is broken, or closed by `close`
-            answer = b""
-        if not answer:
-            raise BihdistError(GONE)
-        is_done, result = pickle.loads(answer)
-        if not is_done:
-            raise BihdistError(result)
-        return result
+        report = progress or silent
+        answer = self._child.ask(framed(file.getbuffer()), lambda told: report(*pickle.loads(told))).get()
+        if isinstance(answer, str):
+            raise BihdistError(GONE if answer == DIED else answer)
+        return pickle.loads(answer)
+
+    def stop(self) -> None:
+        """Cancel what it does, as soon as that tells of its progress; no half file is left.  Then it ends."""
+        self._child.stop()
 
     def close(self) -> None:
-        """End it, whatever it does; it writes no files."""
-        self._process.kill()
-        self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout):
-            with suppress(OSError):
-                pipe.close()
+        """End it, whatever it does."""
+        self._child.end()
+
+
+class FigureJob:
+    """Runs `work(progress=...)`, a function that can be pickled, in a process of its own.
+
+    Both functions are called on threads of the job's.
+    """
+
+    def __init__(self, work: Callable[..., None], progress: Progress, ended: Ended) -> None:
+        self._cancelled = False
+        self._worker = Worker()
+        self._thread = threading.Thread(target=self._run, args=(work, progress, ended), name="figure", daemon=True)
+        self._thread.start()
+
+    def cancel(self) -> None:
+        """Stop; what was at the path stays, and no half file is left."""
+        self._cancelled = True
+        self._worker.stop()
+
+    @property
+    def is_running(self) -> bool:
+        return self._thread.is_alive()
+
+    def wait(self, timeout: float | None = None) -> None:
+        self._thread.join(timeout)
+
+    def _run(self, work: Callable[..., None], progress: Progress, ended: Ended) -> None:
+        message: str | None = GONE
+        try:
+            self._worker.ask(work, progress=progress)
+            message = None
+        except BihdistError as error:
+            message = "" if self._cancelled else str(error)
+        finally:  # whatever happens, somebody waits for the end
+            self._worker.close()
+            ended(message)
 
 
 class _Sender(pickle.Pickler):
@@ -91,9 +118,11 @@ class _Sender(pickle.Pickler):
 
 
 class _Receiver(pickle.Unpickler):
-    def __init__(self, content: bytes, kept: dict[int, Any]) -> None:
+    """known: the things received before; used: those of them, old and new, in what is read now."""
+
+    def __init__(self, content: bytes, known: dict[int, Any]) -> None:
         super().__init__(io.BytesIO(content))
-        self._kept = kept
+        self._known = known
         self.used: dict[int, Any] = {}
 
     def persistent_load(self, name: tuple[int, bytes | None]) -> Any:
@@ -101,21 +130,8 @@ class _Receiver(pickle.Unpickler):
         if content is not None:
             self.used[key] = pickle.loads(content)
         elif key not in self.used:
-            self.used[key] = self._kept[key]
+            self.used[key] = self._known[key]
         return self.used[key]
-
-
-def _send(pipe: BinaryIO, content: bytes | memoryview) -> None:
-    pipe.write(len(content).to_bytes(8, "little"))
-    pipe.write(content)
-    pipe.flush()
-
-
-def _received(pipe: BinaryIO) -> bytes:
-    """Nothing if the other side has ended."""
-    size = int.from_bytes(pipe.read(8), "little")
-    content = pipe.read(size)
-    return content if len(content) == size else b""
 
 
 def failure_sentence(error: BaseException) -> str:
@@ -128,25 +144,38 @@ def failure_sentence(error: BaseException) -> str:
     return f"The picture could not be drawn ({type(error).__name__}{': ' if words else ''}{words[:200]})."
 
 
-def main() -> None:
-    """The process: questions come in, answers go out, until its input ends."""
-    out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    # What a library prints must not be taken for an answer.
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    kept: dict[int, Any] = {}
-    while content := _received(sys.stdin.buffer):
+def serve(requests: BinaryIO, answers: BinaryIO) -> None:
+    """What the process does: questions come in, answers and progress go out, until its input ends."""
+    questions: SimpleQueue[bytes] = SimpleQueue()
+    has_ended = threading.Event()
+    threading.Thread(target=_listen, args=(requests, questions, has_ended), daemon=True).start()
+
+    def progress(fraction: float, text: str) -> None:
+        if has_ended.is_set():
+            raise Cancelled("The drawing was cancelled.")
+        send(answers, REPORT, [pickle.dumps((fraction, text))])
+
+    known: dict[int, Any] = {}
+    while content := questions.get():
         try:
-            receiver = _Receiver(content, kept)
-            function, arguments = receiver.load()
-            kept = receiver.used
-            answer = (True, function(*arguments))
+            receiver = _Receiver(content, known)
+            function, arguments, tells = receiver.load()
+            known = receiver.used
+            result = pickle.dumps(
+                function(*arguments, **({"progress": progress} if tells else {})), pickle.HIGHEST_PROTOCOL
+            )
+            status = ANSWER
             del function, arguments, receiver
-        except BaseException as error:
-            answer = (False, failure_sentence(error))
-        _send(out, pickle.dumps(answer, pickle.HIGHEST_PROTOCOL))
+        except BaseException as error:  # also what would end the process, which says nothing by itself
+            status, result = WRONG, failure_sentence(error).encode(errors="replace")
+        try:
+            send(answers, status, [result])
+        except OSError:  # nobody listens any more
+            return
 
 
-if __name__ == "__main__":
-    with suppress(OSError):  # nobody listens any more
-        main()
-    os._exit(0)  # OpenGL needs no farewell, and what it says at the end helps nobody
+def _listen(requests: BinaryIO, questions: "SimpleQueue[bytes]", has_ended: threading.Event) -> None:
+    while content := unframed(requests):
+        questions.put(content)
+    has_ended.set()
+    questions.put(b"")

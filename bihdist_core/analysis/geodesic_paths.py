@@ -17,11 +17,11 @@ from queue import Empty
 
 import numpy as np
 
+from ..child_process import ChildProcess, mesh_message
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..distances.geodesic import EXACT_UP_TO
 from ..errors import ParameterError, SolverError
 from ..progress import REPORT_EVERY, Progress, part, silent, turn
-from ..solver.child_process import ChildProcess, mesh_message
 from ..sources.source import SurfacePoint
 from ..sources.splitting import Split
 from ..surface import Surface

@@ -1,7 +1,7 @@
 """Exact geodesic distance on a mesh (Mitchell, Mount, Papadimitriou 1987; the program is pygeodesic's).
 
 pygeodesic holds the interpreter lock for seconds to minutes and can crash, so it runs in a process of its own,
-which can be killed (see `solver.child_process`).
+which can be killed (see `child_process`).
 """
 
 import importlib.util
@@ -17,9 +17,9 @@ from queue import Empty
 import numpy as np
 import numpy.typing as npt
 
+from ..child_process import ChildProcess, mesh_message
 from ..errors import ParameterError, SolverError
 from ..progress import REPORT_EVERY, Progress, silent
-from ..solver.child_process import ChildProcess, mesh_message
 from ..surface import Surface
 
 CHILD = Path(__file__).with_name("_exact_geodesic_child.py")

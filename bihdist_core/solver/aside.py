@@ -8,17 +8,14 @@ import pickle
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable
 from queue import Empty
 from typing import Any, BinaryIO, TypeVar
 
+from ..child_process import ANSWER, REPORT, SERVED, ChildProcess, framed, send
 from ..errors import SolverError
 from ..progress import REPORT_EVERY, Progress, silent
-from .child_process import ANSWER, REPORT, ChildProcess
 from .worker_threads import is_alone
-
-CHILD = Path(__file__).with_name("_aside_child.py")
 
 Result = TypeVar("Result")
 
@@ -34,11 +31,10 @@ def aside(work: Callable[..., Result], *arguments: Any, progress: Progress | Non
     report = progress or silent
     if is_alone() or not sys.executable or getattr(sys, "frozen", False):
         return work(*arguments, progress=report)
-    message = b"".join(_packed((work, arguments)))
-    child = ChildProcess(CHILD, len(message).to_bytes(8, sys.byteorder))
+    child = ChildProcess(SERVED, framed(__name__.encode()))
     told: list[bytearray] = []
     try:
-        answers = child.ask(message, told.append)
+        answers = child.ask(framed(b"".join(_packed((work, arguments)))), told.append)
         while True:
             try:
                 answer = answers.get(timeout=REPORT_EVERY)
@@ -70,28 +66,20 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
         nonlocal last
         if time.monotonic() - last >= REPORT_EVERY / 2:
             last = time.monotonic()
-            _write(answers, REPORT, [pickle.dumps((fraction, text))])
+            send(answers, REPORT, [pickle.dumps((fraction, text))])
 
     outcome: tuple[Any, Exception | None]
     try:
         outcome = work(*arguments, progress=report), None
     except Exception as error:
         outcome = None, error
-    _write(answers, ANSWER, _packed(outcome))
+    send(answers, ANSWER, _packed(outcome))
 
 
 def _end_with_parent() -> None:
     """Nothing more comes through the pipe but its end, when the parent has ended in whatever way."""
     os.read(0, 1)
     os._exit(1)
-
-
-def _write(answers: BinaryIO, status: int, pieces: Sequence[bytes | memoryview]) -> None:
-    count = sum(memoryview(piece).nbytes for piece in pieces)
-    answers.write(status.to_bytes(8, sys.byteorder) + count.to_bytes(8, sys.byteorder))
-    for piece in pieces:
-        answers.write(piece)
-    answers.flush()
 
 
 def _packed(value: object) -> list[bytes | memoryview]:

@@ -264,7 +264,7 @@ def test_pictures_are_drawn_by_a_process_that_begins_with_the_first(tmp_path):
         asked = [pictures.draw(tmp_path, name, figure) for name in ("a", "b")]
         assert [picture() for picture in asked] == [png(figure)] * 2
         assert {path.name for path in tmp_path.iterdir()} == {"a.png", "b.png"}
-        process = pictures._worker._process
+        process = pictures._worker._child.process
     assert process.returncode is not None, "it ends with the page"
 
 
@@ -272,7 +272,7 @@ def test_a_picture_that_ends_the_process_leaves_the_others(tmp_path):
     ((_, _, figure),) = figures(result(Panel("one", "bumpy", FIELD, "row")))
     with Pictures() as pictures:
         pictures.draw(tmp_path, "a", figure)()
-        pictures._worker._process.kill()
+        pictures._worker._child.process.kill()
         with pytest.raises(BihdistError, match="ended without a word"):
             pictures.draw(tmp_path, "b", figure)()
         assert pictures.draw(tmp_path, "c", figure)() == png(figure)

@@ -2,17 +2,16 @@
 
 import os
 import subprocess
-import sys
 import time
 
 import numpy as np
 import pytest
 
 from bihdist_core import Cancelled, Laplacian, ParameterError, SolverError, laplacian
+from bihdist_core.child_process import SERVED, ChildProcess, framed
 from bihdist_core.solver import aside as aside_module
 from bihdist_core.solver import spectrum
-from bihdist_core.solver.aside import CHILD, _packed, aside
-from bihdist_core.solver.child_process import ChildProcess
+from bihdist_core.solver.aside import _packed, aside
 from bihdist_core.solver.spectrum import is_long
 from bihdist_core.solver.worker_threads import without_workers
 from tests.shapes import bumpy
@@ -101,7 +100,7 @@ def test_what_the_work_tells_is_told_here():
 
 def test_the_process_ends_with_its_parent():
     message = b"".join(_packed((silent_for_ever, ())))
-    child = ChildProcess(CHILD, len(message).to_bytes(8, sys.byteorder) + message)
+    child = ChildProcess(SERVED, framed(b"bihdist_core.solver.aside") + framed(message))
     child.ask(b"")
     child.process.stdin.close()
     try:

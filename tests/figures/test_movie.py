@@ -151,7 +151,7 @@ def test_a_process_that_is_killed_is_said_and_the_others_end(monkeypatch):
     class Watched(Worker):
         def __init__(self, threads=None):
             super().__init__(threads)
-            workers.append(self._process)
+            workers.append(self._child.process)
 
     monkeypatch.setattr("app.figures.frames.Worker", Watched)
     frames = drawn_frames(numbers(40), 40, "RGB", 2, silent)

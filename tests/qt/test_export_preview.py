@@ -123,7 +123,7 @@ def test_a_process_that_dies_is_said_and_the_next_change_starts_another(screen, 
     s = screen()
     s.open(mesh_file(bumpy(400)), 5)
     dialog = shown_dialog(s)
-    s.window.exports.previews._worker._process.kill()
+    s.window.exports.previews._worker._child.process.kill()
     dialog.hints.click()
     s.until(lambda: "ended without a word" in dialog.pane.caption)
     assert not dialog.pane.is_true

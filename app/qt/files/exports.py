@@ -10,7 +10,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import OutputError
 
-from ...figures.job import FigureJob
+from ...figures.worker import FigureJob
 from ..look.bare_button import BareButton
 from ..look.icons import pixmap, put_icon
 from ..look.look import LOOK

@@ -10,12 +10,21 @@ import subprocess
 import sys
 import threading
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
-from typing import cast
+from typing import BinaryIO, cast
 
 import numpy as np
+
+LIMITS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS", "LP_NUM_THREADS")
+
+DIED = "the process that computes it died"
+"""Why there is no answer, where the process does not say it."""
+
+SERVED = Path(__file__).with_name("_served_child.py")
+"""The script that calls `serve(requests, answers)` of a module of ours, whose name `framed` is what it reads first."""
 
 ANSWER, WRONG, REPORT = 0, 1, 2
 """What a process sends: an answer, what is wrong instead of one, and before either any number of reports."""
@@ -27,6 +36,27 @@ def mesh_message(vertices: np.ndarray, faces: np.ndarray) -> bytes:
     return b"".join(array.tobytes() for array in arrays)
 
 
+def framed(content: bytes | memoryview) -> bytes:
+    """A number of bytes as int64, and these; `unframed` reads them."""
+    return len(content).to_bytes(8, sys.byteorder) + content
+
+
+def unframed(requests: BinaryIO) -> bytes:
+    """What was `framed`; nothing if the other side has ended."""
+    count = int.from_bytes(requests.read(8), sys.byteorder)
+    content = requests.read(count)
+    return content if len(content) == count else b""
+
+
+def send(answers: BinaryIO, status: int, pieces: Sequence[bytes | memoryview]) -> None:
+    """What a process answers, from any of its threads but one at a time."""
+    count = sum(memoryview(piece).nbytes for piece in pieces)
+    answers.write(status.to_bytes(8, sys.byteorder) + count.to_bytes(8, sys.byteorder))
+    for piece in pieces:
+        answers.write(piece)
+    answers.flush()
+
+
 class ChildProcess:
     """A script in a process of its own, and the pipes to and from it.
 
@@ -34,20 +64,22 @@ class ChildProcess:
     with two int64, `ANSWER` (or `WRONG`) and a number of bytes, and as many bytes: the answer, or a text in UTF-8 that
     says what is wrong; a `REPORT` before it is no answer.  Nobody asks before the last answer has come; the process
     ends with this object.
+
+    threads: how many its BLAS and software OpenGL may use, as many as they like if None.
     """
 
-    def __init__(self, script: Path, first: bytes) -> None:
+    def __init__(self, script: Path, first: bytes, threads: int | None = 1) -> None:
         # Sent with the first request, by its thread: a pipe holds 64 kB and the process reads once it has started.
         self._unsent = first
         self.process = subprocess.Popen(
-            [sys.executable, str(script), *(p for p in sys.path if isinstance(p, str))],
+            [sys.executable, str(script), *(p or os.getcwd() for p in sys.path if isinstance(p, str))],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             # Unbuffered files have no lock that a thread could still hold when the interpreter exits.
             bufsize=0,
-            # Its numpy needs no BLAS threads, which cost start-up time and memory.
-            env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"},
+            # BLAS threads cost start-up time and memory.
+            env={**os.environ, **({} if threads is None else dict.fromkeys(LIMITS, str(threads)))},
             # No console window flashes up on Windows.
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
@@ -70,6 +102,11 @@ class ChildProcess:
         reader.start()
         return answers
 
+    def stop(self) -> None:
+        """Let it know that nothing more is asked, and its answer not needed; a script that notices ends by itself."""
+        with suppress(OSError):
+            cast(io.FileIO, self.process.stdin).close()
+
 
 def _converse(
     process: subprocess.Popen,
@@ -90,7 +127,7 @@ def _converse(
             report(content)
         answers.put(content.decode() if status == WRONG else content)
     except (OSError, ValueError, EOFError):
-        answers.put("the process that computes it died")
+        answers.put(DIED)
 
 
 def _read(pipe: io.FileIO, count: int) -> bytearray:
