@@ -1,5 +1,6 @@
 """Surfaces that have been opened: read, checked against what was asked for, with their operators and distances."""
 
+import hashlib
 import os
 import threading
 from collections.abc import Callable, Collection
@@ -9,20 +10,20 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from bihdist_core import Laplacian, ParameterError, Surface, read_surface
+from bihdist_core import Laplacian, ParameterError, Surface
 from bihdist_core.analysis.first_view import FirstLook, first_look
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.perturbation import perturbed
 from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.formats.mesh_io import mesh_content, surface_in
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
 from ..document.camera import View
 from ..document.document import Document, FieldArray, MeshFile, starting_points
 from ..document.edits import put_point
-from ..document.file import checksum
 from ..samples import mesh_path
 from .array_store import ArrayStore
 from .perturbed_meshes import carried
@@ -252,7 +253,8 @@ def open_mesh(
 def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
     """What a file holds, and its checksum."""
     path = checked_path(mesh, remedy)
-    surface, found = read_surface(path), checksum(path)
+    content = mesh_content(path)
+    surface, found = surface_in(content, os.path.basename(path)), hashlib.sha256(content).hexdigest()
     if mesh.sha256 and found != mesh.sha256:
         said = f"The mesh {mesh.path} is not what it was when it was written down (its checksum differs). {remedy}"
         raise ParameterError(said.strip())

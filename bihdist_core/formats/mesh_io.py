@@ -44,13 +44,15 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
     Raises MeshError, one sentence with the file, the place and the value, for a file that is missing, unreadable,
     truncated, damaged or of another kind, and for a mesh without faces.
     """
-    path = Path(path)
-    name = path.name
-    content = _content(path)
+    return surface_in(mesh_content(path), Path(path).name)
+
+
+def surface_in(content: bytes, name: str) -> Surface:
+    """The surface in the content of a mesh file of this name; as `read_surface`, of which it is the second half."""
     try:
         # Damaged bytes can be any number, a signalling NaN too; NumPy need not warn, Surface refuses and names them.
         with np.errstate(all="ignore"):
-            polygons = _READERS[path.suffix.lower()](content, name)
+            polygons = _READERS[Path(name).suffix.lower()](content, name)
             if not len(polygons.sizes):
                 held = counted(len(polygons.vertices), "vertex", "vertices")
                 raise MeshError(f"{name} has {held} but no faces; a surface needs at least one triangle.")
@@ -61,7 +63,9 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
         raise MeshError(f"{name} is too large for the memory of this computer.") from None
 
 
-def _content(path: Path) -> bytes:
+def mesh_content(path: str | os.PathLike[str]) -> bytes:
+    """The bytes of a mesh file; as `read_surface`, of which it is the first half."""
+    path = Path(path)
     try:
         kind = path.stat().st_mode
         if stat.S_ISDIR(kind):

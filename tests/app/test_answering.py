@@ -4,6 +4,8 @@ import subprocess
 import threading
 import time
 from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +19,7 @@ from app.session.questions import DistanceQuestion
 from bihdist_core import BiharmonicDistance, Cancelled
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.formats.mesh_io import surface_in
 from tests.shapes import bumpy, grid
 
 BIHARMONIC, COMMUTE = Spec.of("biharmonic"), Spec.of("commute-time")
@@ -210,7 +213,7 @@ def test_nobody_waits_behind_what_was_given_up_and_asks_nobody(deaf_desk, stop):
 
 def test_a_file_whose_reading_asks_nobody_does_not_hold_up_the_next(desk, mesh_file, monkeypatch):
     d = desk([BIHARMONIC])
-    begun, gate, read = threading.Event(), threading.Event(), loaded_mesh.read_surface
+    begun, gate, read = threading.Event(), threading.Event(), loaded_mesh.mesh_content
 
     def held(path):
         if "long" in path:
@@ -218,7 +221,7 @@ def test_a_file_whose_reading_asks_nobody_does_not_hold_up_the_next(desk, mesh_f
             assert gate.wait(60)
         return read(path)
 
-    monkeypatch.setattr(loaded_mesh, "read_surface", held)
+    monkeypatch.setattr(loaded_mesh, "mesh_content", held)
     d.loaded(mesh_file(bumpy(60)))
     d.session.open(mesh_file(bumpy(80), "long.off"))
     assert begun.wait(60)
@@ -230,6 +233,19 @@ def test_a_file_whose_reading_asks_nobody_does_not_hold_up_the_next(desk, mesh_f
     gate.set()
     d.complete()
     assert len(d.session.surface.vertices) == 100
+
+
+def test_the_checksum_is_of_the_bytes_that_were_read(mesh_file, monkeypatch):
+    path = Path(mesh_file(bumpy(60)))
+    written = sha256(path.read_bytes()).hexdigest()
+
+    def changed_meanwhile(content, name):
+        path.write_text("something else")
+        return surface_in(content, name)
+
+    monkeypatch.setattr(loaded_mesh, "surface_in", changed_meanwhile)
+    loaded = loaded_mesh.open_mesh(MeshFile("A", str(path)))
+    assert (len(loaded.surface.vertices), loaded.mesh.sha256) == (60, written)
 
 
 def test_an_error_nobody_foresaw_is_told(desk, mesh_file, monkeypatch):
