@@ -84,7 +84,9 @@ class ChildProcess:
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
         self._readers: list[threading.Thread] = []
-        self.end = weakref.finalize(self, _end, self.process, self._readers)
+        # Who ends the process while another thread asks waits for a reader that has started, or comes before it.
+        self._starting = threading.Lock()
+        self.end = weakref.finalize(self, _end, self.process, self._readers, self._starting)
 
     def ask(
         self, request: bytes, report: Callable[[bytearray], object] = lambda told: None
@@ -98,8 +100,9 @@ class ChildProcess:
         # A thread per request, as pipes cannot be waited for with a time limit on Windows; a daemon, as it must not
         # keep the interpreter alive.  It holds the process, not this object, which may be collected meanwhile.
         reader = threading.Thread(target=_converse, args=(self.process, message, answers, report), daemon=True)
-        self._readers[:] = [reader]
-        reader.start()
+        with self._starting:
+            self._readers[:] = [reader]
+            reader.start()
         return answers
 
     def stop(self) -> None:
@@ -141,12 +144,13 @@ def _read(pipe: io.FileIO, count: int) -> bytearray:
     return content
 
 
-def _end(process: subprocess.Popen, readers: list[threading.Thread]) -> None:
+def _end(process: subprocess.Popen, readers: list[threading.Thread], starting: threading.Lock) -> None:
     """Kill, and wait so that no zombie is left; a killed process takes no time to end, nor does its reader."""
     process.kill()
     process.wait()
-    for reader in readers:
-        reader.join(timeout=1)
-    for pipe in (process.stdin, process.stdout):
-        if pipe is not None:
-            pipe.close()
+    with starting:
+        for reader in readers:
+            reader.join(timeout=1)
+        for pipe in (process.stdin, process.stdout):
+            if pipe is not None:
+                pipe.close()

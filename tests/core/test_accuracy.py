@@ -70,7 +70,8 @@ def test_diffusion_is_as_accurate_as_it_says_between_all_vertices(name):
     laplacian, values, vectors = known(name)
     for t in TIMES:
         distance = DiffusionDistance(laplacian, t)
-        assert worst(distance, vectors * heat(values, t)) <= distance.accuracy <= 1.01e-7, t
+        # The reference comes from eigenvectors, too, and is itself no better than that.
+        assert worst(distance, vectors * heat(values, t)) <= max(distance.accuracy, 1e-13) <= 1.01e-7, t
 
 
 def test_vertices_that_few_eigenpairs_leave_together_are_told_apart():
