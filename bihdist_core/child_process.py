@@ -18,6 +18,8 @@ from typing import BinaryIO, cast
 
 import numpy as np
 
+from .arrays import FloatArray, IntArray
+
 LIMITS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS", "LP_NUM_THREADS")
 
 DIED = "the process that computes it died"
@@ -30,7 +32,7 @@ ANSWER, WRONG, REPORT = 0, 1, 2
 """What a process sends: an answer, what is wrong instead of one, and before either any number of reports."""
 
 
-def mesh_message(vertices: np.ndarray, faces: np.ndarray) -> bytes:
+def mesh_message(vertices: FloatArray, faces: IntArray) -> bytes:
     """int64 n and m, float64 (n, 3) vertices, int32 (m, 3) faces."""
     arrays = (np.array([len(vertices), len(faces)], np.int64), vertices.astype(np.float64), faces.astype(np.int32))
     return b"".join(array.tobytes() for array in arrays)
@@ -112,7 +114,7 @@ class ChildProcess:
 
 
 def _converse(
-    process: subprocess.Popen,
+    process: subprocess.Popen[bytes],
     message: bytes,
     answers: "SimpleQueue[bytearray | str]",
     report: Callable[[bytearray], object],
@@ -144,7 +146,7 @@ def _read(pipe: io.FileIO, count: int) -> bytearray:
     return content
 
 
-def _end(process: subprocess.Popen, readers: list[threading.Thread], starting: threading.Lock) -> None:
+def _end(process: subprocess.Popen[bytes], readers: list[threading.Thread], starting: threading.Lock) -> None:
     """Kill, and wait so that no zombie is left; a killed process takes no time to end, nor does its reader."""
     process.kill()
     process.wait()

@@ -21,6 +21,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from .arrays import BoolArray, FloatArray, IntArray
 from .surface import FLAT, Surface, connected, dots
 
 NOTHING = 1e-12
@@ -37,14 +38,14 @@ class DegenerateFaces:
     """
 
     surface: Surface
-    faces: np.ndarray
-    corners: np.ndarray
-    foot: np.ndarray
-    share: np.ndarray
-    length: np.ndarray
-    spring: np.ndarray
-    link: np.ndarray
-    loose: np.ndarray
+    faces: IntArray
+    corners: IntArray
+    foot: FloatArray
+    share: FloatArray
+    length: FloatArray
+    spring: FloatArray
+    link: FloatArray
+    loose: BoolArray
 
     @classmethod
     def of(cls, surface: Surface) -> "DegenerateFaces":
@@ -74,28 +75,28 @@ class DegenerateFaces:
             loose,
         )
 
-    def some(self, index: np.ndarray) -> "DegenerateFaces":
+    def some(self, index: IntArray) -> "DegenerateFaces":
         """Those at some places (j,)."""
         kept = {f.name: getattr(self, f.name)[..., index] for f in fields(self) if f.name != "surface"}
         return DegenerateFaces(self.surface, **kept)
 
     @property
-    def lack(self) -> np.ndarray:
+    def lack(self) -> FloatArray:
         """(k,) what the springs lack, to first order in the share by which they give way more than exact ones."""
         return np.where(self.loose, 0, self.spring * (1 - self.share / FLAT))
 
     @property
-    def vertices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def vertices(self) -> tuple[IntArray, IntArray, IntArray]:
         """The vertices i, a and b, (k,) each."""
         i, a, b = self.surface.faces[self.faces, self.corners]
         return i, a, b
 
-    def weights(self) -> np.ndarray:
+    def weights(self) -> FloatArray:
         """(3, k) what they add to the weights of the sides opposite to their corners."""
         to_b = self.spring * self.foot
         return self._by_corner(self.link - to_b * (1 - self.foot), to_b, self.spring - to_b)
 
-    def sides(self, true: bool = False) -> list[np.ndarray]:
+    def sides(self, true: bool = False) -> list[FloatArray]:
         """Three (3, k) vectors along the sides, of each face in a plane of its own: as high as faces with such springs.
 
         true: with their true heights instead.
@@ -111,17 +112,17 @@ class DegenerateFaces:
         )
         return [at[(k + 2) % 3] - at[(k + 1) % 3] for k in range(3)]
 
-    def _by_corner(self, *values: np.ndarray) -> np.ndarray:
+    def _by_corner(self, *values: FloatArray) -> FloatArray:
         """(3, ..., k) values of i, a and b in the order of the faces' corners."""
         order = np.argsort(self.corners, axis=0)
         return np.stack([np.choose(which, values) for which in order])
 
-    def stretch(self, u: np.ndarray) -> np.ndarray:
+    def stretch(self, u: FloatArray) -> FloatArray:
         """(k, c) by how much the values u (n, c) at the apexes differ from those at their feet."""
         i, a, b = self.vertices
         return u[i] - (1 - self.foot[:, None]) * u[a] - self.foot[:, None] * u[b]
 
-    def missing_springs(self) -> tuple[np.ndarray, np.ndarray]:
+    def missing_springs(self) -> tuple[FloatArray, FloatArray]:
         """(n, k) columns g and (k,) slack: the exact stiffness matrix is L + the sum of g g^T / slack."""
         g, column = np.zeros((len(self.surface.vertices), len(self.faces))), np.arange(len(self.faces))
         for vertices, value in zip(self.vertices, (np.ones(len(column)), self.foot - 1, -self.foot), strict=True):
@@ -129,7 +130,7 @@ class DegenerateFaces:
         return g, 2 * self.share * FLAT / (FLAT - self.share)
 
 
-def _hanging(surface: Surface, faces: np.ndarray) -> np.ndarray:
+def _hanging(surface: Surface, faces: IntArray) -> BoolArray:
     """(k,) whether degenerate faces are too few to hold the vertices that they alone have: a spring holds one."""
     f = surface.faces[faces]
     free = ~surface.in_proper_face[f]

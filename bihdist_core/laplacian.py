@@ -14,6 +14,7 @@ import threading
 import numpy as np
 import scipy.sparse as sp
 
+from .arrays import FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
 from .locked_cached_property import locked_cached_property
@@ -51,12 +52,12 @@ class Laplacian:
         return stiffness(self.surface)
 
     @locked_cached_property
-    def areas(self) -> np.ndarray:
+    def areas(self) -> FloatArray:
         """(n,) vertex areas, unit length squared."""
         return vertex_areas(self.surface, self.areas_kind)
 
     @locked_cached_property
-    def eigenpair_counts(self) -> np.ndarray:
+    def eigenpair_counts(self) -> IntArray:
         """(c,) how many eigenpairs each component has besides the constant: as vertices with an area, less one."""
         label = self.surface.component_of_vertex[self.areas > 0]
         return np.bincount(label[label >= 0], minlength=len(self.components)) - 1
@@ -71,7 +72,8 @@ class Laplacian:
 
     def component_of(self, vertex: int) -> "Component":
         """The component a vertex belongs to; VertexError if there is none."""
-        return self.components[self.surface.component_of_vertex[self.surface.check_vertex(vertex)]]
+        index: int = self.surface.component_of_vertex[self.surface.check_vertex(vertex)]
+        return self.components[index]
 
 
 class Component:
@@ -94,7 +96,7 @@ class Component:
         self._spectrum: Spectrum | None = None
 
     @locked_cached_property
-    def _cut(self) -> tuple[Surface, np.ndarray]:
+    def _cut(self) -> tuple[Surface, IntArray]:
         return self.laplacian.surface.component(self.index)
 
     @property
@@ -103,11 +105,11 @@ class Component:
         return self._cut[0]
 
     @property
-    def vertices(self) -> np.ndarray:
+    def vertices(self) -> IntArray:
         """(m,) ids in the whole surface, ascending."""
         return self._cut[1]
 
-    def local(self, vertices: np.ndarray) -> np.ndarray:
+    def local(self, vertices: IntArray) -> IntArray:
         """Local numbers of ids that belong to this component."""
         return np.searchsorted(self.vertices, vertices)
 
@@ -123,7 +125,7 @@ class Component:
         return DegenerateFaces.of(self.surface)
 
     @locked_cached_property
-    def areas(self) -> np.ndarray:
+    def areas(self) -> FloatArray:
         """(m,) vertex areas, unit length squared."""
         return self.laplacian.areas[self.vertices]
 
@@ -157,33 +159,35 @@ class Component:
                 self._factor_has_diagonals = diagonals
             return self._factor
 
-    def solve(self, b: np.ndarray, progress: Progress | None = None) -> np.ndarray:
+    def solve(self, b: FloatArray, progress: Progress | None = None) -> FloatArray:
         """G b; b (m,) or (m, k)."""
         return _solved(self.factor(progress), self.pin, b)
 
-    def centred(self, x: np.ndarray) -> np.ndarray:
+    def centred(self, x: FloatArray) -> FloatArray:
         """x (m,) or (m, k) less its mean by area."""
-        return x - self.areas @ x / self.areas.sum()
+        centred: FloatArray = x - self.areas @ x / self.areas.sum()
+        return centred
 
     # ------------------------------------------------------------------ Green's functions
-    def green_diagonal(self, progress: Progress | None = None) -> np.ndarray:
+    def green_diagonal(self, progress: Progress | None = None) -> FloatArray:
         """(m,) G_jj; no unit."""
         diagonal = self.factor(progress, diagonals=True).diagonal.copy()
         diagonal[self.pin] = 0
         return diagonal
 
-    def biharmonic_diagonal(self, progress: Progress | None = None) -> np.ndarray:
+    def biharmonic_diagonal(self, progress: Progress | None = None) -> FloatArray:
         """(m,) C_jj; unit length squared."""
         with turn(self._factor_lock, progress, "waiting for the factor"):
             self.factor(progress, diagonals=True)
             return self._biharmonic_diagonal
 
     @locked_cached_property
-    def _biharmonic_diagonal(self) -> np.ndarray:
-        return self.factor(diagonals=True).sandwich_diagonal - self._u**2 / self.areas.sum()
+    def _biharmonic_diagonal(self) -> FloatArray:
+        diagonal: FloatArray = self.factor(diagonals=True).sandwich_diagonal - self._u**2 / self.areas.sum()
+        return diagonal
 
     @locked_cached_property
-    def biharmonic_eccentricity(self) -> np.ndarray:
+    def biharmonic_eccentricity(self) -> FloatArray:
         """(m,) the root of the mean, by area, of the squared biharmonic distances to all points; unit length.
 
         It is largest at the tips of a shape.  With y = C A 1, the mean of C_ii + C_jj - 2 C_ij over j.
@@ -192,19 +196,20 @@ class Component:
         total = areas.sum()
         y = self.solve(areas * u) - u * (areas @ u / total)
         squares = diagonal + (areas @ diagonal - 2 * y) / total
-        return np.sqrt(np.maximum(squares, 0))
+        roots: FloatArray = np.sqrt(np.maximum(squares, 0))
+        return roots
 
     @locked_cached_property
-    def _u(self) -> np.ndarray:
+    def _u(self) -> FloatArray:
         """(m,) u = G A 1."""
         return self.solve(self.areas)
 
-    def each_biharmonic_piece(self, index: np.ndarray, receive: ReceivePiece) -> None:
+    def each_biharmonic_piece(self, index: IntArray, receive: ReceivePiece) -> None:
         """The columns `index` (k,) of C in pieces (see `Factor.each_sandwich_piece`); unit length squared."""
         index, u = np.asarray(index), self._u
         scaled = u[index] / self.areas.sum()
 
-        def centred(rows: np.ndarray, columns: slice, values: np.ndarray) -> None:
+        def centred(rows: IntArray, columns: slice, values: FloatArray) -> None:
             values -= u[rows, None] * scaled[columns]
             receive(rows, columns, values)
 
@@ -239,7 +244,7 @@ def _spectrum(
     factor: Factor,
     pin: int,
     stiffness: sp.csr_matrix,
-    areas: np.ndarray,
+    areas: FloatArray,
     count: int,
     start: Spectrum | None,
     progress: Progress,
@@ -250,7 +255,7 @@ def _spectrum(
     )
 
 
-def _solved(factor: Factor, pin: int, b: np.ndarray) -> np.ndarray:
+def _solved(factor: Factor, pin: int, b: FloatArray) -> FloatArray:
     """G b by the factor of the pinned matrix."""
     x = factor.solve(b)
     # The pinned vertex' equation is one of its own: x_p = b_p.

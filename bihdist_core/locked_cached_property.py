@@ -3,21 +3,30 @@
 import threading
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import Any, Generic, TypeVar, overload
+
+Value = TypeVar("Value")
 
 
-class locked_cached_property(cached_property):
+class locked_cached_property(cached_property[Value], Generic[Value]):
     """`functools.cached_property`, of which Python 3.12 took the lock; here each object and property has its own."""
 
-    def __init__(self, func: Callable[[Any], Any]) -> None:
+    def __init__(self, func: Callable[[Any], Value]) -> None:
         super().__init__(func)
 
-    def __get__(self, instance: Any, owner: type | None = None) -> Any:
+    @overload
+    def __get__(self, instance: None, owner: type | None = None) -> "locked_cached_property[Value]": ...
+
+    @overload
+    def __get__(self, instance: object, owner: type | None = None) -> Value: ...
+
+    def __get__(self, instance: object, owner: type | None = None) -> "locked_cached_property[Value] | Value":
         if instance is None:
             return self
-        kept, name = instance.__dict__, self.attrname
-        if name not in kept:
-            with kept.setdefault(f"lock of {name}", threading.RLock()):
-                if name not in kept:
-                    kept[name] = self.func(instance)
-        return kept[name]
+        values, name = instance.__dict__, str(self.attrname)
+        if name not in values:
+            with values.setdefault(f"lock of {name}", threading.RLock()):
+                if name not in values:
+                    values[name] = self.func(instance)
+        value: Value = values[name]
+        return value

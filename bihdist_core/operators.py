@@ -12,6 +12,7 @@ other faces stay exactly as they are.
 import numpy as np
 import scipy.sparse as sp
 
+from .arrays import FloatArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError
 from .surface import FLAT, Surface, dots
@@ -28,7 +29,7 @@ def stiffness(surface: Surface) -> sp.csr_matrix:
     return (sp.diags_array(np.asarray(weights.sum(axis=1)).ravel()) - weights).tocsr()
 
 
-def face_weights(surface: Surface) -> np.ndarray:
+def face_weights(surface: Surface) -> FloatArray:
     """(3, m) half the cotangent of each corner: what a face adds to the weight of the side opposite to it."""
     weights = _corners(surface)[0] / 2
     if len(surface.degenerate_faces):
@@ -36,7 +37,7 @@ def face_weights(surface: Surface) -> np.ndarray:
     return weights
 
 
-def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
+def vertex_areas(surface: Surface, kind: str = "voronoi") -> FloatArray:
     """(n,) areas, unit length squared, that sum to the surface's area; 0 for vertices that have no face, or next to no
     area, unless their whole component has none.
 
@@ -56,10 +57,10 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
         share = np.where(obtuse.any(axis=0), np.where(obtuse, area / 2, area / 4), share)
     flat, n = surface.degenerate_faces, len(surface.vertices)
     if not len(flat):
-        return np.bincount(surface.faces.T.ravel(), share.ravel(), n)
+        return np.bincount(surface.faces.T.ravel(), share.ravel(), n).astype(float, copy=False)
     share = share.copy()
     share[:, flat] *= surface.face_heights[flat] / FLAT
-    areas = np.bincount(surface.faces.T.ravel(), share.ravel(), n)
+    areas = np.bincount(surface.faces.T.ravel(), share.ravel(), n).astype(float, copy=False)
     # A vertex that has degenerate faces only may be a tip of much area.  Next to none is taken for none: what is
     # divided by such an area would be lost.  But a component needs some.
     proper, component = surface.in_proper_face, surface.component_of_vertex
@@ -71,7 +72,7 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> np.ndarray:
     return areas
 
 
-def face_sides(surface: Surface, true: bool = False) -> list[np.ndarray]:
+def face_sides(surface: Surface, true: bool = False) -> list[FloatArray]:
     """Of each face three vectors along its sides, (3, m) each, as `Surface.sides`; degenerate faces as in
     `DegenerateFaces.sides`.
 
@@ -84,7 +85,7 @@ def face_sides(surface: Surface, true: bool = False) -> list[np.ndarray]:
     return side
 
 
-def _corners(surface: Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _corners(surface: Surface) -> tuple[FloatArray, FloatArray, FloatArray]:
     """(3, m) cotangent of each corner, (3, m) squared length of the side opposite to it, (m,) face areas."""
     side = face_sides(surface)
     squares = np.stack([dots(s, s) for s in side])

@@ -7,9 +7,10 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from .arrays import AnyArray, BoolArray, FloatArray, IntArray
 from .errors import MeshError, VertexError
 
-Coordinates = np.ndarray | list[np.ndarray]
+Coordinates = FloatArray | list[FloatArray]
 """(3, m): vectors, each coordinate for itself."""
 
 FLAT = 1e-7
@@ -27,8 +28,8 @@ class Surface:
     Raises MeshError for wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
     """
 
-    vertices: np.ndarray
-    faces: np.ndarray
+    vertices: FloatArray
+    faces: IntArray
     name: str = "surface"
     repairs: Sequence[str] = field(default=())
     facts: Sequence[str] = field(default=())
@@ -41,7 +42,7 @@ class Surface:
             object.__setattr__(self, key, value)
         object.__setattr__(self, "facts", tuple(self.facts))
 
-    def __setstate__(self, state: dict) -> None:
+    def __setstate__(self, state: dict[str, object]) -> None:
         self.__dict__.update(state)
         # Arrays come back from a pickle writeable.
         self.vertices.flags.writeable = self.faces.flags.writeable = False
@@ -60,13 +61,13 @@ class Surface:
             raise VertexError(f"{self.name}: vertex {vertex} belongs to no face, so no distance is defined from it.")
         return int(vertex)
 
-    def check_vertices(self, vertices: npt.ArrayLike) -> np.ndarray:
+    def check_vertices(self, vertices: npt.ArrayLike) -> IntArray:
         """(k,) int64 ids, each checked as by `check_vertex`."""
         return np.array([self.check_vertex(v) for v in np.atleast_1d(np.asarray(vertices))], np.int64)
 
     # ------------------------------------------------------------------ connectivity
     @cached_property
-    def component_of_vertex(self) -> np.ndarray:
+    def component_of_vertex(self) -> IntArray:
         """(n,) component of each vertex, the one with most vertices first (0); -1 for a vertex of no face.
 
         Vertices that share a face are connected, also through a single vertex.
@@ -93,7 +94,7 @@ class Surface:
     def unreferenced_count(self) -> int:
         return int((self.component_of_vertex < 0).sum())
 
-    def component(self, index: int) -> tuple["Surface", np.ndarray]:
+    def component(self, index: int) -> tuple["Surface", IntArray]:
         """One component as a surface of its own, and (k,) the ids its vertices have here, ascending."""
         ids = np.flatnonzero(self.component_of_vertex == index)
         if len(ids) == len(self.vertices):
@@ -104,7 +105,7 @@ class Surface:
         return Surface(self.vertices[ids], new[faces], self.name), ids
 
     @cached_property
-    def _sides(self) -> tuple[np.ndarray, np.ndarray]:
+    def _sides(self) -> tuple[IntArray, IntArray]:
         """(e, 2) edges, ascending, and (3m,) the edge of each face's sides 01, 12, 20 (all 01 first)."""
         f, n = self.faces, len(self.vertices)
         tail, head = f.T.ravel(), f[:, [1, 2, 0]].T.ravel()
@@ -118,24 +119,25 @@ class Surface:
         return np.stack(np.divmod(key[first], n), 1), of_side
 
     @property
-    def edges(self) -> np.ndarray:
+    def edges(self) -> IntArray:
         """(e, 2) vertex ids, smaller first, each edge once."""
         return self._sides[0]
 
     @property
-    def edge_of_side(self) -> np.ndarray:
+    def edge_of_side(self) -> IntArray:
         """(3m,) the edge of each face's sides 01, 12, 20: all 01 first, then all 12, then all 20."""
         return self._sides[1]
 
     @cached_property
-    def faces_per_edge(self) -> np.ndarray:
+    def faces_per_edge(self) -> IntArray:
         """(e,) how many faces meet at each edge: 1 on a boundary, more than 2 where not manifold."""
         return np.bincount(self._sides[1], minlength=len(self.edges))
 
     @property
-    def boundary_edges(self) -> np.ndarray:
+    def boundary_edges(self) -> IntArray:
         """(b, 2) edges with one face."""
-        return self.edges[self.faces_per_edge == 1]
+        edges: IntArray = self.edges[self.faces_per_edge == 1]
+        return edges
 
     @cached_property
     def boundary_loop_count(self) -> int:
@@ -156,7 +158,7 @@ class Surface:
         return len(self.nonmanifold_vertices)
 
     @cached_property
-    def nonmanifold_vertices(self) -> np.ndarray:
+    def nonmanifold_vertices(self) -> IntArray:
         """(k,) the vertices whose faces fall apart into several fans."""
         m = len(self.faces)
         # Two corners at one vertex are in one fan if their faces share an edge there.  Side s of a face has the
@@ -167,7 +169,7 @@ class Surface:
         left, right = order[same], order[same + 1]
         corner = self.faces.T.ravel()
 
-        def ends(side: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        def ends(side: IntArray) -> tuple[IntArray, IntArray]:
             a, b = side, side % m + (side // m + 1) % 3 * m
             swap = corner[a] > corner[b]
             return np.where(swap, b, a), np.where(swap, a, b)
@@ -190,7 +192,7 @@ class Surface:
         return twice // 2 if self.is_manifold and twice % 2 == 0 else None
 
     # ------------------------------------------------------------------ measures
-    def sides(self) -> list[np.ndarray]:
+    def sides(self) -> list[FloatArray]:
         """Of each face the three sides as vectors, side k opposite to corner k: (3, m) each, coordinates first.
 
         Each step on them then runs over contiguous memory, which is several times faster.
@@ -200,7 +202,7 @@ class Surface:
         return [corners[(k + 2) % 3] - corners[(k + 1) % 3] for k in range(3)]
 
     @cached_property
-    def _face_measures(self) -> tuple[np.ndarray, np.ndarray]:
+    def _face_measures(self) -> tuple[FloatArray, FloatArray]:
         """(m,) areas and (m,) squares of the longest edges."""
         a, b, c = self.sides()
         normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -208,23 +210,23 @@ class Surface:
         return np.sqrt(dots(normal, normal)) / 2, longest
 
     @property
-    def face_areas(self) -> np.ndarray:
+    def face_areas(self) -> FloatArray:
         """(m,) areas."""
         return self._face_measures[0]
 
     @cached_property
-    def face_heights(self) -> np.ndarray:
+    def face_heights(self) -> FloatArray:
         """(m,) each face's height over its longest side, as a share of that side; 0 for three points in one place."""
         areas, longest = self._face_measures
         return 2 * areas / np.where(longest > 0, longest, 1)
 
     @cached_property
-    def degenerate_faces(self) -> np.ndarray:
+    def degenerate_faces(self) -> IntArray:
         """(k,) faces of (nearly) no area: height less than the share `FLAT` of the longest side (see `operators`)."""
         return np.flatnonzero(self.face_heights < FLAT)
 
     @cached_property
-    def in_proper_face(self) -> np.ndarray:
+    def in_proper_face(self) -> BoolArray:
         """(n,) whether a vertex belongs to a face that is not flat."""
         proper = np.zeros(len(self.vertices), bool)
         proper[np.delete(self.faces, self.degenerate_faces, axis=0)] = True
@@ -238,7 +240,7 @@ class Surface:
         return float(np.sqrt(dots(along, along)).mean())
 
 
-def dots(a: Coordinates, b: Coordinates) -> np.ndarray:
+def dots(a: Coordinates, b: Coordinates) -> FloatArray:
     """(m,) inner products of (3, m) columns; faster than einsum along the short axis."""
     product = a[0] * b[0]
     product += a[1] * b[1]
@@ -246,7 +248,7 @@ def dots(a: Coordinates, b: Coordinates) -> np.ndarray:
     return product
 
 
-def connected(edges: np.ndarray, n: int) -> np.ndarray:
+def connected(edges: IntArray, n: int) -> IntArray:
     """(n,) component, from 0 in the order of their least vertices, of each vertex of a graph with edges (2, e).
 
     Each tree joins that of its least neighbour, until none has a neighbour: some ten rounds (Liu and Tarjan, Simple
@@ -266,7 +268,7 @@ def connected(edges: np.ndarray, n: int) -> np.ndarray:
     return (np.cumsum((root == np.arange(n)).astype(np.int64)) - 1).take(root)
 
 
-def _checked_vertices(vertices: npt.ArrayLike, name: str) -> np.ndarray:
+def _checked_vertices(vertices: npt.ArrayLike, name: str) -> FloatArray:
     try:
         x = np.array(vertices, np.float64)
     except (TypeError, ValueError) as error:
@@ -279,7 +281,7 @@ def _checked_vertices(vertices: npt.ArrayLike, name: str) -> np.ndarray:
     return x
 
 
-def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[np.ndarray, list[str]]:
+def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, list[str]]:
     """(m, 3) faces that can be used, and what was dropped, in words."""
     try:
         f = np.array(faces)
@@ -295,21 +297,21 @@ def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[np.ndarray,
         raise MeshError(f"{name}: face {bad[0]} has the vertices {_row(f[bad[0]])}; ids run from 0 to {n - 1}.")
     a, b, c = whole.T
     proper = np.flatnonzero((a != b) & (b != c) & (c != a))
-    locked_cached_property = _without_repeats(whole, proper)
+    unique = _without_repeats(whole, proper)
     said = [
         f"{count} {'face' if count == 1 else 'faces'} {what} dropped"
         for count, what in [
             (len(f) - len(proper), "with a repeated vertex"),
-            (len(proper) - len(locked_cached_property), "that repeated another"),
+            (len(proper) - len(unique), "that repeated another"),
         ]
         if count
     ]
-    if not len(locked_cached_property):
+    if not len(unique):
         raise MeshError(f"{name}: every face names a vertex twice; a surface needs at least one triangle.")
-    return whole[locked_cached_property], said
+    return whole[unique], said
 
 
-def _without_repeats(faces: np.ndarray, some: np.ndarray) -> np.ndarray:
+def _without_repeats(faces: IntArray, some: IntArray) -> IntArray:
     """Of the faces with the numbers `some` (k,) the first of each three vertices."""
     # Repeated faces are rare.  Random numbers for the vertices, added up, tell in no time that there are none.
     random = np.random.default_rng(0).integers(1 << 62, size=int(faces.max()) + 1)
@@ -320,5 +322,5 @@ def _without_repeats(faces: np.ndarray, some: np.ndarray) -> np.ndarray:
     return np.sort(some[np.unique(np.sort(faces[some], axis=1), axis=0, return_index=True)[1]])
 
 
-def _row(values: np.ndarray) -> str:
+def _row(values: AnyArray) -> str:
     return "(" + ", ".join(f"{v:g}" for v in values) + ")"

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import AnyArray, IntArray
 from ..distances.distance import Distance
 from ..errors import OutputError, ParameterError
 from ..progress import Progress, silent
@@ -104,7 +105,7 @@ def write_all_pairs(
     report(1.0, f"all pairs: {n:,} vertices")
 
 
-def _rows(distance: Distance, ids: np.ndarray, dtype: np.dtype) -> np.ndarray:
+def _rows(distance: Distance, ids: IntArray, dtype: np.dtype) -> AnyArray:
     """(k, n) distances from k vertices."""
     rows = np.full((len(ids), len(distance.surface.vertices)), np.nan, dtype)
     used = np.flatnonzero(distance.surface.component_of_vertex[ids] >= 0)

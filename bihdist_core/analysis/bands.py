@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 from .clipping import clipped
@@ -22,17 +23,17 @@ class Band:
     """
 
     surface: Surface
-    ends: np.ndarray
-    parameters: np.ndarray
-    parents: np.ndarray
-    vertices: np.ndarray
-    faces: np.ndarray
+    ends: IntArray
+    parameters: FloatArray
+    parents: IntArray
+    vertices: IntArray
+    faces: IntArray
 
     @property
     def area(self) -> float:
         return float(self.surface.face_areas.sum())
 
-    def along(self, field: npt.ArrayLike) -> np.ndarray:
+    def along(self, field: npt.ArrayLike) -> FloatArray:
         """(v,) or (v, d): values (n,) or (n, d) at the vertices of the whole surface, linear on its faces, at the
         vertices of the part, on whose faces they are linear too."""
         at = np.asarray(field)
@@ -82,8 +83,8 @@ def band(surface: Surface, field: npt.ArrayLike, low: float = -np.inf, high: flo
 
 
 def _pieces(
-    corners: np.ndarray, f: np.ndarray, low: float, high: float, cut: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    corners: IntArray, f: FloatArray, low: float, high: float, cut: IntArray
+) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
     """The faces that are cut: ends (c, 2) and parameters (c,) of the crossings; (3 m,) corners of the pieces, of which
     those from n on are crossings; (m,) the face each is part of."""
     n, at = len(f), f[corners]

@@ -4,8 +4,10 @@ from collections import defaultdict
 
 import numpy as np
 
+from ..arrays import IntArray
 
-def chains(segments: np.ndarray) -> list[tuple[np.ndarray, bool]]:
+
+def chains(segments: IntArray) -> list[tuple[IntArray, bool]]:
     """Segments (m, 2) of ids as chains: the ids (k,) of each in order, and whether its last joins its first.
 
     Each segment is in one chain.  Chains end where not exactly two segments meet; a closed one names its first id

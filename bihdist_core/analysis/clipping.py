@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 
-def clipped(polygons: np.ndarray, sizes: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+
+def clipped(polygons: FloatArray, sizes: IntArray, values: FloatArray) -> tuple[FloatArray, IntArray]:
     """The parts of convex polygons where linear functions are at least 0 (Sutherland and Hodgman 1974).
 
     polygons: (p, s, 3) weights of up to s vertices at the corners of their triangles, sizes: (p,) how many each has,
@@ -29,10 +31,11 @@ def clipped(polygons: np.ndarray, sizes: np.ndarray, values: np.ndarray) -> tupl
     return cut[:, : max(3, int(cut_sizes.max(initial=0)))], cut_sizes
 
 
-def polygon_shares(polygons: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+def polygon_shares(polygons: FloatArray, sizes: IntArray) -> FloatArray:
     """(p,) areas of polygons as shares of their triangles'."""
     a, b = polygons[:, 1:-1] - polygons[:, :1], polygons[:, 2:] - polygons[:, :1]
     # In weights, a triangle's area over the whole one's is the determinant of two of its sides without a coordinate.
     determinants = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     present = np.arange(2, polygons.shape[1]) < sizes[:, None]
-    return np.where(present, np.abs(determinants), 0).sum(axis=1)
+    areas: FloatArray = np.where(present, np.abs(determinants), 0).sum(axis=1)
+    return areas

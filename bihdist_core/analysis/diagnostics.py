@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..progress import Progress, part, silent
@@ -35,13 +36,13 @@ class GradientJumps:
     slope: median length of the gradient over the surface, by area.
     """
 
-    edges: np.ndarray
-    jumps: np.ndarray
-    lengths: np.ndarray
+    edges: IntArray
+    jumps: FloatArray
+    lengths: FloatArray
     slope: float
 
     @property
-    def relative(self) -> np.ndarray:
+    def relative(self) -> FloatArray:
         """(k,) jumps over the gradient's length there, or over a quarter of its median if that is more; no unit.
 
         A smooth field's shrink with the edges, away from boundary corners; across a ridge the gradient turns round,
@@ -84,7 +85,7 @@ def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
     return GradientJumps(side[pairs], jumps, (length[pairs] + length[pairs + 1]) / 2, _median(lengths, area))
 
 
-def _median(values: np.ndarray, weights: np.ndarray) -> float:
+def _median(values: FloatArray, weights: FloatArray) -> float:
     order = np.argsort(np.where(np.isfinite(values), values, np.inf))
     weights = np.where(np.isfinite(values), weights, 0.0)[order]
     middle = np.searchsorted(np.cumsum(weights), weights.sum() / 2)

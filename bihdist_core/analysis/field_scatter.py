@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 
@@ -18,9 +19,9 @@ class FieldScatter:
     or as shares of each field's largest size over all these vertices.
     """
 
-    ids: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
+    ids: IntArray
+    x: FloatArray
+    y: FloatArray
 
     @property
     def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -28,7 +29,7 @@ class FieldScatter:
         across, up = ((min(float(v.min()), 0.0), max(float(v.max()), 0.0)) for v in (self.x, self.y))
         return across, up
 
-    def density(self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]) -> np.ndarray:
+    def density(self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]) -> IntArray:
         """(rows, columns) how many points are in each cell of a grid; the first row is the lowest.
 
         across, up: where the grid begins and ends; what lies on its ends is in it, what lies beyond is not counted.
@@ -40,7 +41,7 @@ class FieldScatter:
 
     def cells(
         self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]
-    ) -> tuple[np.ndarray, np.ndarray]:
+    ) -> tuple[IntArray, IntArray]:
         """The number of the cell, row by row, of each point in the grid of `density`, and which of the points these
         are."""
         places = []
@@ -50,7 +51,7 @@ class FieldScatter:
         inside = np.flatnonzero((places[0] >= 0) & (places[0] < columns) & (places[1] >= 0) & (places[1] < rows))
         return (places[1][inside] * columns + places[0][inside]).astype(np.intp), inside
 
-    def inside(self, polygon: npt.ArrayLike) -> np.ndarray:
+    def inside(self, polygon: npt.ArrayLike) -> IntArray:
         """The vertices whose points lie inside a closed polygon (m, 2), which they do where it goes round an odd number
         of times.
 
@@ -75,7 +76,7 @@ class FieldScatter:
         _ = self._upwards
 
     @cached_property
-    def _upwards(self) -> tuple[np.ndarray, np.ndarray]:
+    def _upwards(self) -> tuple[IntArray, FloatArray]:
         order = np.argsort(self.y, kind="stable")
         return order, self.y[order]
 

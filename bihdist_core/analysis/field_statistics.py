@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 from .field_scatter import field_scatter
@@ -36,16 +37,16 @@ class FieldStatistics:
     greatest_at: int
     largest: float
     largest_at: int
-    shares: np.ndarray
-    quantiles: np.ndarray
-    bins: np.ndarray
-    areas: np.ndarray
+    shares: FloatArray
+    quantiles: FloatArray
+    bins: FloatArray
+    areas: FloatArray
 
 
-def corner_areas(surface: Surface) -> np.ndarray:
+def corner_areas(surface: Surface) -> FloatArray:
     """(n,) a third of the area of each vertex' faces: the weights of the exact integral of a field linear on faces."""
     thirds = np.repeat(surface.face_areas / 3, 3)
-    return np.bincount(surface.faces.ravel(), thirds, minlength=len(surface.vertices))
+    return np.bincount(surface.faces.ravel(), thirds, minlength=len(surface.vertices)).astype(float, copy=False)
 
 
 def field_statistics(
@@ -142,17 +143,17 @@ def rank_correlation(a: npt.ArrayLike, b: npt.ArrayLike, weights: npt.ArrayLike 
     return _correlation(_order(f), _order(g), w)
 
 
-Order = tuple[np.ndarray, np.ndarray]
+Order = tuple[IntArray, IntArray]
 """(k,) the order of values, and (g + 1,) the bounds in it of each group of equal ones."""
 
 
-def _order(f: np.ndarray) -> Order:
+def _order(f: FloatArray) -> Order:
     order = np.argsort(f, kind="stable")
     value = f[order]
     return order, np.append(np.flatnonzero(np.append(True, value[1:] != value[:-1])), len(f))
 
 
-def _correlation(one: Order, other: Order, w: np.ndarray) -> float:
+def _correlation(one: Order, other: Order, w: FloatArray) -> float:
     # SciPy's has no weights.
     x, y = _ranks(one, w), _ranks(other, w)
     # Those of two values or more reach over half of all weight.
@@ -162,7 +163,7 @@ def _correlation(one: Order, other: Order, w: np.ndarray) -> float:
     return float(np.clip(w @ (x * y) / np.sqrt((w @ x**2) * (w @ y**2)), -1, 1))
 
 
-def _ranks(of: Order, w: np.ndarray) -> np.ndarray:
+def _ranks(of: Order, w: FloatArray) -> FloatArray:
     """(k,) the weight of what is less, and half of that of what is equal."""
     order, groups = of
     bounds = np.append(0, np.cumsum(w[order]))[groups]
@@ -171,7 +172,7 @@ def _ranks(of: Order, w: np.ndarray) -> np.ndarray:
     return ranks
 
 
-def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[np.ndarray, np.ndarray, LinearField]:
+def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[FloatArray, IntArray, LinearField]:
     """Values and ids of the vertices that have a value, and the faces that have one everywhere."""
     f = np.asarray(field)
     n = len(surface.vertices)
@@ -184,7 +185,7 @@ def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[np.ndarray, np.ndar
     return f[ids].astype(np.float64), ids, faces
 
 
-def _edges(bins: int | npt.ArrayLike, least: float, greatest: float) -> np.ndarray:
+def _edges(bins: int | npt.ArrayLike, least: float, greatest: float) -> FloatArray:
     if np.ndim(bins) == 0:
         if isinstance(bins, (bool, np.bool_)) or not isinstance(bins, (int, np.integer)) or bins < 1:
             raise ParameterError(f"bins is {bins!r}; a histogram has a whole number of them, at least 1.")

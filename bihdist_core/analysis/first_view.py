@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..surface import Surface
 from .upright import axes_of, scattered
 from .view_directions import FIRST_VIEWS
@@ -70,7 +71,7 @@ def first_look(surface: Surface, up: str = "y") -> FirstLook:
     return FirstLook(list(FIRST_VIEWS)[best], sights[best].source_among(ids, heights, outwards))
 
 
-def is_flat(points: np.ndarray) -> bool:
+def is_flat(points: FloatArray) -> bool:
     """Whether points (n, 3) lie in a plane of constant z."""
     return bool(np.ptp(points[:, 2]) <= 1e-6 * np.ptp(points, axis=0).max())
 
@@ -84,9 +85,9 @@ class _Sight:
     def __init__(
         self,
         surface: Surface,
-        places: np.ndarray,
-        faces: np.ndarray,
-        axes: np.ndarray,
+        places: FloatArray,
+        faces: IntArray,
+        axes: FloatArray,
         direction: tuple[float, float, float],
     ) -> None:
         self._surface = surface
@@ -109,7 +110,7 @@ class _Sight:
         cell = (2 * SLOPE * distance / CELLS) ** 2
         self.areas = cell * is_outside.sum(), cell * (~is_outside).sum()  # that are seen, of the outside and the inside
 
-    def source_among(self, ids: np.ndarray, heights: np.ndarray, outwards: float) -> int:
+    def source_among(self, ids: IntArray, heights: FloatArray, outwards: float) -> int:
         """Of vertices (k,) with heights (k,) the one to start from; outwards: -1 where normals point inwards."""
         first, level = int(heights.argmax()), EQUAL * float(np.ptp(heights))
         as_high = np.flatnonzero(heights >= heights[first] - level)
@@ -124,12 +125,12 @@ class _Sight:
         others = others[well][np.argsort(-heights[well], kind="stable")][:MOST_TRIED]
         return next((int(vertex) for vertex in others if self._is_seen(int(vertex), outwards)), int(ids[first]))
 
-    def _seen(self, points: np.ndarray) -> np.ndarray:
+    def _seen(self, points: FloatArray) -> FloatArray:
         """(3, k) where points (k, 3) are in the picture, -SLOPE to SLOPE, and how far away."""
         right, up, back = ((points - self._eye) @ self._frame).T
         return np.stack([right / -back, up / -back, -back])
 
-    def _vertices_facing(self, ids: np.ndarray) -> np.ndarray:
+    def _vertices_facing(self, ids: IntArray) -> FloatArray:
         """(k,) the cosine of the angle between the normal of vertices (k,) and the way to the camera."""
         vertices, faces = self._surface.vertices, self._surface.faces
         is_asked = np.zeros(len(vertices), bool)
@@ -141,12 +142,14 @@ class _Sight:
         ]
         way = (self._eye - vertices[ids]).T
         lengths = np.linalg.norm(normals, axis=0) * np.linalg.norm(way, axis=0)
-        return (normals * way).sum(axis=0) / np.maximum(lengths, 1e-300)
+        cosines: FloatArray = (normals * way).sum(axis=0) / np.maximum(lengths, 1e-300)
+        return cosines
 
-    def _may_be_seen(self, ids: np.ndarray) -> np.ndarray:
+    def _may_be_seen(self, ids: IntArray) -> BoolArray:
         """(k,) which vertices (k,) are no more than a few cells behind what is seen there."""
         x, y, depth = self._seen(self._surface.vertices[ids])
-        return depth <= self._nearest[_cells(x, y)] + 6 * SLOPE * depth / CELLS
+        is_near: BoolArray = depth <= self._nearest[_cells(x, y)] + 6 * SLOPE * depth / CELLS
+        return is_near
 
     def _is_seen(self, vertex: int, outwards: float) -> bool:
         """Whether no face is before a vertex, and one at it turns its outside to the camera."""
@@ -169,13 +172,14 @@ class _Sight:
         return bool((there >= depth * (1 - 1e-6)).all())
 
 
-def _cells(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def _cells(x: FloatArray, y: FloatArray) -> IntArray:
     """(k,) the cell of the picture that places are seen in."""
     column, row = (np.clip((along / SLOPE + 1) / 2 * CELLS, 0, CELLS - 1) for along in (x, y))
     return CELLS * row.astype(np.int64) + column.astype(np.int64)
 
 
-def _facing(surface: Surface, faces: np.ndarray, eye: np.ndarray) -> np.ndarray:
+def _facing(surface: Surface, faces: IntArray, eye: FloatArray) -> FloatArray:
     """(k,) positive where faces (k,) turn to a camera the side from which their corners go round to the left."""
     a, b, c = surface.vertices[surface.faces[faces]].transpose(1, 0, 2)
-    return np.einsum("ij,ij->i", np.cross(b - a, c - a), eye - a)
+    towards: FloatArray = np.einsum("ij,ij->i", np.cross(b - a, c - a), eye - a)
+    return towards

@@ -17,6 +17,7 @@ from queue import Empty
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..child_process import ChildProcess, mesh_message
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..distances.geodesic import EXACT_UP_TO
@@ -53,7 +54,7 @@ class GeodesicPaths:
         self._lock = threading.Lock()
         self._child: ChildProcess | None = None
         self._sent: Surface | None = None
-        self._components: dict[int, tuple[Surface, np.ndarray, np.ndarray]] = {}
+        self._components: dict[int, tuple[Surface, IntArray, IntArray]] = {}
         self._stars: tuple[Surface, Stars] | None = None
 
     def path(
@@ -103,7 +104,7 @@ class GeodesicPaths:
         if child is not None:
             child.end()
 
-    def _component(self, index: int) -> tuple[Surface, np.ndarray, np.ndarray]:
+    def _component(self, index: int) -> tuple[Surface, IntArray, IntArray]:
         """A component, the ids of its vertices here, and those of its faces."""
         if index not in self._components:
             component, ids = self.surface.component(index)
@@ -156,7 +157,7 @@ class GeodesicPaths:
             self._stars = surface, Stars(surface)
         return self._stars[1]
 
-    def _asked(self, surface: Surface, kind: int, start: int, stop: int, report: Progress) -> np.ndarray:
+    def _asked(self, surface: Surface, kind: int, start: int, stop: int, report: Progress) -> FloatArray:
         """(k, 3) the points of a path between two vertices."""
         # pygeodesic has absolute tolerances, so it gets edges near length 1; a power of two changes no digit.
         unit = 2.0 ** np.round(np.log2(surface.mean_edge_length or 1.0))

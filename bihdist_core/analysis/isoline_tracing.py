@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 from .chains import chains
@@ -20,16 +21,17 @@ class Isoline:
     """
 
     value: float
-    points: np.ndarray
-    edges: np.ndarray
-    parameters: np.ndarray
+    points: FloatArray
+    edges: IntArray
+    parameters: FloatArray
     closed: bool
 
-    def along(self, field: npt.ArrayLike) -> np.ndarray:
+    def along(self, field: npt.ArrayLike) -> FloatArray:
         """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated at the points of this curve."""
         at = np.asarray(field)
         t = self.parameters.reshape(-1, *(1,) * (at.ndim - 1))
-        return (1 - t) * at[self.edges[:, 0]] + t * at[self.edges[:, 1]]
+        values: FloatArray = (1 - t) * at[self.edges[:, 0]] + t * at[self.edges[:, 1]]
+        return values
 
     @property
     def length(self) -> float:
@@ -66,7 +68,7 @@ def isolines(surface: Surface, field: npt.ArrayLike, values: npt.ArrayLike) -> l
     return found
 
 
-def _segments(faces: np.ndarray, above: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _segments(faces: IntArray, above: BoolArray) -> tuple[IntArray, IntArray]:
     """(e, 2) crossed edges, the vertex below the level first, and (m, 2) the two that each crossed face joins."""
     # One corner is on the other side than the two others; the curve cuts the two edges that meet there.
     lone = np.where(above.sum(axis=1) == 1, above.argmax(axis=1), above.argmin(axis=1))
@@ -79,7 +81,7 @@ def _segments(faces: np.ndarray, above: np.ndarray) -> tuple[np.ndarray, np.ndar
     return np.stack([key // size, key % size], 1), index.reshape(2, -1).T
 
 
-def _joined(surface: Surface, f: np.ndarray, level: float, edges: np.ndarray, segments: np.ndarray) -> list[Isoline]:
+def _joined(surface: Surface, f: FloatArray, level: float, edges: IntArray, segments: IntArray) -> list[Isoline]:
     below, top = f[edges[:, 0]], f[edges[:, 1]]
     # Halved first, so that the difference of two huge values of opposite sign is finite.
     t = np.clip((level / 2 - below / 2) / (top / 2 - below / 2), 0, 1)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import BoolArray, FloatArray
 from ..surface import Surface
 
 
@@ -17,14 +18,14 @@ class LinearField:
     quadratic polynomial of it.
     """
 
-    low: np.ndarray
-    middle: np.ndarray
-    high: np.ndarray
-    areas: np.ndarray
-    ends: np.ndarray
+    low: FloatArray
+    middle: FloatArray
+    high: FloatArray
+    areas: FloatArray
+    ends: FloatArray
 
     @classmethod
-    def on(cls, surface: Surface, field: np.ndarray) -> "LinearField":
+    def on(cls, surface: Surface, field: FloatArray) -> "LinearField":
         """field: (n,).  Faces with a corner that is not finite are left out, as from a band between two values."""
         corners = field[surface.faces]
         there = np.isfinite(corners).all(axis=1)
@@ -70,7 +71,7 @@ class LinearField:
         corner = side / np.where(lower, middle - low, high - middle) * (side / (high - low))
         return float(self.areas @ whole + self.areas[cut] @ np.where(lower, corner, 1 - corner))
 
-    def histogram(self, edges: np.ndarray) -> np.ndarray:
+    def histogram(self, edges: FloatArray) -> FloatArray:
         """(b,) the area between each two of (b + 1,) ends, ascending; triangles on an end count above it, those on the
         last below it."""
         first, last = (np.searchsorted(edges, values, "right") - 1 for values in (self.low, self.high))
@@ -78,9 +79,10 @@ class LinearField:
         cut = self._part(~one)
         reached = [*map(cut.area_below, edges[:-1]), cut.area_below(edges[-1], closed=True)]
         # Rounding may leave less than nothing between two ends.
-        return np.bincount(first[one], self.areas[one], len(edges) - 1) + np.maximum(np.diff(reached), 0)
+        inside = np.bincount(first[one], self.areas[one], len(edges) - 1).astype(float, copy=False)
+        return inside + np.maximum(np.diff(reached), 0)
 
-    def quantiles(self, shares: npt.ArrayLike) -> np.ndarray:
+    def quantiles(self, shares: npt.ArrayLike) -> FloatArray:
         """(q,) the least values that the field does not exceed on these shares (q,), from 0 to 1, of the area."""
         area = self.area
         return np.array([self._value_at(share * area) for share in np.asarray(shares, np.float64)])
@@ -106,12 +108,12 @@ class LinearField:
         missing = [below + faces.area_below(value) - area for value in (lower, (lower + upper) / 2, upper)]
         return lower + (upper - lower) * _root(*missing)
 
-    def _part(self, chosen: np.ndarray) -> "LinearField":
+    def _part(self, chosen: BoolArray) -> "LinearField":
         if chosen.all():
             return self
         return LinearField(self.low[chosen], self.middle[chosen], self.high[chosen], self.areas[chosen], self.ends)
 
-    def _mean(self, of_face: np.ndarray) -> float:
+    def _mean(self, of_face: FloatArray) -> float:
         return float(self.areas @ of_face / self.areas.sum())
 
 

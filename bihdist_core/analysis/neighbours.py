@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..progress import Progress, silent
@@ -28,7 +29,7 @@ def nearest(
     mask: npt.ArrayLike | None = None,
     memory: float = MEMORY,
     progress: Progress | None = None,
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[IntArray, FloatArray]:
     """The k vertices nearest to each of s sources, nearest first, and how far they are: (s, k), (s, k).
 
     sources: (s,) vertices, all n if None.  A source is no neighbour of itself; of vertices at the same distance the
@@ -70,7 +71,7 @@ def nearest(
     return indices, values
 
 
-def least(field: np.ndarray, k: int) -> np.ndarray:
+def least(field: FloatArray, k: int) -> IntArray:
     """(at most k,) where a field (n,) is least, ascending; equal ones by number, what is not finite left out."""
     known = np.where(np.isfinite(field), field, np.inf)
     reach = np.partition(known, k - 1)[k - 1] if k < len(known) else np.inf

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..formats.field_output import write_array
 from ..whole_file import check_output, whole_file
@@ -15,9 +16,9 @@ NEIGHBOUR_FORMATS = (".csv", ".npy", ".npz", ".json")
 
 def write_nearest(
     path: str | os.PathLike[str],
-    sources: np.ndarray,
-    indices: np.ndarray,
-    distances: np.ndarray,
+    sources: IntArray,
+    indices: IntArray,
+    distances: FloatArray,
     facts: Mapping[str, object],
 ) -> None:
     """Write the neighbours (s, k) of vertices (s,) and how far they are (s, k); the extension names the format.

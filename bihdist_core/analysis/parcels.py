@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..progress import Progress, silent
@@ -23,9 +24,9 @@ class Parcels:
     a vertex of the one and a vertex of the other, NaN where any pair has none.  On the diagonal the pairs are those
     within a parcel, each vertex with itself among them."""
 
-    labels: np.ndarray
-    counts: np.ndarray
-    means: np.ndarray
+    labels: IntArray
+    counts: IntArray
+    means: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,9 +36,9 @@ class ParcelSums:
     Parts of one surface's vertices are added up: they may be computed apart, in any order.
     """
 
-    labels: np.ndarray
-    counts: np.ndarray
-    sums: np.ndarray
+    labels: IntArray
+    counts: IntArray
+    sums: FloatArray
 
     def __add__(self, other: "ParcelSums") -> "ParcelSums":
         return ParcelSums(self.labels, self.counts, self.sums + other.sums)
@@ -97,12 +98,12 @@ def parcel_sums(
     return ParcelSums(names, counts, sums)
 
 
-def _sums_into(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> sparse.csr_array:
+def _sums_into(rows: IntArray, columns: IntArray, shape: tuple[int, int]) -> sparse.csr_array:
     """The matrix that adds up what stands at those columns, into those rows."""
     return sparse.csr_array((np.ones(len(rows)), (rows, columns)), shape=shape)
 
 
-def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None = None) -> np.ndarray:
+def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None = None) -> IntArray:
     """The vertices that have a label, belong to a face and are not masked, by component, by label, then by number.
 
     ParameterError for labels or a mask of another shape or kind, and if there is none.
@@ -122,7 +123,7 @@ def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None
     return vertices[np.lexsort((given[vertices], surface.component_of_vertex[vertices]))]
 
 
-def checked_mask(surface: Surface, mask: npt.ArrayLike) -> np.ndarray:
+def checked_mask(surface: Surface, mask: npt.ArrayLike) -> BoolArray:
     """(n,) which vertices count; ParameterError for anything but n times yes or no."""
     given, n = np.asarray(mask), len(surface.vertices)
     what = f"A mask has 0 or 1 for each of the {n:,} vertices of {surface.name}"

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 
@@ -23,10 +24,10 @@ class Extrema:
     raw_minima, raw_maxima: how many vertices are lower or higher than all their neighbours, however little.
     """
 
-    minima: np.ndarray
-    minima_persistence: np.ndarray
-    maxima: np.ndarray
-    maxima_persistence: np.ndarray
+    minima: IntArray
+    minima_persistence: FloatArray
+    maxima: IntArray
+    maxima_persistence: FloatArray
     raw_minima: int
     raw_maxima: int
 
@@ -56,7 +57,7 @@ def extrema(surface: Surface, field: npt.ArrayLike, share: float = 1e-3) -> Extr
     return Extrema(low[deep], depth[deep], high[tall], height[tall], len(low), len(high))
 
 
-def _minima(f: np.ndarray, edges: np.ndarray, ids: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _minima(f: FloatArray, edges: IntArray, ids: IntArray) -> tuple[IntArray, FloatArray]:
     """(k,) all minima among the vertices `ids`, and their persistence, greatest first."""
     order = ids[np.argsort(f[ids], kind="stable")]
     rank = np.full(len(f), len(f))
@@ -93,7 +94,7 @@ def _minima(f: np.ndarray, edges: np.ndarray, ids: np.ndarray) -> tuple[np.ndarr
     return roots[first], depth[first]
 
 
-def _basins(rank: np.ndarray, order: np.ndarray, edges: np.ndarray) -> np.ndarray:
+def _basins(rank: IntArray, order: IntArray, edges: IntArray) -> IntArray:
     """(n,) the minimum that steepest descent, always to the lowest neighbour, reaches from each vertex."""
     lowest = rank.copy()
     for a, b in (edges.T, edges.T[::-1]):

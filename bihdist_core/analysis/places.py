@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..sources.pieces import points_on
 from ..sources.source import SurfacePoint, checked_source
@@ -24,9 +25,9 @@ APART = 1e-9
 class Places:
     """k places on a surface: faces (k,), the ids of their corners (k, 3), and weights (k, 3), at least 0, of sum 1."""
 
-    faces: np.ndarray
-    corners: np.ndarray
-    weights: np.ndarray
+    faces: IntArray
+    corners: IntArray
+    weights: FloatArray
 
     @classmethod
     def of(cls, surface: Surface, places: Sequence[int | SurfacePoint | str]) -> "Places":
@@ -47,15 +48,16 @@ class Places:
         """Their surface with vertices at them."""
         return split_at(surface, self.faces, self.weights, APART)
 
-    def values(self, field: npt.ArrayLike) -> np.ndarray:
+    def values(self, field: npt.ArrayLike) -> FloatArray:
         """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated linearly."""
         return weighted(np.asarray(field), self.corners, self.weights)
 
 
-def weighted(at: np.ndarray, corners: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def weighted(at: FloatArray, corners: IntArray, weights: FloatArray) -> FloatArray:
     """(k,) or (k, d): sums over corners (k, 3) of values `at` them; those of weight 0 do not count, finite or not."""
     w = weights.reshape(*weights.shape, *(1,) * (at.ndim - 1))
-    return (w * np.where(w > 0, at[corners], 0)).sum(axis=1)
+    sums: FloatArray = (w * np.where(w > 0, at[corners], 0)).sum(axis=1)
+    return sums
 
 
 def place_words(place: int | SurfacePoint | str) -> str:

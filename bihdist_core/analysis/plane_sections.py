@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..sources.source import SurfacePoint
 from ..sources.splitting import Split
@@ -76,7 +77,7 @@ def plane_section(
 IN_PLANE = 1e-12
 """Vertices nearer to a plane than this share of the surface's extent lie in it."""
 
-Curve = tuple[np.ndarray, np.ndarray]
+Curve = tuple[IntArray, FloatArray]
 """Ends (k, 2) and parameters (k,) of its points, as in `Crossings`."""
 
 
@@ -85,13 +86,13 @@ class _Way:
     """A part of a line that leads from one vertex to another, by the numbers (k,) of its points."""
 
     line: Isoline
-    index: np.ndarray
+    index: IntArray
 
     @property
     def curve(self) -> Curve:
         return self._at(self.index)
 
-    def _at(self, index: np.ndarray) -> Curve:
+    def _at(self, index: IntArray) -> Curve:
         ends, t = self.line.edges[index], self.line.parameters[index]
         at_vertex = t == 1
         return np.where(at_vertex[:, None], ends[:, 1:], ends), np.where(at_vertex, 0.0, t)
@@ -110,7 +111,7 @@ class _Way:
         return [piece for piece in pieces if len(piece[1]) > 1], knots
 
 
-def _ways(split: Split, start: int, stop: int, d: np.ndarray) -> list[_Way]:
+def _ways(split: Split, start: int, stop: int, d: FloatArray) -> list[_Way]:
     """How the section leads from one vertex to another, the shortest first; none where it does not."""
     x = split.surface.vertices
     normal = np.cross(x[stop] - x[start], d)
@@ -146,5 +147,5 @@ def _between(line: Isoline, start: int, stop: int) -> list[_Way]:
     return found
 
 
-def _length(points: np.ndarray) -> float:
+def _length(points: FloatArray) -> float:
     return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())

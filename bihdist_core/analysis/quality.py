@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..progress import Progress, part
@@ -43,8 +44,8 @@ class Circle:
     """
 
     radius: float
-    angles: tuple[np.ndarray, ...]
-    values: tuple[np.ndarray, ...]
+    angles: tuple[FloatArray, ...]
+    values: tuple[FloatArray, ...]
     ratio: float
 
 
@@ -80,7 +81,7 @@ def geodesic_circles(
     return found
 
 
-def _around(angles: np.ndarray, points: np.ndarray, closed: bool) -> np.ndarray:
+def _around(angles: FloatArray, points: FloatArray, closed: bool) -> FloatArray:
     """Angles (k,) along a curve through points (k, 3), or, if it is closed and does not go straight round, shares of
     its length that fit them best."""
     turned = np.unwrap(angles)
@@ -92,10 +93,11 @@ def _around(angles: np.ndarray, points: np.ndarray, closed: bool) -> np.ndarray:
     shares = 2 * np.pi * length / length[-1]
     ways = [np.exp(1j * (angles - way * shares))[:-1].mean() for way in (1, -1)]
     way, fit = max(zip((1, -1), ways, strict=True), key=lambda each: abs(each[1]))
-    return np.angle(np.exp(1j * (way * shares + np.angle(fit))))
+    fitted: FloatArray = np.angle(np.exp(1j * (way * shares + np.angle(fit))))
+    return fitted
 
 
-def _tangent_plane(surface: Surface, source: Source) -> tuple[np.ndarray, np.ndarray] | None:
+def _tangent_plane(surface: Surface, source: Source) -> tuple[FloatArray, FloatArray] | None:
     """The place (3,) of a source, and (2, 3) two directions at right angles in the plane across the mean normal of the
     faces there, by area; None if it is no single place.
 
@@ -144,7 +146,7 @@ class Kink:
     """The kinks of a field away from its source: see `FieldQuality`."""
 
     largest: float
-    edge: np.ndarray
+    edge: IntArray
     length: float
 
 
@@ -167,13 +169,13 @@ def kinks(surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike, radius: f
 class OtherExtrema:
     """The extrema of a field but for those at its source: see `FieldQuality`."""
 
-    minima: np.ndarray
-    minima_depth: np.ndarray
-    maxima: np.ndarray
-    maxima_height: np.ndarray
+    minima: IntArray
+    minima_depth: FloatArray
+    maxima: IntArray
+    maxima_height: FloatArray
 
     @property
-    def vertices(self) -> np.ndarray:
+    def vertices(self) -> IntArray:
         """All of them, the minima first."""
         return np.concatenate([self.minima, self.maxima])
 
@@ -232,14 +234,14 @@ class FieldQuality:
     """
 
     source: Source | None
-    minima: np.ndarray
-    minima_depth: np.ndarray
-    maxima: np.ndarray
-    maxima_height: np.ndarray
+    minima: IntArray
+    minima_depth: FloatArray
+    maxima: IntArray
+    maxima_height: FloatArray
     circles: tuple[Circle, ...]
     isotropy: float
     kink: float
-    kink_edge: np.ndarray
+    kink_edge: IntArray
     kink_length: float
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..formats.curve_output import Curve, write_curves
 from ..surface import Surface
 from .chains import chains
@@ -21,10 +22,10 @@ class Boundary:
     """
 
     between: tuple[int, int]
-    points: np.ndarray
+    points: FloatArray
     closed: bool
-    corners: np.ndarray
-    weights: np.ndarray
+    corners: IntArray
+    weights: FloatArray
 
     @property
     def length(self) -> float:
@@ -63,7 +64,7 @@ def write_boundaries(path: str | os.PathLike[str], curves: Sequence[Boundary], l
     write_curves(path, written, ["region", "other"], "boundaries")
 
 
-def _named_ends(surface: Surface, regions: Regions) -> np.ndarray:
+def _named_ends(surface: Surface, regions: Regions) -> IntArray:
     """(s, 2) numbers of the segments' ends: the same for ends in the same place, as rounding does not tell."""
     corners, on = surface.faces[regions.faces][:, None], regions.weights > 0
     count = len(corners)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..surface import Surface
 from .places import weighted
 from .regions import chunks, least_of, region_polygons, rivals_in, whole_and_mixed
@@ -22,12 +23,12 @@ class RegionMesh:
     """
 
     surface: Surface
-    regions: np.ndarray
-    parents: np.ndarray
-    corners: np.ndarray
-    weights: np.ndarray
+    regions: IntArray
+    parents: IntArray
+    corners: IntArray
+    weights: FloatArray
 
-    def along(self, field: npt.ArrayLike) -> np.ndarray:
+    def along(self, field: npt.ArrayLike) -> FloatArray:
         """(v,) or (v, d): values (n,) or (n, d) at the vertices of the whole surface, linear on its faces, at these."""
         return weighted(np.asarray(field), self.corners, self.weights)
 
@@ -63,11 +64,11 @@ def region_mesh(surface: Surface, columns: npt.ArrayLike) -> RegionMesh:
     return RegionMesh(Surface(points, faces[proper], surface.name), region[first], parent[proper], corners, weights)
 
 
-def _names(corners: np.ndarray, weights: np.ndarray, region: np.ndarray, face: np.ndarray) -> np.ndarray:
+def _names(corners: IntArray, weights: FloatArray, region: IntArray, face: IntArray) -> IntArray:
     """(v,) the same number for vertices in the same place of the same region, whichever face they come from."""
     there = weights > CLOSE
     n, count = int(corners.max(initial=0)) + 1, there.sum(axis=1)
-    names = region * n + corners[np.arange(len(corners)), weights.argmax(axis=1)]
+    names: IntArray = region * n + corners[np.arange(len(corners)), weights.argmax(axis=1)]
     # On a side a place is known by the side and a weight, inside by the face and two.
     some = np.flatnonzero(count > 1)
     inside, at = count[some] == 3, weights[some]

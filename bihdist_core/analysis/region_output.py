@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..arrays import IntArray
 from ..formats.field_output import FIELD_FORMATS, write_fields
 from ..surface import Surface
 from ..whole_file import check_output
@@ -34,7 +35,7 @@ def write_region_mesh(path: str | os.PathLike[str], mesh: RegionMesh, labels: Se
     write_fields(path, mesh.surface, {"region": _labelled(mesh.regions, labels)})
 
 
-def _labelled(regions: np.ndarray, labels: Sequence[int] | None) -> np.ndarray:
+def _labelled(regions: IntArray, labels: Sequence[int] | None) -> IntArray:
     """(n,) the labels of regions (n,)."""
     if not (regions >= 0).any():
         return np.full(len(regions), np.nan)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 from .clipping import clipped, polygon_shares
@@ -33,20 +34,21 @@ class Regions:
     meetings: (q, 3) where three regions meet inside a face; of_meetings: (q, 3) these regions, ascending.
     """
 
-    labels: np.ndarray
-    areas: np.ndarray
-    segments: np.ndarray
-    between: np.ndarray
-    faces: np.ndarray
-    weights: np.ndarray
-    cut_by: np.ndarray
-    meetings: np.ndarray
-    of_meetings: np.ndarray
+    labels: IntArray
+    areas: FloatArray
+    segments: FloatArray
+    between: IntArray
+    faces: IntArray
+    weights: FloatArray
+    cut_by: IntArray
+    meetings: FloatArray
+    of_meetings: IntArray
 
     @property
-    def lengths(self) -> np.ndarray:
+    def lengths(self) -> FloatArray:
         """(s,) of the boundary segments."""
-        return np.linalg.norm(self.segments[:, 1] - self.segments[:, 0], axis=1)
+        lengths: FloatArray = np.linalg.norm(self.segments[:, 1] - self.segments[:, 0], axis=1)
+        return lengths
 
 
 def voronoi_regions(surface: Surface, columns: npt.ArrayLike) -> Regions:
@@ -73,7 +75,7 @@ def voronoi_regions(surface: Surface, columns: npt.ArrayLike) -> Regions:
     return Regions(labels, areas, points, between, faces, weights, cut_by, *_meetings(between, faces, points, cut_by))
 
 
-def least_of(surface: Surface, columns: npt.ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+def least_of(surface: Surface, columns: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
     """Fields (n, k), checked, infinite where they have no value, and (n,) which is the least, -1 for none."""
     f = np.asarray(columns, np.float64)
     n = len(surface.vertices)
@@ -83,25 +85,25 @@ def least_of(surface: Surface, columns: npt.ArrayLike) -> tuple[np.ndarray, np.n
     return f, np.where(np.isfinite(f).any(axis=1), f.argmin(axis=1), -1)
 
 
-def whole_and_mixed(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def whole_and_mixed(labels: IntArray) -> tuple[IntArray, IntArray]:
     """Of faces with the labels (m, 3) at the corners those in one region, and those that may be in several."""
     valued = (labels >= 0).all(axis=1)
     whole = valued & (labels == labels[:, :1]).all(axis=1)
     return np.flatnonzero(whole), np.flatnonzero(valued & ~whole)
 
 
-Segments = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+Segments = tuple[IntArray, IntArray, FloatArray, IntArray]
 """Between which regions (s, 2), faces (s,), weights of the ends (s, 2, 3), and the third region that cut off each end
 (s, 2), -1 for none."""
 
 
-def chunks(faces: np.ndarray, fields: int) -> Iterator[np.ndarray]:
+def chunks(faces: IntArray, fields: int) -> Iterator[IntArray]:
     size = max(1, CHUNK // fields)
     for start in range(0, len(faces), size):
         yield faces[start : start + size]
 
 
-def rivals_in(f: np.ndarray, faces: np.ndarray) -> np.ndarray:
+def rivals_in(f: FloatArray, faces: IntArray) -> IntArray:
     """(m, r) the fields that are the least somewhere in each face, or might be, ascending, then -1.
 
     A field is left out if at all corners another is at most as large (of equal ones, a later number).
@@ -129,8 +131,8 @@ def rivals_in(f: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 def region_polygons(
-    f: np.ndarray, corners: np.ndarray, rivals: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    f: FloatArray, corners: IntArray, rivals: IntArray
+) -> tuple[IntArray, IntArray, FloatArray, IntArray]:
     """The parts (p,) of faces in each region: which face, which region, polygons (p, t, 3) in weights and their sizes.
 
     f: (n, k) fields.  corners: (m, 3) of the faces.  rivals: (m, r) fields that are the least somewhere in each.
@@ -147,7 +149,7 @@ def region_polygons(
     return face, mine, polygons, sizes
 
 
-def _segments(f: np.ndarray, corners: np.ndarray, faces: np.ndarray, rivals: np.ndarray) -> list[Segments]:
+def _segments(f: FloatArray, corners: IntArray, faces: IntArray, rivals: IntArray) -> list[Segments]:
     """The segments inside some faces."""
     parts = []
     for a in range(rivals.shape[1]):
@@ -188,7 +190,7 @@ def _segments(f: np.ndarray, corners: np.ndarray, faces: np.ndarray, rivals: np.
     return parts
 
 
-def _along_edges(f: np.ndarray, surface: Surface) -> Segments:
+def _along_edges(f: FloatArray, surface: Surface) -> Segments:
     """The segments along edges, where two fields are equal at both ends: each face then is on one side."""
     number = _different(f)
     tied = np.zeros(len(f), bool)
@@ -230,7 +232,7 @@ def _along_edges(f: np.ndarray, surface: Surface) -> Segments:
     )
 
 
-def _different(f: np.ndarray) -> np.ndarray:
+def _different(f: FloatArray) -> IntArray:
     """The columns (q,) of f that are equal to none before them; the others have no region, hence no boundary."""
     some = f[np.linspace(0, len(f) - 1, 64).astype(np.int64)]
     alike: dict[bytes, list[int]] = {}
@@ -241,7 +243,7 @@ def _different(f: np.ndarray) -> np.ndarray:
     return np.sort(np.concatenate([*alike.values()]))
 
 
-def _positive(values: np.ndarray) -> tuple[float, float]:
+def _positive(values: FloatArray) -> tuple[float, float]:
     """The part of 0 to 1 where linear functions with values (2, q) at its ends are all above 0."""
     start, stop = 0.0, 1.0
     for u, v in values.T.tolist():
@@ -254,7 +256,7 @@ def _positive(values: np.ndarray) -> tuple[float, float]:
     return start, stop
 
 
-def _crossing(g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _crossing(g: FloatArray) -> tuple[FloatArray, IntArray]:
     """(q, 2, 3) weights of the ends of the segments where linear functions with values g (p, 3) at the corners are 0,
     and (q,) which of the functions have one: those that are 0 in at least two points, and above and below elsewhere."""
     ends, count = np.zeros((len(g), 2, 3)), np.zeros(len(g), np.int64)
@@ -275,9 +277,7 @@ def _crossing(g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return ends[found], found
 
 
-def _meetings(
-    between: np.ndarray, faces: np.ndarray, points: np.ndarray, cut_by: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _meetings(between: IntArray, faces: IntArray, points: FloatArray, cut_by: IntArray) -> tuple[FloatArray, IntArray]:
     """(q, 3) the ends that a third region has cut off, each once, and (q, 3) the three regions."""
     segment, end = np.nonzero(cut_by >= 0)
     three = np.sort(np.concatenate([between[segment], cut_by[segment, end][:, None]], axis=1), axis=1)

@@ -5,6 +5,7 @@ import os
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import BoolArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..formats.field_output import write_array
@@ -24,8 +25,8 @@ def farthest_points(
     start: npt.ArrayLike = 0,
     count: int = 10,
     progress: Progress | None = None,
-    among: np.ndarray | None = None,
-) -> np.ndarray:
+    among: BoolArray | None = None,
+) -> IntArray:
     """(count,) vertex ids: `start`, then each time the vertex farthest from those so far (the smallest id on ties).
 
     start: a vertex, or (s,) different vertices of one component, which come first.  among: (n,) which vertices the
@@ -59,7 +60,7 @@ def farthest_points(
     return np.array(points)
 
 
-def starts_of(source: Source, surface: Surface) -> np.ndarray:
+def starts_of(source: Source, surface: Surface) -> IntArray:
     """(s,) the vertices of a source, for samples to start from.
 
     Raises VertexError or ParameterError for a source that is not on the surface, or that is no vertices.

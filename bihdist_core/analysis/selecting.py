@@ -10,6 +10,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 from scipy.spatial import cKDTree
 
+from ..arrays import IntArray
 from ..errors import MeshError, ParameterError
 from ..formats.field_output import write_array, write_fields
 from ..surface import Surface
@@ -32,7 +33,7 @@ class Brush:
         n = len(self._surface.vertices)
         return sparse.csr_matrix((np.ones(len(i), np.int8), (i, j)), (n, n))
 
-    def near(self, face: int, position: npt.ArrayLike, radius: float) -> np.ndarray:
+    def near(self, face: int, position: npt.ArrayLike, radius: float) -> IntArray:
         """(k,) ids, ascending: the vertices within a radius, straight, of a position (3,) in a face, as far as edges
         between such vertices join them to the face, so none of another sheet behind it.
 
@@ -46,13 +47,14 @@ class Brush:
         within = np.array(sorted(self._tree.query_ball_point(place, radius)), np.int64)
         begins = corners[apart <= radius]
         if not len(begins):
-            return corners[[apart.argmin()]].astype(np.int64)
+            nearest: IntArray = corners[[apart.argmin()]].astype(np.int64)
+            return nearest
         _, piece = csgraph.connected_components(self._edges[within][:, within], directed=False)
         wanted = np.unique(piece[np.searchsorted(within, begins)])
         return within[np.isin(piece, wanted)]
 
 
-def cut_out(surface: Surface, vertices: npt.ArrayLike) -> tuple[Surface, np.ndarray]:
+def cut_out(surface: Surface, vertices: npt.ArrayLike) -> tuple[Surface, IntArray]:
     """The faces all of whose corners are among vertices (k,), as a mesh of its own; and the vertex of the whole that
     each of its vertices is.  ParameterError if there is no such face."""
     chosen = np.zeros(len(surface.vertices), bool)
@@ -79,7 +81,7 @@ def is_ids_file(words: str) -> bool:
     return os.path.splitext(words)[1].lower() in SELECTION_WAYS["ids"]
 
 
-def read_ids(path: str | os.PathLike[str]) -> np.ndarray:
+def read_ids(path: str | os.PathLike[str]) -> IntArray:
     """(k,) int64 vertex ids as `write_ids` has written them, in any order; a .csv may have other columns behind them.
 
     Raises MeshError for a file that is not there or that holds something else.
@@ -98,7 +100,8 @@ def read_ids(path: str | os.PathLike[str]) -> np.ndarray:
         raise MeshError(f"{file} holds something else than vertex ids.") from error
     if ids.ndim != 1 or ids.dtype.kind not in "iu" or not len(ids) or ids.min() < 0:
         raise MeshError(f"{file} holds something else than vertex ids.")
-    return ids.astype(np.int64)
+    checked: IntArray = ids.astype(np.int64)
+    return checked
 
 
 def write_selection(

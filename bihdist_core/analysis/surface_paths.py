@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..sources.splitting import Split
 from ..surface import Surface
@@ -27,17 +28,17 @@ class SurfacePath:
     are the places the path was led through.  method, label: how it was made, as a word and in words.
     """
 
-    points: np.ndarray
-    faces: np.ndarray
-    corners: np.ndarray
-    begins: np.ndarray
-    ends: np.ndarray
-    knots: np.ndarray
+    points: FloatArray
+    faces: IntArray
+    corners: IntArray
+    begins: FloatArray
+    ends: FloatArray
+    knots: IntArray
     method: str
     label: str
 
     @cached_property
-    def arcs(self) -> np.ndarray:
+    def arcs(self) -> FloatArray:
         """(k,) length along the path up to each point."""
         return np.append(0, np.cumsum(np.linalg.norm(np.diff(self.points, axis=0), axis=1)))
 
@@ -51,7 +52,7 @@ class SurfacePath:
         faces, corners = (np.append(a, a[-1:], axis=0) for a in (self.faces, self.corners))
         return Places(faces, corners, np.append(self.begins, self.ends[-1:], axis=0))
 
-    def along(self, field: npt.ArrayLike) -> np.ndarray:
+    def along(self, field: npt.ArrayLike) -> FloatArray:
         """(k,) or (k, d): values (n,) or (n, d) at the vertices, linear on each face, at the points of the path.
 
         Between two points they change linearly with arc length, so this is the whole profile.
@@ -72,11 +73,11 @@ class Crossings:
     """A path by the edges it meets: ends (k, 2) and parameters t (k,) of the points (1 - t) x_a + t x_b; a vertex has
     itself twice.  faces (k - 1,): those of the pieces."""
 
-    ends: np.ndarray
-    t: np.ndarray
-    faces: np.ndarray
+    ends: IntArray
+    t: FloatArray
+    faces: IntArray
 
-    def points(self, x: np.ndarray) -> np.ndarray:
+    def points(self, x: FloatArray) -> FloatArray:
         """(k, 3) the points, among vertices x (n, 3)."""
         return (1 - self.t)[:, None] * x[self.ends[:, 0]] + self.t[:, None] * x[self.ends[:, 1]]
 
@@ -104,7 +105,7 @@ def assembled(split: Split, parts: Sequence[Crossings], method: str, label: str)
     return SurfacePath(points, parents, corners, begins, ends, number[knots], method, label)
 
 
-def _weights(surface: Surface, part: Crossings, which: slice) -> np.ndarray:
+def _weights(surface: Surface, part: Crossings, which: slice) -> FloatArray:
     corners, ends, t = surface.faces[part.faces], part.ends[which], part.t[which, None]
     is_vertex = (ends[:, :1] == ends[:, 1:]) & (corners == ends[:, :1])
     return np.where(is_vertex, 1.0, np.where(corners == ends[:, :1], 1 - t, np.where(corners == ends[:, 1:], t, 0)))
@@ -119,11 +120,11 @@ class Stars:
         self._faces = np.argsort(corner, kind="stable") // 3
         self._first = np.append(0, np.cumsum(np.bincount(corner, minlength=len(surface.vertices))))
 
-    def __getitem__(self, vertex: int) -> np.ndarray:
+    def __getitem__(self, vertex: int) -> IntArray:
         """The faces (k,) of a vertex."""
         return self._faces[self._first[vertex] : self._first[vertex + 1]]
 
-    def common(self, ends: np.ndarray) -> np.ndarray:
+    def common(self, ends: IntArray) -> IntArray:
         """(k - 1,) a face that holds both points of each piece, whose points are on edges `ends` (k, 2)."""
         faces = []
         for a, b in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True):
@@ -133,7 +134,7 @@ class Stars:
             faces.append(min(shared))
         return np.array(faces, np.int64)
 
-    def followed(self, polyline: np.ndarray, start: int, stop: int) -> Crossings:
+    def followed(self, polyline: FloatArray, start: int, stop: int) -> Crossings:
         """The crossings of a polyline (k, 3) of points near edges, two in a row in one face, between two vertices.
 
         SolverError where the polyline leaves the surface.
@@ -163,7 +164,7 @@ class Stars:
             raise SolverError(f"A path from vertex {start} to {stop} was not found again on {self.surface.name}.")
         return found
 
-    def _crossings(self, q: np.ndarray, faces: np.ndarray, start: int, stop: int, tolerance: float) -> Crossings:
+    def _crossings(self, q: FloatArray, faces: IntArray, start: int, stop: int, tolerance: float) -> Crossings:
         x, triangles = self.surface.vertices, self.surface.faces
         at, parameters = [(start, start)], [0.0]
         for k in range(1, len(q) - 1):
@@ -185,15 +186,17 @@ class Stars:
         return Crossings(ends[kept], t[kept], faces[moves])
 
 
-def _foot(a: np.ndarray, b: np.ndarray, q: np.ndarray) -> np.ndarray:
+def _foot(a: FloatArray, b: FloatArray, q: FloatArray) -> FloatArray:
     """Parameter, 0 to 1, of the point of the segments ab nearest to q; along the last axis."""
     side = b - a
     square = (side * side).sum(axis=-1)
-    return np.clip(((q - a) * side).sum(axis=-1) / np.where(square > 0, square, 1), 0, 1)
+    parameter: FloatArray = np.clip(((q - a) * side).sum(axis=-1) / np.where(square > 0, square, 1), 0, 1)
+    return parameter
 
 
-def _apart(a: np.ndarray, b: np.ndarray, q: np.ndarray) -> np.ndarray:
+def _apart(a: FloatArray, b: FloatArray, q: FloatArray) -> FloatArray:
     """(f, s, p) distances of points q (p, 3) from segments a, b (f, s, 3)."""
     a, b = a[:, :, None], b[:, :, None]
     t = _foot(a, b, q)[..., None]
-    return np.linalg.norm((1 - t) * a + t * b - q, axis=-1)
+    distance: FloatArray = np.linalg.norm((1 - t) * a + t * b - q, axis=-1)
+    return distance

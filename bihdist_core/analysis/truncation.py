@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..distances.biharmonic import BiharmonicDistance
 from ..distances.spectral import TruncatedBiharmonicDistance, checked_count
 from ..errors import ParameterError
@@ -26,10 +27,10 @@ class TruncationLoss:
     vertex where it is worst.  No unit."""
 
     source: Source
-    counts: np.ndarray
-    means: np.ndarray
-    largest: np.ndarray
-    at: np.ndarray
+    counts: IntArray
+    means: FloatArray
+    largest: FloatArray
+    at: IntArray
 
 
 def truncation_loss(
@@ -98,7 +99,7 @@ def _words(source: Source) -> str:
     return f"vertex {source}" if isinstance(source, int) else short_words_of(source)
 
 
-def _some_counts(most: int) -> np.ndarray:
+def _some_counts(most: int) -> IntArray:
     found = list(LINE_COUNTS)
     while found[-1] < most:
         found.append(round(1.4 * found[-1]))
@@ -106,8 +107,8 @@ def _some_counts(most: int) -> np.ndarray:
 
 
 def _losses_of_fields(
-    laplacian: Laplacian, source: Source, exact: np.ndarray, counts: np.ndarray, report: Progress
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    laplacian: Laplacian, source: Source, exact: FloatArray, counts: IntArray, report: Progress
+) -> tuple[FloatArray, FloatArray, IntArray]:
     """As `_losses`, a field for each count."""
     means, worst, at = np.empty(len(counts)), np.empty(len(counts)), np.empty(len(counts), np.int64)
     there = np.flatnonzero(np.isfinite(exact))
@@ -123,19 +124,19 @@ def _losses_of_fields(
 
 
 def _losses(
-    vectors: np.ndarray,
-    scale: np.ndarray,
-    here: np.ndarray,
-    exact: np.ndarray,
-    areas: np.ndarray,
-    counts: np.ndarray,
+    vectors: FloatArray,
+    scale: FloatArray,
+    here: FloatArray,
+    exact: FloatArray,
+    areas: FloatArray,
+    counts: IntArray,
     unit: float,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+) -> tuple[FloatArray, FloatArray, IntArray]:
     """here: (m, K) the eigenvectors at the points of the source, of which the nearest counts."""
     last = int(counts[-1])
     factor = (scale[:last] / unit) ** 2
 
-    def one(rows: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def one(rows: slice) -> tuple[FloatArray, FloatArray, IntArray]:
         sums = np.zeros((len(here), rows.stop - rows.start))
         mean, worst, at = np.empty(len(counts)), np.empty(len(counts)), np.empty(len(counts), np.int64)
         first = 0

@@ -7,6 +7,7 @@ go by the first three).  Each of the six directions gets the sum of these, as sh
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..surface import Surface
 
 DIRECTIONS = ("y", "z", "x", "-y", "-z", "-x")
@@ -65,20 +66,20 @@ def guess_up(surface: Surface, extension: str = "") -> str:
     return max(DIRECTIONS, key=lambda name: scores[name] + usual.get(name, -SELDOM))
 
 
-def axis_of(up: str) -> np.ndarray:
+def axis_of(up: str) -> FloatArray:
     """(3,) the unit vector of a direction's name."""
     axis = np.zeros(3)
     axis["xyz".index(up[-1])] = -1.0 if up.startswith("-") else 1.0
     return axis
 
 
-def axes_of(up: str) -> np.ndarray:
+def axes_of(up: str) -> FloatArray:
     """(3, 3) the unit vectors, as columns, to the right, up and to the front, where this direction is up."""
     upright, front = axis_of(up), axis_of(FRONTS[up])
     return np.stack([np.cross(upright, front), upright, front], axis=1)
 
 
-def scattered(surface: Surface, count: int) -> tuple[np.ndarray, np.ndarray]:
+def scattered(surface: Surface, count: int) -> tuple[FloatArray, IntArray]:
     """(count, 3) places on the faces, as many for equal areas, and (count,) their faces."""
     random, upto = np.random.default_rng(0), np.cumsum(surface.face_areas)
     faces = np.searchsorted(upto, (np.arange(count) + 0.5) / count * upto[-1])
@@ -87,7 +88,7 @@ def scattered(surface: Surface, count: int) -> tuple[np.ndarray, np.ndarray]:
     return np.einsum("ij,ijk->ik", weights, surface.vertices[surface.faces[faces]]), faces
 
 
-def _landscape(surface: Surface, extents: np.ndarray) -> str:
+def _landscape(surface: Surface, extents: FloatArray) -> str:
     """The direction to which a thin sheet turns its outside; "" if it is none."""
     _, b, c = surface.sides()
     facing = np.cross(b, c, axis=0).sum(axis=1) / 2 / max(float(surface.face_areas.sum()), 1e-300)
@@ -96,7 +97,7 @@ def _landscape(surface: Surface, extents: np.ndarray) -> str:
     return "-" * bool(facing[k] < 0) + "xyz"[k] if abs(facing[k]) >= FACING and is_thin else ""
 
 
-def _scores(surface: Surface, points: np.ndarray, extents: np.ndarray) -> dict[str, float]:
+def _scores(surface: Surface, points: FloatArray, extents: FloatArray) -> dict[str, float]:
     """For each direction how much speaks for it."""
     (samples, _), diagonal = scattered(surface, SAMPLES), float(np.linalg.norm(extents))
     centre, lowest = samples.mean(axis=0), points.min(axis=0)
@@ -128,7 +129,7 @@ def _scores(surface: Surface, points: np.ndarray, extents: np.ndarray) -> dict[s
     return scores
 
 
-def _mirror_misfits(samples: np.ndarray, centre: np.ndarray) -> np.ndarray:
+def _mirror_misfits(samples: FloatArray, centre: FloatArray) -> FloatArray:
     """(3,) the mean distance from places that are mirrored along each axis to the nearest other place."""
     from scipy.spatial import cKDTree
 
@@ -141,7 +142,7 @@ def _mirror_misfits(samples: np.ndarray, centre: np.ndarray) -> np.ndarray:
     return np.array(found)
 
 
-def _ground(feet: np.ndarray, centre: np.ndarray) -> tuple[float, float]:
+def _ground(feet: FloatArray, centre: FloatArray) -> tuple[float, float]:
     """The area of the convex hull of points (k, 2), and how far inside it the centre (2,) is (negative outside)."""
     # Not at the top: the window opens before this is needed.
     from scipy.spatial import ConvexHull, QhullError
@@ -153,7 +154,7 @@ def _ground(feet: np.ndarray, centre: np.ndarray) -> tuple[float, float]:
     return float(hull.volume), -float((hull.equations[:, :2] @ centre + hull.equations[:, 2]).max())
 
 
-def _rims(surface: Surface, diagonal: float) -> tuple[np.ndarray, float]:
+def _rims(surface: Surface, diagonal: float) -> tuple[FloatArray, float]:
     """(3,) the middle of all boundary edges, and their length as a share of the diagonal, at most 1."""
     ends = surface.vertices[surface.boundary_edges]
     if not len(ends):

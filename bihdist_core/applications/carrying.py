@@ -10,6 +10,7 @@ and folds of it show as such, and two parts of A in the same colours are mapped 
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray
 from ..errors import ParameterError
 from ..surface import Surface
 from .correspondence import NOWHERE
@@ -18,7 +19,7 @@ DARKEST, LIGHTEST = 0.08, 0.95
 """Of each of red, green and blue: neither black nor white, which marks and lines have."""
 
 
-def position_colours(surface: Surface) -> np.ndarray:
+def position_colours(surface: Surface) -> FloatArray:
     """(n, 3) red, green and blue, from x, y and z, each from the least to the largest of the surface's vertices.
 
     A flat surface has the middle of the colour that tells nothing.
@@ -29,10 +30,11 @@ def position_colours(surface: Surface) -> np.ndarray:
     is_flat = span <= 1e-9 * max(float(span.max()), np.finfo(float).tiny)
     shares = (surface.vertices - low) / np.where(is_flat, 1.0, span)
     shares[:, is_flat] = 0.5
-    return DARKEST + (LIGHTEST - DARKEST) * np.clip(shares, 0, 1)
+    colours: FloatArray = DARKEST + (LIGHTEST - DARKEST) * np.clip(shares, 0, 1)
+    return colours
 
 
-def carried_back(colours: npt.ArrayLike, found: npt.ArrayLike) -> np.ndarray:
+def carried_back(colours: npt.ArrayLike, found: npt.ArrayLike) -> FloatArray:
     """(n, 3) the colours of the vertices that a map (n,) leads to, from colours (m, 3) there; NaN where that is none.
 
     Raises ParameterError for a map to vertices that have no colours.

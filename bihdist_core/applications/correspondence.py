@@ -3,6 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..progress import Progress, part, silent
@@ -10,7 +11,7 @@ from ..progress import Progress, part, silent
 BLOCK = 4096
 """Vertices of M at a time for which the map is found."""
 
-Columns = tuple[dict[int, np.ndarray], dict[int, np.ndarray]]
+Columns = tuple[dict[int, FloatArray], dict[int, FloatArray]]
 """Of both surfaces: distances from vertices, by vertex."""
 
 NOWHERE = -1
@@ -77,7 +78,7 @@ class Correspondence:
             found.append(_normalised(np.stack([kept[vertex] for vertex in points], axis=1)) * root)
         self._of_m, self._of_n = found
 
-    def misfit(self, x: npt.ArrayLike) -> np.ndarray:
+    def misfit(self, x: npt.ArrayLike) -> FloatArray:
         """c(x, y) for every vertex y of N: (n,) for one vertex x of M, (n, m) for (m,).
 
         NaN where y or x is on another component than one of the known points.  Raises VertexError for a bad vertex.
@@ -97,7 +98,7 @@ class Correspondence:
         y = int(np.nanargmin(misfit))
         return y, float(misfit[y])
 
-    def map(self, vertices: npt.ArrayLike | None = None, progress: Progress | None = None) -> np.ndarray:
+    def map(self, vertices: npt.ArrayLike | None = None, progress: Progress | None = None) -> IntArray:
         """(n,) for all vertices of M, or (m,) for some, the vertex of N that fits best; -1 where none can be compared.
 
         Found as nearest neighbours among the vectors; beside these (n, k) the memory is that of a block of vertices.
@@ -127,12 +128,15 @@ def correspondence_prediction(
     pairs: npt.ArrayLike,
     x: npt.ArrayLike,
     weights: npt.ArrayLike | None = None,
-) -> np.ndarray:
+) -> FloatArray:
     """How badly each vertex of N fits one vertex x of M, (n,), or several (m,), (n, m): see `Correspondence`."""
     return Correspondence(distance_m, distance_n, pairs, weights).misfit(x)
 
 
-def _normalised(distances: np.ndarray) -> np.ndarray:
+def _normalised(distances: FloatArray) -> FloatArray:
     """(m, k) rows divided by their maximum; rows of zeros stay."""
     largest = distances.max(axis=1, keepdims=True)
-    return np.divide(distances, largest, out=np.where(np.isnan(largest), np.nan, distances), where=largest > 0)
+    scaled: FloatArray = np.divide(
+        distances, largest, out=np.where(np.isnan(largest), np.nan, distances), where=largest > 0
+    )
+    return scaled

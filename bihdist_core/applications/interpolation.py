@@ -3,6 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray
 from ..distances.distance import Distance
 from ..errors import ParameterError, VertexError
 from ..progress import Progress
@@ -40,9 +41,9 @@ class ShepardInterpolant:
         if (count > 1).any():
             raise VertexError(f"Vertex {ids[count > 1][0]} is an anchor twice.")
         self.values = self._checked(values)
-        self._columns: dict[int, np.ndarray] = {}
-        self._weights: np.ndarray | None = None
-        self._total: np.ndarray | None = None
+        self._columns: dict[int, FloatArray] = {}
+        self._weights: FloatArray | None = None
+        self._total: FloatArray | None = None
 
     def changed(
         self,
@@ -76,7 +77,7 @@ class ShepardInterpolant:
         """The anchors whose distances have still to be solved for."""
         return [vertex for vertex in self.anchors.tolist() if vertex not in self._columns]
 
-    def evaluate(self, progress: Progress | None = None) -> np.ndarray:
+    def evaluate(self, progress: Progress | None = None) -> FloatArray:
         """(n,) the interpolant at every vertex: f_i exactly at anchor i, NaN on components without anchors.
 
         Never below the least f_i or above the greatest.  A vertex at distance 0 from anchors without being one (some
@@ -89,7 +90,7 @@ class ShepardInterpolant:
         result[self.anchors] = self.values
         return result
 
-    def sum_of_weights(self, progress: Progress | None = None) -> np.ndarray:
+    def sum_of_weights(self, progress: Progress | None = None) -> FloatArray:
         """(n,) log10 of sum_i w_i over its least value on the surface: how far the anchors' influence reaches.
 
         Infinite at the anchors, NaN on components without one.
@@ -98,7 +99,7 @@ class ShepardInterpolant:
         assert self._total is not None
         return self._total - np.nanmin(self._total)
 
-    def _shares(self, progress: Progress | None) -> np.ndarray:
+    def _shares(self, progress: Progress | None) -> FloatArray:
         """(n, k) w_i / sum_j w_j; NaN where there is no anchor."""
         if self._weights is None:
             if missing := self.missing:
@@ -119,7 +120,7 @@ class ShepardInterpolant:
                 self._total = np.log10(total) - self.exponent * np.log10(nearest[:, 0])
         return self._weights
 
-    def _checked(self, values: npt.ArrayLike) -> np.ndarray:
+    def _checked(self, values: npt.ArrayLike) -> FloatArray:
         found = np.array(values, np.float64, ndmin=1)
         if found.shape != self.anchors.shape or not np.isfinite(found).all():
             raise ParameterError(

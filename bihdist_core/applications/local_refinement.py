@@ -4,6 +4,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
+from ..arrays import BoolArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 
@@ -47,7 +48,7 @@ def refined_around(surface: Surface, sources: npt.ArrayLike, least: float, reach
     return surface
 
 
-def _bisected(surface: Surface, of_side: np.ndarray, longest: np.ndarray, cut: np.ndarray) -> Surface:
+def _bisected(surface: Surface, of_side: IntArray, longest: IntArray, cut: BoolArray) -> Surface:
     """The surface with edges cut (e,) bool in the middle; of each face that has one, its longest edge is among them."""
     x, faces = surface.vertices, surface.faces
     middle = np.full(len(cut), -1)

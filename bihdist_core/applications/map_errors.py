@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..distances.geodesic import GeodesicDistance
 from ..errors import ParameterError
@@ -42,7 +43,7 @@ def error_method(surface: Surface, count: int) -> str:
     return "exact" if surface.is_manifold and count * len(surface.vertices) <= EXACT_WORK else "heat"
 
 
-def sampled_vertices(count: int, samples: int | None) -> np.ndarray:
+def sampled_vertices(count: int, samples: int | None) -> IntArray:
     """(k,) so many of the vertices 0 to count - 1, drawn evenly by id; all of them if None, or more than there are."""
     if samples is None or samples >= count:
         return np.arange(count)
@@ -55,7 +56,7 @@ def map_errors(
     truth: npt.ArrayLike,
     partners: npt.ArrayLike | None = None,
     progress: Progress | None = None,
-) -> np.ndarray:
+) -> FloatArray:
     """The errors of a map whose values are `found` (m,) and should be `truth` (m,), vertices of one surface: (m,).
 
     found (m, q), of several maps, gives (m, q), at the cost of one: a field for each different right answer.
@@ -85,7 +86,7 @@ def map_errors(
     return errors
 
 
-def _checked(vertices: npt.ArrayLike, surface: Surface, axes: int = 1) -> np.ndarray:
+def _checked(vertices: npt.ArrayLike, surface: Surface, axes: int = 1) -> IntArray:
     ids = np.asarray(vertices)
     if not 1 <= ids.ndim <= axes or ids.dtype.kind not in "iu":
         raise ParameterError(f"A map is (m,) whole numbers, not {ids.shape} of {ids.dtype}.")
@@ -97,7 +98,7 @@ def _checked(vertices: npt.ArrayLike, surface: Surface, axes: int = 1) -> np.nda
     return ids.astype(int)
 
 
-def _errors(distance: Distance, to: np.ndarray, right: np.ndarray, progress: Progress | None) -> np.ndarray:
+def _errors(distance: Distance, to: IntArray, right: IntArray, progress: Progress | None) -> FloatArray:
     surface, report = distance.surface, progress or silent
     unit = float(np.sqrt(surface.face_areas.sum()))
     errors = np.full(to.shape, np.nan)
@@ -125,12 +126,12 @@ class ErrorCurve:
     under the curve from 0 to LIMIT, over LIMIT; 1 for a perfect map.
     """
 
-    errors: np.ndarray
+    errors: FloatArray
     mean: float
     median: float
     area: float
 
-    def shares(self, thresholds: npt.ArrayLike) -> np.ndarray:
+    def shares(self, thresholds: npt.ArrayLike) -> FloatArray:
         """(t,) the share of errors that are at most each of thresholds (t,)."""
         return np.searchsorted(self.errors, np.asarray(thresholds, np.float64), side="right") / len(self.errors)
 
@@ -158,9 +159,10 @@ class MeanCurve:
     def area(self) -> float:
         return float(np.mean([curve.area for curve in self.curves]))
 
-    def shares(self, thresholds: npt.ArrayLike) -> np.ndarray:
+    def shares(self, thresholds: npt.ArrayLike) -> FloatArray:
         """(t,) the mean of the maps' shares of errors that are at most each of thresholds (t,)."""
-        return np.mean([curve.shares(thresholds) for curve in self.curves], axis=0)
+        mean: FloatArray = np.mean([curve.shares(thresholds) for curve in self.curves], axis=0)
+        return mean
 
 
 def error_curve(errors: npt.ArrayLike) -> ErrorCurve:

@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import ParameterError
 from ..formats.mesh_io import read_surface
@@ -35,14 +36,15 @@ def noisy(surface: Surface, share: float, seed: int = 0, along: str = "xyz") -> 
     return Surface(surface.vertices + share * surface.mean_edge_length * shift, surface.faces, surface.name)
 
 
-def vertex_normals(surface: Surface) -> np.ndarray:
+def vertex_normals(surface: Surface) -> FloatArray:
     """(n, 3) unit normals at the vertices, by face area; 0 where there is none."""
     a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
     cross = np.cross(b - a, c - a)
     total = np.zeros_like(surface.vertices)
     for k in range(3):
         np.add.at(total, surface.faces[:, k], cross)
-    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
+    normals: FloatArray = total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
+    return normals
 
 
 def with_holes(surface: Surface, count: int, radius: float = 0.05, seed: int = 0) -> Surface:
@@ -66,7 +68,7 @@ def with_holes(surface: Surface, count: int, radius: float = 0.05, seed: int = 0
     return rest
 
 
-def punched(surface: Surface, distances: np.ndarray, radius: float) -> Surface:
+def punched(surface: Surface, distances: FloatArray, radius: float) -> Surface:
     """Holes: the faces all of whose corners are nearer than `radius` to a centre are taken out.
 
     distances: (n, k) from each of k centres.  Vertex ids stay; see `without`.
@@ -127,13 +129,13 @@ def posed(surface: Surface, pose: Surface) -> Surface:
     return Surface(pose.vertices, surface.faces, surface.name)
 
 
-def _faces_in_order(surface: Surface) -> np.ndarray:
+def _faces_in_order(surface: Surface) -> IntArray:
     """(m, 3) whatever the order of faces and corners in the file."""
     faces = np.sort(surface.faces, axis=1)
     return faces[np.lexsort(faces.T)]
 
 
-def _without_loose_vertices(surface: Surface) -> tuple[Surface, np.ndarray]:
+def _without_loose_vertices(surface: Surface) -> tuple[Surface, IntArray]:
     """Without vertices that are in no face; and (k,) what the others were."""
     ids, index = np.unique(surface.faces, return_inverse=True)
     return Surface(surface.vertices[ids], index.reshape(-1, 3), surface.name), ids
@@ -185,7 +187,7 @@ def with_handle(surface: Surface, face_a: int, face_b: int) -> Surface:
     return Surface(np.concatenate([x, tube]), np.concatenate(faces), surface.name)
 
 
-def _opposite_corners(surface: Surface, face_a: int, face_b: int) -> tuple[np.ndarray, np.ndarray]:
+def _opposite_corners(surface: Surface, face_a: int, face_b: int) -> tuple[IntArray, IntArray]:
     """(3,) corners of both faces, paired so that the surface stays oriented and the pairs are as near as can be."""
     a, b = surface.faces[face_a], surface.faces[face_b]
     around = surface.faces[np.isin(surface.faces, a).any(axis=1)]
@@ -199,7 +201,7 @@ def _opposite_corners(surface: Surface, face_a: int, face_b: int) -> tuple[np.nd
 
 def perturbed(
     surface: Surface, change: Perturbation, progress: Progress | None = None, pose: Surface | None = None
-) -> tuple[Surface, np.ndarray]:
+) -> tuple[Surface, IntArray]:
     """What becomes of a surface, and (n',) the vertex of the surface that each of its vertices is, -1 for new ones.
 
     pose: what is in the file `change.pose`, which is read if None.  Raises ParameterError as the single changes,
@@ -227,7 +229,7 @@ def perturbed(
     return result, np.concatenate([ids, new])
 
 
-def image_of(surface: Surface, ids: np.ndarray, vertex: int, result: Surface) -> int:
+def image_of(surface: Surface, ids: IntArray, vertex: int, result: Surface) -> int:
     """The vertex of a perturbed surface that a vertex is, or is nearest to where it is gone.
 
     ids: as `perturbed` gives them.  Raises VertexError for a bad vertex.

@@ -8,6 +8,7 @@ Many collapses far from each other are done at once, in rounds.
 import numpy as np
 import scipy.sparse as sp
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
 from ..progress import Progress, silent
 from ..surface import Surface
@@ -29,7 +30,7 @@ def refined(surface: Surface) -> Surface:
     edges = surface.edges
     key = edges[:, 0] * n + edges[:, 1]
 
-    def middle(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    def middle(a: IntArray, b: IntArray) -> IntArray:
         return n + np.searchsorted(key, np.minimum(a, b) * n + np.maximum(a, b))
 
     a, b, c = f.T
@@ -53,7 +54,7 @@ def resized(surface: Surface, count: int, progress: Progress | None = None) -> S
     return simplified(surface, count, progress)[0]
 
 
-def simplified(surface: Surface, count: int, progress: Progress | None = None) -> tuple[Surface, np.ndarray]:
+def simplified(surface: Surface, count: int, progress: Progress | None = None) -> tuple[Surface, IntArray]:
     """The surface with `count` of its vertices, and (count,) their ids there, ascending.
 
     Topology, components and boundary loops stay; vertices of edges with more than two faces stay; those of no face are
@@ -73,7 +74,7 @@ def at_most(surface: Surface, count: int, progress: Progress | None = None) -> S
     return _collapsed(surface, min(count, used), progress)[0]
 
 
-def _collapsed(surface: Surface, count: int, progress: Progress | None) -> tuple[Surface, np.ndarray]:
+def _collapsed(surface: Surface, count: int, progress: Progress | None) -> tuple[Surface, IntArray]:
     """As `simplified`, with more vertices where it goes no further."""
     n, used = len(surface.vertices), surface.component_of_vertex >= 0
     left, idle, relaxed = int(used.sum()), 0, False
@@ -105,14 +106,14 @@ def _collapsed(surface: Surface, count: int, progress: Progress | None) -> tuple
 
 
 def _round(
-    x: np.ndarray,
-    faces: np.ndarray,
-    quadrics: np.ndarray,
+    x: FloatArray,
+    faces: IntArray,
+    quadrics: FloatArray,
     most: int,
     rng: np.random.Generator,
     share: float,
     relaxed: bool,
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[IntArray, IntArray]:
     """At most `most` vertices to remove, no two with a common neighbour, and the neighbour each is drawn onto."""
     n = len(x)
     sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
@@ -159,17 +160,18 @@ def _round(
     return u[chosen], v[chosen]
 
 
-def _needed(faces: np.ndarray, edges: np.ndarray, count: np.ndarray, n: int) -> np.ndarray:
+def _needed(faces: IntArray, edges: IntArray, count: IntArray, n: int) -> BoolArray:
     """(e,) whether drawing edges (e, 2), of so many faces each, to a point would leave a vertex without a face."""
     size = np.bincount(faces.ravel(), minlength=n)
     # The corner opposite to the edge may have that face alone, or both of its ends no other.
     face, corner = np.nonzero(size[faces] == 1)
     a, b = faces[face, (corner + 1) % 3], faces[face, (corner + 2) % 3]
     opposite = np.isin(edges[:, 0] * n + edges[:, 1], np.minimum(a, b) * n + np.maximum(a, b))
-    return opposite | (size[edges].sum(axis=1) <= 2 * count)
+    refused: BoolArray = opposite | (size[edges].sum(axis=1) <= 2 * count)
+    return refused
 
 
-def _harmless(x: np.ndarray, faces: np.ndarray, u: np.ndarray, v: np.ndarray, relaxed: bool = False) -> np.ndarray:
+def _harmless(x: FloatArray, faces: IntArray, u: IntArray, v: IntArray, relaxed: bool = False) -> BoolArray:
     """(k,) whether drawing u onto v turns no face over and makes none too thin.
 
     relaxed: thin ones may be, where those at u are thinner already.
@@ -193,17 +195,19 @@ def _harmless(x: np.ndarray, faces: np.ndarray, u: np.ndarray, v: np.ndarray, re
     new = np.cross(x[a] - x[v[which]], x[b] - x[v[which]])
     bad = np.einsum("ij,ij->i", old, new) <= KEEP_NORMAL * np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
     bad |= _shapes(x[v[which]], x[a], x[b]) <= least[which]
-    return np.bincount(which[bad], minlength=len(u)) == 0
+    kept: BoolArray = np.bincount(which[bad], minlength=len(u)) == 0
+    return kept
 
 
-def _shapes(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+def _shapes(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     """(k,) the quality of triangles with corners (k, 3)."""
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     sides = sum(((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a)))
-    return 2 * np.sqrt(3) * area / np.maximum(sides, 1e-300)
+    quality: FloatArray = 2 * np.sqrt(3) * area / np.maximum(sides, 1e-300)
+    return quality
 
 
-def _quadrics(surface: Surface) -> np.ndarray:
+def _quadrics(surface: Surface) -> FloatArray:
     """(n, 4, 4): at (x, 1), the sum over the faces at a vertex of area times squared distance to the face's plane.
 
     At a boundary also to the plane through the edge that is upright on the face, so that the rim stays in place.

@@ -4,6 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..analysis.persistence import extrema
+from ..arrays import BoolArray, IntArray
 from ..laplacian import Laplacian
 from ..surface import Surface
 
@@ -13,7 +14,7 @@ NEAR = 0.1
 """An extremum is at a tip if it is within this share of the root of the surface's area of it, in a straight line."""
 
 
-def tips(laplacian: Laplacian, share: float = PROMINENT) -> np.ndarray:
+def tips(laplacian: Laplacian, share: float = PROMINENT) -> IntArray:
     """(t,) the vertices at the tips of a shape: its limbs' ends, the most prominent first on each component.
 
     They are the maxima of the mean squared biharmonic distance to all other points that persist over a share of its
@@ -28,10 +29,10 @@ def tips(laplacian: Laplacian, share: float = PROMINENT) -> np.ndarray:
     return np.concatenate(found) if found else np.zeros(0, int)
 
 
-def at_tips(surface: Surface, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> np.ndarray:
+def at_tips(surface: Surface, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> BoolArray:
     """(k,) whether vertices (k,) are at one of the tips `ends` (t,), within NEAR roots of the area of it."""
     x = surface.vertices
     ids, tip_ids = np.asarray(vertices, int), np.asarray(ends, int)
     away = np.linalg.norm(x[ids][:, None] - x[tip_ids], axis=2)
-    is_near: np.ndarray = away.min(axis=1, initial=np.inf) <= NEAR * float(np.sqrt(surface.face_areas.sum()))
+    is_near: BoolArray = away.min(axis=1, initial=np.inf) <= NEAR * float(np.sqrt(surface.face_areas.sum()))
     return is_near

@@ -21,15 +21,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..laplacian import Component
 from ..operators import face_weights
 from ..solver.worker_threads import side_by_side
 from ..surface import FLAT, Surface, dots
 
-Columns = Callable[[np.ndarray], np.ndarray]
-Adjoint = Callable[[np.ndarray], np.ndarray]
-Effect = Callable[[int], np.ndarray]
-Squares = Callable[[np.ndarray, np.ndarray], np.ndarray]
+Columns = Callable[[IntArray], FloatArray]
+Adjoint = Callable[[FloatArray], FloatArray]
+Effect = Callable[[int], FloatArray]
+Squares = Callable[[FloatArray, FloatArray], FloatArray]
 
 POOR = 1e-3
 """What may be further off than this, as a fraction of its maximum, is warned of; what need not be is not given."""
@@ -108,7 +109,7 @@ class Perturbation:
         k, face = divmod(int(squares.argmin()), squares.shape[1])
         self.shortest = np.roll(self._surface.faces[face], -k)[1:]
 
-    def of(self, y: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def of(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """About the largest |y^T dL z| there can be, for the columns of y and z (m, k), 0 at the pinned vertex.
 
         (k,) by rounding and (k,) by the springs of degenerate faces.
@@ -147,7 +148,7 @@ class Perturbation:
         z, lack = adjoint(y), flat.lack[some]
         return lambda vertex: np.abs((y - y[vertex]) * (z - z[vertex])) @ lack
 
-    def _rounded(self, y: np.ndarray, z: np.ndarray, block: slice) -> np.ndarray:
+    def _rounded(self, y: FloatArray, z: FloatArray, block: slice) -> FloatArray:
         """(k,) sum of squares of what a block of faces can do, in units of the rounding of a number."""
         at_y, at_z = ([x.take(corner, axis=0) for corner in self._surface.faces[block].T] for x in (y, z))
         energy_y, energy_z = np.zeros((2, *at_y[0].shape))
@@ -161,18 +162,20 @@ class Perturbation:
             squares += np.einsum("ij,ij->j", by_y, by_y)
         energy = np.sqrt(np.maximum(energy_y, 0) * np.maximum(energy_z, 0))
         energy *= self._uncertain[block, None]
-        return squares + np.einsum("ij,ij->j", energy, energy)
+        total: FloatArray = squares + np.einsum("ij,ij->j", energy, energy)
+        return total
 
 
-def _spread(some: np.ndarray) -> np.ndarray:
+def _spread(some: IntArray) -> IntArray:
     """A few of them, evenly."""
     return some[:: -(-len(some) // SPRINGS)]
 
 
-def change_of_root(square: np.ndarray, by: np.ndarray) -> np.ndarray:
+def change_of_root(square: FloatArray, by: FloatArray) -> FloatArray:
     """How much the root changes at most where a square changes by up to `by`, both at least 0."""
     root = np.sqrt(square)
-    return np.maximum(root - np.sqrt(np.maximum(square - by, 0)), np.sqrt(square + by) - root)
+    change: FloatArray = np.maximum(root - np.sqrt(np.maximum(square - by, 0)), np.sqrt(square + by) - root)
+    return change
 
 
 def accuracy_of_pairs(

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..errors import BihdistError, Cancelled, ParameterError, VertexError
 from ..laplacian import Laplacian
 from ..progress import Progress, part, silent, turn
@@ -36,7 +37,7 @@ class Answer:
 
     label: str
     unit: str = ""
-    field: np.ndarray | None = None
+    field: FloatArray | None = None
     failure: str = ""
     error_estimate: ErrorEstimate | None = None
     is_signed: bool = False
@@ -44,8 +45,8 @@ class Answer:
     signs: tuple[str, str] | None = None
     is_rough: bool = False
     remark: str = ""
-    colours: np.ndarray | None = None
-    leads_to: np.ndarray | None = None
+    colours: FloatArray | None = None
+    leads_to: IntArray | None = None
 
     @property
     def maximum(self) -> float:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..laplacian import Component, Laplacian
 from ..progress import Progress
 from ..solver.tall import point_distances
@@ -41,11 +42,11 @@ class BiharmonicDistance(Distance):
         """Points of a Euclidean space that have these distances within a bound (`biharmonic_embedding`)."""
         return biharmonic_embedding(self.laplacian, k, tolerance, progress)
 
-    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         diagonal = component.biharmonic_diagonal()
         distances, largest = np.empty((len(diagonal), len(index))), diagonal.max()
 
-        def finish(rows: np.ndarray, columns: slice, values: np.ndarray) -> None:
+        def finish(rows: IntArray, columns: slice, values: FloatArray) -> None:
             values *= -2
             values += diagonal[rows, None]
             values += diagonal[index[columns]]
@@ -62,7 +63,7 @@ class BiharmonicDistance(Distance):
                 field[near] = self._pairwise(component, np.append(source, near))[0, 1:]
         return distances
 
-    def _pairwise(self, component: Component, index: np.ndarray, progress: Progress | None = None) -> np.ndarray:
+    def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
         b = np.zeros((len(component.vertices), len(index)))
         b[index, np.arange(len(index))] = 1
         half = _half_order(component, component.solve(b))
@@ -72,9 +73,7 @@ class BiharmonicDistance(Distance):
         squares = np.diag(green) + np.diag(green)[:, None] - 2 * green
         return root(squares, green.max())
 
-    def _of_pairs(
-        self, component: Component, i: np.ndarray, j: np.ndarray, progress: Progress | None = None
-    ) -> np.ndarray:
+    def _of_pairs(self, component: Component, i: IntArray, j: IntArray, progress: Progress | None = None) -> FloatArray:
         among, place = np.unique(np.stack([i, j]), return_inverse=True)
         if len(among) <= min(len(i), SMALL_SET):
             return self._pairwise(component, among)[tuple(place.reshape(2, -1))]
@@ -89,17 +88,18 @@ class BiharmonicDistance(Distance):
         return distances
 
     def _estimated_accuracy(self, component: Component) -> float:
-        def squares(b: np.ndarray, y: np.ndarray) -> np.ndarray:
+        def squares(b: FloatArray, y: FloatArray) -> FloatArray:
             half = _half_order(component, y)
-            return np.einsum("ij,ij->j", half, half)
+            products: FloatArray = np.einsum("ij,ij->j", half, half)
+            return products
 
-        def adjoint(y: np.ndarray) -> np.ndarray:
+        def adjoint(y: FloatArray) -> FloatArray:
             return component.solve(component.areas[:, None] * component.centred(y))
 
         return accuracy_of_pairs(component, lambda index: self._columns(component, index, None), squares, adjoint, 2)
 
 
-def _half_order(component: Component, y: np.ndarray) -> np.ndarray:
+def _half_order(component: Component, y: FloatArray) -> FloatArray:
     """(m, k) A^1/2 (y - mean by area), whose norms are distances."""
     half = component.centred(y)
     half *= np.sqrt(component.areas)[:, None]

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..laplacian import Component, Laplacian
 from ..progress import Progress
 from ..surface import Surface
@@ -28,7 +29,7 @@ class CommuteTimeDistance(Distance):
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         component.factor(progress, diagonals=True)
 
-    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         diagonal = component.green_diagonal()
         b = np.zeros((len(diagonal), len(index)))
         b[index, np.arange(len(index))] = 1
@@ -39,7 +40,7 @@ class CommuteTimeDistance(Distance):
                 self._with_exact_springs(component, int(source), distances[:, column])
         return distances
 
-    def _with_exact_springs(self, component: Component, source: int, field: np.ndarray) -> None:
+    def _with_exact_springs(self, component: Component, source: int, field: FloatArray) -> None:
         """Put exact springs in place for the smallest distances (m,), where those of degenerate faces show most.
 
         By the formula of Sherman, Morrison and Woodbury, as G with few springs more.
@@ -63,8 +64,9 @@ class CommuteTimeDistance(Distance):
         field[near] = np.sqrt(np.maximum(exact, 0))
 
     def _estimated_accuracy(self, component: Component) -> float:
-        def squares(b: np.ndarray, y: np.ndarray) -> np.ndarray:
-            return np.einsum("ij,ij->j", b, y)
+        def squares(b: FloatArray, y: FloatArray) -> FloatArray:
+            products: FloatArray = np.einsum("ij,ij->j", b, y)
+            return products
 
         return accuracy_of_pairs(
             component, lambda index: self._columns(component, index, None), squares, lambda y: y, 1, NEAR

@@ -3,10 +3,11 @@
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray
 from ..errors import ParameterError
 
 
-def difference(minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, raw: bool = False) -> np.ndarray:
+def difference(minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, raw: bool = False) -> FloatArray:
     """Two fields (n,) or (n, k) as one, positive where the first is larger; NaN where either is.
 
     Distances have different units, so each field is taken as a share of its own maximum (by column; of the largest
@@ -31,7 +32,7 @@ def scale_of(unit: str) -> float:
 
 def difference_in_unit(
     minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, units: tuple[str, str] = ("", ""), raw: bool = False
-) -> tuple[np.ndarray, str]:
+) -> tuple[FloatArray, str]:
     """The `difference` of two fields (n,) or (n, k) with its unit: in percentage points, or, raw, in that of the two.
 
     units: theirs; a field without one, which is no distance, is taken to be in the unit of the other.  Raises
@@ -44,6 +45,6 @@ def difference_in_unit(
     return difference(minuend, subtrahend, raw=True), units[0] or units[1]
 
 
-def _shares(field: np.ndarray) -> np.ndarray:
+def _shares(field: FloatArray) -> FloatArray:
     top = np.nanmax(np.abs(field), axis=0, initial=0.0)
     return field / np.where(top > 0, top, 1.0)

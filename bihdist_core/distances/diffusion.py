@@ -4,6 +4,7 @@ from bisect import bisect_left
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
@@ -49,10 +50,10 @@ class DiffusionDistance(SpectralDistance):
         self.t, self.tolerance = float(t), TOLERANCE if tolerance is None else float(tolerance)
         self._coarsest = COARSEST if tolerance is None else self.tolerance
         self.label = f"diffusion, t = {t:g}"
-        self._used: dict[int, tuple[Spectrum, np.ndarray]] = {}
+        self._used: dict[int, tuple[Spectrum, FloatArray]] = {}
         self.prepare(self.laplacian.components[0], progress)
 
-    def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
+    def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:
         if component.index not in self._used:
             # With the diagonal of C, which tells what is left out.
             component.factor(part(progress, 0, 0.1), diagonals=True)
@@ -90,24 +91,26 @@ class DiffusionDistance(SpectralDistance):
                 before, done = done, 0.1 * done + 0.9
                 spectrum = component.spectrum(int(min(needed, MOST_PAIRS)), part(progress, before, done))
 
-    def _roots(self, eigenvalues: np.ndarray) -> np.ndarray:
+    def _roots(self, eigenvalues: FloatArray) -> FloatArray:
         """(k,) of the weights."""
-        return np.exp(-self.t / 2 * (eigenvalues / eigenvalues[0]))
+        roots: FloatArray = np.exp(-self.t / 2 * (eigenvalues / eigenvalues[0]))
+        return roots
 
-    def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
+    def _slopes(self, eigenvalues: FloatArray) -> FloatArray:
         # The weights depend on the first eigenvalue too.
-        return 2 * self.t * eigenvalues / eigenvalues[0]
+        slopes: FloatArray = 2 * self.t * eigenvalues / eigenvalues[0]
+        return slopes
 
-    def _left_out(self, component: Component, next_value: float, tails: np.ndarray) -> np.ndarray:
+    def _left_out(self, component: Component, next_value: float, tails: FloatArray) -> FloatArray:
         if next_value == np.inf:
             return np.zeros(len(tails))
         return _largest(self.t, next_value, component.spectrum(1).eigenvalues[0]) * tails
 
     def pair_count(self, vertex: int) -> int:
         """How many eigenpairs the sum has on the component of a vertex."""
-        return self.points(self.laplacian.component_of(vertex)).shape[1]
+        return int(self.points(self.laplacian.component_of(vertex)).shape[1])
 
-    def bound(self, vertex: int) -> np.ndarray:
+    def bound(self, vertex: int) -> FloatArray:
         """(n,) a proven bound on the error of `from_source(vertex)`, from leaving eigenpairs out.
 
         With s_x^2 = C_xx - sum_{k <= K} phi_k(x)^2 / lambda_k^2, C centred, and m the largest w lambda^2 there is from
@@ -131,11 +134,11 @@ class _Trial:
         self._squares = biharmonic_squares(component)
         self._spectrum, self._cloud, self._t = spectrum, cloud, t
 
-    def _tails(self, count: int) -> np.ndarray:
+    def _tails(self, count: int) -> FloatArray:
         vectors, values = self._spectrum.eigenvectors[:, :count], self._spectrum.eigenvalues[:count]
         return tail_lengths(self._squares, vectors, 1 / values)
 
-    def _share(self, tails: np.ndarray, next_value: float) -> float:
+    def _share(self, tails: FloatArray, next_value: float) -> float:
         return self._cloud.worst(_largest(self._t, next_value, self._spectrum.eigenvalues[0]) * tails)
 
     def share(self, count: int) -> float:

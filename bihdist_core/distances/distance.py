@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress, part, silent
@@ -125,7 +126,7 @@ class Distance(ABC):
         """`accuracy` on one component."""
         return None
 
-    def from_source(self, source: Source | str, progress: Progress | None = None) -> np.ndarray:
+    def from_source(self, source: Source | str, progress: Progress | None = None) -> FloatArray:
         """(n,) distance of every vertex from a source; 0 at vertices that belong to it, NaN where it does not reach.
 
         A vertex or any other source, or its words (`sources`).  From several the distance is that from the nearest;
@@ -139,7 +140,7 @@ class Distance(ABC):
             return self._from_vertex(source, progress)
         return self.from_pieces(pieces_of(source, self.surface), progress)
 
-    def _from_vertex(self, vertex: int, progress: Progress | None) -> np.ndarray:
+    def _from_vertex(self, vertex: int, progress: Progress | None) -> FloatArray:
         component = self.laplacian.component_of(vertex)
         self._asked.add(component.index)
         self.prepare(component, progress)
@@ -154,7 +155,7 @@ class Distance(ABC):
         """`label`, with what there is to say of fields from such a source."""
         return self.label
 
-    def from_pieces(self, pieces: Pieces, progress: Progress | None = None) -> np.ndarray:
+    def from_pieces(self, pieces: Pieces, progress: Progress | None = None) -> FloatArray:
         """(n,) the same from pieces of this surface."""
         field = np.full(len(self.surface.vertices), np.nan)
         for component, mine in self._by_component(pieces.corners[:, 0]):
@@ -165,7 +166,7 @@ class Distance(ABC):
             field[pieces.corners[weights == 1]] = 0
         return field
 
-    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> np.ndarray:
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         """(m,) distances within a component, from pieces in the whole surface's numbers."""
         vertices = pieces.vertices
         if vertices is None and not self.is_quadratic:
@@ -196,7 +197,7 @@ class Distance(ABC):
 
     def from_sources(
         self, sources: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
-    ) -> np.ndarray:
+    ) -> FloatArray:
         """(n, k) distances of every vertex from each of k vertices, or sources of any kind."""
         if isinstance(sources, Sequence) and any(isinstance(each, str | ELSEWHERE) for each in sources):
             steps = [part(progress, k / len(sources), (k + 1) / len(sources)) for k in range(len(sources))]
@@ -216,7 +217,7 @@ class Distance(ABC):
 
     def columns_by_component(
         self, sources: npt.ArrayLike, progress: Progress | None = None
-    ) -> Iterator[tuple[Component, np.ndarray, np.ndarray]]:
+    ) -> Iterator[tuple[Component, IntArray, FloatArray]]:
         """For each component with some of the source vertices (k,): it, which of them (c,), and their fields (m, c).
 
         The fields are those of the component's own m vertices: nothing is held for where there is no distance.
@@ -248,7 +249,7 @@ class Distance(ABC):
 
     def pairwise(
         self, vertices: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
-    ) -> np.ndarray:
+    ) -> FloatArray:
         """(k, k) distances among k vertices, or places in faces: symmetric, zero diagonal."""
         if has_places(vertices):
             points = list(vertices)
@@ -265,7 +266,7 @@ class Distance(ABC):
         distances[ids[:, None] == ids] = 0
         return distances
 
-    def of_pairs(self, pairs: npt.ArrayLike | Sequence[Pair], progress: Progress | None = None) -> np.ndarray:
+    def of_pairs(self, pairs: npt.ArrayLike | Sequence[Pair], progress: Progress | None = None) -> FloatArray:
         """(k,) the distances of k pairs of vertices (k, 2), or places in faces; NaN between components.
 
         The mean of both ways where a distance is not symmetric.  ParameterError for another shape, and for places in
@@ -288,7 +289,7 @@ class Distance(ABC):
         distances[i == j] = 0
         return distances
 
-    def _of_points(self, u: Pieces, v: Pieces) -> np.ndarray:
+    def _of_points(self, u: Pieces, v: Pieces) -> FloatArray:
         """(k,) distances of pairs of vertices and places in faces."""
         distances = np.zeros(len(u))
         are_vertices = (u.start.max(axis=1) == 1) & (v.start.max(axis=1) == 1)
@@ -300,16 +301,14 @@ class Distance(ABC):
             distances[others] = self._of_places(u.some(others), v.some(others))
         return distances
 
-    def _of_places(self, u: Pieces, v: Pieces) -> np.ndarray:
+    def _of_places(self, u: Pieces, v: Pieces) -> FloatArray:
         """(k,) the same of pairs that are apart, and of which one is no vertex."""
         if not self.is_quadratic:
             raise ParameterError(f"{self.label} is known between vertices only, not at places in faces.")
         squares = squares_of_pairs(u, v, self.of_pairs)
         return np.sqrt(np.maximum(squares, 0))
 
-    def _of_pairs(
-        self, component: Component, i: np.ndarray, j: np.ndarray, progress: Progress | None = None
-    ) -> np.ndarray:
+    def _of_pairs(self, component: Component, i: IntArray, j: IntArray, progress: Progress | None = None) -> FloatArray:
         """(k,) distances of local vertices i and j (k,)."""
         if not self.is_symmetric:
             there = self._one_way(component, i, j, part(progress, 0, 0.5))
@@ -318,8 +317,8 @@ class Distance(ABC):
         return self._one_way(component, few, others, progress)
 
     def _one_way(
-        self, component: Component, sources: np.ndarray, targets: np.ndarray, progress: Progress | None
-    ) -> np.ndarray:
+        self, component: Component, sources: IntArray, targets: IntArray, progress: Progress | None
+    ) -> FloatArray:
         among, place = np.unique(sources, return_inverse=True)
         distances = np.empty(len(sources))
         for start in range(0, len(among), SOURCES):
@@ -335,15 +334,15 @@ class Distance(ABC):
         """Do the long work that questions about a component need; nothing if it is done."""
 
     @abstractmethod
-    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         """(m, k) distances within a component from its local vertices `index` (k,)."""
 
-    def _pairwise(self, component: Component, index: np.ndarray, progress: Progress | None = None) -> np.ndarray:
+    def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
         """(k, k) distances among local vertices `index` (k,)."""
         self.prepare(component, progress)
         return self._columns(component, index, progress)[index]
 
-    def _by_component(self, ids: np.ndarray) -> Iterable[tuple[Component, np.ndarray]]:
+    def _by_component(self, ids: IntArray) -> Iterable[tuple[Component, IntArray]]:
         """Each component with the positions of its vertices among ids (k,)."""
         label = self.surface.component_of_vertex[ids]
         for index in np.unique(label):
@@ -351,7 +350,7 @@ class Distance(ABC):
             yield self.laplacian.components[index], np.flatnonzero(label == index)
 
 
-def root(squares: np.ndarray, terms: np.ndarray | float) -> np.ndarray:
+def root(squares: FloatArray, terms: FloatArray | float) -> FloatArray:
     """Square root of squared distances, computed as sums of `terms` (their size; broadcasts).
 
     Values below zero by rounding become 0; SolverError if one is further below, or not a number.

@@ -5,6 +5,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 
@@ -26,7 +27,7 @@ class EdgeGeodesic:
             (np.tile(lengths, 2), (np.concatenate([i, j]), np.concatenate([j, i]))), shape=(n, n)
         )
 
-    def distances(self, sources: npt.ArrayLike) -> np.ndarray:
+    def distances(self, sources: npt.ArrayLike) -> FloatArray:
         """(n,) lengths from one vertex or (n, k) from (k,) vertices, in the mesh's length unit; inf out of reach.
 
         Raises VertexError for an id that does not exist or belongs to no face.
@@ -35,11 +36,12 @@ class EdgeGeodesic:
         from scipy.sparse.csgraph import dijkstra
 
         if np.ndim(sources) == 0:
-            return dijkstra(self._graph, indices=self.surface.check_vertices(sources)[0])
+            lengths: FloatArray = dijkstra(self._graph, indices=self.surface.check_vertices(sources)[0])
+            return lengths
         ids = self.surface.check_vertices(sources)
         return np.ascontiguousarray(dijkstra(self._graph, indices=ids).T)
 
-    def distances_with(self, vertices: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    def distances_with(self, vertices: IntArray, offsets: FloatArray) -> FloatArray:
         """(n,) least length from any of (k,) vertices, each with an offset (k,) to be added; inf out of reach."""
         from scipy.sparse.csgraph import dijkstra
 
@@ -56,9 +58,10 @@ class EdgeGeodesic:
             ),
             shape=(n + 1, n + 1),
         )
-        return dijkstra(more, indices=n)[:n]
+        lengths: FloatArray = dijkstra(more, indices=n)[:n]
+        return lengths
 
-    def path(self, start: int, stop: int) -> np.ndarray:
+    def path(self, start: int, stop: int) -> IntArray:
         """(k,) vertices of a shortest path, both ends included; ParameterError where there is none."""
         from scipy.sparse.csgraph import dijkstra
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress, part, silent
@@ -35,9 +36,9 @@ class Embedding:
     for rounding.  Points of different components have no distance that means anything: make an index for each.
     """
 
-    points: np.ndarray
-    tails: np.ndarray
-    components: np.ndarray
+    points: FloatArray
+    tails: FloatArray
+    components: IntArray
 
     @property
     def bound(self) -> float:
@@ -45,7 +46,7 @@ class Embedding:
         pairs = [np.sort(self.tails[mine])[-2:] for mine in self._each() if len(mine) > 1]
         return max((float(two.sum()) for two in pairs), default=0.0)
 
-    def between(self, pairs: npt.ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    def between(self, pairs: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """(q,), (q,): what the distances of pairs of vertices (q, 2) are at least and at most; NaN between components.
 
         ParameterError for another shape, or a vertex that is not there.
@@ -62,7 +63,7 @@ class Embedding:
         least[is_apart] = most[is_apart] = np.nan
         return least, most
 
-    def _each(self) -> Iterator[np.ndarray]:
+    def _each(self) -> Iterator[IntArray]:
         """The vertices of each component."""
         for index in np.unique(self.components[self.components >= 0]):
             yield np.flatnonzero(self.components == index)
@@ -113,7 +114,7 @@ def _embedding(laplacian: Laplacian, count: int, progress: Progress | None) -> E
     return Embedding(points, tails, surface.component_of_vertex)
 
 
-def _coordinates(component: Component, count: int, progress: Progress | None) -> np.ndarray:
+def _coordinates(component: Component, count: int, progress: Progress | None) -> FloatArray:
     """(m, count) G A phi, centred: phi / lambda, were phi eigenvectors without error."""
     if count < 1:
         return np.zeros((len(component.vertices), 0))

@@ -17,6 +17,7 @@ from queue import Empty
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray
 from ..child_process import ChildProcess, mesh_message
 from ..errors import ParameterError, SolverError
 from ..progress import REPORT_EVERY, Progress, silent
@@ -58,7 +59,7 @@ class ExactGeodesic:
         self._child: ChildProcess | None = None
         self._changed, self._waiting = threading.Condition(), deque[object]()
 
-    def distances(self, sources: npt.ArrayLike, progress: Progress | None = None) -> np.ndarray:
+    def distances(self, sources: npt.ArrayLike, progress: Progress | None = None) -> FloatArray:
         """(n,) distances from one vertex, or the nearest of several (k,), in the mesh's length unit; NaN where none was
         found.
 

@@ -5,6 +5,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
@@ -82,7 +83,7 @@ class GeodesicDistance(Distance):
         points = ", from points along the line" if self.method == "exact" and pieces.along.any() else ""
         return self.label + points
 
-    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         solver = self._solvers[component.index]
         if isinstance(solver, EdgeGeodesic):
             return solver.distances(index)
@@ -91,7 +92,7 @@ class GeodesicDistance(Distance):
             [solver.distances(int(i), part(progress, k * share, (k + 1) * share)) for k, i in enumerate(index)], 1
         )
 
-    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> np.ndarray:
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         solver, surface, vertices = self._solvers[component.index], component.surface, pieces.vertices
         if isinstance(solver, ExactGeodesic):
             if vertices is not None:
@@ -123,7 +124,7 @@ class GeodesicDistance(Distance):
             np.minimum(least, found, out=least)
         return least
 
-    def _of_places(self, u: Pieces, v: Pieces) -> np.ndarray:
+    def _of_places(self, u: Pieces, v: Pieces) -> FloatArray:
         labels = self.surface.component_of_vertex
         found = np.full(len(u), np.nan)
         for component, mine in self._by_component(u.corners[:, 0]):
@@ -141,7 +142,7 @@ class GeodesicDistance(Distance):
         lengths = straight(u, v, self.surface)
         return np.where(np.isfinite(lengths), lengths, found)
 
-    def _exactly(self, component: Component, u: Pieces, v: Pieces) -> np.ndarray:
+    def _exactly(self, component: Component, u: Pieces, v: Pieces) -> FloatArray:
         """(k,) on the component divided at all points."""
         faces, ends = self._local_faces(component, u, v)
         split = split_at(component.surface, faces, ends.start)
@@ -157,13 +158,13 @@ class GeodesicDistance(Distance):
             solver.close()
         return found
 
-    def _local_faces(self, component: Component, u: Pieces, v: Pieces) -> tuple[np.ndarray, Pieces]:
+    def _local_faces(self, component: Component, u: Pieces, v: Pieces) -> tuple[IntArray, Pieces]:
         """(2 k,) the component's numbers of the faces of both, and these as one."""
         ends = Pieces(*(np.concatenate([getattr(each, f.name) for each in (u, v)]) for f in fields(Pieces)))
         own = np.flatnonzero(self.surface.component_of_vertex[self.surface.faces[:, 0]] == component.index)
         return np.searchsorted(own, ends.faces), ends
 
-    def _along_edges(self, component: Component, u: Pieces, v: Pieces) -> np.ndarray:
+    def _along_edges(self, component: Component, u: Pieces, v: Pieces) -> FloatArray:
         """(k,) from corner to corner, and straight to both."""
         solver, found = self._solvers[component.index], np.empty(len(u))
         assert isinstance(solver, EdgeGeodesic)
@@ -176,7 +177,7 @@ class GeodesicDistance(Distance):
             found[mine] = np.where(some.start > 0, ways, np.inf).min(axis=1)
         return found
 
-    def _by_heat(self, u: Pieces, v: Pieces) -> np.ndarray:
+    def _by_heat(self, u: Pieces, v: Pieces) -> FloatArray:
         """(k,) of fields from u what they are at v, linear in faces."""
         found = np.empty(len(u))
         for start, mine in by_start(u):
@@ -185,7 +186,7 @@ class GeodesicDistance(Distance):
         return found
 
 
-def _spread(pieces: Pieces, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
+def _spread(pieces: Pieces, surface: Surface) -> tuple[FloatArray, FloatArray]:
     """(k, 3) what the corners have of each piece, as a length, and (k, 3) how far they are from it.
 
     A point counts as much as an edge.

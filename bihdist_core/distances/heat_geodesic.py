@@ -19,12 +19,13 @@ from collections.abc import Callable
 import numpy as np
 import scipy.sparse as sp
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..operators import face_sides
 from ..progress import Progress, silent
 from ..surface import Surface, dots
 
-Solve = Callable[[np.ndarray], np.ndarray]
+Solve = Callable[[FloatArray], FloatArray]
 
 TOP, FLOOR = 1e100, 1e-250
 """A stage starts from heat TOP and trusts what is at least FLOOR; squares of TOP are finite, and sums for values of
@@ -55,7 +56,7 @@ def heat_time(surface: Surface, factor: float = 1.0) -> float:
     return factor * surface.mean_edge_length**2
 
 
-def heat_matrix(stiffness: sp.csr_matrix, areas: np.ndarray, time: float) -> sp.csr_matrix:
+def heat_matrix(stiffness: sp.csr_matrix, areas: FloatArray, time: float) -> sp.csr_matrix:
     """(n, n) A + t L, the matrix of step I."""
     return (sp.diags_array(areas) + time * stiffness).tocsr()
 
@@ -77,11 +78,11 @@ class HeatGeodesic:
         self._pattern = matrix.astype(bool)
         self._flow = _FaceFlow(surface)
 
-    def flow(self, loads: np.ndarray) -> np.ndarray:
+    def flow(self, loads: FloatArray) -> FloatArray:
         """The heat (n, k) that flows from loads (n, k): the first stage of step I."""
         return self._solve_heat(loads)
 
-    def distances(self, source: int, progress: Progress | None = None) -> np.ndarray:
+    def distances(self, source: int, progress: Progress | None = None) -> FloatArray:
         """(n,) distances from one vertex, in the mesh's length unit; 0 at the source, never negative.
 
         Next to the source phi can fall below phi(source) by a part of an edge length; such values become 0.
@@ -92,8 +93,8 @@ class HeatGeodesic:
         return self.distances_with(np.array([source]), np.ones(1), np.zeros(1), progress)
 
     def distances_with(
-        self, vertices: np.ndarray, loads: np.ndarray, offsets: np.ndarray, progress: Progress | None = None
-    ) -> np.ndarray:
+        self, vertices: IntArray, loads: FloatArray, offsets: FloatArray, progress: Progress | None = None
+    ) -> FloatArray:
         """(n,) the same from a source that is spread over vertices (k,), with repeats, by positive loads (k,).
 
         offsets (k,): how far these are from the source itself; phi is right up to a constant, which is such that it
@@ -104,12 +105,12 @@ class HeatGeodesic:
         divergence = self._divergence(load / load.max(), report)
         report(0.8, "heat method, distances")
         phi = self._solve_poisson(divergence)
-        distances = np.maximum(phi - loads @ (phi[vertices] - offsets) / loads.sum(), 0.0)
+        distances: FloatArray = np.maximum(phi - loads @ (phi[vertices] - offsets) / loads.sum(), 0.0)
         if not np.isfinite(distances).all():
             raise SolverError(f"The heat method on {self.surface.name} gave values that are not finite numbers.")
         return distances
 
-    def _divergence(self, load: np.ndarray, report: Progress) -> np.ndarray:
+    def _divergence(self, load: FloatArray, report: Progress) -> FloatArray:
         """(n,) div X of the flow from vertices with a load (n,): steps I and II, in as many stages as u needs."""
         report(0.0, "heat method, flow")
         peak = int(load.argmax())
@@ -139,7 +140,7 @@ class HeatGeodesic:
             pending = still
         return divergence
 
-    def _enlarged(self, u1: np.ndarray, known: np.ndarray, load: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _enlarged(self, u1: FloatArray, known: BoolArray, load: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The known part of u and its residual b = delta - (A + t L) u1, both (n,), scaled up for the next stage."""
         # Away from the rim the residual is 0 but for rounding, which would drown the rim's tiny values.
         rim = self._pattern @ ~known
@@ -171,14 +172,13 @@ class _FaceFlow:
             _, back, self._true1 = face_sides(surface, true=True)
             self._true2 = np.negative(back, out=back)
 
-    def divergence(self, u: np.ndarray, faces: np.ndarray | None = None) -> np.ndarray:
+    def divergence(self, u: FloatArray, faces: IntArray | None = None) -> FloatArray:
         """(n,) div X of -grad u / |grad u| on all or some (k,) faces; a face where u is constant has X = 0."""
         if faces is None:
             corners, e1, e2, true1, true2 = self._corners, self._e1, self._e2, self._true1, self._true2
         else:
-            corners, e1, e2, true1, true2 = (
-                x[:, faces] for x in (self._corners, self._e1, self._e2, self._true1, self._true2)
-            )
+            corners = self._corners[:, faces]
+            e1, e2, true1, true2 = (x[:, faces] for x in (self._e1, self._e2, self._true1, self._true2))
         b = np.empty(corners.shape)
         for start in range(0, corners.shape[1], BLOCK):
             part = np.s_[:, start : start + BLOCK]
@@ -197,4 +197,4 @@ class _FaceFlow:
             b[2, start : start + BLOCK] = half * dots(true1[part], c)
         np.add(b[1], b[2], out=b[0])
         np.negative(b[0], out=b[0])
-        return np.bincount(corners.ravel(), b.ravel(), self._n)
+        return np.bincount(corners.ravel(), b.ravel(), self._n).astype(float, copy=False)

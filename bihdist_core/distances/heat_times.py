@@ -2,11 +2,11 @@
 
 import threading
 from collections.abc import Callable
-from concurrent.futures import Future
-from concurrent.futures import TimeoutError as NotYet
+from concurrent.futures import Future, TimeoutError as NotYet
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..errors import SolverError
 from ..laplacian import Component
 from ..progress import Progress, part, silent
@@ -47,17 +47,17 @@ class HeatTimes:
         self._made[factor] = Future()
         self._made[factor].set_result(solver)
 
-    def distances(self, source: int, progress: Progress | None = None) -> np.ndarray:
+    def distances(self, source: int, progress: Progress | None = None) -> FloatArray:
         """(n,) distances from one vertex.  Raises SolverError where no time serves."""
         return self._first_good(lambda solver: solver.distances(source, progress), progress)
 
     def distances_with(
-        self, vertices: np.ndarray, loads: np.ndarray, offsets: np.ndarray, progress: Progress | None = None
-    ) -> np.ndarray:
+        self, vertices: IntArray, loads: FloatArray, offsets: FloatArray, progress: Progress | None = None
+    ) -> FloatArray:
         """(n,) distances from a spread source, as of HeatGeodesic.  Raises SolverError where no time serves."""
         return self._first_good(lambda solver: solver.distances_with(vertices, loads, offsets, progress), progress)
 
-    def _first_good(self, found: Callable[[HeatGeodesic], np.ndarray], progress: Progress | None) -> np.ndarray:
+    def _first_good(self, found: Callable[[HeatGeodesic], FloatArray], progress: Progress | None) -> FloatArray:
         for factor in self._times:
             try:
                 return found(self._solver(factor, progress or silent))

@@ -15,12 +15,13 @@ from typing import TypeVar
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..sources.pieces import Pieces
 
-Square = TypeVar("Square", float, np.ndarray)
+Square = TypeVar("Square", float, FloatArray)
 
 
-def blocks(pieces: Pieces, most: int) -> list[np.ndarray]:
+def blocks(pieces: Pieces, most: int) -> list[IntArray]:
     """The numbers of the pieces in groups, one after another, that touch at most so many vertices each."""
     groups: list[list[int]] = [[]]
     touched: set[int] = set()
@@ -34,8 +35,8 @@ def blocks(pieces: Pieces, most: int) -> list[np.ndarray]:
 
 
 def squares_from(
-    squares: np.ndarray, among: np.ndarray, index: np.ndarray, local: np.ndarray, pieces: Pieces
-) -> Iterator[np.ndarray]:
+    squares: FloatArray, among: FloatArray, index: IntArray, local: IntArray, pieces: Pieces
+) -> Iterator[FloatArray]:
     """For each piece (m,) the squared distances of all vertices from it.
 
     squares (m, k): from the vertices `index` (k,); among (k, k): between these; local (p, 3): which of them are the
@@ -59,7 +60,7 @@ def squares_from(
         yield here
 
 
-def form(weights: np.ndarray, sides: np.ndarray) -> float:
+def form(weights: FloatArray, sides: FloatArray) -> float:
     """-sum_{i < j} w_i w_j d(i, j)^2: of weights that add up to 0, a squared length."""
     return float(-weights @ sides @ weights / 2)
 

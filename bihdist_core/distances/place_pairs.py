@@ -6,6 +6,7 @@ from typing import TypeGuard
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
 from ..sources.pieces import Pieces
 from ..sources.source import Source, SurfacePoint
@@ -13,6 +14,10 @@ from ..surface import Surface
 
 Point = Source | str
 Pair = tuple[Point, Point]
+
+
+PointKey = frozenset[tuple[int, float]]
+"""Of a point in a face: the corners that it has weight at, with the weights."""
 
 
 def has_places(points: object) -> TypeGuard[Sequence[Point]]:
@@ -29,7 +34,7 @@ def are_of_places(pairs: object) -> TypeGuard[Sequence[Pair]]:
     return True
 
 
-def squares_of_pairs(u: Pieces, v: Pieces, of_pairs: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+def squares_of_pairs(u: Pieces, v: Pieces, of_pairs: Callable[[IntArray], FloatArray]) -> FloatArray:
     """(k,) squared distances of k pairs of points, for squares that are quadratic forms (see `in_faces`).
 
     of_pairs: distances of pairs of vertices (m, 2).
@@ -47,21 +52,21 @@ def squares_of_pairs(u: Pieces, v: Pieces, of_pairs: Callable[[np.ndarray], np.n
     return np.asarray((share * squares).sum(axis=1))
 
 
-def are_same(u: Pieces, v: Pieces) -> np.ndarray:
+def are_same(u: Pieces, v: Pieces) -> BoolArray:
     """(k,) whether both points of a pair are one, in whichever faces."""
     return np.array([one == other for one, other in zip(_keys(u), _keys(v), strict=True)], bool)
 
 
-def straight(u: Pieces, v: Pieces, surface: Surface) -> np.ndarray:
+def straight(u: Pieces, v: Pieces, surface: Surface) -> FloatArray:
     """(k,) the lengths of the straight ways of pairs of points in one face; infinite for others."""
     holds = np.array([_in_face(u, v, k) or _in_face(v, u, k) for k in range(len(u))], bool)
     lengths = np.linalg.norm(u.positions(surface.vertices)[0] - v.positions(surface.vertices)[0], axis=1)
     return np.where(holds, lengths, np.inf)
 
 
-def by_start(u: Pieces) -> Iterator[tuple[Pieces, np.ndarray]]:
+def by_start(u: Pieces) -> Iterator[tuple[Pieces, IntArray]]:
     """Each point of u once, with the numbers of the pairs that start there."""
-    rows: dict[frozenset, list[int]] = {}
+    rows: dict[PointKey, list[int]] = {}
     for k, key in enumerate(_keys(u)):
         rows.setdefault(key, []).append(k)
     for mine in rows.values():
@@ -73,7 +78,7 @@ def _in_face(u: Pieces, v: Pieces, k: int) -> bool:
     return set(v.corners[k][v.start[k] > 0].tolist()) <= set(u.corners[k].tolist())
 
 
-def _keys(points: Pieces) -> list[frozenset]:
+def _keys(points: Pieces) -> list[PointKey]:
     return [
         frozenset((c, w) for c, w in zip(corners, weights, strict=True) if w > 0)
         for corners, weights in zip(points.corners.tolist(), points.start.tolist(), strict=True)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
@@ -26,18 +27,18 @@ class SpectralDistance(Distance):
 
     def __init__(self, laplacian: Laplacian | Surface) -> None:
         super().__init__(laplacian)
-        self._points: dict[int, np.ndarray] = {}
+        self._points: dict[int, FloatArray] = {}
 
     @abstractmethod
-    def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
+    def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:
         """Eigenpairs of a component, one more than are used if there is one, and the weights (k,) of those used."""
 
     @abstractmethod
-    def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
+    def _slopes(self, eigenvalues: FloatArray) -> FloatArray:
         """(k,) by what share a weight changes at most, over the share by which the eigenvalues change."""
 
     @abstractmethod
-    def _left_out(self, component: Component, next_value: float, tails: np.ndarray) -> np.ndarray:
+    def _left_out(self, component: Component, next_value: float, tails: FloatArray) -> FloatArray:
         """(m,) bounds on the lengths of the coordinates that the sum should have beside those used.
 
         next_value: the first eigenvalue not used, or less; tails (m,): the lengths of what is left of 1 / lambda^2.
@@ -47,7 +48,7 @@ class SpectralDistance(Distance):
         """Whether weights end at once, so that it matters which eigenpairs are the first."""
         return False
 
-    def points(self, component: Component, progress: Progress | None = None) -> np.ndarray:
+    def points(self, component: Component, progress: Progress | None = None) -> FloatArray:
         """(m, k) the points that stand for a component's vertices."""
         if component.index not in self._points:
             spectrum, weights = self._weighted(component, progress)
@@ -57,19 +58,18 @@ class SpectralDistance(Distance):
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         self.points(component, progress)
 
-    def _columns(self, component: Component, index: np.ndarray, progress: Progress | None) -> np.ndarray:
+    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         points = self.points(component)
         return point_distances(points, points[index])
 
-    def _pairwise(self, component: Component, index: np.ndarray, progress: Progress | None = None) -> np.ndarray:
+    def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
         points = self.points(component)[index]
         return point_distances(points, points)
 
-    def _of_pairs(
-        self, component: Component, i: np.ndarray, j: np.ndarray, progress: Progress | None = None
-    ) -> np.ndarray:
+    def _of_pairs(self, component: Component, i: IntArray, j: IntArray, progress: Progress | None = None) -> FloatArray:
         points = self.points(component)
-        return np.linalg.norm(points[i] - points[j], axis=1)
+        distances: FloatArray = np.linalg.norm(points[i] - points[j], axis=1)
+        return distances
 
     def _estimated_accuracy(self, component: Component) -> float:
         left_out = self._left_out(component, self._next(component), self._tails(component))
@@ -82,7 +82,7 @@ class SpectralDistance(Distance):
             return np.inf
         return float(spectrum.eigenvalues[len(weights)] * (1 - spectrum.residuals[len(weights)]))
 
-    def _tails(self, component: Component) -> np.ndarray:
+    def _tails(self, component: Component) -> FloatArray:
         """(m,) bounds on the lengths of all phi_k / lambda_k not used."""
         spectrum, weights = self._weighted(component, None)
         count = len(weights)
@@ -93,7 +93,7 @@ class SpectralDistance(Distance):
         slack = 2 * np.abs(vectors) @ (spectrum.residuals[:count] / values)
         return tail_lengths(biharmonic_squares(component), vectors, 1 / values) + slack
 
-    def _errors(self, component: Component) -> np.ndarray:
+    def _errors(self, component: Component) -> FloatArray:
         """(m,) lengths: for what is wrong with the eigenpairs used, distances are off by at most the sum of two.
 
         The coordinates are g(Delta) delta_x, with g^2 the weights; those computed are Q g(Lambda) Q^T delta_x.  With R
@@ -114,7 +114,7 @@ class SpectralDistance(Distance):
         errors += tails * np.linalg.norm(root * values * (missed + turned))
         return errors + np.sqrt(vectors**2 @ (weights * (self._slopes(values) * change / 2) ** 2))
 
-    def _inaccuracies(self, component: Component, spectrum: Spectrum, count: int) -> tuple[float, np.ndarray]:
+    def _inaccuracies(self, component: Component, spectrum: Spectrum, count: int) -> tuple[float, FloatArray]:
         """By what share rounding and degenerate faces change the eigenvalues, and the residuals (count,) with that."""
         values, residuals = spectrum.eigenvalues[:count], spectrum.residuals[:count]
         perturbation = Perturbation(component)
@@ -147,13 +147,13 @@ class PowerDistance(SpectralDistance):
         self.length_power = self.alpha - 1
         self.prepare(self.laplacian.components[0], progress)
 
-    def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, np.ndarray]:
+    def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:
         # With the diagonal of C, which tells what is left out; one more tells how clearly those used are set off.
         component.factor(part(progress, 0, 0.1), diagonals=True)
         spectrum = component.spectrum(self.k + 1, part(progress, 0.1, 1))
         return spectrum, spectrum.eigenvalues[: self.k] ** -self.alpha
 
-    def _slopes(self, eigenvalues: np.ndarray) -> np.ndarray:
+    def _slopes(self, eigenvalues: FloatArray) -> FloatArray:
         return np.full(len(eigenvalues), self.alpha)
 
     def _remedy(self, components: Sequence[int]) -> str:
@@ -200,7 +200,7 @@ class PowerDistance(SpectralDistance):
             beyond = rounded_up(self.beyond(components))
         return f"{said} as a sum of {self.k:,} eigenpairs; all of them would change it by at most {beyond}"
 
-    def _left_out(self, component: Component, next_value: float, tails: np.ndarray) -> np.ndarray:
+    def _left_out(self, component: Component, next_value: float, tails: FloatArray) -> FloatArray:
         # What is asked for is the sum of the first.
         return np.zeros(len(tails))
 

@@ -7,6 +7,7 @@ with the factor.  So what is left of them after some terms bounds every sum over
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..arrays import FloatArray
 from ..laplacian import Component
 from ..locked_cached_property import locked_cached_property
 from ..solver.tall import over_rows, point_distances
@@ -19,25 +20,28 @@ TINY = 1e-300
 """Nothing is divided by less."""
 
 
-def biharmonic_squares(component: Component) -> np.ndarray:
+def biharmonic_squares(component: Component) -> FloatArray:
     """(m,) sum_k phi_k(x)^2 / lambda_k^2 over all eigenpairs: C_xx, centred; unit length squared."""
     # The mean of the squared distances from a point is its own squared length plus the mean of those of all.
     squares = component.biharmonic_eccentricity**2
-    return squares - float(component.areas @ squares / component.areas.sum()) / 2
+    means: FloatArray = squares - float(component.areas @ squares / component.areas.sum()) / 2
+    return means
 
 
-def commute_time_squares(component: Component) -> np.ndarray:
+def commute_time_squares(component: Component) -> FloatArray:
     """(m,) sum_k phi_k(x)^2 / lambda_k over all eigenpairs: G_xx, centred; no unit."""
     areas = component.areas
     u, total = component.solve(areas), areas.sum()
-    return component.green_diagonal() - 2 * u / total + float(areas @ u) / total**2
+    diagonal: FloatArray = component.green_diagonal() - 2 * u / total + float(areas @ u) / total**2
+    return diagonal
 
 
-def tail_lengths(squares: np.ndarray, vectors: np.ndarray, factors: np.ndarray | float = 1.0) -> np.ndarray:
+def tail_lengths(squares: FloatArray, vectors: FloatArray, factors: FloatArray | float = 1.0) -> FloatArray:
     """(m,) the lengths of what coordinates vectors * factors (m, k) leave out where all have squared lengths (m,)."""
     known = over_rows(lambda rows: ((vectors[rows] * factors) ** 2).sum(axis=1), len(vectors))
     # What rounding leaves of a difference counts as a tail.
-    return np.sqrt(np.maximum(squares - np.concatenate(known), 0))
+    tails: FloatArray = np.sqrt(np.maximum(squares - np.concatenate(known), 0))
+    return tails
 
 
 class Cloud:
@@ -47,7 +51,7 @@ class Cloud:
     than the distance from any of some points far apart.  nearest: (m,) what the distance from any other is at least.
     """
 
-    def __init__(self, component: Component, points: np.ndarray) -> None:
+    def __init__(self, component: Component, points: FloatArray) -> None:
         squares = np.concatenate(over_rows(lambda rows: (points[rows] ** 2).sum(axis=1), len(points)))
         mean = float(component.areas @ squares / component.areas.sum())
         first = points[:, :LANDMARKS]
@@ -56,14 +60,15 @@ class Cloud:
         self._first = points[:, :TOLD_APART_BY]
 
     @locked_cached_property
-    def nearest(self) -> np.ndarray:
+    def nearest(self) -> FloatArray:
         # Distances near 1, as squares of small ones would be 0.
         scale = float(np.abs(self._first).max())
         if not 0 < scale < np.inf:
             return np.zeros(len(self._first))
-        return cKDTree(self._first / scale).query(self._first / scale, k=2)[0][:, 1] * scale
+        nearest: FloatArray = cKDTree(self._first / scale).query(self._first / scale, k=2)[0][:, 1] * scale
+        return nearest
 
-    def worst(self, left_out: np.ndarray, errors: np.ndarray | float = 0.0) -> float:
+    def worst(self, left_out: FloatArray, errors: FloatArray | float = 0.0) -> float:
         """The largest share of a field's maximum by which any distance of two points may be off.
 
         left_out (m,): at most the length of the coordinates that each point lacks; errors (m,): by how much each may be
@@ -77,7 +82,7 @@ class Cloud:
         return float(((lacking + displaced) / self.maxima).max())
 
 
-def missing(lengths: np.ndarray, distances: np.ndarray) -> np.ndarray:
+def missing(lengths: FloatArray, distances: FloatArray) -> FloatArray:
     """(m,) sqrt(d^2 + l^2) - d: by how much distances d are too small where coordinates of lengths l are left out."""
     # It falls as d grows.
     return lengths / np.maximum(np.hypot(distances, lengths) + distances, TINY) * lengths

@@ -109,7 +109,10 @@ def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> t
     fitted = np.unique(np.geomspace(max(1, count // DECADE), count, 13).round().astype(int))
     slope = exponent_estimate(fitted, values[fitted - 1])
     ratio = values[-1] * area / (4 * np.pi * count)
-    series = (Series("eigenvalues", k, values), Series("4πk / area", k, 4 * np.pi * k / area))
+    series = (
+        Series("eigenvalues", k, values),
+        Series("4πk / area", k, (4 * np.pi * k / area).astype(float, copy=False)),
+    )
     return [Chart("eigenvalues", "k", "eigenvalue", series, log_x=True, log_y=True)], [
         Claim(
             "claims-weyl",

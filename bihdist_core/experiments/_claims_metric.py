@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from ..analysis.diagnostics import smallest_distance, triangle_violations
+from ..arrays import FloatArray, IntArray
 from ..distances.diffusion import DiffusionDistance
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
@@ -75,7 +76,7 @@ def metric(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progr
 
 
 def _checked(
-    label: str, made: Callable[[], Distance], points: np.ndarray, count: int, step: Progress
+    label: str, made: Callable[[], Distance], points: IntArray, count: int, step: Progress
 ) -> tuple[Cell, ...]:
     """A row of the table: the axioms of a distance among points (k,), in `count` triples, and over all pairs."""
     each = made()
@@ -154,5 +155,5 @@ class _Truncated(DiffusionDistance):
         self._count = count
         super().__init__(laplacian, t)
 
-    def points(self, component: Component, progress: Progress | None = None) -> np.ndarray:
+    def points(self, component: Component, progress: Progress | None = None) -> FloatArray:
         return super().points(component, progress)[:, : self._count]

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..errors import SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress
@@ -48,11 +49,11 @@ def sampling(
     if "biharmonic" not in fields:
         raise SolverError(parts.why("biharmonic to be sampled"))
     rows: list[tuple[Cell, ...]] = []
-    means: dict[tuple[str, str, int], np.ndarray] = {}
+    means: dict[tuple[str, str, int], FloatArray] = {}
     for q, count in enumerate(counts):
         progress(0.6 + 0.4 * q / len(counts), f"fields from {count} points")
         known = points[:count]
-        interpolants: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+        interpolants: dict[str, Callable[[FloatArray], FloatArray]] = {
             SMOOTHEST: Smoothest(laplacian.components[0], known),
             LINEAR: PiecewiseLinear(component, known),
         }
@@ -68,11 +69,11 @@ def sampling(
     return tables, _charts(means, counts), [_claim(means, judged, list(fields), parts.why("geodesic to be sampled"))]
 
 
-def _columns(laplacian: Laplacian, kind: str, sources: np.ndarray) -> np.ndarray:
+def _columns(laplacian: Laplacian, kind: str, sources: IntArray) -> FloatArray:
     return distance(laplacian, kind).from_sources(sources)
 
 
-def _claim(means: dict[tuple[str, str, int], np.ndarray], judged: int, kinds: list[str], failure: str) -> Claim:
+def _claim(means: dict[tuple[str, str, int], FloatArray], judged: int, kinds: list[str], failure: str) -> Claim:
     """failure: why there is no geodesic distance."""
 
     def ratio(how: str) -> list[float]:
@@ -99,11 +100,11 @@ def _claim(means: dict[tuple[str, str, int], np.ndarray], judged: int, kinds: li
     )
 
 
-def _kinds(means: dict[tuple[str, str, int], np.ndarray]) -> list[str]:
+def _kinds(means: dict[tuple[str, str, int], FloatArray]) -> list[str]:
     return list(dict.fromkeys(kind for _, kind, _ in means))
 
 
-def _orders(means: dict[tuple[str, str, int], np.ndarray], counts: list[int]) -> Table:
+def _orders(means: dict[tuple[str, str, int], FloatArray], counts: list[int]) -> Table:
     """The order of approximation: with k points their spacing is about k^(-1/2)."""
     rows: list[tuple[Cell, ...]] = []
     for how in (SMOOTHEST, LINEAR):
@@ -118,7 +119,7 @@ def _orders(means: dict[tuple[str, str, int], np.ndarray], counts: list[int]) ->
     )
 
 
-def _charts(means: dict[tuple[str, str, int], np.ndarray], counts: list[int]) -> list[Chart]:
+def _charts(means: dict[tuple[str, str, int], FloatArray], counts: list[int]) -> list[Chart]:
     if len(counts) < 2:
         return []
     return [

@@ -8,6 +8,7 @@ import numpy as np
 from ..analysis.diagnostics import FieldChange
 from ..analysis.persistence import extrema
 from ..applications.perturbation import face_at, vertex_normals, welded, with_handle
+from ..arrays import FloatArray
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import ParameterError, SolverError
@@ -32,7 +33,7 @@ another one than this are the same."""
 FAR_ROUND = 2.0
 """Parts touch nearly if the way along the surface is longer than this many times the straight one."""
 Pair = tuple[int, int]
-Fields = dict[str, np.ndarray]
+Fields = dict[str, FloatArray]
 Change = dict[str, FieldChange]
 """By the kinds of distances from the join, and under `WORST` the worst of biharmonic distance from all sources."""
 WORST = "biharmonic, worst"

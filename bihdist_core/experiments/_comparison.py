@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..applications.perturbation import vertex_normals
+from ..arrays import BoolArray, FloatArray
 from ..distances.distance import Distance
 from ..errors import SolverError
 from ..progress import Progress, part
@@ -142,10 +143,10 @@ def _minima_on_the_front(
         found.add(STATEMENTS[f"{id}-2"].names[0], depth, not k)
 
 
-def _opposite(surface: Surface, source: int) -> np.ndarray:
+def _opposite(surface: Surface, source: int) -> BoolArray:
     """(n,) bool: where normals point against the source's."""
     normals = vertex_normals(surface)
-    against: np.ndarray = normals @ normals[source] < 0
+    against: BoolArray = normals @ normals[source] < 0
     return against
 
 
@@ -159,7 +160,7 @@ def _note(k: int, charts: list[Chart]) -> str:
 
 
 def _panel(
-    surface: Surface, name: str, heading: str, source: int, field: np.ndarray | None, failure: str = ""
+    surface: Surface, name: str, heading: str, source: int, field: FloatArray | None, failure: str = ""
 ) -> Panel:
     shown = (Mark(source, "source"),) if field is None else marks(surface, field, source)
     return Panel(heading, name, field, name, shown, ("front", "back"), failure=failure)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..analysis.diagnostics import isotropy_ratio
 from ..analysis.quality import small_radius
+from ..arrays import FloatArray
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from .measures import FIELD_COLUMNS, by_source, deepest_minimum, field_row, marks, percent
@@ -94,7 +95,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     )
 
 
-def _summary(ratios: np.ndarray, depths: np.ndarray) -> Table:
+def _summary(ratios: FloatArray, depths: FloatArray) -> Table:
     """The family from the pictured source, and over the random ones."""
     rows: list[tuple[Cell, ...]] = []
     for q, alpha in enumerate(ALPHAS):
@@ -105,5 +106,5 @@ def _summary(ratios: np.ndarray, depths: np.ndarray) -> Table:
     return Table("family", ("α", "measured", "upper back", "random, median", "least", "most"), tuple(rows))
 
 
-def _said(values: np.ndarray, unit: str = "") -> str:
+def _said(values: FloatArray, unit: str = "") -> str:
     return ", ".join(f"α = {alpha:g}: {value:.3g}{unit}" for alpha, value in zip(ALPHAS, values, strict=True))

@@ -12,6 +12,7 @@ import numpy as np
 from ..analysis.diagnostics import isotropy_ratio
 from ..analysis.isoline_tracing import isolines
 from ..applications.local_refinement import refined_around
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..distances.exact_geodesic import ExactGeodesic
 from ..errors import ParameterError
@@ -52,9 +53,9 @@ class Circles:
     a limb that is thinner, or at a boundary, it says nothing of the limit.
     """
 
-    sources: np.ndarray
-    ratios: Mapping[str, np.ndarray]
-    are_local: np.ndarray
+    sources: IntArray
+    ratios: Mapping[str, FloatArray]
+    are_local: BoolArray
     failure: str = ""
 
     def trend(self, kind: str = "biharmonic") -> list[float]:
@@ -142,7 +143,7 @@ def gather_circles(found: Gathered, circled: Circles, pictured: int, first_rando
                 found.add(part_of.name, values[k], k == pictured)
 
 
-def _patch(surface: Surface, source: int, radius: float) -> tuple[Surface, np.ndarray, np.ndarray]:
+def _patch(surface: Surface, source: int, radius: float) -> tuple[Surface, IntArray, FloatArray]:
     """The part of a surface around a source, the ids (k,) of its vertices, and exact geodesic distances (k,) on it.
 
     Lengths along edges are longer than geodesics, by up to about a sixth: the part is a good deal larger.
@@ -167,7 +168,7 @@ def _patch(surface: Surface, source: int, radius: float) -> tuple[Surface, np.nd
         exact.close()
 
 
-def _around(surface: Surface, vertex: int, chosen: np.ndarray) -> tuple[Surface, np.ndarray]:
+def _around(surface: Surface, vertex: int, chosen: BoolArray) -> tuple[Surface, IntArray]:
     """Of the faces that are chosen (m,) bool those that hang together with a vertex, and (k,) its vertices' ids."""
     used, compact = np.unique(surface.faces[chosen], return_inverse=True)
     piece = Surface(surface.vertices[used], compact.reshape(-1, 3), surface.name)
@@ -175,7 +176,7 @@ def _around(surface: Surface, vertex: int, chosen: np.ndarray) -> tuple[Surface,
     return part_of_it, used[kept]
 
 
-def _over(numerator: np.ndarray, denominator: np.ndarray) -> list[float]:
+def _over(numerator: FloatArray, denominator: FloatArray) -> list[float]:
     """Ratios of excesses; a vanishing one over a vanishing one is 1, no trend."""
     tiny = np.abs(denominator) < 1e-9
     return [float(x) for x in np.where(tiny, 1.0, numerator / np.where(tiny, 1.0, denominator))]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..surface import Surface
 
 CANDIDATES = 150
@@ -21,16 +22,17 @@ class DoublePoint:
     faces: (2,).  weights: (2, 3) barycentric.
     """
 
-    faces: np.ndarray
-    weights: np.ndarray
+    faces: IntArray
+    weights: FloatArray
     gap: float
 
-    def values(self, surface: Surface, images: np.ndarray) -> np.ndarray:
+    def values(self, surface: Surface, images: FloatArray) -> FloatArray:
         """(2, k) functions (n, k), linear in each face, at both places."""
-        return np.einsum("pc,pck->pk", self.weights, images[surface.faces[self.faces]])
+        values: FloatArray = np.einsum("pc,pck->pk", self.weights, images[surface.faces[self.faces]])
+        return values
 
 
-def double_point(surface: Surface, images: np.ndarray, along: np.ndarray, apart: float) -> DoublePoint | None:
+def double_point(surface: Surface, images: FloatArray, along: FloatArray, apart: float) -> DoublePoint | None:
     """The two places with the nearest images (n, k), among faces near the likeliest pairs of vertices.
 
     along: (n, n) distances on the surface, of which those of the pair must exceed `apart`.  The images of two faces
@@ -56,7 +58,7 @@ def double_point(surface: Surface, images: np.ndarray, along: np.ndarray, apart:
     return best
 
 
-def _meeting(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def _meeting(a: FloatArray, b: FloatArray) -> FloatArray:
     """(m, 2, 3) weights of the nearest places in the planes of triangles (m, 3, k) each, as near the middles as can be.
 
     With the sides u of a and v of b: a0 + u s = b0 + v t, four unknowns and k equations.

@@ -4,8 +4,7 @@ The paper shows the picture and lists, in section 1, what it stands for: gradual
 the shape away from it.
 """
 
-import numpy as np
-
+from ..arrays import FloatArray
 from ..progress import Progress, part
 from ._stated_figures import MINIMA
 from .circles import FRONT, PROTOCOL, RANDOM_FROM, gather_circles, shared_circles
@@ -61,6 +60,6 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     )
 
 
-def _row(shapes: Shapes, name: str, source: int, field: np.ndarray) -> tuple[Cell, ...]:
+def _row(shapes: Shapes, name: str, source: int, field: FloatArray) -> tuple[Cell, ...]:
     geodesic = distance(shapes.laplacian(name), "geodesic").from_source(source)
     return field_row(shapes[name], name, "front", source, "biharmonic", field, geodesic)

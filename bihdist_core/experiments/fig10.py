@@ -11,6 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..applications.correspondence import Correspondence, correspondence_prediction
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..progress import Progress, part
@@ -86,7 +87,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     )
 
 
-def _targets(surface: Surface, quick: bool) -> tuple[np.ndarray, np.ndarray]:
+def _targets(surface: Surface, quick: bool) -> tuple[IntArray, BoolArray]:
     """(k,) random vertices, and (k,) whether they are those on the head."""
     y, rng = surface.vertices[:, 1], np.random.default_rng(0)
     head = np.flatnonzero(y >= y.max() - HEAD * np.ptp(y))
@@ -95,7 +96,7 @@ def _targets(surface: Surface, quick: bool) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([everywhere, there]), np.arange(len(everywhere) + len(there)) >= len(everywhere)
 
 
-def _from_the_right(shapes: Shapes, targets: np.ndarray, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+def _from_the_right(shapes: Shapes, targets: IntArray, progress: Progress) -> tuple[FloatArray, FloatArray]:
     """(n, k) distances on the second pose from the targets, and from these or their mirror images; root of area."""
     unit = float(np.sqrt(shapes["figure_pose2"].face_areas.sum()))
     truth = distance(shapes.laplacian("figure_pose2"), "geodesic method = heat")
@@ -104,9 +105,9 @@ def _from_the_right(shapes: Shapes, targets: np.ndarray, progress: Progress) -> 
     return off, np.minimum(off, mirrored)
 
 
-def _all_known(pair: tuple[Distance, Distance], points: np.ndarray, progress: Progress) -> Correspondence:
+def _all_known(pair: tuple[Distance, Distance], points: IntArray, progress: Progress) -> Correspondence:
     """The correspondence of all points, each of which keeps its distances; the two surfaces side by side."""
-    columns: tuple[dict[int, np.ndarray], dict[int, np.ndarray]] = ({}, {})
+    columns: tuple[dict[int, FloatArray], dict[int, FloatArray]] = ({}, {})
     with ThreadPoolExecutor(2) as lanes:
         for start in range(0, len(points), BLOCK):
             progress(start / len(points), f"distances from known points, {pair[0].label}")
@@ -161,7 +162,9 @@ def _claims(table: Table) -> tuple[Claim, ...]:
     return tuple(better)
 
 
-def _pictures(one: Surface, known: np.ndarray, on_one: dict, on_two: dict) -> list[Panel]:
+def _pictures(
+    one: Surface, known: IntArray, on_one: Mapping[str, Distance], on_two: Mapping[str, Distance]
+) -> list[Panel]:
     lengths = EdgeGeodesic(one).distances(known).min(axis=1)
     unit = float(np.sqrt(one.face_areas.sum()))
     targets = {"near": int(np.abs(lengths - NEAR * unit).argmin()), "far": int(lengths.argmax())}
@@ -179,7 +182,7 @@ def _pictures(one: Surface, known: np.ndarray, on_one: dict, on_two: dict) -> li
     return panels
 
 
-def _clustered(surface: Surface, seed: str) -> np.ndarray:
+def _clustered(surface: Surface, seed: str) -> IntArray:
     """(3,) vertices spread within a disc around the start."""
     lengths = EdgeGeodesic(surface)
     points = spread_points(surface, 1, seed)
@@ -191,8 +194,9 @@ def _clustered(surface: Surface, seed: str) -> np.ndarray:
     return points
 
 
-def _mirror(surface: Surface) -> np.ndarray:
+def _mirror(surface: Surface) -> IntArray:
     """(n,) for each vertex the one nearest to its mirror image, left and right exchanged."""
     x = surface.vertices
     image = x * [-1, 1, 1] + [x[:, 0].min() + x[:, 0].max(), 0, 0]
-    return cKDTree(x).query(image)[1]
+    nearest: IntArray = cKDTree(x).query(image)[1]
+    return nearest

@@ -9,6 +9,7 @@ import numpy as np
 from ..analysis.persistence import extrema
 from ..analysis.quality import small_radius
 from ..applications.resizing import refined
+from ..arrays import FloatArray
 from ..distances.distance import Distance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
@@ -82,7 +83,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     )
 
 
-def _extrema(surface: Surface, field: np.ndarray, source: int) -> int:
+def _extrema(surface: Surface, field: FloatArray, source: int) -> int:
     """How many extrema a field has beside its source."""
     seen = extrema(surface, field, DEEP)
     return int((np.concatenate([seen.minima, seen.maxima]) != source).sum())

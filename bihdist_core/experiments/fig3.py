@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 
 from ..analysis.diagnostics import FieldChange
 from ..applications.perturbation import punched
+from ..arrays import IntArray
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import SolverError
 from ..laplacian import Laplacian
@@ -47,7 +48,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     sources = {"pictured": shapes.vertex_at(intact, *UPPER_BACK, "back")}
     random = random_sources(intact, QUICK_SOURCES if quick else SOURCES)
     sources |= {f"random {k}": source for k, source in enumerate(random, 1)}
-    damaged: dict[str, tuple[Surface, np.ndarray]] = {}
+    damaged: dict[str, tuple[Surface, IntArray]] = {}
     punched_name = f"{name}, punched"
     if shapes.own is None:
         scanned = parts.do("scan", _scanned, shapes, intact)
@@ -86,7 +87,7 @@ def _measured(
     name: str,
     damage: str,
     surface: Surface,
-    there: np.ndarray,
+    there: IntArray,
     sources: dict[str, int],
     with_intact: bool,
     parts: Parts,
@@ -138,7 +139,7 @@ def _claim(id: str, found: Found | None, reason: str) -> Claim:
     )
 
 
-def _scanned(shapes: Shapes, intact: Surface) -> tuple[Surface, np.ndarray]:
+def _scanned(shapes: Shapes, intact: Surface) -> tuple[Surface, IntArray]:
     """The scan, and (n,) the vertex of the intact surface that each of its points is, -1 for none."""
     scan = shapes["scan"]
     off, same = cKDTree(intact.vertices).query(scan.vertices)

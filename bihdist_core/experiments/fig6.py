@@ -11,6 +11,7 @@ import numpy as np
 from ..analysis.diagnostics import FieldChange
 from ..applications.perturbation import noisy
 from ..applications.resizing import simplified
+from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import SolverError
 from ..laplacian import Laplacian
@@ -48,8 +49,8 @@ class Change:
     name: str
     before: Surface
     after: tuple[Surface, ...]
-    ids: np.ndarray
-    images: np.ndarray
+    ids: IntArray
+    images: IntArray
     drawn: bool = True
 
     @property
@@ -77,14 +78,14 @@ class Before:
 
     def __init__(self, distances: dict[str, Distance]) -> None:
         self._distances = distances
-        self._fields: dict[tuple[str, int], np.ndarray] = {}
+        self._fields: dict[tuple[str, int], FloatArray] = {}
 
     @property
     def kinds(self) -> list[str]:
         """Those that can be had."""
         return list(self._distances)
 
-    def field(self, kind: str, source: int) -> np.ndarray:
+    def field(self, kind: str, source: int) -> FloatArray:
         """(n,) the distances from a vertex."""
         if (kind, source) not in self._fields:
             self._fields[kind, source] = self._distances[kind].from_source(source)
@@ -219,7 +220,7 @@ def _measured(shapes: Shapes, case: Change, before: Before, draws: int, parts: P
 
 
 def _panels(
-    case: Change, source: int, image: int, one: dict[str, np.ndarray], two: dict[str, np.ndarray]
+    case: Change, source: int, image: int, one: dict[str, FloatArray], two: dict[str, FloatArray]
 ) -> list[Panel]:
     panels, heading = [], case.where
     for kind in one:
@@ -230,7 +231,7 @@ def _panels(
     return panels
 
 
-def _shared(surface: Surface, ids: np.ndarray, vertex: int) -> int:
+def _shared(surface: Surface, ids: IntArray, vertex: int) -> int:
     """The vertex among ids (k,) that is nearest to a vertex."""
     return int(ids[np.linalg.norm(surface.vertices[ids] - surface.vertices[vertex], axis=1).argmin()])
 

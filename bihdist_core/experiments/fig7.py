@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..analysis.quality import small_radius
+from ..arrays import FloatArray
 from ..progress import Progress, part
 from ..surface import Surface
 from .circles import PROTOCOL, circles, gather_circles
@@ -98,7 +99,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     )
 
 
-def _close_up(panel: Panel, surface: Surface, geodesic: np.ndarray) -> Panel:
+def _close_up(panel: Panel, surface: Surface, geodesic: FloatArray) -> Panel:
     """What is around the source of a panel, with so many isolines that their shape there is seen."""
     assert panel.field is not None
     radius = small_radius(surface)

@@ -6,6 +6,7 @@ bound is (generally) linear in 1/K".
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..laplacian import Laplacian
@@ -108,13 +109,13 @@ def _slopes(exponents: dict[str, Estimate]) -> Table:
     return Table("slopes", ("curve", "slope", "low", "high"), rows)
 
 
-def exponent_of(ks: np.ndarray, errors: np.ndarray) -> Estimate:
+def exponent_of(ks: IntArray, errors: FloatArray) -> Estimate:
     """The mean exponent of errors (k, m) against numbers (k,), over groups (m,), with its interval."""
     x = np.log(ks) - np.log(ks).mean()
     return mean_estimate(x @ np.log(errors) / (x @ x))
 
 
-def _pairs(distance: Distance, count: int, progress: Progress) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+def _pairs(distance: Distance, count: int, progress: Progress) -> tuple[IntArray, IntArray, FloatArray, float]:
     """(count,) first and second vertices of random pairs and their distances, and the largest of all pairs."""
     n = len(distance.surface.vertices)
     rng = np.random.default_rng(0)

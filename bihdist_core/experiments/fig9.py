@@ -10,6 +10,7 @@ import numpy as np
 from ..analysis.persistence import extrema
 from ..applications.interpolation import ShepardInterpolant
 from ..applications.tips import at_tips, tips
+from ..arrays import BoolArray, IntArray
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..progress import Progress, part
 from ..surface import Surface
@@ -132,7 +133,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     )
 
 
-def different_anchors(surface: Surface, count: int, head: np.ndarray, nose: int) -> dict[str, np.ndarray]:
+def different_anchors(surface: Surface, count: int, head: BoolArray, nose: int) -> dict[str, IntArray]:
     """(k,) anchors from each of the first `count` starts, by their names, that lead to different ones.
 
     head: (n,) bool, where there are no anchors but the nose.  A start on the head is no anchor itself, so that several
@@ -146,13 +147,13 @@ def different_anchors(surface: Surface, count: int, head: np.ndarray, nose: int)
     return {seed: np.array(anchors) for anchors, seed in found.items()}
 
 
-def _anchors(surface: Surface, seed: str, head: np.ndarray, nose: int) -> np.ndarray:
+def _anchors(surface: Surface, seed: str, head: BoolArray, nose: int) -> IntArray:
     """(k,) vertices spread from a start, and the nose: the head has one anchor only."""
     spread = [v for v in spread_points(surface, SPREAD + 3, seed) if not head[v]]
     return np.array([*spread[:SPREAD], nose])
 
 
-def _legs(surface: Surface) -> list[np.ndarray]:
+def _legs(surface: Surface) -> list[BoolArray]:
     """(n,) bool for each of the four legs."""
     x = surface.vertices
     middle = (x.min(axis=0) + x.max(axis=0)) / 2

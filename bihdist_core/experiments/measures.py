@@ -8,6 +8,7 @@ from ..analysis import quality
 from ..analysis.diagnostics import FieldChange, field_change, isotropy_ratio
 from ..analysis.persistence import Extrema, extrema
 from ..analysis.quality import small_radius
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..surface import Surface
 from ._stated_figures import DEEP
 from .result import Cell, Mark
@@ -31,13 +32,14 @@ FIELD_COLUMNS = (
 CHANGE_COLUMNS = ("raw mean", "raw largest", "normalised mean", "normalised largest")
 
 
-def other_minima(found: Extrema, source: int) -> np.ndarray:
+def other_minima(found: Extrema, source: int) -> IntArray:
     """(k,) the minima that are not the source."""
-    return found.minima[found.minima != source]
+    minima: IntArray = found.minima[found.minima != source]
+    return minima
 
 
 def field_row(
-    surface: Surface, name: str, source_name: str, source: int, distance: str, field: np.ndarray, geodesic: np.ndarray
+    surface: Surface, name: str, source_name: str, source: int, distance: str, field: FloatArray, geodesic: FloatArray
 ) -> tuple[Cell, ...]:
     """One row under `FIELD_COLUMNS`: extrema, isotropy and kinks of a distance field (n,)."""
     found = extrema(surface, field)
@@ -58,18 +60,18 @@ def field_row(
     )
 
 
-def inner_jumps(surface: Surface, field: np.ndarray, near: np.ndarray, radius: float | None = None) -> np.ndarray:
+def inner_jumps(surface: Surface, field: FloatArray, near: FloatArray, radius: float | None = None) -> FloatArray:
     """(k,) relative jumps of the gradient away from the source and the boundary (see `quality.inner_jumps`)."""
     return quality.inner_jumps(surface, field, near, radius).relative
 
 
-def largest_jump(surface: Surface, field: np.ndarray, near: np.ndarray, radius: float | None = None) -> float:
+def largest_jump(surface: Surface, field: FloatArray, near: FloatArray, radius: float | None = None) -> float:
     """The largest jump of the gradient (see `quality.kinks`) where `near` (n,) exceeds a radius, the small one by
     default."""
     return quality.kinks(surface, field, near, radius).largest
 
 
-def deepest_minimum(surface: Surface, field: np.ndarray, source: int, among: np.ndarray | None = None) -> float:
+def deepest_minimum(surface: Surface, field: FloatArray, source: int, among: BoolArray | None = None) -> float:
     """How deep the deepest minimum of a field (n,) but the source is, as a share of the range; 0 if there is none.
 
     among: (n,) bool, where the others are looked for.
@@ -81,7 +83,7 @@ def deepest_minimum(surface: Surface, field: np.ndarray, source: int, among: np.
     return float(found.minima_persistence[counted].max(initial=0) / np.nanmax(field))
 
 
-def kinked_edges(surface: Surface, field: np.ndarray, geodesic: np.ndarray) -> tuple[float, np.ndarray]:
+def kinked_edges(surface: Surface, field: FloatArray, geodesic: FloatArray) -> tuple[float, IntArray]:
     """The share of edges in kinks away from the source, and (k, 2) these edges."""
     jumps = quality.inner_jumps(surface, field, geodesic)
     kinked = jumps.relative >= KINK
@@ -93,7 +95,7 @@ def over(one: float, other: float) -> float:
     return one / other if other > 0 else (np.inf if one > 0 else np.nan)
 
 
-def marks(surface: Surface, field: np.ndarray, source: int) -> tuple[Mark, ...]:
+def marks(surface: Surface, field: FloatArray, source: int) -> tuple[Mark, ...]:
     """The source, and the extrema that a figure points at with arrows."""
     found = extrema(surface, field, DEEP)
     return (
@@ -108,7 +110,7 @@ def change_cells(change: FieldChange) -> tuple[float, ...]:
     return change.mean, change.largest, change.normalised_mean, change.normalised_largest
 
 
-def changes(before: Mapping[str, np.ndarray], after: Mapping[str, np.ndarray]) -> dict[str, FieldChange]:
+def changes(before: Mapping[str, FloatArray], after: Mapping[str, FloatArray]) -> dict[str, FieldChange]:
     """How each field changed, by its name."""
     return {name: field_change(before[name], after[name]) for name in before}
 

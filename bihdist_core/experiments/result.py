@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..arrays import AnyArray, FloatArray
 from ..errors import OutputError, ParameterError
 from ..surface import Surface
 from ..whole_file import whole_file
@@ -112,7 +113,7 @@ class Panel:
 
     heading: str
     surface: str
-    field: np.ndarray | None = None
+    field: FloatArray | None = None
     row: str = ""
     marks: tuple[Mark, ...] = ()
     views: tuple[str, ...] = ("front",)
@@ -129,8 +130,8 @@ class Series:
     """One curve of a chart: x and y (k,).  style: "line" or "points"."""
 
     name: str
-    x: np.ndarray
-    y: np.ndarray
+    x: AnyArray
+    y: FloatArray
     style: str = "line"
 
 
@@ -216,8 +217,8 @@ class Result:
         paths.append(_write_csv(folder / f"{self.id}_claims.csv", CLAIM_COLUMNS, claims))
         return paths
 
-    def _arrays(self) -> dict[str, np.ndarray]:
-        arrays = {}
+    def _arrays(self) -> dict[str, AnyArray]:
+        arrays: dict[str, AnyArray] = {}
         for name, surface in self.surfaces.items():
             arrays[f"surface {name} vertices"] = surface.vertices
             arrays[f"surface {name} faces"] = surface.faces

@@ -6,6 +6,7 @@ function is its own; the piecewise linear one favours nothing, so that both stan
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import ParameterError
 from ..laplacian import Component
@@ -24,7 +25,7 @@ class Smoothest:
     points: (m,) local vertices of one component.  Raises ParameterError for none, and for one given twice.
     """
 
-    def __init__(self, component: Component, points: np.ndarray) -> None:
+    def __init__(self, component: Component, points: IntArray) -> None:
         points, m = np.asarray(points, int), len(points)
         if not m or len(np.unique(points)) < m:
             raise ParameterError(f"An interpolant needs at least one point, and no point twice, not {points.tolist()}.")
@@ -40,12 +41,13 @@ class Smoothest:
         system[m, m] = 0
         self._green, self._system = green, system
 
-    def __call__(self, values: np.ndarray) -> np.ndarray:
+    def __call__(self, values: FloatArray) -> FloatArray:
         """(n,) or (n, k) everywhere on the component, from values (m,) or (m, k) at the points."""
         values = np.asarray(values, float)
         known = np.concatenate([values, np.zeros((1, *values.shape[1:]))])
         weights = np.linalg.solve(self._system, known)
-        return self._green @ weights[:-1] + weights[-1]
+        field: FloatArray = self._green @ weights[:-1] + weights[-1]
+        return field
 
 
 class PiecewiseLinear:
@@ -58,7 +60,7 @@ class PiecewiseLinear:
     points: (m,) vertices.  A vertex that no point can be reached from has no value.
     """
 
-    def __init__(self, surface: Surface, points: np.ndarray) -> None:
+    def __init__(self, surface: Surface, points: IntArray) -> None:
         self.points = np.asarray(points, int)
         lengths = EdgeGeodesic(surface).distances(self.points)
         self.cell = np.where(np.isfinite(lengths).any(axis=1), lengths.argmin(axis=1), -1)
@@ -72,12 +74,13 @@ class PiecewiseLinear:
         self.corners, self.weights = np.zeros((len(x), 3), int), np.full((len(x), 3), np.nan)
         self.corners[vertex[first]], self.weights[vertex[first]] = pieces[piece[first]], weights[first]
 
-    def __call__(self, values: np.ndarray) -> np.ndarray:
+    def __call__(self, values: FloatArray) -> FloatArray:
         """(n,) or (n, k) everywhere, from values (m,) or (m, k) at the points; NaN out of reach of them."""
-        return np.einsum("ic,ic...->i...", self.weights, np.asarray(values, float)[self.corners])
+        field: FloatArray = np.einsum("ic,ic...->i...", self.weights, np.asarray(values, float)[self.corners])
+        return field
 
 
-def _meeting(cell: np.ndarray, surface: Surface, count: int) -> np.ndarray:
+def _meeting(cell: IntArray, surface: Surface, count: int) -> IntArray:
     """(t, 3) the cells that meet: three in a face, or, repeated, two along an edge or one alone."""
     corners = np.sort(cell[surface.faces], axis=1)
     triangles = np.unique(corners[(np.diff(corners, axis=1) > 0).all(axis=1) & (corners[:, 0] >= 0)], axis=0)
@@ -89,7 +92,7 @@ def _meeting(cell: np.ndarray, surface: Surface, count: int) -> np.ndarray:
     return np.concatenate([triangles, lines[:, [0, 1, 1]], np.repeat(alone[:, None], 3, axis=1)])
 
 
-def _pairs(cell: np.ndarray, pieces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _pairs(cell: IntArray, pieces: IntArray, count: int) -> tuple[IntArray, IntArray]:
     """(k,) vertices and (k,) pieces of their cells, each pair once."""
     owner, number = pieces.ravel(), np.repeat(np.arange(len(pieces)), 3)
     owner, number = np.unique(np.stack([owner, number]), axis=1)
@@ -101,7 +104,7 @@ def _pairs(cell: np.ndarray, pieces: np.ndarray, count: int) -> tuple[np.ndarray
     return which, number[start[cell[which]] + place]
 
 
-def nearest_in_triangles(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def nearest_in_triangles(points: FloatArray, triangles: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(k, 3) barycentric weights of the place of each triangle (k, 3, 3) nearest to each point (k, 3); (k,) how far.
 
     Triangles may be lines or points.
@@ -109,7 +112,7 @@ def nearest_in_triangles(points: np.ndarray, triangles: np.ndarray) -> tuple[np.
     k = np.arange(len(points))
     best, away = np.zeros((len(points), 3)), np.full(len(points), np.inf)
 
-    def offer(weights: np.ndarray, allowed: np.ndarray) -> None:
+    def offer(weights: FloatArray, allowed: BoolArray) -> None:
         off = np.linalg.norm(np.einsum("kc,kcx->kx", weights, triangles) - points, axis=1)
         nearer = allowed & (off < away)
         best[nearer], away[nearer] = weights[nearer], off[nearer]

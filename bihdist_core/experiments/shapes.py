@@ -8,6 +8,7 @@ import numpy as np
 
 from ..analysis.upright import axes_of
 from ..applications.resizing import at_most, resized
+from ..arrays import BoolArray, IntArray
 from ..distances.answers import Distances
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
@@ -187,7 +188,7 @@ PLACES: dict[str, dict[str, tuple[float, float]]] = {
 """Where the pictured sources are: shares of width and height; those of the person for meshes of a reader."""
 
 
-def random_sources(surface: Surface, count: int, among: np.ndarray | None = None) -> list[int]:
+def random_sources(surface: Surface, count: int, among: BoolArray | None = None) -> list[int]:
     """The same vertices (count,) every time: on the largest component, or `among` (n,) bool those of it; some may be
     equal where there are few."""
     if among is None:
@@ -196,7 +197,7 @@ def random_sources(surface: Surface, count: int, among: np.ndarray | None = None
     return [int(np.random.default_rng(number).choice(ids)) for number in range(1, count + 1)] if len(ids) else []
 
 
-def spread_points(surface: Surface, count: int, start: str | int = "vertex 0") -> np.ndarray:
+def spread_points(surface: Surface, count: int, start: str | int = "vertex 0") -> IntArray:
     """(count,) vertices by farthest-point sampling along edges, from the start of a protocol or from a vertex."""
     component, ids = surface.component(0)
     lengths = EdgeGeodesic(component)

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..distances.biharmonic import BiharmonicDistance
 from ..distances.diffusion import DiffusionDistance
 from ..distances.edge_geodesic import EdgeGeodesic
@@ -16,7 +17,7 @@ from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from .parts import Parts
-from .result import Chart, Claim, Result, Series, Table
+from .result import Cell, Chart, Claim, Result, Series, Table
 from .shapes import Shapes
 from .timing import Time, busy, median, ratio_estimate, timed
 from .verdicts import exponent_estimate
@@ -39,7 +40,7 @@ BLOCKS = 3
 """Blocks of sources that are timed, spread evenly; they count for all of them."""
 REPEATS, MOST_REPEATS = 3, 5
 """How often each method is timed, the methods in turns; the latter at the largest size, which is judged alone."""
-Columns = Callable[[np.ndarray], np.ndarray]
+Columns = Callable[[IntArray], FloatArray]
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
@@ -98,7 +99,7 @@ def all_pairs(surface: Surface, method: str) -> Time:
     """How long all pairs of one surface take, from nothing."""
     n = len(surface.vertices)
 
-    def set_up() -> tuple[np.ndarray, Columns]:
+    def set_up() -> tuple[AnyArray, Columns]:
         return np.empty((n, n), np.float32), _columns(surface, method)
 
     (result, columns), total = timed(set_up)
@@ -128,11 +129,11 @@ def _columns(surface: Surface, method: str) -> Columns:
     return distance.from_sources
 
 
-def _column(table: Table, method: str, column: str = "processor seconds") -> np.ndarray:
+def _column(table: Table, method: str, column: str = "processor seconds") -> FloatArray:
     return np.array(table.values(column, method=method), float)
 
 
-def _ratios(sizes: Sequence[int], found: dict[tuple[int, str], list[Time]]) -> tuple:
+def _ratios(sizes: Sequence[int], found: dict[tuple[int, str], list[Time]]) -> tuple[tuple[Cell, ...], ...]:
     rows = []
     for n in sizes:
         for q, over in ((1, "Dijkstra"), (2, "diffusion t = 0.125")):

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..distances.diffusion import DiffusionDistance
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
@@ -41,7 +42,7 @@ PAPER = {
 """Seconds printed in the paper: biharmonic and Dijkstra for M = 2, 100, 400, diffusion (t = 0.125) for all three."""
 
 
-PairwiseDistances = Callable[[np.ndarray], np.ndarray]
+PairwiseDistances = Callable[[IntArray], FloatArray]
 Found = dict[tuple[int, int, str], list[Time]]
 
 
@@ -92,13 +93,13 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     )
 
 
-def subset_times(surface: Surface, subsets: Sequence[np.ndarray], method: str) -> list[Time]:
+def subset_times(surface: Surface, subsets: Sequence[IntArray], method: str) -> list[Time]:
     """How long the distances among the vertices of each subset take, each from nothing."""
     among, set_up = timed(partial(_set_up, surface, method))
     return [set_up + timed(partial(among, vertices))[1] for vertices in subsets]
 
 
-def distances_among(surface: Surface, vertices: np.ndarray, method: str) -> np.ndarray:
+def distances_among(surface: Surface, vertices: IntArray, method: str) -> FloatArray:
     """(m, m) distances among some vertices (m,) of one connected surface, as quickly as each method can."""
     return _set_up(surface, method)(vertices)
 
@@ -114,7 +115,7 @@ def _set_up(surface: Surface, method: str) -> PairwiseDistances:
     component.factor()
     root = np.sqrt(component.areas)
 
-    def among(vertices: np.ndarray) -> np.ndarray:
+    def among(vertices: IntArray) -> FloatArray:
         half = np.empty((len(vertices), len(root)))
         # In blocks, as several copies of all columns would fill the memory.
         for start in range(0, len(vertices), BLOCK):

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
@@ -25,10 +26,10 @@ class Anchors:
     moved: (k,) how far the vertex is from the place that the file named, in the mesh's unit; 0 where it named none.
     """
 
-    vertices: np.ndarray
-    values: np.ndarray
+    vertices: IntArray
+    values: FloatArray
     names: tuple[str, ...]
-    moved: np.ndarray
+    moved: FloatArray
 
     def __len__(self) -> int:
         return len(self.vertices)

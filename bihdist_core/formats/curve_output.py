@@ -8,6 +8,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..whole_file import check_output, whole_file
 from .vtp_output import write_poly_data
 
@@ -20,10 +21,10 @@ class Curve:
     only .json holds.
     """
 
-    points: np.ndarray
+    points: FloatArray
     closed: bool
     numbers: Mapping[str, float]
-    along: Mapping[str, np.ndarray] = field(default_factory=dict)
+    along: Mapping[str, AnyArray] = field(default_factory=dict)
 
 
 def write_curves(path: str | os.PathLike[str], curves: Sequence[Curve], names: Sequence[str], word: str) -> None:
@@ -73,7 +74,7 @@ def _write_json(file: BinaryIO, curves: Sequence[Curve], names: Sequence[str], w
     file.write(f'{{"{word}": [\n{lines}\n]}}\n'.encode())
 
 
-def _corners(curves: Sequence[Curve]) -> list[np.ndarray]:
+def _corners(curves: Sequence[Curve]) -> list[IntArray]:
     """For each curve the numbers of its points in the file; a closed one comes back to its first."""
     result, start = [], 0
     for curve in curves:

@@ -9,12 +9,13 @@ from typing import BinaryIO
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import AnyArray
 from ..errors import ParameterError
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .vtp_output import write_poly_data
 
-Columns = dict[str, np.ndarray]
+Columns = dict[str, AnyArray]
 """(n,) float64 arrays by name, in order."""
 
 
@@ -83,7 +84,7 @@ def _write_fields_csv(file: BinaryIO, surface: Surface, columns: Columns) -> Non
     _write_csv(file, ["vertex", *columns], [ids, *columns.values()])
 
 
-def _write_csv(file: BinaryIO, header: Sequence[str] | None, columns: Sequence[np.ndarray]) -> None:
+def _write_csv(file: BinaryIO, header: Sequence[str] | None, columns: Sequence[AnyArray]) -> None:
     if header is not None:
         lines = _Lines(file)
         csv.writer(lines, lineterminator="\n").writerow(header)
@@ -97,7 +98,7 @@ def _write_csv(file: BinaryIO, header: Sequence[str] | None, columns: Sequence[n
         file.write("".join(",".join(row) + "\n" for row in rows[low : low + 65536]).encode())
 
 
-def _is_whole(column: np.ndarray) -> bool:
+def _is_whole(column: AnyArray) -> bool:
     if column.dtype.kind in "biu":
         return True
     return bool(np.all(np.isfinite(column)) and np.all(np.abs(column) < 2**53) and np.all(column == np.floor(column)))

@@ -4,8 +4,7 @@ import os
 from collections.abc import Callable
 from typing import BinaryIO
 
-import numpy as np
-
+from ..arrays import AnyArray
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .field_output import write_ply_mesh
@@ -37,7 +36,7 @@ def _write_vtp(file: BinaryIO, surface: Surface) -> None:
     write_poly_data(file, surface.vertices, polygons=surface.faces, point_data={})
 
 
-def _lines(rows: np.ndarray, before: str) -> bytes:
+def _lines(rows: AnyArray, before: str) -> bytes:
     return "".join(f"{before}{a!r} {b!r} {c!r}\n" for a, b, c in rows.tolist()).encode()
 
 

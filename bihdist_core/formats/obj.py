@@ -6,6 +6,7 @@ the format are read over; an unknown one is an error, since a damaged `v` line w
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
 from .polygons import Polygons, whole_numbers
@@ -59,7 +60,7 @@ def read_obj(raw: bytes, name: str) -> Polygons:
     return Polygons(vertices, face_rows.sizes, corners, said)
 
 
-def _vertices(rows: NumberLines, name: str) -> np.ndarray:
+def _vertices(rows: NumberLines, name: str) -> FloatArray:
     wrong = np.flatnonzero(~np.isin(rows.sizes, _VERTEX_SIZES))
     if len(wrong):
         k = wrong[0]
@@ -70,7 +71,7 @@ def _vertices(rows: NumberLines, name: str) -> np.ndarray:
     return rows.columns(3)
 
 
-def _corners(rows: NumberLines, before: np.ndarray, n: int, name: str) -> np.ndarray:
+def _corners(rows: NumberLines, before: IntArray, n: int, name: str) -> IntArray:
     """The corners of all faces as ids from 0; `before` (p,) counts the vertices above each face line."""
     sizes = rows.sizes
     ids, bad = whole_numbers(rows.values)

@@ -8,6 +8,7 @@ import re
 
 import numpy as np
 
+from ..arrays import IntArray
 from ..errors import MeshError
 from .polygons import Polygons, checked_corners, runs, whole_numbers
 from .text_lines import NumberLines, TextLines, shown
@@ -70,7 +71,7 @@ def _header(lines: TextLines) -> tuple[int, int, list[int], int]:
     return int(counts[0]), int(counts[1]), [plain + 3, plain + 4] if colour else [plain], used
 
 
-def _faces(numbers: NumberLines, vertex_count: int, name: str) -> tuple[np.ndarray, np.ndarray]:
+def _faces(numbers: NumberLines, vertex_count: int, name: str) -> tuple[IntArray, IntArray]:
     """(p,) polygon sizes and their corners; each line is a size, that many ids and perhaps a colour."""
     first = numbers.first[vertex_count:-1]
     held = numbers.sizes[vertex_count:]

@@ -14,6 +14,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, VertexError
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
@@ -23,6 +24,10 @@ WITH_VALUES = (*COLUMNS, "value")
 """What is read: files of anchors (`anchors`) are files of pins, too."""
 
 
+Row = tuple[int, int, list[float], str]
+"""A pin as files hold it: id, vertex, position and name."""
+
+
 @dataclass(frozen=True, eq=False)
 class Pins:
     """k vertices of a surface, in order: ids (k,), all different, vertices (k,), and names, which may be empty.
@@ -30,10 +35,10 @@ class Pins:
     moved: (k,) how far the vertex is from the place that the file named, in the mesh's unit; 0 where it named none.
     """
 
-    ids: np.ndarray
-    vertices: np.ndarray
+    ids: IntArray
+    vertices: IntArray
     names: tuple[str, ...]
-    moved: np.ndarray
+    moved: FloatArray
 
     @classmethod
     def of(
@@ -217,7 +222,7 @@ def _position(words: Sequence[Any], where: str) -> tuple[float, ...]:
     return numbers
 
 
-def _written_csv(rows: list[tuple], surface: str) -> str:
+def _written_csv(rows: list[Row], surface: str) -> str:
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(COLUMNS)
@@ -265,7 +270,7 @@ def _cut(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _written_json(rows: list[tuple], surface: str) -> str:
+def _written_json(rows: list[Row], surface: str) -> str:
     # A line of the file for each pin.
     pins = [
         json.dumps({"id": number, "vertex": vertex, "position": point, "name": name}, ensure_ascii=False)
@@ -294,7 +299,7 @@ def _read_pp(text: str, name: str) -> list[Picked]:
     return found
 
 
-def _written_pp(rows: list[tuple], surface: str) -> str:
+def _written_pp(rows: list[Row], surface: str) -> str:
     return written_points([(point, name or str(number)) for number, _, point, name in rows], surface)
 
 
@@ -311,7 +316,7 @@ def written_points(points: list[tuple[list[float], str]], surface: str) -> str:
 
 
 _READERS: dict[str, Callable[[str, str], list[Picked]]] = {".csv": _read_csv, ".json": _read_json, ".pp": _read_pp}
-_WRITERS: dict[str, Callable[[list[tuple], str], str]] = {
+_WRITERS: dict[str, Callable[[list[Row], str], str]] = {
     ".csv": _written_csv,
     ".json": _written_json,
     ".pp": _written_pp,

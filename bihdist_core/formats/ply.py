@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
 from .polygons import Polygons, checked_corners, runs, strip_triangles, whole_numbers
@@ -39,7 +40,7 @@ class _Element:
     properties: list[_Property] = field(default_factory=list)
 
 
-_Column = np.ndarray | tuple[np.ndarray, np.ndarray]
+_Column = AnyArray | tuple[IntArray, AnyArray]
 """(count,) numbers, or (count,) sizes and (sum of sizes,) entries of lists."""
 
 
@@ -64,7 +65,7 @@ def read_ply(raw: bytes, name: str) -> Polygons:
     raise MeshError(f"{name} has {counted(len(vertices), 'vertex', 'vertices')} but no faces (no list vertex_indices).")
 
 
-def _from_strips(vertices: np.ndarray, values: np.ndarray, name: str) -> Polygons:
+def _from_strips(vertices: FloatArray, values: FloatArray, name: str) -> Polygons:
     """Triangles of strips, which -1 ends."""
     whole, _ = whole_numbers(values)
     breaks = np.append(np.flatnonzero(whole == -1), len(whole))
@@ -108,7 +109,7 @@ def _header(raw: bytes, name: str) -> tuple[str | None, list[_Element], int]:
     return order, elements, end.end()
 
 
-def _list_sizes(values: np.ndarray, element: _Element, name: str) -> np.ndarray:
+def _list_sizes(values: FloatArray, element: _Element, name: str) -> IntArray:
     sizes, bad = whole_numbers(values)
     bad |= sizes < 0
     if bad.any():
@@ -150,7 +151,7 @@ def _text_body(body: bytes, elements: list[_Element], name: str) -> dict[str, di
     return columns
 
 
-def _enough(good: np.ndarray, element: _Element, name: str) -> None:
+def _enough(good: BoolArray, element: _Element, name: str) -> None:
     if not good.all():
         k = int(np.argmin(good))
         raise MeshError(

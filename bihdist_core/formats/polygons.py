@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
 
@@ -19,20 +20,20 @@ class Polygons:
     `repairs` tells in words what reading has already changed or left out, `facts` how else the file was taken.
     """
 
-    vertices: np.ndarray
-    sizes: np.ndarray
-    corners: np.ndarray
+    vertices: FloatArray
+    sizes: IntArray
+    corners: IntArray
     repairs: tuple[str, ...] = ()
     facts: tuple[str, ...] = ()
 
 
-def runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+def runs(starts: IntArray, sizes: IntArray) -> IntArray:
     """(sum of sizes,) the indices start, start + 1, ... of each run, one run after the other."""
     ends = np.cumsum(sizes)
     return np.repeat(starts - (ends - sizes), sizes) + np.arange(ends[-1] if len(ends) else 0)
 
 
-def whole_numbers(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def whole_numbers(values: AnyArray) -> tuple[IntArray, BoolArray]:
     """`values` as int64, and the mask of those that are not whole numbers (these become -1)."""
     if values.dtype.kind in "iu":
         return values.astype(np.int64), values.astype(np.float64) > 2.0**53
@@ -41,7 +42,7 @@ def whole_numbers(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.where(bad, -1, values).astype(np.int64), bad
 
 
-def checked_corners(values: np.ndarray, sizes: np.ndarray, n: int, where: Callable[[int], str]) -> np.ndarray:
+def checked_corners(values: AnyArray, sizes: IntArray, n: int, where: Callable[[int], str]) -> IntArray:
     """The corners as int64 ids from 0 to n - 1; MeshError beginning with `where(polygon)` at the first that is not."""
     ids, bad = whole_numbers(values)
     bad |= (ids < 0) | (ids >= n)
@@ -53,7 +54,7 @@ def checked_corners(values: np.ndarray, sizes: np.ndarray, n: int, where: Callab
     return ids
 
 
-def strip_triangles(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
+def strip_triangles(sizes: IntArray, corners: IntArray) -> IntArray:
     """(m, 3) triangles of triangle strips, every second one turned so that all keep the strip's orientation."""
     count = np.maximum(sizes - 2, 0)
     starts = np.cumsum(sizes) - sizes
@@ -62,7 +63,7 @@ def strip_triangles(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
     return corners[np.stack([first, first + 1 + odd, first + 2 - odd], axis=1)]
 
 
-def triangulated(polygons: Polygons) -> tuple[np.ndarray, list[str], list[str]]:
+def triangulated(polygons: Polygons) -> tuple[IntArray, list[str], list[str]]:
     """(m, 3) triangles in the order of the polygons; in words what was left out, and what was divided.
 
     A fan about the first corner where that covers the polygon, else about another corner, else by clipping ears;
@@ -91,13 +92,13 @@ def triangulated(polygons: Polygons) -> tuple[np.ndarray, list[str], list[str]]:
     return faces, left_out, [said]
 
 
-def _fan(start: int, size: int) -> np.ndarray:
+def _fan(start: int, size: int) -> IntArray:
     """(size - 2, 3) the fan about one corner, as places in the ring."""
     k = np.arange(1, size - 1)
     return np.stack([np.full(size - 2, start), (start + k) % size, (start + k + 1) % size], axis=1)
 
 
-def _divided(vertices: np.ndarray, rings: np.ndarray) -> np.ndarray:
+def _divided(vertices: FloatArray, rings: IntArray) -> IntArray:
     """(r, k - 2, 3) the triangles of r polygons of k corners, as places in the ring."""
     size = rings.shape[1]
     local = np.repeat(_fan(0, size)[None], len(rings), axis=0)
@@ -123,7 +124,7 @@ def _divided(vertices: np.ndarray, rings: np.ndarray) -> np.ndarray:
     return local
 
 
-def _smallest_share(x: np.ndarray, normal: np.ndarray, fan: np.ndarray) -> np.ndarray:
+def _smallest_share(x: FloatArray, normal: FloatArray, fan: IntArray) -> FloatArray:
     """(r,) the smallest oriented triangle area of a fan over the polygon's; below 0 where it leaves the polygon."""
     a, b, c = (x[:, fan[:, k]] for k in range(3))
     area = np.einsum("rtk,rk->rt", np.cross(b - a, c - a), normal)
@@ -131,7 +132,7 @@ def _smallest_share(x: np.ndarray, normal: np.ndarray, fan: np.ndarray) -> np.nd
     return np.where(np.abs(share) < 1e-12, 0.0, share)
 
 
-def _clipped(x: np.ndarray, normal: np.ndarray, fan: np.ndarray) -> np.ndarray:
+def _clipped(x: FloatArray, normal: FloatArray, fan: IntArray) -> IntArray:
     """(k - 2, 3) one polygon divided by clipping ears; the given fan where it has none left to clip."""
     length = np.linalg.norm(normal)
     if not length > 0:
@@ -141,7 +142,7 @@ def _clipped(x: np.ndarray, normal: np.ndarray, fan: np.ndarray) -> np.ndarray:
     if np.dot(np.cross(across[0], across[1]), normal) < 0:
         plane = plane[:, ::-1]
 
-    def turn(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+    def turn(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
         u, w = b - a, c - a
         return u[..., 0] * w[..., 1] - u[..., 1] * w[..., 0]
 

@@ -8,6 +8,7 @@ import re
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
 from .polygons import Polygons
@@ -38,7 +39,7 @@ def read_stl(raw: bytes, name: str) -> Polygons:
     return Polygons(vertices, np.full(len(corners) // 3, 3), ids, facts=(said,))
 
 
-def merged(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def merged(points: FloatArray) -> tuple[FloatArray, IntArray]:
     """(n, 3) the different points in order of first appearance, and (k,) where each of the (k, 3) points is there."""
     order = np.lexsort(points.T)
     new = np.append(True, (points[order][1:] != points[order][:-1]).any(axis=1))[: len(points)]
@@ -54,7 +55,7 @@ def _has_binary_length(raw: bytes) -> bool:
     return len(raw) >= _HEAD and len(raw) == _HEAD + _TRIANGLE.itemsize * int.from_bytes(raw[80:84], "little")
 
 
-def _binary_corners(raw: bytes, name: str) -> np.ndarray:
+def _binary_corners(raw: bytes, name: str) -> FloatArray:
     if len(raw) < _HEAD:
         raise MeshError(f"{name} is not an STL file: it has {len(raw)} bytes, fewer than an STL header.")
     announced, held = int.from_bytes(raw[80:84], "little"), (len(raw) - _HEAD) / _TRIANGLE.itemsize
@@ -66,7 +67,7 @@ def _binary_corners(raw: bytes, name: str) -> np.ndarray:
     return np.frombuffer(raw, _TRIANGLE, offset=_HEAD)["corners"].reshape(-1, 3).astype(np.float64)
 
 
-def _text_corners(raw: bytes, name: str) -> np.ndarray:
+def _text_corners(raw: bytes, name: str) -> FloatArray:
     lines = TextLines(raw, name)
     solid, facet, outer, vertex, endloop, endfacet, endsolid = (keyword_code(w.encode()) for w in _WORDS)
     word = lines.keyword

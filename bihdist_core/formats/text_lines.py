@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ..errors import MeshError
 
 _NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
@@ -20,24 +21,25 @@ class NumberLines:
     `first` is (l + 1,); line numbers begin at 1.
     """
 
-    values: np.ndarray
-    first: np.ndarray
-    number: np.ndarray
+    values: FloatArray
+    first: IntArray
+    number: IntArray
 
     def __len__(self) -> int:
         return len(self.number)
 
     @property
-    def sizes(self) -> np.ndarray:
+    def sizes(self) -> IntArray:
         """(l,) how many numbers each line holds."""
         return np.diff(self.first)
 
-    def columns(self, count: int, which: slice | np.ndarray = slice(None)) -> np.ndarray:
+    def columns(self, count: int, which: slice | IntArray | BoolArray = slice(None)) -> FloatArray:
         """(k, count) the first numbers of each of the lines `which`; these must hold that many."""
         first = self.first[:-1][which]
         if len(first) and np.all(np.diff(first) == count):
             return self.values[first[0] : first[-1] + count].reshape(-1, count)
-        return self.values[first[:, None] + np.arange(count)]
+        rows: FloatArray = self.values[first[:, None] + np.arange(count)]
+        return rows
 
 
 class TextLines:
@@ -74,7 +76,7 @@ class TextLines:
         return shown(self.text[self.start[k] : self.end[k]])
 
     @cached_property
-    def keyword(self) -> np.ndarray:
+    def keyword(self) -> AnyArray:
         """(l,) the first word of each line, cut to 8 characters, as `keyword_code` gives it."""
         byte = np.frombuffer(self.text + b" " * 8, np.uint8)
         code, inside = np.zeros(len(self), np.uint64), np.ones(len(self), bool)
@@ -84,7 +86,7 @@ class TextLines:
             code |= np.where(inside, letter, 0).astype(np.uint64) << np.uint64(8 * k)
         return code
 
-    def numbers(self, which: np.ndarray, keyword: bytes = b"", slashes: bool = False) -> NumberLines:
+    def numbers(self, which: BoolArray, keyword: bytes = b"", slashes: bool = False) -> NumberLines:
         """The numbers of the lines in the mask `which` (l,), all of which begin with `keyword` if one is given.
 
         With `slashes`, what follows a slash inside a word is left out: 7/2/9 is 7.
@@ -97,7 +99,7 @@ class TextLines:
             raise self._not_a_number(chosen, len(keyword), slashes)
         return NumberLines(values, first, self.number[chosen])
 
-    def _joined(self, chosen: np.ndarray, skip: int) -> bytes:
+    def _joined(self, chosen: IntArray, skip: int) -> bytes:
         """The text of some lines without their first `skip` characters."""
         if not len(chosen):
             return b""
@@ -112,7 +114,7 @@ class TextLines:
         bounds = zip(self.start[low].tolist(), self.end[high].tolist(), strict=True)
         return b"\n".join([view[start:end] for start, end in bounds])
 
-    def _not_a_number(self, chosen: np.ndarray, skip: int, slashes: bool) -> MeshError:
+    def _not_a_number(self, chosen: IntArray, skip: int, slashes: bool) -> MeshError:
         pattern, what = (_CORNER, "a corner such as 7, 7/2 or 7/2/9") if slashes else (_NUMBER, "a number")
         for low in range(0, len(chosen), 4096):
             some = chosen[low : low + 4096]
@@ -145,7 +147,7 @@ def shown(words: bytes) -> str:
     return repr(text if len(text) <= 40 else text[:37] + "...")
 
 
-def parsed_numbers(text: bytes, name: str, what: str) -> np.ndarray:
+def parsed_numbers(text: bytes, name: str, what: str) -> FloatArray:
     """(t,) the numbers of a text without line structure; MeshError that says `what` they should have been."""
     values = _parsed(text, len(_word_starts(np.frombuffer(text, np.uint8))))
     if values is None:
@@ -154,13 +156,13 @@ def parsed_numbers(text: bytes, name: str, what: str) -> np.ndarray:
     return values
 
 
-def _word_starts(byte: np.ndarray) -> np.ndarray:
+def _word_starts(byte: AnyArray) -> IntArray:
     dark = byte > 32
     dark[1:] &= byte[:-1] <= 32
     return np.flatnonzero(dark)
 
 
-def _parsed(text: bytes, words: int, slashes: bool = False) -> np.ndarray | None:
+def _parsed(text: bytes, words: int, slashes: bool = False) -> FloatArray | None:
     """(words,) the numbers of a text; None unless each word is exactly one number."""
     if not words:
         return np.empty(0)

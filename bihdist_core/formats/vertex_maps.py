@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
@@ -17,7 +18,7 @@ PAIR_FORMATS = (".csv", ".txt")
 IDENTITY = "identity"
 
 
-def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> np.ndarray:
+def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> IntArray:
     """(n,) for each vertex of the source surface a vertex of the target, -1 for none.
 
     path: a .npy file with (n,) or (n, 1) whole numbers, a .txt file with one on each line, or the word `identity`: the
@@ -57,9 +58,7 @@ def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
         temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")
 
 
-def read_pairs(
-    path: str | os.PathLike[str], source: Surface | None = None, target: Surface | None = None
-) -> np.ndarray:
+def read_pairs(path: str | os.PathLike[str], source: Surface | None = None, target: Surface | None = None) -> IntArray:
     """(k, 2) ids from a file with a line `i,j` for each pair; a first line of words is a header.
 
     source, target: the surfaces whose vertices i and j must be, if they are known.

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
 from .polygons import Polygons, checked_corners, strip_triangles, whole_numbers
@@ -24,7 +25,7 @@ _LOOSE = ("VERTICES", "LINES")
 _CELLS = ("POLYGONS", "TRIANGLE_STRIPS", "CELLS", *_LOOSE)
 _POLYGON_CELLS, _STRIP_CELL, _PIXEL_CELL = (5, 7, 9), 6, 8
 
-Cells = tuple[np.ndarray, np.ndarray]
+Cells = tuple[IntArray, AnyArray]
 """(p,) sizes and (sum of sizes,) point ids as the file has them."""
 NO_CELLS: Cells = (np.empty(0, np.int64), np.empty(0, np.int64))
 
@@ -54,7 +55,7 @@ def read_vtk(raw: bytes, name: str) -> Polygons:
     return polygons_of_cells(points, cells, name)
 
 
-def polygons_of_cells(points: np.ndarray, cells: Mapping[str, Cells], name: str) -> Polygons:
+def polygons_of_cells(points: FloatArray, cells: Mapping[str, Cells], name: str) -> Polygons:
     """Polygons, then the triangles of strips; all other kinds of cells are counted and left out."""
     sizes, corners = cells.get("POLYGONS", NO_CELLS)
     ids = checked_corners(corners, sizes, len(points), lambda k: f"{name}: polygon {k}")
@@ -79,7 +80,7 @@ class _Cursor:
     name: str
     binary: bool
     at: int = 0
-    _bounds: list[np.ndarray] = field(default_factory=list)
+    _bounds: list[IntArray] = field(default_factory=list)
 
     def words(self) -> list[str]:
         """The words of the next line that is not blank; none at the end of the file."""
@@ -96,14 +97,14 @@ class _Cursor:
         end = re.compile(rb"\n[ \t\r]*(\n|$)").search(self.body, max(self.at - 1, 0))
         self.at = end.end() if end else len(self.body)
 
-    def numbers(self, count: int, kind: str, what: str) -> np.ndarray:
+    def numbers(self, count: int, kind: str, what: str) -> AnyArray:
         """(count,) numbers: binary of type `kind`, big-endian, or the next words of a text."""
         if kind.lower() not in _TYPES:
             raise MeshError(f"{self.name}: {what} are of the type {kind[:40]!r}, which is not read.")
         dtype = np.dtype(">" + _TYPES[kind.lower()])
         return self._binary(count, dtype, what) if self.binary else self._text(count, what)
 
-    def _binary(self, count: int, dtype: np.dtype, what: str) -> np.ndarray:
+    def _binary(self, count: int, dtype: np.dtype, what: str) -> AnyArray:
         held = (len(self.body) - self.at) // dtype.itemsize
         if count > held:
             raise self._too_short(count, max(held, 0), what)
@@ -111,7 +112,7 @@ class _Cursor:
         self.at += count * dtype.itemsize
         return values
 
-    def _text(self, count: int, what: str) -> np.ndarray:
+    def _text(self, count: int, what: str) -> FloatArray:
         if not self._bounds:
             dark = np.frombuffer(self.body, np.uint8) > 32
             change = np.flatnonzero(np.diff(np.concatenate([[0], dark.astype(np.int8), [0]])))
@@ -138,7 +139,7 @@ def _count(words: list[str], place: int, file: _Cursor) -> int:
     return int(words[place])
 
 
-def _sections(file: _Cursor) -> tuple[np.ndarray | None, dict[str, Cells], np.ndarray | None]:
+def _sections(file: _Cursor) -> tuple[FloatArray | None, dict[str, Cells], AnyArray | None]:
     points, types, cells = None, None, {}
     while words := file.words():
         key = words[0].upper()
@@ -194,7 +195,7 @@ def _cells(words: list[str], file: _Cursor) -> Cells:
     return sizes, values[corner]
 
 
-def cells_of_offsets(offsets: np.ndarray, corners: np.ndarray, where: str) -> Cells:
+def cells_of_offsets(offsets: IntArray, corners: AnyArray, where: str) -> Cells:
     """Cells given by the (p + 1,) places where each begins, 0 first, and the number of corners last."""
     if not len(offsets):
         offsets = np.zeros(1, np.int64)
@@ -204,7 +205,7 @@ def cells_of_offsets(offsets: np.ndarray, corners: np.ndarray, where: str) -> Ce
     return sizes, corners
 
 
-def _sorted_by_type(cells: Cells, types: np.ndarray, name: str) -> dict[str, Cells]:
+def _sorted_by_type(cells: Cells, types: IntArray, name: str) -> dict[str, Cells]:
     sizes, corners = cells
     if len(types) != len(sizes):
         raise MeshError(f"{name} has {len(sizes)} CELLS but {len(types)} CELL_TYPES.")

@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from ..arrays import AnyArray, FloatArray
 from ..errors import MeshError
 from .polygons import Polygons, whole_numbers
 from .text_lines import parsed_numbers
@@ -30,7 +31,7 @@ def read_vtp(raw: bytes, name: str) -> Polygons:
     pieces = file.root.findall("PolyData/Piece")
     if not pieces:
         raise MeshError(f"{name} holds no PolyData piece; only files of the type PolyData are surfaces.")
-    points: list[np.ndarray] = []
+    points: list[FloatArray] = []
     cells: dict[str, list[Cells]] = {}
     before = 0
     for piece in pieces:
@@ -62,7 +63,7 @@ class _File:
     appended: bytes
     base64: bool
 
-    def array(self, element: ElementTree.Element, count: int | None, what: str) -> np.ndarray:
+    def array(self, element: ElementTree.Element, count: int | None, what: str) -> AnyArray:
         """The numbers of a DataArray; MeshError unless there are `count` of them (None: any number)."""
         kind = element.get("type", "")
         if kind not in _TYPES:
@@ -89,7 +90,7 @@ class _File:
         offsets = [int(e.get("offset", "")) for e in self.root.iter("DataArray") if e.get("offset", "").isdecimal()]
         return self.appended[start : min((o for o in offsets if o > start), default=len(self.appended))]
 
-    def _numbers(self, content: bytes, dtype: np.dtype, what: str) -> np.ndarray:
+    def _numbers(self, content: bytes, dtype: np.dtype, what: str) -> AnyArray:
         content = self._decompressed(content, what) if self.decompress else self._plain(content, what)
         if len(content) % dtype.itemsize:
             raise MeshError(f"{self.name}: {what} have {len(content)} bytes, no whole number of {dtype.name} values.")
@@ -163,7 +164,7 @@ def _opened(raw: bytes, name: str) -> _File:
     return _File(name, root, order, length, known[compressor], appended, coded)
 
 
-def _points(file: _File, piece: ElementTree.Element) -> np.ndarray:
+def _points(file: _File, piece: ElementTree.Element) -> FloatArray:
     n = _announced(file, piece, "NumberOfPoints")
     element = piece.find("Points/DataArray")
     if element is None:

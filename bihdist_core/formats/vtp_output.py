@@ -6,16 +6,18 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-NOTHING: Mapping[str, np.ndarray] = {}
+from ..arrays import AnyArray, FloatArray, IntArray
+
+NOTHING: Mapping[str, AnyArray] = {}
 
 
 def write_poly_data(
     file: BinaryIO,
-    points: np.ndarray,
-    lines: Sequence[np.ndarray] | np.ndarray = (),
-    polygons: Sequence[np.ndarray] | np.ndarray = (),
-    point_data: Mapping[str, np.ndarray] = NOTHING,
-    cell_data: Mapping[str, np.ndarray] = NOTHING,
+    points: FloatArray,
+    lines: Sequence[IntArray] | IntArray = (),
+    polygons: Sequence[IntArray] | IntArray = (),
+    point_data: Mapping[str, FloatArray] = NOTHING,
+    cell_data: Mapping[str, AnyArray] = NOTHING,
 ) -> None:
     """Points (n, 3), and lines and polygons as the ids (k,) of their corners, or (m, k) where all have as many.
 
@@ -24,7 +26,7 @@ def write_poly_data(
     blocks: list[bytes] = []
     offset = 0
 
-    def array(name: str, values: np.ndarray, components: int = 1) -> str:
+    def array(name: str, values: AnyArray, components: int = 1) -> str:
         nonlocal offset
         kind = "Float64" if values.dtype.kind == "f" else "Int64"
         content = values.astype("<f8" if kind == "Float64" else "<i8").tobytes()
@@ -59,7 +61,7 @@ def write_poly_data(
     file.write(b"\n</AppendedData>\n</VTKFile>\n")
 
 
-def _flat(cells: Sequence[np.ndarray] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _flat(cells: Sequence[IntArray] | IntArray) -> tuple[IntArray, IntArray]:
     """The corners of all cells in a row, and where each cell ends."""
     if isinstance(cells, np.ndarray):
         return cells.ravel(), cells.shape[1] * np.arange(1, len(cells) + 1)

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
+from ..arrays import IntArray
 from ..errors import ParameterError
 
 NUMBER_FORMATS = (".npy", ".txt")
 WHOLE = re.compile("-?[0-9]{1,15}")
 
 
-def read_whole_numbers(path: str | os.PathLike[str], what: str) -> np.ndarray:
+def read_whole_numbers(path: str | os.PathLike[str], what: str) -> IntArray:
     """(n,) the numbers in a file, of which a message speaks as `what`: "map", "mask".
 
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
@@ -23,7 +24,7 @@ def read_whole_numbers(path: str | os.PathLike[str], what: str) -> np.ndarray:
     return _array_in(path, what) if path.suffix.lower() == ".npy" else _numbers_in(path, what)
 
 
-def _array_in(path: Path, what: str) -> np.ndarray:
+def _array_in(path: Path, what: str) -> IntArray:
     try:
         array = np.load(path, allow_pickle=False)
     except (OSError, ValueError, EOFError) as error:
@@ -43,7 +44,7 @@ def _array_in(path: Path, what: str) -> np.ndarray:
     return flat.astype(np.int64)
 
 
-def _numbers_in(path: Path, what: str) -> np.ndarray:
+def _numbers_in(path: Path, what: str) -> IntArray:
     found = []
     for number, line in text_lines(path, what):
         for word in line.partition("#")[0].replace(",", " ").split():

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy.sparse as sp
 
+from ..arrays import ComplexArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from .elimination_tree import Branch, EliminationTree, Stack
 from .worker_threads import Job
@@ -31,10 +32,10 @@ entries of size 1 / h, and what K lacks comes back in S = Q + N R^T magnified by
 class Block:
     """What is kept of a stack: K, K1 (b, c, c), N (b, m, c) and M = N + i N1; K1 and M are empty without areas."""
 
-    K: np.ndarray
-    N: np.ndarray
-    K1: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    M: np.ndarray = field(default_factory=lambda: np.zeros(0, complex))
+    K: FloatArray
+    N: FloatArray
+    K1: FloatArray = field(default_factory=lambda: np.zeros(0))
+    M: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
 
     @property
     def nbytes(self) -> int:
@@ -49,19 +50,19 @@ class Entries:
     diagonal (n,); areas (n,), scaled (see above), or None.
     """
 
-    near: np.ndarray
-    far: np.ndarray
-    value: np.ndarray
-    starts: np.ndarray
-    diagonal: np.ndarray
-    areas: np.ndarray | None
+    near: IntArray
+    far: IntArray
+    value: FloatArray
+    starts: IntArray
+    diagonal: FloatArray
+    areas: FloatArray | None
 
 
-Schur = list[tuple[Stack, list[np.ndarray]]]
+Schur = list[tuple[Stack, list[FloatArray]]]
 """Stacks with their Schur complements (b, m, m), and the derivatives of these if there are areas."""
 
 
-def entries_by_stack(tree: EliminationTree, matrix: sp.csr_matrix, areas: np.ndarray | None) -> Entries:
+def entries_by_stack(tree: EliminationTree, matrix: sp.csr_matrix, areas: FloatArray | None) -> Entries:
     """The entries of the (n, n) matrix, of which only the diagonal and what is below it are read."""
     low = sp.tril(matrix, -1, format="coo")
     keep = low.data != 0
@@ -85,7 +86,7 @@ def eliminate_branch(
     diagonals = _diagonals(branch, entries)
     for level in reversed(branch.levels):
         # With children all fronts of the level are needed at once; leaves are made one stack at a time.
-        whole: list[np.ndarray] = []
+        whole: list[FloatArray] = []
         if below:
             whole = [np.zeros(level.size) for _ in range(1 + dual)]
             _add_children(tree, whole, below, job)
@@ -110,7 +111,7 @@ def eliminate_branch(
     return below
 
 
-def _positions(tree: EliminationTree, branch: Branch, entries: Entries) -> tuple[np.ndarray, np.ndarray]:
+def _positions(tree: EliminationTree, branch: Branch, entries: Entries) -> tuple[IntArray, IntArray]:
     """Where the branch's entries lie in their levels' buffers, below the diagonal and above it."""
     lo, hi = entries.starts[branch.stacks[0].index], entries.starts[branch.stacks[-1].index + 1]
     near, far = entries.near[lo:hi], entries.far[lo:hi]
@@ -127,7 +128,7 @@ def _positions(tree: EliminationTree, branch: Branch, entries: Entries) -> tuple
     return offset + row * size + column, offset + column * size + row
 
 
-def _diagonals(branch: Branch, entries: Entries) -> list[np.ndarray]:
+def _diagonals(branch: Branch, entries: Entries) -> list[FloatArray]:
     """The matrix' diagonal, and the areas if given, at the branch's places; a padded pivot is a 1 on the diagonal."""
     diagonals = [np.ones(branch.end)]
     diagonals[0][branch.places] = entries.diagonal[branch.vertices]
@@ -137,7 +138,7 @@ def _diagonals(branch: Branch, entries: Entries) -> list[np.ndarray]:
     return diagonals
 
 
-def _add_children(tree: EliminationTree, buffers: list[np.ndarray], below: Schur, job: Job) -> None:
+def _add_children(tree: EliminationTree, buffers: list[FloatArray], below: Schur, job: Job) -> None:
     """Add the Schur complements to the parents' fronts and let go of them."""
     # A front has one child of each hand, so within one hand no position comes twice; what the left children find is
     # still zero, so they are just stored.
@@ -159,8 +160,8 @@ def _add_children(tree: EliminationTree, buffers: list[np.ndarray], below: Schur
 
 
 def _eliminate(
-    F: list[np.ndarray], c: int, leaf_areas: np.ndarray | None, scale: np.ndarray
-) -> tuple[Block, list[np.ndarray]]:
+    F: list[FloatArray], c: int, leaf_areas: FloatArray | None, scale: FloatArray
+) -> tuple[Block, list[FloatArray]]:
     """Eliminate the first c rows of the fronts F[0] (b, s, s), with their derivatives F[1] or, of leaves, diag(areas).
 
     scale (b, c): the matrix' diagonal there.  Raises SolverError if a pivot block is not positive definite.
@@ -193,13 +194,13 @@ def _eliminate(
     return Block(K, N, K @ T, _complex(N, N1)), [S, X]
 
 
-def _complex(real: np.ndarray, imaginary: np.ndarray) -> np.ndarray:
+def _complex(real: FloatArray, imaginary: FloatArray) -> ComplexArray:
     result = np.empty(real.shape, complex)
     result.real, result.imag = real, imaginary
     return result
 
 
-def _inverse(F: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, bool]:
+def _inverse(F: FloatArray, scale: FloatArray) -> tuple[FloatArray, bool]:
     """(b, c, c) inverses, and whether they have lost digits.
 
     The Cholesky factor costs a tenth of them and tells both that and what is not positive definite.
@@ -208,7 +209,7 @@ def _inverse(F: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, bool]:
         root = np.einsum("bii->bi", np.linalg.cholesky(F))
         left = (root**2 / scale).min()
         if left > SINGULAR:
-            return np.linalg.inv(F), bool(left < STIFF)
+            return np.linalg.inv(F).astype(float, copy=False), bool(left < STIFF)
     except np.linalg.LinAlgError:
         pass
     raise SolverError("The matrix is not positive definite to working accuracy, so it cannot be factored.")

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..progress import Progress, part
 from .blas import one_blas_thread
@@ -46,14 +47,14 @@ class Stack:
     """
 
     index: int
-    nodes: np.ndarray
+    nodes: IntArray
     left: int
     pivots: int
     boundary: int
     base: int
     span: slice
-    bound: np.ndarray
-    up: np.ndarray
+    bound: IntArray
+    up: IntArray
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -80,7 +81,7 @@ class Level:
 
     stacks: list[Stack] = field(default_factory=list)
     size: int = 0
-    touched: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
+    touched: IntArray = field(default_factory=lambda: np.zeros(0, np.int64))
     gather: sp.csr_matrix = None
 
 
@@ -99,9 +100,9 @@ class Branch:
     above: int = 0
     end: int = 0
     levels: list[Level] = field(default_factory=list)
-    vertices: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
-    places: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
-    keys: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
+    vertices: IntArray = field(default_factory=lambda: np.zeros(0, np.int64))
+    places: IntArray = field(default_factory=lambda: np.zeros(0, np.int64))
+    keys: IntArray = field(default_factory=lambda: np.zeros(0, np.int64))
 
     def nodes(self, level: int) -> tuple[int, int]:
         """First node on a level, and one past the last."""
@@ -121,7 +122,7 @@ class EliminationTree:
     pattern is not symmetric or a coordinate is not finite.
     """
 
-    def __init__(self, pattern: sp.spmatrix, coordinates: np.ndarray, progress: Progress | None = None) -> None:
+    def __init__(self, pattern: sp.spmatrix, coordinates: FloatArray, progress: Progress | None = None) -> None:
         coordinates = _checked_coordinates(pattern, coordinates)
         self.n = n = len(coordinates)
         self.depth = max(0, int(np.ceil(np.log2(max(n, 1) / LEAF))))
@@ -174,7 +175,7 @@ class EliminationTree:
         return 8 * (2 * sum(s.bound.size + s.up.size for p in self.parts for s in p.stacks) + 3 * self.n)
 
     # ------------------------------------------------------------------ building
-    def _build(self, i: np.ndarray, j: np.ndarray, progress: Progress) -> None:
+    def _build(self, i: IntArray, j: IntArray, progress: Progress) -> None:
         n, node = self.n, self.node
         outside = node[i] != node[j]
         i, j = i[outside], j[outside]
@@ -194,7 +195,7 @@ class EliminationTree:
             self.member[stack.nodes] = np.arange(len(stack.nodes))
         self.stacks = [stack for part_ in self.parts for stack in part_.stacks]
 
-    def _reach(self, branch: Branch, near: np.ndarray, below: np.ndarray, job: Job) -> np.ndarray:
+    def _reach(self, branch: Branch, near: IntArray, below: IntArray, job: Job) -> IntArray:
         """Bottom up: a front's boundary is what its pivots' edges and its children's boundaries reach above it."""
         n, keys = self.n, [below[:0]]
         for level in range(branch.last - 1, branch.first - 1, -1):
@@ -233,7 +234,7 @@ class EliminationTree:
                 stack.bound[:] = np.where(stack.bound == self.n, branch.end, self.place[stack.bound])
             _add_gather(level)
 
-    def _add_stack(self, branch: Branch, level: Level, nodes: np.ndarray, parent_keys: np.ndarray, root: bool) -> None:
+    def _add_stack(self, branch: Branch, level: Level, nodes: IntArray, parent_keys: IntArray, root: bool) -> None:
         n = self.n
         c, m = max(1, int(self._pivots[nodes].max())), int(self._bounds[nodes].max()) + 1
         take = np.where(np.arange(m) < self._bounds[nodes, None], self.key_start[nodes, None] + np.arange(m), -1)
@@ -254,10 +255,11 @@ class EliminationTree:
         level.size += stack.size
         level.stacks.append(stack)
 
-    def parent_positions(self, stack: Stack, half: slice) -> np.ndarray:
+    def parent_positions(self, stack: Stack, half: slice) -> IntArray:
         """(h, m, m): where the boundary blocks of the stack's fronts `half` lie in the buffer of the parents' level."""
         parent, up = stack.nodes[half, None, None] >> 1, stack.up[half]
-        return self.offset[parent] + up[:, :, None] * self.size[parent] + up[:, None, :]
+        positions: IntArray = self.offset[parent] + up[:, :, None] * self.size[parent] + up[:, None, :]
+        return positions
 
 
 def _add_gather(level: Level) -> None:
@@ -274,7 +276,7 @@ def _work(b: Any, c: Any, m: Any) -> Any:
     return b * (c + m) ** 2.0 * (c + 0.1 * m + PASSES) + CALLS
 
 
-def _alike(nodes: np.ndarray, pivots: np.ndarray, bounds: np.ndarray) -> Iterator[np.ndarray]:
+def _alike(nodes: IntArray, pivots: IntArray, bounds: IntArray) -> Iterator[IntArray]:
     """The nodes in groups of like sizes, in each the left children first.
 
     Two groups become one as long as that saves more calls than it costs padding.
@@ -287,7 +289,7 @@ def _alike(nodes: np.ndarray, pivots: np.ndarray, bounds: np.ndarray) -> Iterato
     np.maximum.at(m, group, bounds + 1)
     work = _work(count, c, m)
 
-    def saved(some: Any) -> np.ndarray:
+    def saved(some: Any) -> FloatArray:
         """(k, groups) by joining each of `some` with each group."""
         one = np.arange(len(count))[some, None]
         gains = work[one] + work - _work(count[one] + count, np.maximum(c[one], c), np.maximum(m[one], m))
@@ -309,13 +311,14 @@ def _alike(nodes: np.ndarray, pivots: np.ndarray, bounds: np.ndarray) -> Iterato
             yield some[np.argsort(some & 1, kind="stable")]
 
 
-def _sorted_once(keys: np.ndarray) -> np.ndarray:
+def _sorted_once(keys: IntArray) -> IntArray:
     """np.unique, which for whole numbers is several times slower than sorting them."""
     keys = np.sort(keys)
-    return keys[np.r_[True, keys[1:] != keys[:-1]][: len(keys)]]
+    unique: IntArray = keys[np.r_[True, keys[1:] != keys[:-1]][: len(keys)]]
+    return unique
 
 
-def _edges(pattern: sp.spmatrix) -> tuple[np.ndarray, np.ndarray]:
+def _edges(pattern: sp.spmatrix) -> tuple[IntArray, IntArray]:
     """(e,), (e,): the ends of the edges, each once."""
     rows = sp.csr_matrix(pattern, copy=True)
     rows.sum_duplicates()
@@ -327,7 +330,7 @@ def _edges(pattern: sp.spmatrix) -> tuple[np.ndarray, np.ndarray]:
     return row[low], rows.indices[low].astype(np.int64)
 
 
-def _checked_coordinates(pattern: sp.spmatrix, coordinates: np.ndarray) -> np.ndarray:
+def _checked_coordinates(pattern: sp.spmatrix, coordinates: FloatArray) -> FloatArray:
     coordinates = np.asarray(coordinates, np.float64)
     n = pattern.shape[0]
     if pattern.shape != (n, n) or coordinates.shape != (n, 3):

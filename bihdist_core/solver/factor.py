@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
+from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..progress import Progress
 from .blas import one_blas_thread
@@ -22,7 +23,7 @@ from .selected_inversion import invert_branch
 from .substitution import Run, sandwich_columns, solve_into
 from .worker_threads import Job, side_by_side
 
-ReceivePiece = Callable[[np.ndarray, slice, np.ndarray], None]
+ReceivePiece = Callable[[IntArray, slice, FloatArray], None]
 """Takes some rows (r,), a slice of the columns asked for, and the values (r, k) there, which it may overwrite."""
 
 TINY = -100
@@ -52,7 +53,7 @@ class Factor:
     ) -> None:
         matrix, weights = _checked_matrix(tree, matrix), _checked_areas(tree, areas)
         self.tree = tree
-        self._diagonals: tuple[np.ndarray, np.ndarray] | None = None
+        self._diagonals: tuple[FloatArray, FloatArray] | None = None
         if weights is not None:
             self._scale = _tiny_scale(weights, matrix.diagonal())
             weights = weights * self._scale
@@ -72,7 +73,7 @@ class Factor:
                 self._diagonals = self._inverted(job)
             job.finish()
 
-    def _inverted(self, job: Job) -> tuple[np.ndarray, np.ndarray]:
+    def _inverted(self, job: Job) -> tuple[FloatArray, FloatArray]:
         tree, blocks = self.tree, self._blocks
         result = np.empty(tree.n, complex)
         (above,) = job.run(lambda top: invert_branch(tree, top, np.empty(0), blocks, result, job), [tree.top])
@@ -85,12 +86,12 @@ class Factor:
         return diagonals
 
     @property
-    def diagonal(self) -> np.ndarray:
+    def diagonal(self) -> FloatArray:
         """(n,) diag(matrix^-1), read-only; SolverError without areas."""
         return self._with_areas()[0]
 
     @property
-    def sandwich_diagonal(self) -> np.ndarray:
+    def sandwich_diagonal(self) -> FloatArray:
         """(n,) diag(matrix^-1 A matrix^-1), read-only; SolverError without areas."""
         return self._with_areas()[1]
 
@@ -99,7 +100,7 @@ class Factor:
         """How many bytes the factor holds, the tree not counted."""
         return sum(block.nbytes for block in self._blocks) + sum(d.nbytes for d in self._diagonals or ())
 
-    def solve(self, b: npt.ArrayLike) -> np.ndarray:
+    def solve(self, b: npt.ArrayLike) -> FloatArray:
         """matrix^-1 b, in the shape of b: (n,) or (n, k)."""
         b = np.asarray(b, np.float64)
         n = self.tree.n
@@ -118,11 +119,11 @@ class Factor:
         _check_result(result)
         return result.reshape(b.shape)
 
-    def sandwich_columns(self, index: npt.ArrayLike) -> np.ndarray:
+    def sandwich_columns(self, index: npt.ArrayLike) -> FloatArray:
         """(n, k): the columns `index` (k,) of matrix^-1 A matrix^-1, in one sweep down; SolverError without areas."""
         result = np.empty((self.tree.n, np.size(index)))
 
-        def keep(rows: np.ndarray, columns: slice, values: np.ndarray) -> None:
+        def keep(rows: IntArray, columns: slice, values: FloatArray) -> None:
             result[rows, columns] = values
 
         self.each_sandwich_piece(index, keep)
@@ -136,7 +137,7 @@ class Factor:
             raise ParameterError(f"Columns are chosen by a list of whole numbers from 0 to {n - 1}, not {index!r}.")
 
         def sweep(some: slice, run: Run) -> None:
-            def finish(rows: np.ndarray, values: np.ndarray) -> None:
+            def finish(rows: IntArray, values: FloatArray) -> None:
                 values = values / self._scale
                 _check_result(values)
                 receive(rows, some, values)
@@ -147,7 +148,7 @@ class Factor:
             # Complex numbers are twice as large.
             _in_slices(len(index), WIDE // 2, sweep)
 
-    def _with_areas(self) -> tuple[np.ndarray, np.ndarray]:
+    def _with_areas(self) -> tuple[FloatArray, FloatArray]:
         if self._diagonals is None:
             raise SolverError("This factor was made without areas, which its diagonals and sandwich columns need.")
         return self._diagonals
@@ -178,7 +179,7 @@ def _checked_matrix(tree: EliminationTree, matrix: sp.spmatrix) -> sp.csr_matrix
     return matrix
 
 
-def _checked_areas(tree: EliminationTree, areas: npt.ArrayLike | None) -> np.ndarray | None:
+def _checked_areas(tree: EliminationTree, areas: npt.ArrayLike | None) -> FloatArray | None:
     if areas is None:
         return None
     areas = np.asarray(areas, np.float64)
@@ -187,12 +188,12 @@ def _checked_areas(tree: EliminationTree, areas: npt.ArrayLike | None) -> np.nda
     return areas
 
 
-def _tiny_scale(areas: np.ndarray, diagonal: np.ndarray) -> float:
+def _tiny_scale(areas: FloatArray, diagonal: FloatArray) -> float:
     """What the areas are multiplied by; a power of two, so that no digit changes."""
     ratio = float(np.max(areas / np.maximum(np.abs(diagonal), 1e-300), initial=0))
     return math.ldexp(1.0, TINY - math.frexp(ratio)[1]) if 0 < ratio < np.inf else 1.0
 
 
-def _check_result(x: np.ndarray) -> None:
+def _check_result(x: FloatArray) -> None:
     if not np.isfinite(x).all():
         raise SolverError("The solution has values that are not finite numbers; its scale is too extreme.")

@@ -13,6 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..progress import Progress
 from .tall import centre, gram, multiply, put, recombine, subtract
 
@@ -31,13 +32,13 @@ CROWD = 1.01
 
 
 def largest_eigenpairs(
-    apply: Callable[[np.ndarray], np.ndarray],
-    weights: np.ndarray,
+    apply: Callable[[FloatArray], FloatArray],
+    weights: FloatArray,
     count: int,
     tolerance: float,
-    known: tuple[np.ndarray, np.ndarray],
+    known: tuple[FloatArray, FloatArray],
     progress: Progress,
-) -> np.ndarray:
+) -> FloatArray:
     """(n, count) vectors that span the eigenvectors of the `count` largest eigenvalues mu.
 
     apply(x): T x for x (n, k); it and x are A-orthogonal to constants.  weights: (n,) the diagonal of A.
@@ -95,7 +96,7 @@ def _width(count: int) -> int:
 class _Space:
     """The basis V, the block Q to expand by next, and H and B ("couple") of the module's formula."""
 
-    def __init__(self, weights: np.ndarray, room: int, values: np.ndarray, vectors: np.ndarray) -> None:
+    def __init__(self, weights: FloatArray, room: int, values: FloatArray, vectors: FloatArray) -> None:
         n, self.size = vectors.shape
         self.weights = weights
         room += self.size
@@ -107,7 +108,7 @@ class _Space:
         self.block = np.empty((n, 0))
         self.couple = np.zeros((0, self.size))
 
-    def inject(self, columns: np.ndarray) -> None:
+    def inject(self, columns: FloatArray) -> None:
         """Widen the block by columns (n, k) that need have nothing to do with V."""
         centre(columns, self.weights)
         for _ in range(2):
@@ -117,7 +118,7 @@ class _Space:
         self.block = np.hstack([self.block, columns])
         self.couple = np.vstack([self.couple, np.zeros((columns.shape[1], self.size))])
 
-    def grow(self, image: np.ndarray) -> None:
+    def grow(self, image: FloatArray) -> None:
         """Take the block into the basis and make the next one of its image T Q (n, k), which is overwritten."""
         old, new = self.size, self.size + self.block.shape[1]
         v = self.basis[:, :new]
@@ -141,7 +142,7 @@ class _Space:
         self.block, again = self._orthonormal(q)
         self.size, self.couple = new, np.hstack([np.zeros((again.shape[0], old)), again @ r])
 
-    def ritz(self, count: int) -> tuple[np.ndarray, np.ndarray]:
+    def ritz(self, count: int) -> tuple[FloatArray, FloatArray]:
         """The `count` largest eigenvalues of H, descending, and its eigenvectors (size, count)."""
         h = self.h[: self.size, : self.size]
         # NumPy's, for which other Python threads need not stand still as for SciPy's; it takes no longer for all.
@@ -166,7 +167,7 @@ class _Space:
             self.h = np.pad(self.h, (0, short))
         return True
 
-    def _orthonormal(self, w: np.ndarray, smallest: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    def _orthonormal(self, w: FloatArray, smallest: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """Q (n, j) and R (j, k) with W = Q R and Q A-orthonormal; what is only rounding in W (n, k) is left out.
 
         Once leaves Q as far from orthonormal as the columns of W were from independent; twice makes it good.

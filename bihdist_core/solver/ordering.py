@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..progress import Progress, part
-from .separators import separate
+from .separators import Sides, separate
 from .worker_threads import Job
 from .z_order import z_order
 
@@ -35,13 +36,13 @@ CELL_BITS = 5
 class _Chart:
     """Coordinates to cut by: `axes`, a list of (n,) arrays, and how many of their principal axes to try."""
 
-    axes: list[np.ndarray]
+    axes: list[FloatArray]
     tries: int
 
 
 def nested_dissection(
-    i: np.ndarray, j: np.ndarray, coordinates: np.ndarray, depth: int, split: int = 0, progress: Progress | None = None
-) -> np.ndarray:
+    i: IntArray, j: IntArray, coordinates: FloatArray, depth: int, split: int = 0, progress: Progress | None = None
+) -> IntArray:
     """(n,) heap number of the tree node of each vertex; the leaves are on level `depth`.
 
     i, j: (e,) the two ends of each edge, each edge once, no loops; coordinates: (n, 3), finite.  The branches under
@@ -72,14 +73,14 @@ def nested_dissection(
     return result
 
 
-def _unit_box(x: np.ndarray) -> list[np.ndarray]:
+def _unit_box(x: FloatArray) -> list[FloatArray]:
     """The columns of x (n, k), moved and scaled together into [-1, 1], where no square of them over- or underflows."""
     x = x - x.mean(axis=0) if np.abs(x).max() < 1e300 else x / 4 - (x / 4).mean(axis=0)
     largest = np.abs(x).max()
     return list((x / largest if largest > 0 else x).T.copy())
 
 
-def _along_a_curve(box: list[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]]:
+def _along_a_curve(box: list[FloatArray]) -> tuple[IntArray, list[FloatArray]]:
     """(n,) vertices in the order of their cells on a Morton (Z-order) curve, and their coordinates in this order.
 
     However a file numbers its vertices, neighbours then lie near each other in memory, for all that is done here.
@@ -90,7 +91,7 @@ def _along_a_curve(box: list[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]]
     return order, [x.take(order) for x in box]
 
 
-def _graph(i: np.ndarray, j: np.ndarray, order: np.ndarray) -> sp.csr_matrix:
+def _graph(i: AnyArray, j: AnyArray, order: IntArray) -> sp.csr_matrix:
     """(n, n) graph with the edges i - j, each in both directions, of vertices renumbered to be in this order."""
     n = len(order)
     place = np.empty(n, np.int32)
@@ -99,14 +100,14 @@ def _graph(i: np.ndarray, j: np.ndarray, order: np.ndarray) -> sp.csr_matrix:
     return sp.csr_matrix((np.ones(2 * len(i)), (np.r_[i, j], np.r_[j, i])), shape=(n, n))
 
 
-def _edges_of(graph: sp.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
+def _edges_of(graph: sp.csr_matrix) -> tuple[IntArray, IntArray]:
     """Two (e,) arrays: the ends of each edge, ascending by the first."""
     tail = np.repeat(np.arange(graph.shape[0]), np.diff(graph.indptr))
-    locked_cached_property = np.flatnonzero(tail < graph.indices)
-    return tail[locked_cached_property], graph.indices[locked_cached_property].astype(np.int64)
+    once = np.flatnonzero(tail < graph.indices)
+    return tail[once], graph.indices[once].astype(np.int64)
 
 
-def _hop_coordinates(graph: sp.csr_matrix, progress: Progress) -> list[np.ndarray]:
+def _hop_coordinates(graph: sp.csr_matrix, progress: Progress) -> list[FloatArray]:
     """List of (n,) edge counts to far-apart landmarks, the connected components laid out one beside the other."""
     n = graph.shape[0]
     component, last = _components(graph)
@@ -132,7 +133,7 @@ def _hop_coordinates(graph: sp.csr_matrix, progress: Progress) -> list[np.ndarra
     return [(hops + start).astype(np.float64) for hops in axes]
 
 
-def _components(graph: sp.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
+def _components(graph: sp.csr_matrix) -> tuple[AnyArray, IntArray]:
     """(n,) the connected component of each vertex, and (k,) a vertex of each."""
     # Here and below not at the top: it is half of what `import bihdist_core` would take.
     from scipy.sparse.csgraph import breadth_first_order, connected_components
@@ -145,7 +146,7 @@ def _components(graph: sp.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
     return component, np.unique(component, return_index=True)[1]
 
 
-def _hops(graph: sp.csr_matrix, sources: np.ndarray) -> np.ndarray:
+def _hops(graph: sp.csr_matrix, sources: IntArray) -> IntArray:
     """(n,) number of edges to the nearest source; each component has one."""
     from scipy.sparse.csgraph import breadth_first_order
 
@@ -169,12 +170,12 @@ def _hops(graph: sp.csr_matrix, sources: np.ndarray) -> np.ndarray:
 class _Cutter:
     """Cuts regions; writes only into `node` (n,), at the vertices it is given."""
 
-    def __init__(self, node: np.ndarray, charts: list[_Chart], job: Job) -> None:
+    def __init__(self, node: IntArray, charts: list[_Chart], job: Job) -> None:
         self.node, self.charts, self.job = node, charts, job
 
     def cut(
-        self, live: np.ndarray, i: np.ndarray, j: np.ndarray, root: int, levels: int
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        self, live: IntArray, i: IntArray, j: IntArray, root: int, levels: int
+    ) -> tuple[IntArray, IntArray, IntArray]:
         """Cut the vertices `live` (m,), all in tree node `root`, `levels` times, all regions of a level at once.
 
         i, j: their edges, as positions in `live`.  Returns what is left of live, sorted by region, and of the edges.
@@ -197,7 +198,7 @@ class _Cutter:
             self.job.advance(m)
         return live, i, j
 
-    def _halves(self, live: np.ndarray, i: np.ndarray, j: np.ndarray, region: np.ndarray, regions: int) -> np.ndarray:
+    def _halves(self, live: IntArray, i: IntArray, j: IntArray, region: IntArray, regions: int) -> Sides:
         """(m,) 0 or 1: each region is cut across the axis and at the place where the fewest edges are cut."""
         m = len(live)
         count = np.bincount(region, minlength=regions)
@@ -229,7 +230,7 @@ class _Cutter:
         return side
 
 
-def _principal_keys(axes: list[np.ndarray], region: np.ndarray, count: np.ndarray, tries: int) -> Iterator[np.ndarray]:
+def _principal_keys(axes: list[FloatArray], region: IntArray, count: IntArray, tries: int) -> Iterator[FloatArray]:
     """(m,) coordinates along each region's first principal axes, of points with the given axes, each (m,)."""
     step = max(1, len(region) // (SAMPLE * len(count)))
     some = region[::step]
@@ -249,7 +250,7 @@ def _principal_keys(axes: list[np.ndarray], region: np.ndarray, count: np.ndarra
         yield key
 
 
-def _order_in_regions(key: np.ndarray, region: np.ndarray, start: np.ndarray, full: np.ndarray) -> np.ndarray:
+def _order_in_regions(key: FloatArray, region: IntArray, start: IntArray, full: IntArray) -> IntArray:
     """(m,) the order by region, then by key to 16 bits, then as given.  region (m,) ascends; start: where each does."""
     if not len(key):
         return np.zeros(0, np.int64)
@@ -263,6 +264,6 @@ def _order_in_regions(key: np.ndarray, region: np.ndarray, start: np.ndarray, fu
     return order[_stable_order(region[order], len(start))]
 
 
-def _stable_order(label: np.ndarray, count: int) -> np.ndarray:
+def _stable_order(label: IntArray, count: int) -> IntArray:
     """Stable argsort of labels 0 to count - 1."""
     return np.argsort(label.astype(np.uint16) if count <= 1 << 16 else label, kind="stable")

@@ -8,14 +8,20 @@ In complex numbers (see `elimination`) the imaginary parts of all that are those
 
 import numpy as np
 
+from ..arrays import AnyArray, ComplexArray
 from .elimination import Block
 from .elimination_tree import Branch, EliminationTree
 from .worker_threads import Job
 
 
 def invert_branch(
-    tree: EliminationTree, branch: Branch, above: np.ndarray, blocks: list[Block], diagonal: np.ndarray, job: Job
-) -> np.ndarray:
+    tree: EliminationTree,
+    branch: Branch,
+    above: AnyArray,
+    blocks: list[Block],
+    diagonal: ComplexArray,
+    job: Job,
+) -> AnyArray:
     """Fill in diag(G) + i diag(G A G), (n,), at the branch's vertices; returns Z of its lowest level.
 
     above: Z of the level above the branch, the level's fronts one after the other.
@@ -51,6 +57,7 @@ def invert_branch(
     return above
 
 
-def _diagonal(x: np.ndarray) -> np.ndarray:
+def _diagonal(x: AnyArray) -> AnyArray:
     """(b, c) of x (b, c, c)."""
-    return np.einsum("bii->bi", x)
+    diagonal: AnyArray = np.einsum("bii->bi", x)
+    return diagonal

@@ -5,8 +5,16 @@ pays, the separator may also move: of all separators within a few edges of the c
 cut, found as a maximal flow (Menger's theorem).
 """
 
+from typing import TypeAlias
+
 import numpy as np
+import numpy.typing as npt
 import scipy.sparse as sp
+
+from ..arrays import BoolArray, IntArray
+
+Sides: TypeAlias = npt.NDArray[np.int8]
+"""0 or 1 for the half of a region that a vertex is in, 2 for the separator."""
 
 REACH = 2
 """How many edges from the cut a separator may move."""
@@ -16,7 +24,7 @@ LEAST_REST = 0.25
 """Where a moved separator leaves less than this share of a region on one side, the vertex cover is taken."""
 
 
-def separate(side: np.ndarray, i: np.ndarray, j: np.ndarray, region: np.ndarray, move: bool) -> None:
+def separate(side: Sides, i: IntArray, j: IntArray, region: IntArray, move: bool) -> None:
     """Mark separators with 2 in `side` (m,), whose zeros and ones are the halves of regions.
 
     i, j: the edges; none joins two regions.  region (m,), ascending.  With `move` zeros and ones may change as well.
@@ -35,7 +43,7 @@ def separate(side: np.ndarray, i: np.ndarray, j: np.ndarray, region: np.ndarray,
     side[_vertex_cover(np.where(first, a, b), np.where(first, b, a))] = 2
 
 
-def _move(side: np.ndarray, i: np.ndarray, j: np.ndarray, region: np.ndarray, across: np.ndarray) -> None:
+def _move(side: Sides, i: IntArray, j: IntArray, region: IntArray, across: IntArray) -> None:
     """Minimal separators in the bands of vertices within REACH edges of the cut edges `across`."""
     near = np.zeros(len(side), bool)
     near[i[across]] = near[j[across]] = True
@@ -61,7 +69,7 @@ def _move(side: np.ndarray, i: np.ndarray, j: np.ndarray, region: np.ndarray, ac
         side[some] = _least_cut(side[some], rim[lo:hi], a[first:last] - lo, b[first:last] - lo)
 
 
-def _least_cut(side: np.ndarray, rim: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def _least_cut(side: Sides, rim: BoolArray, a: IntArray, b: IntArray) -> Sides:
     """(k,) new sides, 2 for the fewest vertices that part the rim (k,) of side 0 from that of side 1."""
     from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
@@ -82,7 +90,7 @@ def _least_cut(side: np.ndarray, rim: np.ndarray, a: np.ndarray, b: np.ndarray) 
     return np.where(left_again, 0, np.where(entered, 2, 1)).astype(side.dtype)
 
 
-def _vertex_cover(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def _vertex_cover(a: IntArray, b: IntArray) -> IntArray:
     """A least set of vertices that touches all edges a - b of a bipartite graph (Koenig's theorem)."""
     from scipy.sparse.csgraph import breadth_first_order, maximum_bipartite_matching
 
@@ -99,4 +107,5 @@ def _vertex_cover(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     walk = sp.csr_matrix((np.ones(len(tail), np.int8), (tail, head)), shape=(n + 1, n + 1))
     seen = np.zeros(n + 1, bool)
     seen[breadth_first_order(walk, n, return_predecessors=False)] = True
-    return np.r_[left[~seen[:m]], right[seen[m:n]]]
+    cover: IntArray = np.r_[left[~seen[:m]], right[seen[m:n]]]
+    return cover

@@ -12,13 +12,14 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy.sparse as sp
 
+from ..arrays import FloatArray
 from ..errors import ParameterError, SolverError
 from ..progress import Progress, part, silent
 from .blas import one_blas_thread
 from .krylov import largest_eigenpairs, usual_columns
 from .tall import centre, gram, multiply, over_rows, sparse_rows
 
-Solve = Callable[[np.ndarray], np.ndarray]
+Solve = Callable[[FloatArray], FloatArray]
 
 ROUNDING = 10
 """Allowance, times root n, for residuals that rounding alone makes: in a regular mesh the roundings of all rows are
@@ -38,14 +39,14 @@ class Spectrum:
     eigenvalue is within this share of lambda.  No unit; empty where they were not measured.
     """
 
-    eigenvalues: np.ndarray
-    eigenvectors: np.ndarray
-    residuals: np.ndarray = field(default_factory=lambda: np.empty(0))
+    eigenvalues: FloatArray
+    eigenvectors: FloatArray
+    residuals: FloatArray = field(default_factory=lambda: np.empty(0))
 
 
 def smallest_eigenpairs(
     stiffness: sp.csr_matrix,
-    areas: np.ndarray,
+    areas: FloatArray,
     solve: Solve,
     count: int,
     *,
@@ -74,12 +75,12 @@ def smallest_eigenpairs(
         if len(start.eigenvalues) >= count:
             return Spectrum(start.eigenvalues[:count], start.eigenvectors[:, :count], start.residuals[:count])
 
-    def apply(x: np.ndarray) -> np.ndarray:
+    def apply(x: FloatArray) -> FloatArray:
         y = solve(areas[:, None] * x)
         centre(y, areas)
         return y
 
-    def own() -> np.ndarray:
+    def own() -> FloatArray:
         if dense_is_faster(len(areas), count):
             return _dense(areas, apply, count, part(progress, 0, 0.9))
         return largest_eigenpairs(apply, areas, count, tolerance, known, part(progress, 0, 0.95))
@@ -118,7 +119,7 @@ def is_long(n: int, count: int) -> bool:
     return columns > LARGE or n * columns * count > LARGE_PRODUCT
 
 
-def _check(stiffness: sp.csr_matrix, areas: np.ndarray, count: int, tolerance: float) -> None:
+def _check(stiffness: sp.csr_matrix, areas: FloatArray, count: int, tolerance: float) -> None:
     n = len(areas)
     if stiffness.shape != (n, n):
         raise ParameterError(f"The stiffness matrix has shape {stiffness.shape}, and there are {n} areas.")
@@ -131,7 +132,7 @@ def _check(stiffness: sp.csr_matrix, areas: np.ndarray, count: int, tolerance: f
         raise ParameterError(f"The tolerance is {tolerance:g}; it must be between 0 and 1.")
 
 
-def _dense(areas: np.ndarray, apply: Callable[[np.ndarray], np.ndarray], count: int, progress: Progress) -> np.ndarray:
+def _dense(areas: FloatArray, apply: Callable[[FloatArray], FloatArray], count: int, progress: Progress) -> FloatArray:
     """(n, count) eigenvectors, from all of T: exact also where `count` is all there is."""
     n = len(areas)
     root = np.sqrt(areas)
@@ -147,12 +148,13 @@ def _dense(areas: np.ndarray, apply: Callable[[np.ndarray], np.ndarray], count: 
     inverse, vectors = np.linalg.eigh((full + full.T) / 2)
     inverse, vectors = inverse[-count:], vectors[:, -count:]
     # One more application of T: dividing by small roots of areas would magnify rounding.
-    return apply(_centred(unroot[:, None] * vectors[:, ::-1], areas)) / inverse[::-1]
+    eigenvectors: FloatArray = apply(_centred(unroot[:, None] * vectors[:, ::-1], areas)) / inverse[::-1]
+    return eigenvectors
 
 
 def _arnoldi(
-    areas: np.ndarray, apply: Callable[[np.ndarray], np.ndarray], count: int, progress: Progress
-) -> np.ndarray:
+    areas: FloatArray, apply: Callable[[FloatArray], FloatArray], count: int, progress: Progress
+) -> FloatArray:
     """(n, count) eigenvectors by ARPACK: slower by far, and independent of our own iteration."""
     from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
@@ -161,7 +163,7 @@ def _arnoldi(
     unroot = np.divide(1, root, out=np.zeros(n), where=root > 0)
     done = 0
 
-    def symmetric(x: np.ndarray) -> np.ndarray:
+    def symmetric(x: FloatArray) -> FloatArray:
         nonlocal done
         done += 1
         progress(done / (done + 5 * count), "eigenpairs, second attempt")
@@ -172,14 +174,16 @@ def _arnoldi(
         inverse, vectors = eigsh(operator, count, v0=root * np.random.default_rng(0).standard_normal(n))
     except ArpackError as error:
         raise np.linalg.LinAlgError(str(error)) from None
-    return apply(_centred(unroot[:, None] * vectors, areas)) / inverse
+    eigenvectors: FloatArray = apply(_centred(unroot[:, None] * vectors, areas)) / inverse
+    return eigenvectors
 
 
-def _centred(x: np.ndarray, areas: np.ndarray) -> np.ndarray:
-    return x - areas @ x / areas.sum()
+def _centred(x: FloatArray, areas: FloatArray) -> FloatArray:
+    centred: FloatArray = x - areas @ x / areas.sum()
+    return centred
 
 
-def _refined(stiffness: sp.csr_matrix, areas: np.ndarray, vectors: np.ndarray, progress: Progress) -> Spectrum:
+def _refined(stiffness: sp.csr_matrix, areas: FloatArray, vectors: FloatArray, progress: Progress) -> Spectrum:
     """Rayleigh-Ritz in the span of the (n, k) vectors with the stiffness matrix itself, and the residuals."""
     scale = 1 / np.sqrt(np.einsum("ij,i,ij->j", vectors, areas, vectors))
     progress(0.1, "eigenpairs: combining")
@@ -195,19 +199,19 @@ def _refined(stiffness: sp.csr_matrix, areas: np.ndarray, vectors: np.ndarray, p
     vectors = multiply(vectors, scale[:, None] * mix)
     progress(0.8, "eigenpairs: checking")
 
-    def squares(rows: slice) -> np.ndarray:
+    def squares(rows: slice) -> FloatArray:
         r = sparse_rows(stiffness, rows) @ vectors - areas[rows, None] * vectors[rows] * values
         return _over_areas(r * r, areas[rows])
 
     return Spectrum(values, vectors, np.sqrt(sum(over_rows(squares, len(areas)))) / values)
 
 
-def _over_areas(squares: np.ndarray, areas: np.ndarray) -> np.ndarray:
+def _over_areas(squares: FloatArray, areas: FloatArray) -> FloatArray:
     """(k,) sums of squares (n, k) over areas; a vertex without area has no say."""
     return np.divide(1, areas, out=np.zeros(len(areas)), where=areas > 0) @ squares
 
 
-def _accepted(spectrum: Spectrum, stiffness: sp.csr_matrix, areas: np.ndarray, tolerance: float) -> bool:
+def _accepted(spectrum: Spectrum, stiffness: sp.csr_matrix, areas: FloatArray, tolerance: float) -> bool:
     """Whether the residuals are within the tolerance, or within what rounding alone makes of them."""
     values, residuals = spectrum.eigenvalues, spectrum.residuals
     if len(residuals) < len(values) or not (values > 0).all():

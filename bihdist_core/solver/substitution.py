@@ -16,6 +16,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ..arrays import AnyArray, ComplexArray, FloatArray, IntArray
 from .elimination import Block
 from .elimination_tree import Branch, EliminationTree
 
@@ -33,8 +34,8 @@ LONG = 1 << 13
 PIECE = 1 << 16
 """How many numbers are worked on at a time where they should stay in the cache."""
 
-Receive = Callable[[np.ndarray, np.ndarray], None]
-Started = dict[int, list[tuple[int, int, np.ndarray]]]
+Receive = Callable[[IntArray, FloatArray], None]
+Started = dict[int, list[tuple[int, int, ComplexArray]]]
 """By stack: which of its fronts, which column, and (c,) complex, what the sweep up brought to its pivots."""
 
 
@@ -44,11 +45,11 @@ class Run(Protocol):
     def __call__(self, function: Any, items: Any, /) -> list[Any]: ...
 
 
-def solve_into(result: np.ndarray, tree: EliminationTree, blocks: Sequence[Block], b: np.ndarray, run: Run) -> None:
+def solve_into(result: FloatArray, tree: EliminationTree, blocks: Sequence[Block], b: FloatArray, run: Run) -> None:
     """result (n, k) = L^-1 b, b (n, k)."""
     top, k = tree.top, b.shape[1]
 
-    def up(branch: Branch) -> np.ndarray:
+    def up(branch: Branch) -> FloatArray:
         x, own = np.zeros((branch.end + 1, k)), b[branch.vertices]
         x[branch.places] = own
         filled = branch.vertices[np.flatnonzero(own.any(axis=1))]
@@ -58,7 +59,7 @@ def solve_into(result: np.ndarray, tree: EliminationTree, blocks: Sequence[Block
             _sweep_up(branch, blocks, x)
         return x
 
-    def down(branch: Branch, x: np.ndarray) -> None:
+    def down(branch: Branch, x: FloatArray) -> None:
         x[: branch.above] = whole[: branch.above]
         _sweep_down(branch, blocks, x)
         result[branch.vertices] = x[branch.places]
@@ -74,7 +75,7 @@ def solve_into(result: np.ndarray, tree: EliminationTree, blocks: Sequence[Block
 
 
 def sandwich_columns(
-    tree: EliminationTree, blocks: Sequence[Block], index: np.ndarray, run: Run, receive: Receive
+    tree: EliminationTree, blocks: Sequence[Block], index: IntArray, run: Run, receive: Receive
 ) -> None:
     """The columns `index` (k,) of L^-1 A L^-1, in pieces: receive(vertices (r,), values (r, k)) gets to keep them.
 
@@ -86,7 +87,7 @@ def sandwich_columns(
         _sweep_up_unit(tree, blocks, int(vertex), column, started)
     whole = np.empty((tree.top.end + 1, k), complex)
 
-    def down(part: Branch, x: np.ndarray) -> None:
+    def down(part: Branch, x: ComplexArray) -> None:
         x[: part.above] = whole[: part.above]
         x[-1] = 0
         _sweep_down_started(part, blocks, started, x)
@@ -116,7 +117,7 @@ def _sweep_up_unit(tree: EliminationTree, blocks: Sequence[Block], vertex: int, 
         front >>= 1
 
 
-def _sweep_up(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
+def _sweep_up(branch: Branch, blocks: Sequence[Block], x: FloatArray) -> None:
     k = x.shape[1]
     for level in reversed(branch.levels):
         sent = np.empty((level.gather.shape[1], k))
@@ -130,7 +131,7 @@ def _sweep_up(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
 
 
 def _sweep_up_paths(
-    tree: EliminationTree, branch: Branch, blocks: Sequence[Block], vertices: np.ndarray, x: np.ndarray
+    tree: EliminationTree, branch: Branch, blocks: Sequence[Block], vertices: IntArray, x: FloatArray
 ) -> None:
     """The same where x is 0 but at a few vertices: their fronts and those above have all there is to do."""
     fronts = {front >> up for front in tree.node[vertices].tolist() for up in range(front.bit_length() - branch.first)}
@@ -141,7 +142,7 @@ def _sweep_up_paths(
         x[stack.bound[k]] += blocks[stack.index].N[k] @ pivots
 
 
-def _sweep_down(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
+def _sweep_down(branch: Branch, blocks: Sequence[Block], x: FloatArray) -> None:
     k = x.shape[1]
     for stack in branch.stacks:
         b, c, _ = stack.shape
@@ -152,7 +153,7 @@ def _sweep_down(branch: Branch, blocks: Sequence[Block], x: np.ndarray) -> None:
         pivots[:] = result
 
 
-def _sweep_down_started(branch: Branch, blocks: Sequence[Block], started: Started, x: np.ndarray) -> None:
+def _sweep_down_started(branch: Branch, blocks: Sequence[Block], started: Started, x: ComplexArray) -> None:
     k = x.shape[1]
     for stack in branch.stacks:
         b, c, m = stack.shape
@@ -170,11 +171,11 @@ def _sweep_down_started(branch: Branch, blocks: Sequence[Block], started: Starte
             pivots[front, :, column].imag += K @ imaginary + K1 @ real
 
 
-def _multiply(N: np.ndarray, x: np.ndarray, out: np.ndarray | None = None) -> np.ndarray:
+def _multiply(N: AnyArray, x: AnyArray, out: AnyArray | None = None) -> AnyArray:
     """N @ x for stacks N (b, r, s) and x (b, s, k)."""
     (b, r, s), k = N.shape, x.shape[2]
     if k == 1 and b * r <= HELD and r * s >= LONG:
-        result = np.empty((b, r, 1)) if out is None else out
+        result: AnyArray = np.empty((b, r, 1)) if out is None else out
         for front in range(b):
             np.dot(N[front], x[front, :, 0], out=result[front, :, 0])
         return result

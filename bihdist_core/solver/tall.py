@@ -10,6 +10,7 @@ from typing import TypeVar
 import numpy as np
 import scipy.sparse as sp
 
+from ..arrays import FloatArray
 from .worker_threads import side_by_side
 
 Result = TypeVar("Result")
@@ -18,19 +19,20 @@ ROWS = 8192
 """Rows multiplied at a time: enough to keep a core busy, few enough to stay in its cache."""
 
 
-def gram(x: np.ndarray, y: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def gram(x: FloatArray, y: FloatArray, weights: FloatArray) -> FloatArray:
     """(j, k) products x^T diag(weights) y of x (n, j) and y (n, k)."""
-    return sum(over_rows(lambda rows: np.dot(x[rows].T, weights[rows, None] * y[rows]), len(x)))
+    product: FloatArray = sum(over_rows(lambda rows: np.dot(x[rows].T, weights[rows, None] * y[rows]), len(x)))
+    return product
 
 
-def multiply(x: np.ndarray, c: np.ndarray) -> np.ndarray:
+def multiply(x: FloatArray, c: FloatArray) -> FloatArray:
     """(n, k) product of x (n, j) and c (j, k)."""
     out = np.empty((len(x), c.shape[1]))
     over_rows(lambda rows: np.matmul(x[rows], c, out=out[rows]), len(x))
     return out
 
 
-def subtract(y: np.ndarray, x: np.ndarray, c: np.ndarray) -> None:
+def subtract(y: FloatArray, x: FloatArray, c: FloatArray) -> None:
     """y -= x c, in place; y (n, k), x (n, j), c (j, k)."""
 
     def one(rows: slice) -> None:
@@ -39,7 +41,7 @@ def subtract(y: np.ndarray, x: np.ndarray, c: np.ndarray) -> None:
     over_rows(one, len(x))
 
 
-def centre(x: np.ndarray, weights: np.ndarray) -> None:
+def centre(x: FloatArray, weights: FloatArray) -> None:
     """Make the mean, weighted by weights (n,), of each column of x (n, k) zero, in place."""
     mean = sum(over_rows(lambda rows: np.dot(weights[rows], x[rows]), len(x))) / weights.sum()
 
@@ -49,7 +51,7 @@ def centre(x: np.ndarray, weights: np.ndarray) -> None:
     over_rows(one, len(x))
 
 
-def put(x: np.ndarray, first: int, y: np.ndarray) -> None:
+def put(x: FloatArray, first: int, y: FloatArray) -> None:
     """Overwrite columns of x, from `first` on, by y (n, k)."""
 
     def one(rows: slice) -> None:
@@ -58,7 +60,7 @@ def put(x: np.ndarray, first: int, y: np.ndarray) -> None:
     over_rows(one, len(x))
 
 
-def recombine(x: np.ndarray, c: np.ndarray) -> None:
+def recombine(x: FloatArray, c: FloatArray) -> None:
     """Overwrite the first k columns of x (n, j) by x c, c (j, k), k <= j."""
 
     def one(rows: slice) -> None:
@@ -67,7 +69,7 @@ def recombine(x: np.ndarray, c: np.ndarray) -> None:
     over_rows(one, len(x))
 
 
-def point_distances(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def point_distances(x: FloatArray, y: FloatArray) -> FloatArray:
     """(n, j) Euclidean distances of points x (n, k) from points y (j, k), of their differences: nothing cancels."""
     out = np.empty((len(x), len(y)))
 

@@ -2,13 +2,14 @@
 
 import numpy as np
 
+from ..arrays import IntArray
 from ..surface import Surface, connected
 
 DIGITS = 9
 """Lengths that agree to so many digits are equal: rounding decides nothing."""
 
 
-def boundary_loops(surface: Surface) -> list[np.ndarray]:
+def boundary_loops(surface: Surface) -> list[IntArray]:
     """For each connected piece of the boundary its edges (k, 2), as indices into `Surface.boundary_edges`' rows (k,).
 
     The longest first; those of equal length by their least vertex.

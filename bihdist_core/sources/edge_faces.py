@@ -5,6 +5,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from ..arrays import IntArray
 from ..surface import Surface
 
 _known: WeakKeyDictionary[Surface, "EdgeFaces"] = WeakKeyDictionary()
@@ -27,7 +28,7 @@ class EdgeFaces:
         first, last = np.searchsorted(self._key, [key, key + 1])
         return sorted(int(face) for face in self._order[first:last] % len(self._faces))
 
-    def one_at(self, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def one_at(self, edges: IntArray) -> tuple[IntArray, IntArray]:
         """(k,) a face at each of the edges (k, 2), and (k, 2) which of its corners the ends are."""
         wanted = edges.min(axis=1) * self._count + edges.max(axis=1)
         faces = self._order[np.searchsorted(self._key, wanted)] % len(self._faces)

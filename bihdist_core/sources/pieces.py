@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 from .boundary import boundary_loops
@@ -16,7 +17,7 @@ from .plane_walk import PlaneWalk, joined
 from .source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint, checked_source
 from .words import short_words_of
 
-Rows = tuple[np.ndarray, np.ndarray, np.ndarray, bool]
+Rows = tuple[IntArray, FloatArray, FloatArray, bool]
 """Faces, weights at both ends, and whether they are parts of a line."""
 
 MOST_KEPT = 16
@@ -33,27 +34,27 @@ class Pieces:
     at both ends, which are the same for a point.  along (k,): whether a piece is part of a line.
     """
 
-    faces: np.ndarray
-    corners: np.ndarray
-    start: np.ndarray
-    stop: np.ndarray
-    along: np.ndarray
+    faces: IntArray
+    corners: IntArray
+    start: FloatArray
+    stop: FloatArray
+    along: BoolArray
 
     def __len__(self) -> int:
         return len(self.faces)
 
-    def some(self, which: np.ndarray) -> "Pieces":
-        return Pieces(*(x[which] for x in (self.faces, self.corners, self.start, self.stop, self.along)))
+    def some(self, which: IntArray | BoolArray) -> "Pieces":
+        return Pieces(self.faces[which], self.corners[which], self.start[which], self.stop[which], self.along[which])
 
     @property
-    def vertices(self) -> np.ndarray | None:
+    def vertices(self) -> IntArray | None:
         """(k,) ids, each once, if all pieces are vertices; else None."""
         if self.along.any() or not (self.start == 1).any(axis=1).all():
             return None
         return np.unique(self.corners[self.start == 1])
 
     @property
-    def touched(self) -> np.ndarray:
+    def touched(self) -> IntArray:
         """(k, 3) the corners that have a weight, at any end; those without are replaced by one that has."""
         has = (self.start > 0) | (self.stop > 0)
         some = np.take_along_axis(self.corners, has.argmax(axis=1)[:, None], axis=1)
@@ -64,7 +65,7 @@ class Pieces:
         """The points where pieces start and stop, each once."""
         weights = np.concatenate([self.start, self.stop[self.along]])
         at = np.concatenate([np.arange(len(self)), np.flatnonzero(self.along)])
-        keys: dict[tuple, int] = {}
+        keys: dict[tuple[tuple[int, float], ...], int] = {}
         for k, (corners, w) in enumerate(zip(self.corners[at], weights, strict=True)):
             keys.setdefault(tuple(sorted((int(c), float(x)) for c, x in zip(corners, w, strict=True) if x > 0)), k)
         which = np.array(list(keys.values()), np.int64)
@@ -81,7 +82,7 @@ class Pieces:
         """Those that are parts of lines."""
         return self.some(np.flatnonzero(self.along))
 
-    def positions(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def positions(self, vertices: FloatArray) -> tuple[FloatArray, FloatArray]:
         """(k, 3) both ends of each, of a surface whose vertices are at (n, 3)."""
         at = vertices[self.corners]
         return np.einsum("kc,kcx->kx", self.start, at), np.einsum("kc,kcx->kx", self.stop, at)
@@ -158,7 +159,7 @@ def _check_face(place: SurfacePoint, surface: Surface) -> None:
         raise ParameterError(f"{surface.name} has no face {place.face}; faces run from 0 to {count - 1}.")
 
 
-def _loop(loop: BoundaryLoop, loops: list[np.ndarray], surface: Surface) -> Rows:
+def _loop(loop: BoundaryLoop, loops: list[IntArray], surface: Surface) -> Rows:
     if not loops:
         raise ParameterError(f"{surface.name} has no boundary loop {loop.number}: this mesh is closed.")
     if loop.number >= len(loops):

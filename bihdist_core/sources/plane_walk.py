@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import ParameterError
 from ..surface import Surface
 from .edge_faces import edge_faces
@@ -12,7 +13,7 @@ FURTHEST = 10
 PLANES = 12
 """So many planes through two places are tried."""
 
-Step = tuple[int, np.ndarray, np.ndarray]
+Step = tuple[int, FloatArray, FloatArray]
 """A face, and the weights (3,) of where the way enters and leaves it."""
 
 
@@ -48,7 +49,7 @@ class PlaneWalk:
         return min(ways, key=lambda each: each[1])[0]
 
     def _in_plane(
-        self, start: SurfacePoint, stop: SurfacePoint, first: list[int], last: list[int], normal: np.ndarray
+        self, start: SurfacePoint, stop: SurfacePoint, first: list[int], last: list[int], normal: FloatArray
     ) -> tuple[list[Step] | None, float]:
         """The shortest way in a plane with this normal, and its length."""
         p, q = self._position(start), self._position(stop)
@@ -110,7 +111,7 @@ class PlaneWalk:
             return self._edges.at(*corners)
         return [int(face) for face in np.flatnonzero((self._surface.faces == corners[0]).any(axis=1))]
 
-    def _weights(self, place: SurfacePoint, face: int) -> np.ndarray:
+    def _weights(self, place: SurfacePoint, face: int) -> FloatArray:
         """(3,) the weights of a place in a face that holds it."""
         weights = np.zeros(3)
         for corner, weight in zip(self._surface.faces[place.face], place.weights, strict=True):
@@ -118,13 +119,15 @@ class PlaneWalk:
                 weights[self._surface.faces[face] == corner] = weight
         return weights
 
-    def _position(self, place: SurfacePoint) -> np.ndarray:
-        return np.array(place.weights) @ self._surface.vertices[self._surface.faces[place.face]]
+    def _position(self, place: SurfacePoint) -> FloatArray:
+        position: FloatArray = np.array(place.weights) @ self._surface.vertices[self._surface.faces[place.face]]
+        return position
 
-    def _normal(self, faces: list[int]) -> np.ndarray:
+    def _normal(self, faces: list[int]) -> FloatArray:
         a, b, c = self._surface.vertices[self._surface.faces[faces]].swapaxes(0, 1)
         normal = np.cross(b - a, c - a).sum(axis=0)
-        return normal / max(float(np.linalg.norm(normal)), 1e-300)
+        unit: FloatArray = normal / max(float(np.linalg.norm(normal)), 1e-300)
+        return unit
 
     def _length(self, step: Step) -> float:
         face, start, stop = step
@@ -134,7 +137,7 @@ class PlaneWalk:
 class _Heights(dict[int, float]):
     """Of vertices over a plane through a point, found when they are asked for: a way meets few of a surface's."""
 
-    def __init__(self, vertices: np.ndarray, point: np.ndarray, normal: np.ndarray) -> None:
+    def __init__(self, vertices: FloatArray, point: FloatArray, normal: FloatArray) -> None:
         self._vertices, self._point, self._normal = vertices, point, normal
 
     def __missing__(self, vertex: int) -> float:

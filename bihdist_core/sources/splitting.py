@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..surface import Surface
 from .edge_faces import EdgeFaces
 from .pieces import Pieces
@@ -23,11 +24,11 @@ class Split:
 
     whole: Surface
     surface: Surface
-    vertices: np.ndarray
-    parents: np.ndarray
-    corners: np.ndarray
+    vertices: IntArray
+    parents: IntArray
+    corners: FloatArray
 
-    def weights_in_parents(self, faces: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    def weights_in_parents(self, faces: IntArray, weights: FloatArray) -> FloatArray:
         """(k, 3) weights in the faces `parents[faces]` of places with weights (k, 3) in faces (k,) of this surface."""
         part = faces - (len(self.parents) - len(self.corners))
         found = weights.copy()
@@ -36,7 +37,7 @@ class Split:
         return found
 
 
-def split_at(surface: Surface, faces: np.ndarray, weights: np.ndarray, snap: float = SNAP) -> Split:
+def split_at(surface: Surface, faces: IntArray, weights: FloatArray, snap: float = SNAP) -> Split:
     """The surface divided so that the places in faces (k,), with weights (k, 3), are vertices.
 
     A point in a face divides it in three, one on an edge the faces at that edge in two each.  snap: weights below it
@@ -51,11 +52,11 @@ class _Division:
 
     def __init__(self, surface: Surface, snap: float) -> None:
         self._surface, self._snap = surface, snap
-        self._new: list[np.ndarray] = []
-        self._parts: dict[int, list[tuple[list[int], np.ndarray]]] = {}
+        self._new: list[FloatArray] = []
+        self._parts: dict[int, list[tuple[list[int], FloatArray]]] = {}
         self._edges = EdgeFaces(surface)
 
-    def result(self, vertices: np.ndarray) -> Split:
+    def result(self, vertices: IntArray) -> Split:
         old = self._surface
         whole = np.delete(np.arange(len(old.faces)), list(self._parts))
         if not self._parts:
@@ -67,7 +68,7 @@ class _Division:
         )
         return Split(old, divided, vertices, np.concatenate([whole, parents]), corners)
 
-    def put(self, face: int, weights: np.ndarray) -> int:
+    def put(self, face: int, weights: FloatArray) -> int:
         """The vertex at a place, new if there is none."""
         weights = np.where(weights < self._snap, 0, weights)
         weights = weights / weights.sum()
@@ -87,10 +88,10 @@ class _Division:
         self._new.append(weights @ self._surface.vertices[corners])
         return vertex
 
-    def _divide(self, face: int, at: np.ndarray, vertex: int) -> int | None:
+    def _divide(self, face: int, at: FloatArray, vertex: int) -> int | None:
         """Divide the parts of a face that hold a place; the vertex that is there already, if any."""
         parts = self._parts.get(face) or [(self._surface.faces[face].tolist(), np.eye(3))]
-        divided: list[tuple[list[int], np.ndarray]] = []
+        divided: list[tuple[list[int], FloatArray]] = []
         for ids, where in parts:
             inside = np.linalg.solve(where.T, at)
             inside[np.abs(inside) < self._snap] = 0
@@ -99,7 +100,7 @@ class _Division:
                 continue
             used = np.flatnonzero(inside)
             if len(used) == 1:
-                return ids[used[0]]
+                return int(ids[used[0]])
             for k in used:
                 moved, there = list(ids), where.copy()
                 moved[k], there[k] = vertex, at
