@@ -16,8 +16,7 @@ import bihdist_core as _library
 if TYPE_CHECKING:
     from bihdist_core import *  # noqa: F403
 
-    from .figures.picture import figure as figure
-    from .figures.picture import figure_again as figure_again
+    from .figures.picture import figure as figure, figure_again as figure_again
     from .qt.show import show as show
 
 __all__ = [*_library.__all__, "figure", "figure_again", "show"]  # type: ignore[attr-defined]

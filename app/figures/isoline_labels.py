@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..scene.field_actor import CASING
-from ..scene.line_labels import Contour, Label
-from ..scene.line_labels import labelled as labelled_lines
+from ..scene.line_labels import Contour, Label, labelled as labelled_lines
 from ..scene.style import RIM
 from .description import Figure
 from .layout import Layout

@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from bihdist_core import Surface
-from bihdist_core.experiments import Mark as ExperimentMark
-from bihdist_core.experiments import Panel, Result
+from bihdist_core.experiments import Mark as ExperimentMark, Panel, Result
 from bihdist_core.experiments.result import MARKS
 
 from ..document.camera import Camera, View

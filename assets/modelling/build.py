@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import beast, elephant, hand, hare, horse, octopus, person, rings
-from .beast_bones import BONES as BEAST_BONES
-from .beast_bones import SECOND_POSE as BEAST_POSE
+from .beast_bones import BONES as BEAST_BONES, SECOND_POSE as BEAST_POSE
 from .domain import domain
 from .part import part
 from .pose import posed

@@ -5,8 +5,7 @@ import shlex
 from dataclasses import fields, replace
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 import app
 from app.commands.figure_options import add_figure_options, chosen_recipe

@@ -6,8 +6,7 @@ import shutil
 import numpy as np
 import pytest
 
-from app.paper import reproduce as reproducing
-from app.paper import verdicts
+from app.paper import reproduce as reproducing, verdicts
 from app.paper.charts import chart_svg
 from app.paper.page import Section, page
 from app.paper.pictures import figures

@@ -9,8 +9,7 @@ import pytest
 
 from bihdist_core import Cancelled, Laplacian, ParameterError, SolverError, laplacian
 from bihdist_core.child_process import SERVED, ChildProcess, framed
-from bihdist_core.solver import aside as aside_module
-from bihdist_core.solver import spectrum
+from bihdist_core.solver import aside as aside_module, spectrum
 from bihdist_core.solver.aside import _packed, aside
 from bihdist_core.solver.spectrum import is_long
 from bihdist_core.solver.worker_threads import without_workers

@@ -5,8 +5,15 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, Correspondence, GeodesicDistance, ParameterError, Surface, VertexError
-from bihdist_core import correspondence_prediction as prediction
+from bihdist_core import (
+    BiharmonicDistance,
+    Correspondence,
+    GeodesicDistance,
+    ParameterError,
+    Surface,
+    VertexError,
+    correspondence_prediction as prediction,
+)
 from tests.shapes import bumpy, components_apart, two_pieces
 
 PAIRS = np.array([[3, 3], [77, 77], [140, 140]])

@@ -4,8 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, SurfacePoint, source_from_words
 from bihdist_core.sources.source import checked_source
