@@ -19,10 +19,11 @@ from ..scene.style import RIM, Colour
 from .axes import draw_axes
 from .description import Figure
 from .fonts import families, has_cff_outlines
+from .glyphs import POINT
 from .isoline_labels import draw_labels
 from .layout import Layout
 from .legend import draw_legend
-from .marks import POINT, draw_frames, draw_marks
+from .marks import draw_frames, draw_marks
 from .shots import Line, Shot
 from .simplified import simplified
 from .strokes import strokes_on

@@ -10,44 +10,12 @@ from ..document.camera import View, checked_view
 from ..document.document import Zoom
 from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
 from ..document.page import TITLES
+from ..marks.primitives import PointMark
 from ..scene.camera import is_flat
 from ..scene.source_lines import SourceLine
 from ..scene.style import PAPER, Style
 from .fonts import check_font
 from .size import Size
-
-
-@dataclass(frozen=True)
-class Mark:
-    """A marked vertex: a source, or an anchor, which has a value and is filled with that value's colour.
-
-    is_largest: where a signed field is largest, in a colour of its own.  is_passed: an isoline passes through it, and
-    has a dot there.  corners, weights: a place in a face, of which the vertex is a corner.  name: in sentences,
-    its vertex if empty.  number, colour: of a pin, which is a drop with that number in a colour such as "#1F7A3D".
-    is_candidate: it is where a pin would be, and dashed.  is_truth: where such a point belongs, which is a cross.
-    extremum: "maximum" or "minimum", which is a triangle; "" for what is none.  ball: the colour of a filled disc, as
-    of a point that is sought; diamond: the colour of a diamond, as of what was found for it.
-    """
-
-    vertex: int
-    value: float | None = None
-    text: str = ""
-    is_largest: bool = False
-    is_passed: bool = False
-    corners: tuple[int, ...] = ()
-    weights: tuple[float, ...] = ()
-    name: str = ""
-    number: int | None = None
-    colour: str = ""
-    extremum: str = ""
-    is_candidate: bool = False
-    is_truth: bool = False
-    ball: str = ""
-    diamond: str = ""
-
-    def on(self, vertices: np.ndarray) -> np.ndarray:
-        """(3,) where it is on a surface with these vertices (n, 3)."""
-        return np.array(self.weights) @ vertices[list(self.corners)] if self.corners else vertices[self.vertex]
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +44,7 @@ class FigurePanel:
     isolines: Isolines = TWENTY_STEPS
     through: tuple[float, ...] = ()
     views: tuple[View, ...] = ("home",)
-    marks: tuple[Mark, ...] = ()
+    marks: tuple[PointMark, ...] = ()
     zooms: tuple[Zoom, ...] = ()
     height: float = 0.0
     failure: str = ""
@@ -128,7 +96,7 @@ class FigurePanel:
         return float(np.nanmax(np.abs(self.field) if self.signed else self.field, initial=0.0))
 
 
-Entry = tuple[Mark, str]
+Entry = tuple[PointMark, str]
 """Of a legend: a mark, whose vertex does not matter, and what such marks stand for."""
 
 USUAL = Size()

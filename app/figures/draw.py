@@ -15,13 +15,13 @@ from bihdist_core.whole_file import check_output, whole_file
 from ..document.document import Zoom
 from .canvas import Composition
 from .composition import KeptWords, page_pixels, write_vector
-from .description import Figure, FigurePanel, Mark
+from .description import Figure, FigurePanel
 from .layout import lay_out
 from .marks import hidden_words
 from .raster import check_offscreen
 from .shots import RenderCache, take_shots
 
-__all__ = ["FIGURE_FORMATS", "Figure", "FigurePanel", "Mark", "Zoom", "check_offscreen", "draw_figure", "save_figure"]
+__all__ = ["FIGURE_FORMATS", "Figure", "FigurePanel", "Zoom", "check_offscreen", "draw_figure", "save_figure"]
 
 FIGURE_FORMATS = (".png", ".pdf", ".svg", ".eps")
 

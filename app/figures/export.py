@@ -25,11 +25,13 @@ from ..document.perturbation import COLUMNS, changed_mesh
 from ..document.profile import shows_path
 from ..document.selections import Selections, vertices_of
 from ..document.source_edits import members_of
+from ..marks.glyphs import DOT, PIN, RING, TRIANGLE_DOWN, TRIANGLE_UP
+from ..marks.primitives import PointMark
 from ..scene.levels import in_unit
 from ..scene.selected import selected_colours
 from ..scene.source_lines import SourceLine, source_lines
 from ..scene.style import PINS, style_of
-from ..session.anchors import anchor_value, anchors_on
+from ..session.anchors import anchors_on
 from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
 from ..session.extrema import extrema_of
@@ -42,7 +44,7 @@ from ..session.profiling import path_of
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from ..session.regions import regions_of, regions_questions
-from .description import Figure, FigurePanel, Mark
+from .description import Figure, FigurePanel
 from .draw import FIGURE_FORMATS, check_offscreen, check_transparency, save_figure
 from .pair_marks import pair_marks, plain_heading
 from .size import Size
@@ -230,7 +232,7 @@ def _figure_panel(recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answ
             *_extremum_marks(document, panel, surface, answer),
             *_dots(through, answer),
             *_source_marks(starts, surface),
-            *_anchor_marks(recipe, panel, loaded, answer),
+            *_anchor_marks(recipe, panel, loaded),
             *_largest(answer),
             *_pin_marks(document, panel, surface),
             *pair_marks(document, panel, loaded, answer),
@@ -293,13 +295,13 @@ def _region_lines(document: Document, panel: Panel, loaded: LoadedMesh) -> tuple
     return tuple(SourceLine(curve.corners, curve.weights, curve.closed) for curve in curves)
 
 
-def _extremum_marks(document: Document, panel: Panel, surface: Surface, answer: Answer) -> list[Mark]:
+def _extremum_marks(document: Document, panel: Panel, surface: Surface, answer: Answer) -> list[PointMark]:
     """Where the document says so: the same as the window's."""
     found = extrema_of(questions(document)[panel.id], surface, answer) if document.extrema else None
     if found is None:
         return []
-    minima = [Mark(vertex, extremum="minimum") for vertex in found.minima.tolist()]
-    return minima + [Mark(vertex, extremum="maximum") for vertex in found.maxima.tolist()]
+    minima = [PointMark(vertex, TRIANGLE_DOWN) for vertex in found.minima.tolist()]
+    return minima + [PointMark(vertex, TRIANGLE_UP) for vertex in found.maxima.tolist()]
 
 
 def _source_lines(starts: Sequence[Source], surface: Surface) -> tuple[SourceLine, ...]:
@@ -319,57 +321,57 @@ def _line_in_words(member: BoundaryLoop | Curve) -> str:
     return f"The {'closed ' if member.closed else ''}curve of {len(member.places):,} points"
 
 
-def _source_marks(starts: Sequence[Source], surface: Surface) -> list[Mark]:
+def _source_marks(starts: Sequence[Source], surface: Surface) -> list[PointMark]:
     """A mark for each vertex and place."""
-    marks: list[Mark] = []
+    marks: list[PointMark] = []
     for start in starts:
         points = pieces_of(start, surface).points
         for face, corners, weights in zip(points.faces.tolist(), points.corners, points.start, strict=True):
             vertex = int(corners[weights.argmax()])
             is_vertex = weights.max() == 1
             if is_vertex:
-                marks.append(Mark(vertex))
+                marks.append(PointMark(vertex))
                 continue
             place = SurfacePoint(face, tuple(weights.tolist()))
             at = (tuple(corners.tolist()), place.weights)
-            marks.append(Mark(vertex, corners=at[0], weights=at[1], name=f"The place {short_words_of(place)}"))
+            marks.append(PointMark(vertex, corners=at[0], weights=at[1], name=f"The place {short_words_of(place)}"))
     return marks
 
 
-def _dots(through: Sequence[IsolinePoint], answer: Answer) -> list[Mark]:
+def _dots(through: Sequence[IsolinePoint], answer: Answer) -> list[PointMark]:
     """On isolines through points; see `scene.levels` on the values that have one."""
     low = -answer.maximum if answer.is_signed else 0.0
     on_lines = [point for point in through if low < point.value < answer.maximum]
-    return [Mark(p.vertices[0], is_passed=True, corners=p.vertices, weights=p.weights) for p in on_lines]
+    return [PointMark(p.vertices[0], DOT, corners=p.vertices, weights=p.weights) for p in on_lines]
 
 
-def _largest(answer: Answer) -> list[Mark]:
+def _largest(answer: Answer) -> list[PointMark]:
     """The place of the largest difference, with its value and name."""
     vertex = answer.largest
     if vertex is None or answer.field is None:
         return []
     value, percent = float(answer.field[vertex]), " %" if answer.scale == 100 else ""
-    return [Mark(vertex, text=f"{value:+.3g}{percent} at {vertex}".replace("-", "−"), is_largest=True)]
+    return [PointMark(vertex, colour="largest", text=f"{value:+.3g}{percent} at {vertex}".replace("-", "−"))]
 
 
-def _anchor_marks(recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[Mark]:
+def _anchor_marks(recipe: Recipe, panel: Panel, loaded: LoadedMesh) -> list[PointMark]:
     found = anchors_on(recipe.document, panel.surface, loaded)
     has_words = recipe.page.anchor_values
     return [
-        Mark(
+        PointMark(
             vertex,
-            anchor_value(value, vertex, answer),
+            RING,
             text=f"{value:.4g}".replace("-", "−") if has_words and value is not None else "",
         )
         for vertex, value in found
     ]
 
 
-def _pin_marks(document: Document, panel: Panel, surface: Surface) -> list[Mark]:
+def _pin_marks(document: Document, panel: Panel, surface: Surface) -> list[PointMark]:
     marks = []
     for pinned in located_pins(document, panel.surface, surface):
         vertex = pinned.vertex if pinned.vertex is not None else int(pinned.corners[pinned.weights.argmax()])
-        mark = Mark(vertex, number=pinned.number, colour=PINS[pinned.pin.colour])
+        mark = PointMark(vertex, PIN, PINS[pinned.pin.colour], number=pinned.number)
         if pinned.vertex is None:
             mark = replace(mark, corners=tuple(pinned.corners.tolist()), weights=tuple(pinned.weights.tolist()))
         marks.append(mark)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..marks.primitives import PointMark
 from ..scene.corners import SIDE
 from ..scene.style import PAPER
 from . import bars
 from .bars import Bar
 from .boxes import Box, Words
-from .description import Figure, Mark
-from .drops import overhang
+from .description import Figure
 from .framing import Seen, height_for, seen, shown_surface
 from .grid import VIEW_HEIGHT, Grid, grid_of, most_views, view_width
 from .inset_places import insets_of
@@ -89,7 +89,7 @@ class Layout:
     shared_bar: Bar | None
     stroke: float
     mark: float
-    legend: tuple[tuple[Mark, float, float, Words], ...] = ()
+    legend: tuple[tuple[PointMark, float, float, Words], ...] = ()
 
     @property
     def smallest(self) -> float:
@@ -102,9 +102,11 @@ class Layout:
 def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> Layout:
     """The figure's layout, at its own resolution or at least at `least_scale`; or the same at a share of it."""
     layout = _laid_out(figure, least_scale, share)
+    from .overhang import overhang  # which measures in a layout
+
     above, beside = overhang(figure, layout)
     if above or (beside > MARGIN and figure.crop):
-        # Drops of pins have room at the edges, too.
+        # Markers of pins have room at the edges, too.
         layout = _laid_out(figure, least_scale, share, above, beside)
     if figure.legend:
         from .legend import with_legend  # which draws, with what needs a layout
@@ -292,7 +294,7 @@ class _Sizes:
             wide[column] = max(wide[column], sum(w for w, _, _ in shapes))
             tall[row] = max(tall[row], *(h for _, h, _ in shapes))
             views[column] = max(views[column], len(shapes))
-        # Drops of two panels meet between them; pages without a legend stay as they were.
+        # Markers of two panels meet between them; pages without a legend stay as they were.
         beside = self.pad if figure.legend else self.pad - MARGIN
         gap, least = max(8 * texts.factor, 2 * beside), 90.0 * min(texts.factor, 1.0)
         bound = grid.width - strip.width - 2 * self.pad - gap * (grid.columns - 1)

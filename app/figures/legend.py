@@ -6,8 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .boxes import Words
-from .drops import head_radius
-from .marks import draw_sample
+from .glyphs import draw_glyph
 from .words_and_bars import write
 
 if TYPE_CHECKING:
@@ -50,12 +49,13 @@ def with_legend(figure: Figure, layout: Layout) -> Layout:
 
 def _reach(figure: Figure, layout: Layout) -> float:
     """Half of what the largest mark of the legend is across."""
-    has_drops = any(mark.number is not None for mark, _ in figure.legend)
-    return max(0.72 * layout.mark, 3.5, 1.6 * head_radius(layout) if has_drops else 0.0)
+    standing = [mark.glyph.reach_of(layout.mark, layout.label) for mark, _ in figure.legend if mark.glyph.rise]
+    return max(0.72 * layout.mark, 3.5, *(1.6 * reach for reach in standing))
 
 
 def draw_legend(axes: Axes, page: Composition, order: int) -> None:
     """The legend of a page, if it has one."""
     for mark, x, y, words in page.layout.legend:
-        draw_sample(axes, page, mark, x, y, order)
+        lower = mark.glyph.rise * mark.glyph.reach_of(page.layout.mark, page.layout.label) / 2
+        draw_glyph(axes, page, mark, (x, y + lower), False, order)
         write(axes, page, words, order + 2)

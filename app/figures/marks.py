@@ -7,34 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..marks.glyphs import TRIANGLE_DOWN, TRIANGLE_UP
+from ..marks.primitives import PointMark
 from ..scene.corners import Rectangle, inside, joins
-from ..scene.marks import DOT
-from ..scene.source_disc import DASHED, DASHES, HALO, RIM
 from .boxes import Box, Words
-from .crosses import cross_of
-from .description import Mark
-from .diamonds import solid_of
-from .drops import RISE, drop_of, head_radius
+from .glyphs import POINT, draw_glyph
 from .shots import Shot
-from .triangles import triangle_of
 
 if TYPE_CHECKING:
-    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from .canvas import Composition
 
-POINT = 0.75
-"""Points in a unit."""
-
 MOST_NAMED = 3
 """So many hidden marks have a sentence each."""
-
-LEAST_DOT = 4.0
-"""Units across."""
-
-LEAST_GHOST = 7.5
-"""Units across, at which dashes are still told apart."""
 
 GROUND = 0.8
 """How much of what is under words their ground covers."""
@@ -43,87 +29,48 @@ GROUND = 0.8
 def draw_marks(
     axes: Axes, page: Composition, shot: Shot, order: int, frame, write: Callable[[Words, int], None]
 ) -> None:
-    """Those of one picture: discs, rings with a halo at anchors, dashed rings where they are hidden."""
-    style, panel = page.figure.style, page.figure.panels[shot.panel]
-    across = page.layout.mark
+    """Those of one picture with the words beside them, and over all others those that stand above their places."""
+    marks, across = page.figure.panels[shot.panel].marks, page.layout.mark
     insets = [other.box for other in page.shots if other.panel == shot.panel and other.source is not None]
     insets = [box for box in insets if shot.source is None]
+    placed = [(marks[k], True, x, y) for k, x, y in shot.ghosts] + [(marks[k], False, x, y) for k, x, y in shot.marks]
     written: list[Box] = []
-    for k, x, y in shot.ghosts:
-        if panel.marks[k].number is not None or any(box.holds(x, y, across / 2) for box in insets):
-            continue
-        if panel.marks[k].extremum:
-            for patch in triangle_of(page, panel.marks[k], x, y, True, order):
-                axes.add_artist(patch)
-            continue
-        if panel.marks[k].is_truth:
-            cross_of(axes, page, x, y, True, order)
-            continue
-        if panel.marks[k].ball or panel.marks[k].diamond:
-            for patch in solid_of(page, panel.marks[k], x, y, True, order):
-                axes.add_artist(patch)
-            continue
-        _draw_ghost(axes, x, y, across, style, order)
-    for k, x, y in shot.marks:
+    for mark, is_hidden, x, y in placed:
+        stands = mark.glyph.rank > 0
         if any(box.holds(x, y, across / 2) for box in insets):
             continue
-        mark = panel.marks[k]
-        if mark.is_passed:
-            dot = _disc(x, y, max(DOT * across, LEAST_DOT), style.source, style.mark_edge, order)
-            axes.add_artist(dot)
-            if shot.source is not None:
-                dot.set_clip_path(frame)
-            continue
-        if mark.number is not None:
-            _write_beside(axes, page, shot, mark, (x, y), insets, written, order + 2, write)
-            continue
-        if mark.extremum or mark.ball or mark.diamond:
-            for patch in (triangle_of if mark.extremum else solid_of)(page, mark, x, y, False, order):
-                axes.add_artist(patch)
-                if shot.source is not None:
-                    patch.set_clip_path(frame)
-            continue
-        if mark.is_truth:
-            for line in cross_of(axes, page, x, y, False, order):
-                if shot.source is not None:
-                    line.set_clip_path(frame)
-            continue
-        colour = style.largest if mark.is_largest else style.source
-        if mark.value is not None:
-            patches = _anchor(x, y, across, style.mark_edge, order)
-        else:
-            patches = [_disc(x, y, across, colour, style.mark_edge, order)]
-        for patch in patches:
-            axes.add_artist(patch)
-            if shot.source is not None:
-                patch.set_clip_path(frame)
-        _write_beside(axes, page, shot, mark, (x, y), insets, written, order + 1, write)
-    _draw_pins(axes, page, shot, order + 1, frame, insets)
+        if not stands:
+            _draw(axes, page, shot, mark, (x, y), is_hidden, order, frame)
+        if not is_hidden:
+            _write_beside(axes, page, shot, mark, (x, y), insets, written, order + 2 if stands else order + 1, write)
+    standing = [each for each in placed if each[0].glyph.rank > 0]
+    standing.sort(key=lambda each: (each[0].glyph.rank, not each[1], -(each[0].number or 0)))
+    for rank, (mark, is_hidden, x, y) in enumerate(standing):
+        if not any(box.holds(x, y) for box in insets):
+            # Each with its numeral below the next.
+            _draw(axes, page, shot, mark, (x, y), is_hidden, order + 1 + rank / len(standing), frame)
 
 
-def draw_sample(axes: Axes, page: Composition, mark: Mark, x: float, y: float, order: int) -> None:
-    """A mark as in a legend: in the middle of its place, with no picture around it."""
-    style, across = page.figure.style, page.layout.mark
-    if mark.number is not None:
-        drop_of(axes, page, mark, x, y + RISE * head_radius(page.layout) / 2, False, order)
-    elif mark.is_truth:
-        cross_of(axes, page, x, y, False, order)
-    else:
-        if mark.extremum:
-            patches = triangle_of(page, mark, x, y, False, order)
-        elif mark.ball or mark.diamond:
-            patches = solid_of(page, mark, x, y, False, order)
-        else:
-            patches = [_disc(x, y, across, style.source, style.mark_edge, order)]
-        for patch in patches:
-            axes.add_artist(patch)
+def _draw(
+    axes: Axes,
+    page: Composition,
+    shot: Shot,
+    mark: PointMark,
+    at: tuple[float, float],
+    is_hidden: bool,
+    order: float,
+    frame,
+) -> None:
+    for part in draw_glyph(axes, page, mark, at, is_hidden, order):
+        if shot.source is not None and not is_hidden:
+            part.set_clip_path(frame)
 
 
 def _write_beside(
     axes: Axes,
     page: Composition,
     shot: Shot,
-    mark: Mark,
+    mark: PointMark,
     place: tuple[float, float],
     insets: list[Box],
     written: list[Box],
@@ -136,50 +83,6 @@ def _write_beside(
         written.append(_box_of(page, words))
         _draw_ground(axes, page, written[-1], order)
         write(words, order)
-
-
-def _draw_pins(axes: Axes, page: Composition, shot: Shot, order: int, frame, insets: list[Box]) -> None:
-    """Over all else: the hidden ones below the others, and the first on top, but for a candidate."""
-    marks = page.figure.panels[shot.panel].marks
-    drops = [(mark[0], True, *mark[1:]) for mark in shot.ghosts] + [(mark[0], False, *mark[1:]) for mark in shot.marks]
-    drops = [drop for drop in drops if marks[drop[0]].number is not None]
-    drops.sort(key=lambda drop: (marks[drop[0]].is_candidate, not drop[1], -(marks[drop[0]].number or 0)))
-    for rank, (k, is_hidden, x, y) in enumerate(drops):
-        if any(box.holds(x, y) for box in insets):
-            continue
-        # Each with its numeral below the next.
-        for part in drop_of(axes, page, marks[k], x, y, is_hidden, order + rank / len(drops)):
-            if shot.source is not None:
-                part.set_clip_path(frame)
-
-
-def _disc(x: float, y: float, across: float, colour, edge, order: int) -> Artist:
-    from matplotlib.patches import Circle
-
-    rim = max(RIM * across, 0.5)
-    look = {"facecolor": colour, "edgecolor": edge, "linewidth": rim * POINT}
-    return Circle((x, y), across / 2 - rim / 2, zorder=order, **look)
-
-
-def _anchor(x: float, y: float, across: float, edge, order: int) -> list:
-    """A dark ring on a white disc, which is its halo, too."""
-    from matplotlib.patches import Annulus, Circle
-
-    halo = Circle((x, y), across / 2, facecolor="white", linewidth=0, zorder=order)
-    width = 0.165 * across
-    return [halo, Annulus((x, y), 0.25 * across + width, width, facecolor=edge, linewidth=0, zorder=order)]
-
-
-def _draw_ghost(axes: Axes, x: float, y: float, across: float, style, order: int) -> None:
-    """A hollow, dashed circle: light under dark, to be seen on every colour."""
-    from matplotlib.patches import Circle
-
-    across = max(across, LEAST_GHOST)
-    width = max(DASHED * across, 0.7)
-    light = {"edgecolor": style.background, "linewidth": HALO * width * POINT}
-    dark = {"edgecolor": style.text, "linewidth": width * POINT, "linestyle": (0, DASHES)}
-    for look in (light, dark):
-        axes.add_artist(Circle((x, y), across / 2 - width / 2, fill=False, zorder=order, **look))
 
 
 def _beside(page: Composition, shot: Shot, text: str, place: tuple[float, float], taken: list[Box]) -> Words | None:
@@ -296,7 +199,11 @@ def hidden_words(page: Composition) -> list[str]:
         names = " and ".join(view if isinstance(view, str) else "of the camera" for view in panel.views)
         views = f"the view {names}" if len(panel.views) == 1 else f"the views {names}"
         # Of extrema there may be dozens, on all sides.
-        marks = [mark for mark in map(panel.marks.__getitem__, sorted(hidden)) if not mark.extremum]
+        marks = [
+            mark
+            for mark in map(panel.marks.__getitem__, sorted(hidden))
+            if mark.glyph not in (TRIANGLE_UP, TRIANGLE_DOWN)
+        ]
         for what in ("ring", "pin marker"):
             some = [mark for mark in marks if (mark.number is None) == (what == "ring")]
             rest = f"hidden in {views}: a dashed {what}; try --view source or --two-views."
@@ -312,5 +219,5 @@ def hidden_words(page: Composition) -> list[str]:
     return list(found)
 
 
-def _named(mark: Mark) -> str:
+def _named(mark: PointMark) -> str:
     return mark.name or (f"Pin {mark.number}" if mark.number is not None else f"Vertex {mark.vertex}")

@@ -8,28 +8,29 @@ from ..document.document import Document, Panel
 from ..document.maps import Maps, Truth
 from ..document.pairs import pair_words, waiting_point
 from ..document.prediction import predicts_in
+from ..marks.glyphs import CANDIDATE, CROSS, PIN
+from ..marks.primitives import PointMark
 from ..scene.style import PINS, WAITING
 from ..session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
 from ..session.loaded_mesh import LoadedMesh
 from ..session.pair_locations import candidate_in, located_pair_points
-from .description import Mark
 
 
-def pair_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[Mark]:
+def pair_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[PointMark]:
     """Those on a panel's surface, and the best candidate of its answer."""
     marks = []
     for each in located_pair_points(document, panel.surface, loaded):
         colour = WAITING if each.is_waiting else PINS[each.pair.colour]
-        marks.append(Mark(each.vertex, number=each.number, colour=colour, name=f"Point {each.number}"))
+        marks.append(PointMark(each.vertex, PIN, number=each.number, colour=colour, name=f"Point {each.number}"))
     found = candidate_in(document, panel, answer)
     if found is not None:
         judged = _judged(document, panel, loaded, answer, found.vertex)
         name = f"The place where point {found.number} belongs"
-        marks += [Mark(vertex, name=name, is_truth=True) for vertex in judged.places]
+        marks += [PointMark(vertex, CROSS, name=name) for vertex in judged.places]
         off = judged.errors.get(panel.id)
         said = f"{100 * found.share:.1f} %" if off is None else f"{100 * off:.1f} % off"
         words, name = f"{found.vertex}, {said}", f"The candidate for point {found.number}"
-        marks.append(Mark(found.vertex, text=words, number=found.number, colour=WAITING, name=name, is_candidate=True))
+        marks.append(PointMark(found.vertex, CANDIDATE, WAITING, words, found.number, name=name))
     return marks
 
 

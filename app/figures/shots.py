@@ -14,13 +14,14 @@ from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
+from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
 from ..scene.drawable import drawable, normals_shading, outward_faces
 from ..scene.levels import levels, too_many
 from ..scene.line_labels import Contour, Line
 from ..scene.source_lines import SourceLine
 from ..scene.style import Style
-from .description import Figure, Mark
+from .description import Figure
 from .framing import Framed, shown_surface
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
@@ -270,11 +271,11 @@ class _Taker:
             per_unit = self._projection.pixel_at(depth, self._box.width)
             nearer = point + self._normal(mark) * per_unit * 0.67 * self._lift
             is_seen = self._sight.sees(point) or self._sight.sees(nearer)
-            if is_seen or not mark.is_passed:
+            if is_seen or mark.glyph.hidden is not None:
                 (seen if is_seen else hidden).append((k, float(x), float(y)))
         return seen, hidden
 
-    def _normal(self, mark: Mark) -> np.ndarray:
+    def _normal(self, mark: PointMark) -> np.ndarray:
         faces = self._surface.faces
         there = np.isin(faces, mark.corners).all(axis=1) if mark.corners else (faces == mark.vertex).any(axis=1)
         corners = self._surface.vertices[faces[there]]

@@ -12,8 +12,8 @@ from ..scene.levels import BOLD, levels
 from ..scene.style import RIM, Colour
 from .bars import TICK, Bar
 from .boxes import Box, Words
+from .glyphs import POINT
 from .layout import Cell
-from .marks import POINT
 from .words import LINE
 
 if TYPE_CHECKING:

@@ -12,9 +12,11 @@ from bihdist_core.experiments.result import MARKS
 from ..document.camera import Camera, View
 from ..document.looks import Isolines
 from ..figures.description import Entry
-from ..figures.draw import Figure, FigurePanel, Mark
+from ..figures.draw import Figure, FigurePanel
 from ..figures.framing import seen
 from ..figures.size import Size
+from ..marks.glyphs import BALL, CROSS, DIAMOND, DISC, PIN, TRIANGLE_DOWN, TRIANGLE_UP
+from ..marks.primitives import PointMark
 from ..scene.camera import directions, outwards_at
 from ..scene.style import PAPER
 
@@ -176,8 +178,20 @@ def _close_up(surface: Surface, vertex: int, radius: float, up: str) -> View:
 
 
 # ---------------------------------------------------------------------- marks
-def _marks(marks: Sequence[ExperimentMark]) -> tuple[Mark, ...]:
-    """Each kind in a shape and colour of its own; anchors are numbered in their order."""
+GLYPHS = {
+    "source": (DISC, "source"),
+    "anchor": (PIN, ANCHOR),
+    "target": (BALL, TARGET),
+    "candidate": (DIAMOND, CANDIDATE),
+    "place": (CROSS, ""),
+    "minimum": (TRIANGLE_DOWN, ""),
+    "maximum": (TRIANGLE_UP, ""),
+}
+"""The shape and the colour of each kind."""
+
+
+def _marks(marks: Sequence[ExperimentMark]) -> tuple[PointMark, ...]:
+    """Anchors are numbered in their order."""
     anchors = [mark.vertex for mark in marks if mark.kind == "anchor"]
     return tuple(
         _mark(mark.kind, mark.vertex, anchors.index(mark.vertex) + 1 if mark.kind == "anchor" else None)
@@ -185,16 +199,8 @@ def _marks(marks: Sequence[ExperimentMark]) -> tuple[Mark, ...]:
     )
 
 
-def _mark(kind: str, vertex: int, number: int | None = None) -> Mark:
-    if kind == "anchor":
-        return Mark(vertex, number=number, colour=ANCHOR)
-    if kind in ("minimum", "maximum"):
-        return Mark(vertex, extremum=kind)
-    if kind == "target":
-        return Mark(vertex, ball=TARGET)
-    if kind == "candidate":
-        return Mark(vertex, diamond=CANDIDATE)
-    return Mark(vertex, is_truth=kind == "place")
+def _mark(kind: str, vertex: int, number: int | None = None) -> PointMark:
+    return PointMark(vertex, *GLYPHS[kind], number=number)
 
 
 def _legend(panels: Sequence[Panel]) -> tuple[Entry, ...]:

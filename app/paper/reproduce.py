@@ -22,8 +22,9 @@ from bihdist_core.formats.mesh_io import MESH_FORMATS
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import whole_file
 
-from ..figures.draw import Figure, FigurePanel, Mark, check_offscreen
+from ..figures.draw import Figure, FigurePanel, check_offscreen
 from ..figures.size import Size
+from ..marks.primitives import PointMark
 from ..samples import SAMPLES
 from ..session.questions import first_source
 from .charts import chart_svg
@@ -280,7 +281,7 @@ def _on_sheet(surface: Surface, up: str, parts: Parts) -> FigurePanel:
         return FigurePanel(surface, None, surface.name, failure=parts.why(name), up=up)
     if answer.failure:
         parts.note(name, answer.failure)
-    return FigurePanel(surface, answer.field, surface.name, marks=(Mark(source),), failure=answer.failure, up=up)
+    return FigurePanel(surface, answer.field, surface.name, marks=(PointMark(source),), failure=answer.failure, up=up)
 
 
 def _biharmonic(surface: Surface, source: int) -> Answer:

@@ -89,6 +89,13 @@ class Style:
         share = np.clip(value / top, -1 if signed else 0, 1) if top > 0 else 0.0
         return self.colours_at(np.array([share]), signed)[0]
 
+    def named(self, name: str) -> Colour:
+        """A colour such as "#1F7A3D", "white", or that of one of the fields, such as "source"."""
+        if name.startswith("#"):
+            red, green, blue = (int(name[k : k + 2], 16) / 255 for k in (1, 3, 5))
+            return red, green, blue
+        return WHITE if name == "white" else getattr(self, name)
+
     def line(self, signed: bool = False, share: float = 0.0) -> Colour:
         """The colour of the isoline at a fraction of the maximum."""
         return self.signed_isoline if signed and share == 0 else self.isoline

@@ -14,6 +14,7 @@ from app.document.pairs import Pairs, add_pairs, place_point
 from app.document.prediction import predict
 from app.figures.draw import save_figure
 from app.figures.export import compute, figure_of, open_document
+from app.marks.glyphs import CANDIDATE, CROSS
 from app.session.array_store import ArrayStore
 from app.session.judging import Judging, asked_of, maps_of, partners_of, right_places, truth_of
 from bihdist_core import (
@@ -199,14 +200,14 @@ def test_a_figure_has_a_cross_where_the_point_belongs_and_says_how_far_off_the_c
     surfaces = {"A": one, "B": two}
     answers = compute(document, surfaces)
     figure = figure_of(Recipe(document), surfaces, answers)
-    assert not [mark for mark in figure.panels[0].marks if mark.is_truth]
+    assert not [mark for mark in figure.panels[0].marks if mark.glyph is CROSS]
     for panel, answer in zip(figure.panels[1:], answers[1:], strict=True):
-        assert [mark.vertex for mark in panel.marks if mark.is_truth] == [170]
+        assert [mark.vertex for mark in panel.marks if mark.glyph is CROSS] == [170]
         best = int(answer.field.argmin())
         error = GeodesicDistance(two.surface, "exact").between(170, best) / np.sqrt(two.surface.face_areas.sum())
-        assert f"{best}, {100 * error:.1f} % off" in [mark.text for mark in panel.marks if mark.is_candidate]
+        assert f"{best}, {100 * error:.1f} % off" in [mark.text for mark in panel.marks if mark.glyph is CANDIDATE]
     unknown = figure_of(Recipe(with_truth(document, Truth("none"))), surfaces, answers)
-    assert not [mark for panel in unknown.panels for mark in panel.marks if mark.is_truth]
+    assert not [mark for panel in unknown.panels for mark in panel.marks if mark.glyph is CROSS]
     for drawn, name in ((figure, "with.png"), (unknown, "without.png")):
         save_figure(drawn, str(tmp_path / name))
     assert (tmp_path / "with.png").read_bytes() != (tmp_path / "without.png").read_bytes()

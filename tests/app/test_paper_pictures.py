@@ -60,7 +60,7 @@ def test_marks_are_told_apart_by_shape_and_colour():
     kinds = {"source", "anchor", "target", "candidate", "place", "minimum", "maximum"}
     figure = only((Panel("all", "bumpy", FIELD, "row", tuple(Mark(k, kind) for k, kind in enumerate(sorted(kinds)))),))
     marks = figure.panels[0].marks
-    shapes = {(bool(m.number), bool(m.ball), bool(m.diamond), m.is_truth, m.extremum) for m in marks}
+    shapes = {mark.glyph for mark in marks}
     assert len(marks) == len(shapes) == len(figure.legend) == len(kinds)
     assert len({ANCHOR, TARGET, CANDIDATE}) == 3
 

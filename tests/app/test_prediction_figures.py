@@ -8,6 +8,7 @@ from app.document.file import read_recipe
 from app.document.pairs import Pairs
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
+from app.marks.glyphs import CANDIDATE
 from app.session.array_store import ArrayStore
 from bihdist_core import BiharmonicDistance, Correspondence, ParameterError, write_mesh
 from bihdist_core.formats.vertex_maps import read_pairs, write_pairs
@@ -43,7 +44,7 @@ def test_the_best_is_said_and_marked_and_a_recipe_draws_it_again(named, tmp_path
     document, surfaces = open_document(recipe, ArrayStore())
     first, second = figure_of(recipe, surfaces, compute(document, surfaces)).panels
     assert [mark.vertex for mark in first.marks] == [3, 20, 60, 130, 44]
-    (candidate,) = [mark for mark in second.marks if mark.is_candidate]
+    (candidate,) = [mark for mark in second.marks if mark.glyph is CANDIDATE]
     assert (candidate.vertex, candidate.number) == (best, 5)
     assert candidate.text.startswith(f"{best}, ")
     assert (first.heading, first.hint) == ("a.off", "Point 5, vertex 44, waits for its partner on B")

@@ -11,6 +11,7 @@ from app.document.edits import PANEL_EDITS, mark_extrema, move_source, possible_
 from app.document.pins import Pins, add_pins, remove_pins
 from app.document.quantities import OwnField, quantity
 from app.document.regions import DividedPanels, show_regions
+from app.marks.glyphs import TRIANGLE_DOWN, TRIANGLE_UP
 from app.session.quality import Quality
 from app.session.regions import Dividing, regions_questions
 from app.session.sampling import SamplesQuestion, Sampling
@@ -232,10 +233,11 @@ def test_figures_mark_the_extrema_where_the_document_says_so(watching):
     marked = figure_of(Recipe(mark_extrema(w.session.document), Page()), {"A": loaded}, answers)
     for question, before, after in zip(w.asked, plain.panels, marked.panels, strict=True):
         found = quality.found(question).extrema
-        assert not any(mark.extremum for mark in before.marks)
-        triangles = [(mark.vertex, mark.extremum) for mark in after.marks if mark.extremum]
-        assert [vertex for vertex, way in triangles if way == "maximum"] == found.maxima.tolist() != []
-        assert [vertex for vertex, way in triangles if way == "minimum"] == found.minima.tolist()
+        ways = (TRIANGLE_UP, TRIANGLE_DOWN)
+        assert not any(mark.glyph in ways for mark in before.marks)
+        triangles = [(mark.vertex, mark.glyph) for mark in after.marks if mark.glyph in ways]
+        assert [vertex for vertex, way in triangles if way is TRIANGLE_UP] == found.maxima.tolist() != []
+        assert [vertex for vertex, way in triangles if way is TRIANGLE_DOWN] == found.minima.tolist()
         assert len(after.marks) == len(before.marks) + len(triangles)
 
 

@@ -11,7 +11,7 @@ def texts(**how):
     picture = bihdist.figure((surface.vertices, surface.faces), ["interpolant by biharmonic"], **how)
     (panel,) = figure_of(picture._recipe, picture._surfaces, picture.answers).panels
     assert picture._recipe.page == Page(anchor_values=how.get("anchor_values", False))
-    return [mark.text for mark in panel.marks if not mark.is_largest]
+    return [mark.text for mark in panel.marks if mark.colour != "largest"]
 
 
 def test_they_stand_there_where_they_are_asked_for_and_there_is_one():

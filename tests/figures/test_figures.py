@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.figures.draw import Figure, FigurePanel, Mark, check_offscreen, draw_figure
+from app.figures.draw import Figure, FigurePanel, check_offscreen, draw_figure
 from app.figures.size import Size
+from app.marks.primitives import PointMark
 from app.scene.style import PAPER
 from bihdist_core import BihdistError
 from tests.shapes import bumpy, grid, two_pieces
@@ -74,7 +75,7 @@ def test_what_is_undefined_is_grey_and_has_no_lines():
 def test_panels_stand_side_by_side_and_scale_makes_all_larger():
     surface = bumpy(300)
     field = (surface.vertices[:, 0] + 2) / 4
-    mark = (Mark(0),)
+    mark = (PointMark(0),)
     panels = (
         FigurePanel(surface, field, "one", marks=mark),
         FigurePanel(surface, 1 - field, "two", "a hint", "a distance", "mesh units", marks=mark),

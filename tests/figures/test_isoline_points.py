@@ -10,6 +10,7 @@ from app.document.page import Recipe
 from app.figures.export import compute, figure_of, open_document
 from app.figures.layout import lay_out
 from app.figures.shots import take_shots
+from app.marks.glyphs import DOT
 from app.session.array_store import comparison_of_arrays
 from bihdist_core import SurfacePoint
 from bihdist_core.progress import silent
@@ -30,14 +31,14 @@ def test_a_dot_stands_where_the_line_passes_and_is_hidden_with_it():
     answers = compute(document, surfaces)
     figure = figure_of(Recipe(document), surfaces, answers)
     (panel,) = figure.panels
-    dots = [mark for mark in panel.marks if mark.is_passed]
+    dots = [mark for mark in panel.marks if mark.glyph is DOT]
     corners, field = ball.faces[place.face], answers[0].field
     assert panel.through == (field[front], field[back], field[corners] @ place.weights)
     assert np.allclose(dots[2].on(ball.vertices), place.weights @ ball.vertices[corners])
     (shot,) = take_shots(figure, lay_out(figure), silent)
-    seen = {k: (x, y) for k, x, y in shot.marks if panel.marks[k].is_passed}
+    seen = {k: (x, y) for k, x, y in shot.marks if panel.marks[k].glyph is DOT}
     assert sorted(seen) == [0, 2]  # the one at the back is not, and has no ghost
-    assert not any(panel.marks[k].is_passed for k, _, _ in shot.ghosts)
+    assert not any(panel.marks[k].glyph is DOT for k, _, _ in shot.ghosts)
     for k, at in seen.items():
         (line,) = (line for line in shot.isolines if line.value == panel.through[k])
         assert line.is_through

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from app.figures import raster
-from app.figures.draw import Figure, FigurePanel, Mark, Zoom, draw_figure, save_figure
+from app.figures.draw import Figure, FigurePanel, Zoom, draw_figure, save_figure
 from app.figures.layout import lay_out
 from app.figures.size import Size
+from app.marks.primitives import PointMark
 from app.scene.camera import Camera
 from app.scene.source_lines import source_lines
 from app.scene.style import DARK, PAPER, STYLES
@@ -160,12 +161,12 @@ def test_a_hidden_mark_is_a_ghost_and_is_spoken_of(ball, tmp_path):
     yellow = np.round(255 * np.array(PAPER.source))
     for views, seen in ((("front",), True), (("back",), False), (("back", "front"), True)):
         without = one(ball, field, views=views)
-        marked = one(ball, field, views=views, marks=(Mark(vertex),))
+        marked = one(ball, field, views=views, marks=(PointMark(vertex),))
         changed = (without != marked).any(axis=2)
         assert changed.any()
         has_yellow = (np.abs(marked - yellow) <= 20).all(axis=2).any()
         assert has_yellow == seen
-        panel = FigurePanel(ball, field, views=views, marks=(Mark(vertex),), heading="a name")
+        panel = FigurePanel(ball, field, views=views, marks=(PointMark(vertex),), heading="a name")
         said = save_figure(Figure((panel,), size=SIZE), tmp_path / "f.png")
         assert bool(said) == (not seen)
         if said:
@@ -224,7 +225,7 @@ def test_a_bad_panel_is_refused(ball):
         ({"views": ()}, "at least one view"),
         ({"views": ("inside",)}, "no view 'inside'"),
         ({"isolines": -1}, "not -1"),
-        ({"marks": (Mark(600),)}, "no vertex 600"),
+        ({"marks": (PointMark(600),)}, "no vertex 600"),
     ]:
         with pytest.raises((ParameterError, ValueError), match=words):
             FigurePanel(ball, **wrong)
@@ -234,7 +235,7 @@ def test_a_bad_panel_is_refused(ball):
 
 @pytest.mark.parametrize("style", STYLES)
 def test_every_style_draws(ball, style):
-    picture = one(ball, ball.vertices[:, 1] + 2, figure={"style": STYLES[style]}, marks=(Mark(0),))
+    picture = one(ball, ball.vertices[:, 1] + 2, figure={"style": STYLES[style]}, marks=(PointMark(0),))
     assert np.abs(picture[0, 0] / 255 - STYLES[style].background).max() < 0.01
     assert picture.std() > 10
 
@@ -247,7 +248,7 @@ def test_odd_surfaces_and_fields_are_drawn(tmp_path):
         field = np.where(surface.component_of_vertex == 0, np.arange(count) / 3.0, np.nan)
         panels = (
             FigurePanel(
-                surface, field, "a heading far too long for its panel " * 3, "words " * 60, marks=(Mark(vertex),)
+                surface, field, "a heading far too long for its panel " * 3, "words " * 60, marks=(PointMark(vertex),)
             ),
             FigurePanel(surface, np.zeros(count)),
             FigurePanel(surface, np.full(count, np.nan)),

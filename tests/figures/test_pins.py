@@ -8,9 +8,11 @@ from matplotlib.colors import to_rgb
 
 import app
 from app.document.pins import Pins
-from app.figures.description import FigurePanel, Mark
+from app.figures.description import FigurePanel
 from app.figures.draw import Figure, draw_figure
 from app.figures.size import Size
+from app.marks.glyphs import PIN
+from app.marks.primitives import PointMark
 from app.scene.style import PINS
 from bihdist_core import ParameterError
 from tests.shapes import bumpy
@@ -33,12 +35,12 @@ def painted(pixels, colour):
 
 
 def pin(vertex, number=1):
-    return Mark(vertex, number=number, colour=PINS[number - 1])
+    return PointMark(vertex, PIN, PINS[number - 1], number=number)
 
 
 def test_a_pin_is_a_drop_over_its_place(ball):
     place = int((ball.vertices[:, 2] - np.abs(ball.vertices[:, :2]).sum(axis=1)).argmax())
-    ring = np.argwhere(np.any(picture(ball, Mark(place)) != picture(ball), axis=2)).mean(axis=0)
+    ring = np.argwhere(np.any(picture(ball, PointMark(place)) != picture(ball), axis=2)).mean(axis=0)
     drop = painted(picture(ball, pin(place)), PINS[0])
     assert len(drop) > 60
     assert drop[:, 0].max() < ring[0] + 2  # all above the place
@@ -98,7 +100,6 @@ def test_many_hidden_pins_are_said_in_one_sentence(ball):
 @pytest.mark.parametrize("crop", [True, False])
 @pytest.mark.parametrize("title", ["heading", "caption"])
 def test_a_drop_at_the_top_is_under_the_heading_and_on_the_page(ball, crop, title):
-    from app.figures.drops import RISE, head_radius
     from app.figures.layout import lay_out
 
     top = int(ball.vertices[:, 1].argmax())
@@ -109,23 +110,23 @@ def test_a_drop_at_the_top_is_under_the_heading_and_on_the_page(ball, crop, titl
     heading = max((words.y for words in layout.cells[0].words if words.is_bold), default=0.0)
     assert drop[:, 0].min() > heading + 2
     # None of it is cut off: the whole of the head is there.
-    assert np.ptp(drop[:, 0]) > 0.7 * (RISE + 0.7) * head_radius(layout)
+    assert np.ptp(drop[:, 0]) > 0.7 * (PIN.rise + 0.7) * PIN.reach_of(layout.mark, layout.label)
 
 
 def test_a_drop_at_the_side_of_a_cropped_page_is_not_cut_off(ball):
-    from app.figures.drops import head_radius
     from app.figures.layout import lay_out
 
     for side in (ball.vertices[:, 0].argmin(), ball.vertices[:, 0].argmax()):
         panel = FigurePanel(ball, ball.vertices[:, 1] + 2, marks=(pin(int(side)),))
         figure = Figure((panel,), size=Size(400, 440, dpi=96), crop=True)
         drop = painted(draw_figure(figure), PINS[0])
-        assert np.ptp(drop[:, 1]) > 1.35 * head_radius(lay_out(figure))
+        layout = lay_out(figure)
+        assert np.ptp(drop[:, 1]) > 1.35 * PIN.reach_of(layout.mark, layout.label)
 
 
 def test_pages_without_pins_are_as_they_were(ball):
-    from app.figures.drops import overhang
     from app.figures.layout import lay_out
+    from app.figures.overhang import overhang
 
-    figure = Figure((FigurePanel(ball, ball.vertices[:, 1] + 2, marks=(Mark(3),)),), size=Size(400, 440, dpi=96))
+    figure = Figure((FigurePanel(ball, ball.vertices[:, 1] + 2, marks=(PointMark(3),)),), size=Size(400, 440, dpi=96))
     assert overhang(figure, lay_out(figure)) == (0.0, 0.0)

@@ -15,7 +15,7 @@ from matplotlib.patches import Rectangle
 from app.document.document import Zoom
 from app.figures.bars import bar_words, ends, shared_words
 from app.figures.canvas import Composition, drawn, matplotlib_settings
-from app.figures.draw import Figure, FigurePanel, Mark, draw_figure, save_figure
+from app.figures.draw import Figure, FigurePanel, draw_figure, save_figure
 from app.figures.fonts import check_font
 from app.figures.layout import lay_out
 from app.figures.shots import Shot, take_shots
@@ -23,6 +23,7 @@ from app.figures.size import Size
 from app.figures.tex import escaped, sources_in_words
 from app.figures.words import LAST, LEAST, Lettering
 from app.main import main
+from app.marks.primitives import PointMark
 from app.scene.levels import round_step
 from app.scene.style import LINES
 from bihdist_core import OutputError, ParameterError
@@ -54,7 +55,7 @@ def figure_of(ball, count, size, **options):
             hint="what is to be looked for in this panel of the figure" if k % 2 else "",
             label=LONG[k % 3],
             unit="1 / mesh units",
-            marks=(Mark(3, text="+0.00123 at 123456"), Mark(40, text="another mark at the edge")),
+            marks=(PointMark(3, text="+0.00123 at 123456"), PointMark(40, text="another mark at the edge")),
             failure="There is no field here, and this is a sentence on why that is so. " * 2 if failure else "",
             signed=k % 3 == 1 and options.get("range") != "shared",
         )

@@ -9,6 +9,7 @@ from app.document.edits import duplicate_panel
 from app.document.file import read_recipe
 from app.document.pairs import half_pair
 from app.figures.export import compute, figure_of, open_document
+from app.marks.glyphs import CANDIDATE
 from app.session.array_store import ArrayStore
 from app.session.prediction_answers import KnownColumns
 from app.tools.correspondence.quantity import Prediction
@@ -318,11 +319,11 @@ def test_a_session_keeps_them_and_a_figure_draws_them(two, tmp_path):
     assert "pairs" in recipe.document.docks
     document, surfaces = open_document(recipe, ArrayStore())
     panels = figure_of(replace(recipe, document=document), surfaces, compute(document, surfaces)).panels
-    drops = [[(m.number, m.vertex) for m in panel.marks if m.number and not m.is_candidate] for panel in panels]
+    drops = [[(m.number, m.vertex) for m in panel.marks if m.number and m.glyph is not CANDIDATE] for panel in panels]
     assert drops[0] == [(k, pair[0]) for k, pair in enumerate(places(s), 1)]
     assert drops[1] == drops[2] == [(k, pair[1]) for k, pair in enumerate(places(s)[:3], 1)]
     for k in (1, 2):
-        (candidate,) = [mark for mark in panels[k].marks if mark.is_candidate]
+        (candidate,) = [mark for mark in panels[k].marks if mark.glyph is CANDIDATE]
         assert (candidate.number, candidate.vertex) == (4, int(np.argmin(s.answers[k].field)))
     assert [panels[0].heading, panels[0].field] == ["first.off", None]
     assert "waits for its partner on B" in panels[0].hint

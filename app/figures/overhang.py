@@ -1,0 +1,35 @@
+"""The room that marks which stand above their places need around the views of a page."""
+
+import numpy as np
+
+from .description import Figure
+from .framing import Framed, shown_surface
+from .layout import Layout
+
+EDGE = 1.3
+"""Reaches of a glyph from its middle to the outside of its rims."""
+
+
+def overhang(figure: Figure, layout: Layout) -> tuple[float, float]:
+    """By how much pins and the like stand over the views of a page: at most above one, and at most beside one.
+
+    In a movie above, wherever they are now.
+    """
+    above = beside = 0.0
+    for panel, top, cell in zip(figure.panels, figure.tops(), layout.cells, strict=True):
+        marks = [mark for mark in panel.marks if mark.glyph.rise]
+        if not marks:
+            continue
+        surface = shown_surface(panel, top)
+        at = np.array([mark.on(surface.vertices) for mark in marks])
+        reach = np.array([mark.glyph.reach_of(layout.mark, layout.label) for mark in marks])
+        rise = reach * [mark.glyph.rise for mark in marks]
+        for view, box, part in zip(panel.views, cell.views, cell.parts, strict=True):
+            x, y = Framed(view, panel, surface, box, part).places(at).T
+            is_there = (x >= box.x) & (x <= box.right) & (y >= box.y) & (y <= box.bottom)
+            tips = np.full(len(y), box.y) if figure.is_moving else y
+            over = box.y - tips + rise + EDGE * reach
+            above = max(above, float((over if figure.is_moving else over[is_there]).max(initial=0.0)))
+            sides = np.maximum(box.x - x, x - box.right) + EDGE * reach
+            beside = max(beside, float(sides[is_there].max(initial=0.0)))
+    return above, beside
