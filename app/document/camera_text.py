@@ -6,7 +6,7 @@ import re
 from bihdist_core.errors import ParameterError
 
 from .camera import VIEWS, Camera, View
-from .form import READERS
+from .form import read_view
 
 SHOWN = 60
 """Letters of a wrong text that its error repeats."""
@@ -52,4 +52,4 @@ def _from_json(text: str) -> View:
             data = data[part]
         elif part == "camera" and data.get(part) in VIEWS:
             return str(data[part])
-    return READERS[View](data, "The camera")
+    return read_view(data, "The camera")

@@ -34,6 +34,7 @@ from .quantities import OwnField, Quantity, from_point, own_fields
 from .tools import docked_tools
 
 AnyPart = TypeVar("AnyPart", bound=Part)
+Named = TypeVar("Named", "MeshFile", "Point", "FieldArray")
 
 COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
 """The panels of the window and of figures where nothing else is asked for."""
@@ -345,7 +346,7 @@ def known(names: Iterable[str], there: set[str], what: str) -> None:
             raise ParameterError(f"There is no {what} {name!r}.")
 
 
-def _named(items: tuple, name: str, what: str) -> Any:
+def _named(items: tuple[Named, ...], name: str, what: str) -> Named:
     for item in items:
         if item.name == name:
             return item

@@ -10,11 +10,12 @@ from dataclasses import MISSING, fields, is_dataclass
 from functools import reduce
 from operator import or_
 from types import NoneType, UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from bihdist_core.errors import ParameterError
 
 Reader = Callable[[Any, str], Any]
+Made = TypeVar("Made")
 
 NONE: Mapping[Any, Reader] = {}
 
@@ -33,7 +34,7 @@ def record(data: Any, where: str, readers: Mapping[str, Reader], needed: set[str
 
 
 def listed(read: Reader) -> Reader:
-    def reader(data: Any, where: str) -> tuple:
+    def reader(data: Any, where: str) -> tuple[Any, ...]:
         if not isinstance(data, list):
             raise ParameterError(f"{where} must be a list, not {shown(data)}.")
         return tuple(read(value, f"{where}[{k}]") for k, value in enumerate(data))
@@ -42,8 +43,8 @@ def listed(read: Reader) -> Reader:
 
 
 def numbers(count: int) -> Reader:
-    def reader(data: Any, where: str) -> tuple:
-        values = listed(number)(data, where)
+    def reader(data: Any, where: str) -> tuple[Any, ...]:
+        values: tuple[float, ...] = listed(number)(data, where)
         if len(values) != count:
             raise ParameterError(f"{where} must be {count} numbers, not {len(values)}.")
         return values
@@ -55,7 +56,7 @@ def or_none(read: Reader) -> Reader:
     return lambda data, where: None if data is None else read(data, where)
 
 
-def placed(make: Callable[..., Any], where: str, **values: Any) -> Any:
+def placed(make: Callable[..., Made], where: str, **values: Any) -> Made:
     """What is made of values; what is wrong with them gets their place."""
     try:
         return make(**values)
@@ -120,7 +121,7 @@ def field_readers(kind: Any, special: Mapping[Any, Reader] = NONE) -> dict[str, 
 
 
 def _row(readers: list[Reader]) -> Reader:
-    def reader(data: Any, where: str) -> tuple:
+    def reader(data: Any, where: str) -> tuple[Any, ...]:
         if not isinstance(data, list) or len(data) != len(readers):
             raise ParameterError(f"{where} must be a list of {len(readers)}, not {shown(data)}.")
         return tuple(read(value, f"{where}[{k}]") for k, (read, value) in enumerate(zip(readers, data, strict=True)))

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bihdist_core.applications.changes import Runs, joined_runs
+from bihdist_core.arrays import IntArray
 from bihdist_core.errors import ParameterError
 
 from .document import Document, free_names, unlike
@@ -93,7 +94,8 @@ def vertices_of(runs: Runs) -> np.ndarray:
     firsts, lasts = np.array(runs, np.int64).reshape(-1, 2).T
     counts = lasts - firsts + 1
     # A scattered selection has as many runs as vertices.
-    return np.arange(counts.sum()) + np.repeat(firsts - np.cumsum(counts) + counts, counts)
+    ids: IntArray = np.arange(counts.sum()) + np.repeat(firsts - np.cumsum(counts) + counts, counts)
+    return ids
 
 
 def runs_in_words(runs: Runs) -> str:

@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.arrays import AnyArray
 from bihdist_core.sources.source import Source
 
 from ..document.beside_edits import open_beside
@@ -206,7 +207,7 @@ def _opened(path: str | os.PathLike[str]) -> Iterator[Any]:
         yield archive
 
 
-def _array(archive: Any, name: str, path: str | os.PathLike[str]) -> np.ndarray:
+def _array(archive: Mapping[str, AnyArray], name: str, path: str | os.PathLike[str]) -> AnyArray:
     try:
         return archive[name]
     except KeyError:

@@ -31,7 +31,7 @@ class CandidatesAsked:
     candidates: tuple[tuple[int, int], ...]
 
     @property
-    def about(self) -> tuple:
+    def about(self) -> tuple[object, ...]:
         """What the answer depends on, but for the candidates."""
         return id(self.one.surface), id(self.two.surface), self.areas, self.truth, self.vertex, self.is_on_first
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.source import SurfacePoint
 
@@ -20,9 +21,10 @@ class IsolinePoint:
     weights: tuple[float, ...]
     value: float
 
-    def of(self, field: np.ndarray) -> np.ndarray:
+    def of(self, field: FloatArray) -> FloatArray:
         """A field (n,) or positions (n, 3) there, linear in the face."""
-        return np.array(self.weights) @ field[list(self.vertices)]
+        value: FloatArray = np.array(self.weights) @ field[list(self.vertices)]
+        return value
 
 
 def passed(document: Document, surface: str, loaded: LoadedMesh, answer: Answer | None) -> tuple[IsolinePoint, ...]:

@@ -20,6 +20,7 @@ from bihdist_core.applications.map_errors import (
     map_errors,
     sampled_vertices,
 )
+from bihdist_core.arrays import IntArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.distances.geodesic import GeodesicDistance
 from bihdist_core.distances.kinds import Spec
@@ -146,7 +147,7 @@ class Asked:
     truth: Truth
 
     @property
-    def about(self) -> tuple:
+    def about(self) -> tuple[object, ...]:
         """What the answer depends on."""
         return id(self.one.surface), id(self.two.surface), self.areas, self.maps, self.pairs, self.truth
 
@@ -213,7 +214,9 @@ class Judging:
         wanted = asked.truth.samples or len(asked.one.surface.vertices)
         return min(wanted, max(MOST_KEPT // len(asked.two.surface.vertices), 1))
 
-    def _found(self, asked: Asked, ids: np.ndarray, progress: Progress | None) -> tuple[dict, dict]:
+    def _found(
+        self, asked: Asked, ids: np.ndarray, progress: Progress | None
+    ) -> tuple[dict[Map, IntArray], dict[Map, str]]:
         """Of each map where it leads from these vertices (m,), or why that is not known."""
         found: dict[Map, np.ndarray] = {}
         failures: dict[Map, str] = {}

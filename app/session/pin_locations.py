@@ -7,6 +7,7 @@ import numpy as np
 
 from bihdist_core import Surface, SurfacePoint
 from bihdist_core.analysis.places import weighted
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats import pins as pin_files
 from bihdist_core.sources.words import words_of
@@ -56,7 +57,8 @@ class LocatedPin:
 
     def position(self, vertices: np.ndarray) -> np.ndarray:
         """(3,) where it is, with the vertices (n, 3) there."""
-        return vertices[self.vertex] if self.vertex is not None else self.weights @ vertices[self.corners]
+        at: FloatArray = vertices[self.vertex] if self.vertex is not None else self.weights @ vertices[self.corners]
+        return at
 
     def value(self, field: np.ndarray) -> float:
         """That of a field (n,), linear in the face; NaN where it is undefined."""

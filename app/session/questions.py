@@ -225,7 +225,8 @@ def questions(document: Document) -> dict[int, Question]:
 @singledispatch
 def question_of(shows: Any, document: Document, surface: str) -> Question:
     """What a quantity asks of a document's surface; quantities of tools say so themselves."""
-    return shows.question(document, surface)
+    question: Question = shows.question(document, surface)
+    return question
 
 
 @question_of.register
