@@ -28,7 +28,7 @@ from .surface import Surface
 
 
 class Laplacian:
-    """Operators of a surface: `stiffness` (n, n), `areas` (n,), and its connected `components`.
+    """Operators of a surface (paper, Eq. 7): `stiffness` (n, n), `areas` (n,), and its connected `components`.
 
     areas: "voronoi" (mixed Voronoi) or "barycentric"; anything else is a ParameterError.  Distances share a
     Laplacian by being given it; nothing is cached elsewhere.
@@ -48,7 +48,7 @@ class Laplacian:
 
     @locked_cached_property
     def stiffness(self) -> sp.csr_matrix:
-        """(n, n) cotangent stiffness matrix (see `operators`)."""
+        """(n, n) cotangent stiffness matrix, positive semi-definite; no unit."""
         return stiffness(self.surface)
 
     @locked_cached_property
@@ -121,7 +121,7 @@ class Component:
 
     @locked_cached_property
     def flat(self) -> DegenerateFaces:
-        """Its degenerate faces."""
+        """The degenerate faces of the component."""
         return DegenerateFaces.of(self.surface)
 
     @locked_cached_property

@@ -83,6 +83,7 @@ class Surface:
 
     @cached_property
     def component_count(self) -> int:
+        """How many connected components the surface has."""
         return int(self.component_of_vertex.max()) + 1
 
     @property
@@ -92,6 +93,7 @@ class Surface:
 
     @property
     def unreferenced_count(self) -> int:
+        """How many vertices belong to no face."""
         return int((self.component_of_vertex < 0).sum())
 
     def component(self, index: int) -> tuple["Surface", IntArray]:
@@ -141,7 +143,7 @@ class Surface:
 
     @cached_property
     def boundary_loop_count(self) -> int:
-        """Connected pieces of the boundary."""
+        """How many connected pieces the boundary has."""
         b = self.boundary_edges
         if not len(b):
             return 0
@@ -151,10 +153,12 @@ class Surface:
 
     @property
     def nonmanifold_edge_count(self) -> int:
+        """How many edges have more than two faces."""
         return int((self.faces_per_edge > 2).sum())
 
     @property
     def nonmanifold_vertex_count(self) -> int:
+        """How many vertices have faces that fall apart into several fans."""
         return len(self.nonmanifold_vertices)
 
     @cached_property
@@ -182,6 +186,7 @@ class Surface:
 
     @property
     def is_manifold(self) -> bool:
+        """Whether no edge has more than two faces, and the faces of each vertex are one fan."""
         return self.nonmanifold_edge_count == 0 and self.nonmanifold_vertex_count == 0
 
     @property
@@ -211,7 +216,7 @@ class Surface:
 
     @property
     def face_areas(self) -> FloatArray:
-        """(m,) areas."""
+        """(m,) areas of the faces, unit length squared."""
         return self._face_measures[0]
 
     @cached_property
@@ -222,18 +227,19 @@ class Surface:
 
     @cached_property
     def degenerate_faces(self) -> IntArray:
-        """(k,) faces of (nearly) no area: height less than the share `FLAT` of the longest side (see `operators`)."""
+        """(k,) faces of (nearly) no area: height less than the fraction `FLAT` of the longest side."""
         return np.flatnonzero(self.face_heights < FLAT)
 
     @cached_property
     def in_proper_face(self) -> BoolArray:
-        """(n,) whether a vertex belongs to a face that is not flat."""
+        """(n,) whether a vertex belongs to a face that is not degenerate."""
         proper = np.zeros(len(self.vertices), bool)
         proper[np.delete(self.faces, self.degenerate_faces, axis=0)] = True
         return proper
 
     @cached_property
     def mean_edge_length(self) -> float:
+        """Mean length of the edges, unit length."""
         i, j = self.edges.T
         x = np.ascontiguousarray(self.vertices.T)
         along = x.take(i, axis=1) - x.take(j, axis=1)

@@ -23,6 +23,7 @@ class Paths:
         self.straight: Any = None
 
     def read_mesh(self, requests: BinaryIO) -> bytes:
+        """Read a mesh: counts of vertices and faces, both as arrays; nothing is answered."""
         import numpy as np
 
         n, m = np.frombuffer(requests.read(16), np.int64)
@@ -32,6 +33,7 @@ class Paths:
         return b""
 
     def shortest(self, start: int, stop: int) -> bytes:
+        """(k, 3) float64, as bytes: points of the shortest path between two vertices."""
         import numpy as np
         from pygeodesic.geodesic import PyGeodesicAlgorithmExact
 
@@ -46,6 +48,7 @@ class Paths:
         return np.ascontiguousarray(points).tobytes()
 
     def straightened(self, start: int, stop: int) -> bytes:
+        """(k, 3) float64, as bytes: points of a path along edges that was straightened by flipping edges."""
         import numpy as np
         from potpourri3d import EdgeFlipGeodesicSolver
 

@@ -31,6 +31,7 @@ class Band:
 
     @property
     def area(self) -> float:
+        """Exact area of the part, unit length squared."""
         return float(self.surface.face_areas.sum())
 
     def along(self, field: npt.ArrayLike) -> FloatArray:

@@ -94,7 +94,10 @@ def _median(values: FloatArray, weights: FloatArray) -> float:
 
 @dataclass(frozen=True)
 class FieldChange:
-    """|d' - d| / max d, and the same after each field was divided by its own maximum: mean and largest; no unit."""
+    """The change |d' - d| of a field, mean and largest; no unit.
+
+    mean, largest: over max d.  normalised_mean, normalised_largest: with each field divided by its own maximum first.
+    """
 
     mean: float
     largest: float

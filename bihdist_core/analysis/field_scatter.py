@@ -25,7 +25,7 @@ class FieldScatter:
 
     @property
     def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """The least and the greatest value across and up, and 0 always."""
+        """Least and greatest value, across and up, 0 always between them."""
         across, up = ((min(float(v.min()), 0.0), max(float(v.max()), 0.0)) for v in (self.x, self.y))
         return across, up
 
@@ -42,8 +42,7 @@ class FieldScatter:
     def cells(
         self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]
     ) -> tuple[IntArray, IntArray]:
-        """The number of the cell, row by row, of each point in the grid of `density`, and which of the points these
-        are."""
+        """(p,) cells of the grid of `density`, numbered row by row, of the points in it, and (p,) which these are."""
         places = []
         for values, count, (low, high) in ((self.x, columns, across), (self.y, rows, up)):
             place = np.floor((values - low) * (count / (high - low)))
@@ -72,7 +71,7 @@ class FieldScatter:
         return np.sort(self.ids[order[is_in]])
 
     def sort(self) -> None:
-        """What `inside` does when it is asked first, for a thread that may wait."""
+        """Prepare `inside`, which otherwise sorts when it is first asked: for a thread that may wait."""
         _ = self._upwards
 
     @cached_property
@@ -82,7 +81,7 @@ class FieldScatter:
 
 
 def field_scatter(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> FieldScatter:
-    """The second field (n,) against the first; shares: each divided by its largest size.
+    """The second of two fields (n,) against the first; shares: each divided by its largest size.
 
     Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
     """

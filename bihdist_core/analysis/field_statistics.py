@@ -90,9 +90,9 @@ def field_statistics(
 class Agreement:
     """How two fields go together over the vertices at which both are finite, `count` of them; no unit but `largest`'s.
 
-    spearman: rank correlation, from -1 to 1; by_area: the same with vertices weighted by area.  NaN where a field is
-    constant.  mean, largest: of |a - b|, linear on each face, by area and exactly, or, where each was divided by its
-    maximum, of that; largest_at: where.
+    spearman: rank correlation, from -1 to 1; by_area: rank correlation with vertices weighted by area; NaN where a
+    field is constant.  mean, largest: of |a - b|, linear on each face, by area and exactly, after each field was
+    divided by its maximum if shares were asked for; largest_at: the vertex of the largest.
     """
 
     count: int

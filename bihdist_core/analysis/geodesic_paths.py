@@ -62,7 +62,7 @@ class GeodesicPaths:
     ) -> SurfacePath:
         """The path through two or more vertices or places in faces, or their words, in order.
 
-        Its `method` and `label` say how each of its parts was made.
+        `method` and `label` of the path say how each of its parts was made.
 
         method: "exact"; "straightened"; "edges"; or "auto": the first of these that the mesh allows, exact up to 20,000
         vertices and without degenerate faces, the first two where it is manifold (and, for the second, its faces are

@@ -44,7 +44,7 @@ def isolines(surface: Surface, field: npt.ArrayLike, values: npt.ArrayLike) -> l
     """The curves where a field, linear on each face, has the given values; in the order of `values`.
 
     field: (n,) real numbers.  Faces with a corner that is not finite are left out, and curves end there, as at
-    boundaries and at edges of more than two faces.  A vertex whose value is exactly an isoline's counts as above it:
+    boundaries and at edges of more than two faces.  A vertex whose value is exactly an isoline's counts as greater:
     a curve then passes through the vertex, and a plateau of that value is surrounded, not filled.  Curves that shrink
     to a point are left out.
 

@@ -36,9 +36,11 @@ class LinearField:
 
     @property
     def area(self) -> float:
+        """Area of the faces, unit length squared."""
         return float(self.areas.sum())
 
     def mean(self) -> float:
+        """Exact mean of the field by area, in the field's unit."""
         # From one of the values on, so that rounding leaves a constant field its value.
         start = self.ends[0]
         return float(start + self._mean(((self.low - start) + (self.middle - start) + (self.high - start)) / 3))

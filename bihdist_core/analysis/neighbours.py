@@ -34,8 +34,8 @@ def nearest(
 
     sources: (s,) vertices, all n if None.  A source is no neighbour of itself; of vertices at the same distance the
     one with the lower number comes first.  Only what the distance reaches is a neighbour: where the component of a
-    source has fewer than k other vertices, and at vertices that belong to no face, -1 and NaN stand instead.  Where a
-    distance is not symmetric it is that from the source.  mask: (n,) which vertices may be neighbours.
+    source has fewer than k other vertices, and at vertices that belong to no face, -1 and NaN stand instead.  Of a
+    distance that is not symmetric, the one from the source counts.  mask: (n,) which vertices may be neighbours.
 
     Costs a field for each source and holds those of a block, of so many bytes as `memory` says.  Raises VertexError for
     a source that is not there or, if it is named, belongs to no face; ParameterError for a number that is none, and a

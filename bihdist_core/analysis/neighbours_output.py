@@ -24,7 +24,7 @@ def write_nearest(
     """Write the neighbours (s, k) of vertices (s,) and how far they are (s, k); the extension names the format.
 
     .csv: a line `i,j,distance` for each neighbour j of a vertex i, nearest first; those that are not there are left
-          out.  .npy: the same as (q, 3) float64.
+          out.  .npy: these lines as (q, 3) float64.
     .npz: `sources`, `indices` (-1 for none), `distances` (NaN for none), and the texts of `facts`.
     .json: {facts, "neighbours": [{"vertex", "indices", "distances"}, ...]}.
 

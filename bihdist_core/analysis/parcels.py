@@ -20,9 +20,12 @@ BYTES_PER_VALUE = 24
 
 @dataclass(frozen=True, eq=False)
 class Parcels:
-    """labels: (p,) ascending; counts: (p,) vertices of each; means: (p, p) symmetric, of the distances of all pairs of
-    a vertex of the one and a vertex of the other, NaN where any pair has none.  On the diagonal the pairs are those
-    within a parcel, each vertex with itself among them."""
+    """Mean distances between the parcels that labels divide the vertices into.
+
+    labels: (p,) ascending.  counts: (p,) vertices of each.  means: (p, p), symmetric: over all pairs of a vertex of the
+    one and a vertex of the other, in the distance's unit; NaN where any pair has none.  On the diagonal the pairs are
+    those within a parcel, each vertex with itself among them.
+    """
 
     labels: IntArray
     counts: IntArray
@@ -57,7 +60,9 @@ def parcel_means(
     memory: float = MEMORY,
     progress: Progress | None = None,
 ) -> Parcels:
-    """labels: (n,) whole numbers, negative where a vertex belongs to none; mask: (n,) which vertices count, or all.
+    """The mean distances between parcels of vertices.
+
+    labels: (n,) whole numbers, negative where a vertex belongs to none; mask: (n,) which vertices count, or all.
 
     Costs a field for each vertex that counts; holds those of a block, and (p, p) sums.  memory: bytes for a block.
     Raises ParameterError for labels or a mask of another shape or kind, and if nothing is left.

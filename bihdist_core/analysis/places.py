@@ -45,7 +45,7 @@ class Places:
         return len(self.faces)
 
     def split(self, surface: Surface) -> Split:
-        """Their surface with vertices at them."""
+        """The surface divided so that each of the places is a vertex."""
         return split_at(surface, self.faces, self.weights, APART)
 
     def values(self, field: npt.ArrayLike) -> FloatArray:

@@ -27,7 +27,7 @@ PARTS = {
 def plane_section(
     surface: Surface, places: Sequence[int | SurfacePoint | str], direction: npt.ArrayLike, part: str = "shorter"
 ) -> SurfacePath:
-    """The parts of the surface's sections that join two or more places in order.
+    """A path through two or more places in order, along plane sections of the surface.
 
     Each plane holds two places and a direction (3,).  part: the "shorter" or the "longer" way along the section; or,
     of two places, the "whole" curve on which both lie, from the first by the shorter way to the second and back to the

@@ -23,7 +23,7 @@ def write_profile(
     """Write a path and fields (n,) along it; the extension names the format.  Numbers read back exactly.
 
     .csv: a line `arc,x,y,z,face,b0,b1,b2,NAMES` for each point: its length along the path, position, place, and values.
-    .npy: the same as a (k, c) array.
+    .npy: the columns of the .csv as a (k, c) array.
     .vtp: a polyline with the point data arrays `arc` and the fields.
     .json: {"points": [[face, b0, b1], ...], "method", "length", "arcs": [...], "fields": {name: [...]}}.
     Between the points the fields change linearly.  Raises OutputError if the file cannot be written; what was at `path`

@@ -167,7 +167,10 @@ def kinks(surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike, radius: f
 
 @dataclass(frozen=True, eq=False)
 class OtherExtrema:
-    """The extrema of a field but for those at its source: see `FieldQuality`."""
+    """The extrema of a field away from its source, the most persistent first.
+
+    minima, maxima: (k,) vertices.  minima_depth, maxima_height: (k,) their persistence over the field's range; no unit.
+    """
 
     minima: IntArray
     minima_depth: FloatArray
@@ -176,7 +179,7 @@ class OtherExtrema:
 
     @property
     def vertices(self) -> IntArray:
-        """All of them, the minima first."""
+        """(k,) vertices of all minima, then of all maxima."""
         return np.concatenate([self.minima, self.maxima])
 
 
@@ -203,10 +206,9 @@ def other_extrema(surface: Surface, field: npt.ArrayLike, source: Source | None,
 
 
 def apparent_source(field: npt.ArrayLike) -> int | None:
-    """The vertex that a field (n,) seems to be the distance from: the only one where it is 0, while all others, where
-    it is finite, are positive.  None where there is no such vertex.
+    """The vertex that a field (n,) seems to be the distance from; None where there is none.
 
-    Less than `ZERO` of the maximum is 0.
+    It is the only one with less than `ZERO` of the maximum, while all others, where the field is finite, are positive.
     """
     f = np.asarray(field, np.float64)
     ids = np.flatnonzero(np.isfinite(f))
@@ -248,7 +250,7 @@ class FieldQuality:
 def field_quality(
     surface: Surface, field: npt.ArrayLike, geodesic: npt.ArrayLike, source: Source, share: float = 1e-3
 ) -> FieldQuality:
-    """The quality of a distance field (n,) from a source; geodesic: (n,) geodesic distances from the same.
+    """The quality of a distance field (n,) from a source; geodesic: (n,) geodesic distances from it.
 
     share: of the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
     ParameterError for fields of another shape or with nothing but one value.
@@ -268,11 +270,12 @@ def field_quality(
 def difference_quality(
     surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike | None, source: Source | None, share: float = 1e-3
 ) -> FieldQuality:
-    """What of `field_quality` has a meaning for a field (n,) that is no distance, such as the difference of two: its
-    extrema and kinks, but no circles.
+    """The quality of a field (n,) that is no distance, such as the difference of two: extrema and kinks, no circles.
 
-    source: from which the distances start that it is made of, near: (n,) geodesic distances from it; both None where it
-    starts nowhere, and then no extremum and no edge is left out but those along the boundary.  The same errors.
+    source: where the distances start that the field is made of; near: (n,) geodesic distances from it.  Both are None
+    for a field that starts nowhere: then no extremum is left out, and no edge but those along the boundary.  share: of
+    the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
+    ParameterError for fields of another shape or with nothing but one value.
     """
     f = np.asarray(field, np.float64)
     found = other_extrema(surface, f, source, share)
@@ -323,9 +326,11 @@ def triangle_samples(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Iterator[tuple[int, TriangleSample]]:
-    """`triangle_sample` of some of the points and then of more, `TRIANGLE_STEP` at a time: how many, and what they say.
+    """For ever more vertices, `TRIANGLE_STEP` at a time up to `points`: how many, and their `triangle_sample`.
 
-    For distances that take a second for each point.  The same errors, when the first is asked for.
+    For distances that take a second for each point: early results can be shown.  When the first is asked for, raises
+    ParameterError for a component that does not exist or has fewer than three vertices, and for fewer points than
+    three.
     """
     ids = np.flatnonzero(distance.surface.component_of_vertex == component) if component >= 0 else np.empty(0, np.int64)
     if min(points, len(ids)) < 3:

@@ -29,6 +29,7 @@ class Boundary:
 
     @property
     def length(self) -> float:
+        """Length of the curve, unit length."""
         points = np.concatenate([self.points, self.points[:1]]) if self.closed else self.points
         return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
@@ -55,7 +56,8 @@ def region_boundaries(surface: Surface, regions: Regions) -> list[Boundary]:
 def write_boundaries(path: str | os.PathLike[str], curves: Sequence[Boundary], labels: Sequence[int] = ()) -> None:
     """Write boundaries as .csv, .obj, .vtp or .json (see `write_curves`), with the numbers `region` and `other`.
 
-    labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError as there.
+    labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
+    cannot be written.
     """
     written = []
     for curve in curves:

@@ -16,10 +16,11 @@ CLOSE = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class RegionMesh:
-    """surface: the cut one, where all corners of a face are in one region.  regions: (v,) of its vertices.
+    """A surface cut along the boundaries of regions, so that each face is in one of them.
 
-    parents: (m,) face of the whole surface that each face is part of.  corners, weights: (v, 3) each vertex as a place
-    among those of the whole surface.
+    surface: the cut surface.  regions: (v,) the region of each of its vertices.  parents: (m,) face of the whole
+    surface that each face is part of.  corners, weights: (v, 3) each vertex as a place in a face of the whole surface:
+    the ids of three of its vertices, and weights of sum 1.
     """
 
     surface: Surface
@@ -29,14 +30,17 @@ class RegionMesh:
     weights: FloatArray
 
     def along(self, field: npt.ArrayLike) -> FloatArray:
-        """(v,) or (v, d): values (n,) or (n, d) at the vertices of the whole surface, linear on its faces, at these."""
+        """(v,) or (v, d): values at the vertices of the cut surface, linear on the faces of the whole one.
+
+        field: (n,) or (n, d) values at the vertices of the whole surface.
+        """
         return weighted(np.asarray(field), self.corners, self.weights)
 
 
 def region_mesh(surface: Surface, columns: npt.ArrayLike) -> RegionMesh:
     """The regions of fields (n, k) as a mesh (see `voronoi_regions`); faces without a value are left out.
 
-    Raises ParameterError as there, MeshError where no face has a value.
+    Raises ParameterError for fields of another shape, or none; MeshError where no face has a value.
     """
     f, labels = least_of(surface, columns)
     at_corner = labels[surface.faces]

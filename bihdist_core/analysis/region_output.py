@@ -19,9 +19,10 @@ REGION_MESH_FORMATS = (".ply", ".vtp")
 def write_labels(
     path: str | os.PathLike[str], surface: Surface, regions: Regions, labels: Sequence[int] | None = None
 ) -> None:
-    """Write the region of each vertex as the field `region` (`write_fields`); NaN where there is none.
+    """Write the region of each vertex as the field `region` (see `write_fields`); NaN where there is none.
 
-    labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError as there.
+    labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
+    cannot be written.
     """
     write_fields(path, surface, {"region": _labelled(regions.labels, labels)})
 
@@ -29,7 +30,8 @@ def write_labels(
 def write_region_mesh(path: str | os.PathLike[str], mesh: RegionMesh, labels: Sequence[int] | None = None) -> None:
     """Write the cut mesh as .ply or .vtp, with the field `region` at its vertices, each of which is in one region.
 
-    labels: see `write_labels`.  Raises OutputError as there.
+    labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
+    cannot be written.
     """
     check_output(path, REGION_MESH_FORMATS)
     write_fields(path, mesh.surface, {"region": _labelled(mesh.regions, labels)})

@@ -46,7 +46,7 @@ class Regions:
 
     @property
     def lengths(self) -> FloatArray:
-        """(s,) of the boundary segments."""
+        """(s,) lengths of the boundary segments."""
         lengths: FloatArray = np.linalg.norm(self.segments[:, 1] - self.segments[:, 0], axis=1)
         return lengths
 
@@ -98,6 +98,7 @@ Segments = tuple[IntArray, IntArray, FloatArray, IntArray]
 
 
 def chunks(faces: IntArray, fields: int) -> Iterator[IntArray]:
+    """Faces (m,) in pieces that bound the memory for so many fields."""
     size = max(1, CHUNK // fields)
     for start in range(0, len(faces), size):
         yield faces[start : start + size]

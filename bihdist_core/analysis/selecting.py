@@ -55,8 +55,10 @@ class Brush:
 
 
 def cut_out(surface: Surface, vertices: npt.ArrayLike) -> tuple[Surface, IntArray]:
-    """The faces all of whose corners are among vertices (k,), as a mesh of its own; and the vertex of the whole that
-    each of its vertices is.  ParameterError if there is no such face."""
+    """The faces all of whose corners are among vertices (k,), as a mesh, and (v,) which vertex each of its own is.
+
+    Raises ParameterError if there is no such face.
+    """
     chosen = np.zeros(len(surface.vertices), bool)
     chosen[surface.check_vertices(vertices)] = True
     faces = surface.faces[chosen[surface.faces].all(axis=1)]

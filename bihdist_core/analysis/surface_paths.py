@@ -44,6 +44,7 @@ class SurfacePath:
 
     @property
     def length(self) -> float:
+        """Length of the path, unit length."""
         return float(self.arcs[-1])
 
     @property
@@ -70,8 +71,11 @@ class SurfacePath:
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """A path by the edges it meets: ends (k, 2) and parameters t (k,) of the points (1 - t) x_a + t x_b; a vertex has
-    itself twice.  faces (k - 1,): those of the pieces."""
+    """A path by the edges that it meets.
+
+    ends (k, 2), t (k,): point i is (1 - t) x_a + t x_b with a, b = ends[i]; at a vertex, a and b are equal.  faces (k -
+    1,): the face between each point and the next.
+    """
 
     ends: IntArray
     t: FloatArray

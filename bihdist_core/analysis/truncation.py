@@ -23,8 +23,11 @@ LINE_COUNTS = (1, 2, 3, 5, 8, 12, 18, 25, 35, 50, 70, 100, 140, 200)
 
 @dataclass(frozen=True, eq=False)
 class TruncationLoss:
-    """counts (q,): how many eigenpairs; means, largest (q,): |d_k - d| over max d, by area and at worst; at (q,): the
-    vertex where it is worst.  No unit."""
+    """What a biharmonic distance loses with fewer eigenpairs; no unit.
+
+    counts (q,): how many eigenpairs.  means, largest (q,): |d_k - d| over max d, by area and at worst.  at (q,): the
+    vertex of the largest.
+    """
 
     source: Source
     counts: IntArray

@@ -24,7 +24,7 @@ class Perturbation:
     pose: a file with another pose, whose vertices and faces are numbered alike.  pose_sha256: of its bytes, empty as
     long as any content will do.  cut: faces that are taken out (`without_faces`).  simplify: to so many vertices.
     noise: see `noisy`.  holes, radius: see `with_holes`.  weld, handle: two vertices, whose largest faces are joined
-    (`welded`, `with_handle`).  seed: of noise and holes.  Vertices and faces are those of the surface as it was; a
+    (`welded`, `with_handle`).  seed: of noise and holes.  Vertices and faces are numbered as before; a
     vertex that is taken out is replaced by the nearest that stays.
     """
 
@@ -61,6 +61,7 @@ class Perturbation:
 
     @property
     def changes_nothing(self) -> bool:
+        """Whether the surface stays as it is."""
         parts = (self.pose, self.cut, self.simplify is not None, self.noise, self.holes, self.weld, self.handle)
         return not any(parts)
 

@@ -19,7 +19,7 @@ NOWHERE = -1
 
 
 class Correspondence:
-    """What distances from known pairs of corresponding vertices say of all others.
+    """What distances from known pairs of corresponding vertices say of all others (paper, section 5.2).
 
     A vertex x of M has the vector x~_i = d_M(x, x_i) / max_j d_M(x, x_j) of its distances from the known points, a
     vertex y of N the vector y~_i likewise.  c(x, y) = (sum_i w_i (x~_i - y~_i)^2)^(1/2) tells how badly y fits x; the
@@ -28,7 +28,8 @@ class Correspondence:
     that a scaled surface N changes nothing.)
 
     pairs: (k, 2) known corresponding vertices (x_i of M, y_i of N).  weights: (k,), at least 0; 1 each by default,
-    as in the paper.  known_columns: of another one with the same distances, see `changed`.
+    as in the paper.  known_columns: fields of another
+    correspondence of these distances.
 
     Raises VertexError for bad vertices, ParameterError for pairs or weights of another form.
     """
@@ -63,7 +64,11 @@ class Correspondence:
     def changed(
         self, pairs: npt.ArrayLike, weights: npt.ArrayLike | None = None, progress: Progress | None = None
     ) -> "Correspondence":
-        """The same with other pairs; a new one costs a column on each surface, and those that are known none."""
+        """This correspondence with other pairs (k, 2) and weights (k,).
+
+        A new pair costs a field on each surface, pairs that are known cost none.  Raises VertexError for bad vertices,
+        ParameterError for pairs or weights of another form.
+        """
         return Correspondence(self.distance_m, self.distance_n, pairs, weights, progress, self._columns)
 
     def _find(self, progress: Progress | None) -> None:
@@ -129,7 +134,10 @@ def correspondence_prediction(
     x: npt.ArrayLike,
     weights: npt.ArrayLike | None = None,
 ) -> FloatArray:
-    """How badly each vertex of N fits one vertex x of M, (n,), or several (m,), (n, m): see `Correspondence`."""
+    """How badly each vertex of N fits a vertex x of M: (n,) for one x, (n, m) for several (m,); see `Correspondence`.
+
+    Raises VertexError for bad vertices, ParameterError for pairs or weights of another form.
+    """
     return Correspondence(distance_m, distance_n, pairs, weights).misfit(x)
 
 

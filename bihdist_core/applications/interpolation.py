@@ -11,7 +11,7 @@ from .weights import Weights
 
 
 class ShepardInterpolant:
-    """f(p) = sum_i w_i f_i / sum_i w_i,  w_i = r(d(p, p_i)) ** -exponent,  with any distance d.
+    """f(p) = sum_i w_i f_i / sum_i w_i,  w_i = r(d(p, p_i)) ** -exponent,  with any distance d (paper, section 5.2).
 
     anchors: (k,) vertices p_i, all different.  values: (k,) real numbers f_i.  Each connected component of the
     surface uses its own anchors only, since between components there is no distance.  The paper has exponent 1 and
@@ -52,10 +52,11 @@ class ShepardInterpolant:
         exponent: float | None = None,
         smoothness: float | None = None,
     ) -> "ShepardInterpolant":
-        """The same with other anchors, values or parameters.
+        """This interpolant with other anchors, values or parameters.
 
-        What is known of it is kept: other values cost one product of matrices, a new anchor one column.
-        Raises as the constructor.
+        Distances that are known are kept: other values cost one product of matrices, a new anchor one field.  Raises
+        VertexError for a bad anchor or one named twice; ParameterError for no anchors, for values that are not k finite
+        numbers, and for an exponent or a smoothness out of range.
         """
         other = ShepardInterpolant(
             self.distance,

@@ -138,12 +138,13 @@ class ErrorCurve:
 
 @dataclass(frozen=True, eq=False)
 class MeanCurve:
-    """The mean of the curves of several maps, at least one: each has the same weight, however many vertices it has."""
+    """The mean of the error curves of several maps, at least one: each counts alike, however many vertices it has."""
 
     curves: tuple[ErrorCurve, ...]
 
     @property
     def mean(self) -> float:
+        """Mean over the maps of their mean errors, in the unit of the errors."""
         return float(np.mean([curve.mean for curve in self.curves]))
 
     @property
@@ -157,6 +158,7 @@ class MeanCurve:
 
     @property
     def area(self) -> float:
+        """Mean over the maps of the areas under their curves, from 0 to 1."""
         return float(np.mean([curve.area for curve in self.curves]))
 
     def shares(self, thresholds: npt.ArrayLike) -> FloatArray:
@@ -166,7 +168,10 @@ class MeanCurve:
 
 
 def error_curve(errors: npt.ArrayLike) -> ErrorCurve:
-    """Of errors (m,); NaN is left out.  Raises ParameterError if there is none."""
+    """The curve of errors (m,), NaN left out: which share of them is at most so large.
+
+    Raises ParameterError if there is none.
+    """
     known = np.sort(np.asarray(errors, np.float64).ravel())
     known = known[~np.isnan(known)]
     if not len(known):

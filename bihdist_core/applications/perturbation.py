@@ -165,7 +165,7 @@ def welded(surface: Surface, face_a: int, face_b: int) -> Surface:
 def with_handle(surface: Surface, face_a: int, face_b: int) -> Surface:
     """A thin, straight, three-sided tube from the middle of one face to the middle of another.
 
-    Vertex ids stay; the tube's come after them.  Raises ParameterError as `welded`.
+    Vertex ids stay; the tube's come after them.  Raises ParameterError if the two faces or their neighbours touch.
     """
     a, b = _opposite_corners(surface, face_a, face_b)
     x, n = surface.vertices, len(surface.vertices)

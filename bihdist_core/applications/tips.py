@@ -15,11 +15,10 @@ NEAR = 0.1
 
 
 def tips(laplacian: Laplacian, share: float = PROMINENT) -> IntArray:
-    """(t,) the vertices at the tips of a shape: its limbs' ends, the most prominent first on each component.
+    """(t,) vertices at the tips of a shape: the ends of its limbs, the most prominent first on each component.
 
-    They are the maxima of the mean squared biharmonic distance to all other points that persist over a share of its
-    range.  A function without other extrema than a few given ones has one at each tip that has none of these: along a
-    limb it must go up or down.
+    They are the maxima, persistent over a share of the range, of the mean squared biharmonic distance to all points.  A
+    function with few other extrema has one at each tip that has none of these: along a limb it must go up or down.
     """
     found = []
     for component in laplacian.components:
@@ -30,7 +29,7 @@ def tips(laplacian: Laplacian, share: float = PROMINENT) -> IntArray:
 
 
 def at_tips(surface: Surface, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> BoolArray:
-    """(k,) whether vertices (k,) are at one of the tips `ends` (t,), within NEAR roots of the area of it."""
+    """(k,) whether vertices (k,) are at one of the tips `ends` (t,): within NEAR roots of the surface's area."""
     x = surface.vertices
     ids, tip_ids = np.asarray(vertices, int), np.asarray(ends, int)
     away = np.linalg.norm(x[ids][:, None] - x[tip_ids], axis=2)

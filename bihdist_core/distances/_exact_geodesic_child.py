@@ -40,6 +40,7 @@ def main() -> None:
 
 
 def answer(answers: BinaryIO, status: int, content: bytes) -> None:
+    """Write 8 bytes of status, 8 with the length of the content, and the content."""
     answers.write(status.to_bytes(8, sys.byteorder) + len(content).to_bytes(8, sys.byteorder) + content)
     answers.flush()
 

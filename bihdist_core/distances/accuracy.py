@@ -73,6 +73,7 @@ class ErrorEstimate:
 
 
 def accurate_to(share: float) -> str:
+    """The accuracy in words, rounded up: accurate to 2e-10 of the maximum."""
     return f"accurate to {rounded_up(share)} of the maximum"
 
 

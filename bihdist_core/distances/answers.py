@@ -28,7 +28,7 @@ class Answer:
     """A field (n,) with NaN where undefined, or None and the failure in words.
 
     label and unit: the distance's; certificate: how accurate the field is, None as long as that is not known.  A field
-    that is signed has values on both sides of 0, as differences have; its maximum is that of the absolute values.
+    that is signed has values on both sides of 0, as differences have; its maximum is the largest absolute value.
     is_distance: it says how far vertices are.  signs: of a difference, what a positive and a negative value mean, such
     as "biharmonic is farther".  is_rough: whether it is noise, which isolines would only cover.  remark: what else is
     to be said of it.  colours: (n, 3) red, green and blue from 0 to 1, NaN where there is none, of what is shown in
@@ -50,6 +50,7 @@ class Answer:
 
     @property
     def maximum(self) -> float:
+        """Largest value of the field, in absolute value if it is signed; 0 without a field."""
         if self.field is None:
             return 0.0
         return float(np.nanmax(np.abs(self.field) if self.is_signed else self.field, initial=0.0))

@@ -19,7 +19,7 @@ left."""
 
 
 class BiharmonicDistance(Distance):
-    """d(i, j)^2 = C_ii + C_jj - 2 C_ij with the Green's function C of the biharmonic operator; unit length.
+    """d(i, j)^2 = C_ii + C_jj - 2 C_ij, C the Green's function of the biharmonic operator (paper, Eq. 4); unit length.
 
     One to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
     use the half-order form, free of cancellation: solve L y = e_i - e_j, centre y by area, d = |y|_A.
@@ -34,12 +34,13 @@ class BiharmonicDistance(Distance):
         self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        """Compute the diagonal of the Green's function on a component, if that is not done."""
         component.biharmonic_diagonal(progress)
 
     def embedding(
         self, k: int | None = None, tolerance: float | None = None, progress: Progress | None = None
     ) -> Embedding:
-        """Points of a Euclidean space that have these distances within a bound (`biharmonic_embedding`)."""
+        """Points of a Euclidean space with biharmonic distances within a bound (`biharmonic_embedding`)."""
         return biharmonic_embedding(self.laplacian, k, tolerance, progress)
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:

@@ -16,7 +16,7 @@ MOST_NEAR, MOST_SPRINGS = 128, 256
 
 
 class CommuteTimeDistance(Distance):
-    """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix; no unit."""
+    """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eq. 2); no unit."""
 
     label = "commute-time, exact"
     length_power = 0.0
@@ -27,6 +27,7 @@ class CommuteTimeDistance(Distance):
         self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        """Factor the stiffness matrix of a component, with the inverse's diagonal, if that is not done."""
         component.factor(progress, diagonals=True)
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:

@@ -33,9 +33,9 @@ def scale_of(unit: str) -> float:
 def difference_in_unit(
     minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, units: tuple[str, str] = ("", ""), raw: bool = False
 ) -> tuple[FloatArray, str]:
-    """The `difference` of two fields (n,) or (n, k) with its unit: in percentage points, or, raw, in that of the two.
+    """The `difference` of two fields (n,) or (n, k), and its unit: percentage points, or, raw, the unit of the fields.
 
-    units: theirs; a field without one, which is no distance, is taken to be in the unit of the other.  Raises
+    units: of both fields; one without, which is no distance, is taken to be in the unit of the other.  Raises
     ParameterError for fields of different shapes and, raw, of different units.
     """
     if not raw:

@@ -25,12 +25,13 @@ STEP = 1.02
 
 
 class DiffusionDistance(SpectralDistance):
-    """d(i, j)^2 = sum_k exp(-t lambda_k / lambda_1) (phi_k(i) - phi_k(j))^2; unit 1 / length.
+    """d(i, j)^2 = sum_k exp(-t lambda_k / lambda_1) (phi_k(i) - phi_k(j))^2 (paper, Eq. 1); unit 1 / length.
 
-    tolerance: how far any distance may be off because eigenpairs are left out, as a fraction of the maximum of the
-    field it stands in; the sum takes as many as are proven to be enough.  None means `TOLERANCE`, or where that takes
-    more than `MOST_PAIRS` eigenpairs what these give, down to `COARSEST`.  lambda_1 is that of the component.  Raises
-    ParameterError if t or the tolerance is not positive, or if they need more than `MOST_PAIRS` eigenpairs.
+    lambda_1: the first eigenvalue of the component.  tolerance: how far any distance may be off because eigenpairs are
+    left out, as a fraction of the maximum of the field it stands in; the sum takes as many as are proven to be
+    enough.  None means `TOLERANCE`, or where that takes more than `MOST_PAIRS` eigenpairs what these give, down to
+    `COARSEST`.  Raises ParameterError if t or the tolerance is not positive, or if they need more than `MOST_PAIRS`
+    eigenpairs.
     """
 
     length_power = -1.0

@@ -100,7 +100,7 @@ class Distance(ABC):
         return accurate_to(accuracy)
 
     def is_judged(self, component: int) -> bool:
-        """Whether the accuracy on a component is known, so that its certificate costs nothing."""
+        """Whether the accuracy on a component is known, so that `error_estimate` costs nothing."""
         return component in self._accuracies
 
     def _remedy(self, components: Sequence[int]) -> str:
@@ -152,11 +152,11 @@ class Distance(ABC):
         return field
 
     def label_from(self, pieces: Pieces) -> str:
-        """`label`, with what there is to say of fields from such a source."""
+        """`label`, with what there is to say of fields that start from some pieces of the surface."""
         return self.label
 
     def from_pieces(self, pieces: Pieces, progress: Progress | None = None) -> FloatArray:
-        """(n,) the same from pieces of this surface."""
+        """(n,) distances of every vertex from the nearest of some pieces of this surface."""
         field = np.full(len(self.surface.vertices), np.nan)
         for component, mine in self._by_component(pieces.corners[:, 0]):
             self.prepare(component, progress)
@@ -218,9 +218,9 @@ class Distance(ABC):
     def columns_by_component(
         self, sources: npt.ArrayLike, progress: Progress | None = None
     ) -> Iterator[tuple[Component, IntArray, FloatArray]]:
-        """For each component with some of the source vertices (k,): it, which of them (c,), and their fields (m, c).
+        """For each component with some of the source vertices (k,): itself, which of them (c,), and their fields.
 
-        The fields are those of the component's own m vertices: nothing is held for where there is no distance.
+        Fields are (m, c), for the m vertices of the component only.
         """
         ids = self.surface.check_vertices(np.asarray(sources))
         for component, mine in self._by_component(ids):

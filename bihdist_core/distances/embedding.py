@@ -29,7 +29,9 @@ SOLVED = 32
 
 @dataclass(frozen=True, eq=False)
 class Embedding:
-    """points: (n, k), NaN at vertices that belong to no face; tails: (n,) the length of what they leave out of each
+    """Points of a Euclidean space that stand for the vertices, with a bound on the error of their distances.
+
+    points: (n, k), NaN at vertices that belong to no face; tails: (n,) the length of what they leave out of each
     vertex; both in mesh units.  components: (n,) which component each vertex is of, -1 for none.
 
     Between vertices i and j of a component, |p_i - p_j| <= d(i, j) <= sqrt(|p_i - p_j|^2 + (tails_i + tails_j)^2), but
@@ -47,9 +49,9 @@ class Embedding:
         return max((float(two.sum()) for two in pairs), default=0.0)
 
     def between(self, pairs: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """(q,), (q,): what the distances of pairs of vertices (q, 2) are at least and at most; NaN between components.
+        """(q,), (q,): the least and the most that pairs of vertices (q, 2) can be apart; NaN between components.
 
-        ParameterError for another shape, or a vertex that is not there.
+        Raises ParameterError for another shape, or a vertex that is not there.
         """
         table = np.asarray(pairs)
         if table.ndim != 2 or table.shape[1] != 2 or table.dtype.kind not in "iu":

@@ -64,6 +64,7 @@ class GeodesicDistance(Distance):
         self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        """Make the solver of a component, if that is not done."""
         if component.index not in self._solvers:
             if self.method == "exact":
                 self._solvers[component.index] = ExactGeodesic(component.surface)
@@ -77,9 +78,11 @@ class GeodesicDistance(Distance):
         return ErrorEstimate(TYPICALLY[self.method], True) if self.method in TYPICALLY else ErrorEstimate()
 
     def is_judged(self, component: int) -> bool:
+        """True: nothing is estimated."""
         return True
 
     def label_from(self, pieces: Pieces) -> str:
+        """`label`, and that an exact distance from a line is taken from points along it."""
         points = ", from points along the line" if self.method == "exact" and pieces.along.any() else ""
         return self.label + points
 

@@ -95,7 +95,7 @@ class HeatGeodesic:
     def distances_with(
         self, vertices: IntArray, loads: FloatArray, offsets: FloatArray, progress: Progress | None = None
     ) -> FloatArray:
-        """(n,) the same from a source that is spread over vertices (k,), with repeats, by positive loads (k,).
+        """(n,) distances from a source that is spread over vertices (k,), with repeats, by positive loads (k,).
 
         offsets (k,): how far these are from the source itself; phi is right up to a constant, which is such that it
         agrees with them in the mean by the loads.

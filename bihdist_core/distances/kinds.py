@@ -57,6 +57,7 @@ class Parameter:
 
     @property
     def is_whole(self) -> bool:
+        """Whether its values are whole numbers."""
         return isinstance(self.default, int)
 
     def checked(self, value: object) -> Value:
@@ -164,7 +165,7 @@ class Spec:
 
     @property
     def in_full(self) -> str:
-        """The same with every parameter, which stays true should a default change."""
+        """The words of this distance with every parameter, which stay true should a default change."""
         return self._with([name for name, _ in self.values])
 
     def _with(self, names: Sequence[str]) -> str:
@@ -177,14 +178,15 @@ class Spec:
 
     @property
     def kind(self) -> Kind:
+        """The kind of distance that the word names."""
         return kind_of(self.word)
 
     def changed(self, **values: object) -> "Spec":
-        """The same with other values."""
+        """A copy with other values of some parameters."""
         return Spec.of(self.word, **{**dict(self.values), **values})
 
     def on(self, surface: "Surface") -> "Spec":
-        """The same, with no value above what a surface has."""
+        """A copy with no value above what a surface has."""
         most = {name: self.kind.parameter(name).on(surface).at_most for name, _ in self.values}
         over = {
             name: int(most[name]) for name, value in self.values if not isinstance(value, str) and value > most[name]

@@ -26,7 +26,10 @@ def has_places(points: object) -> TypeGuard[Sequence[Point]]:
 
 
 def are_of_places(pairs: object) -> TypeGuard[Sequence[Pair]]:
-    """The same of a sequence of pairs; ParameterError for such that are no pairs."""
+    """Whether some of a sequence's pairs hold other than vertex ids: places in faces, or words.
+
+    Raises ParameterError for a pair that is not two.
+    """
     if not (isinstance(pairs, Sequence) and any(map(has_places, pairs))):
         return False
     if any(len(pair) != 2 for pair in pairs):

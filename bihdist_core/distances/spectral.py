@@ -21,7 +21,7 @@ CLEAR = 1e-3
 
 
 class SpectralDistance(Distance):
-    """Vertices become points with the coordinates sqrt(w_k) phi_k; the distance is that of the points."""
+    """A distance between points with the coordinates sqrt(w_k) phi_k that stand for the vertices."""
 
     is_quadratic = True
 
@@ -56,6 +56,7 @@ class SpectralDistance(Distance):
         return self._points[component.index]
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        """Compute the eigenpairs of a component, if that is not done."""
         self.points(component, progress)
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:

@@ -61,6 +61,7 @@ class Cloud:
 
     @locked_cached_property
     def nearest(self) -> FloatArray:
+        """(m,) a lower bound on the distance of each point from the nearest other one, by its first coordinates."""
         # Distances near 1, as squares of small ones would be 0.
         scale = float(np.abs(self._first).max())
         if not 0 < scale < np.inf:

@@ -34,7 +34,7 @@ SOURCES, QUICK_SOURCES = 10, 4
 
 @dataclass
 class Found:
-    """What was measured of a damaged surface: of each distance, that of the pictured source first."""
+    """What was measured of a damaged surface, by distance; the pictured source comes first."""
 
     rows: list[tuple[Cell, ...]] = field(default_factory=list)
     panels: list[Panel] = field(default_factory=list)

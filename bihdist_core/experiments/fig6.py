@@ -41,9 +41,9 @@ EACH = 2
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """A surface, what became of it (several times, where that is left to chance), and what the two share.
+    """A surface, what became of it (several times, where that is random), and the points that both share.
 
-    ids, images: (k,) vertices before and after that are the same points.
+    ids, images: (k,) vertices before and after that are equal points.
     """
 
     name: str
@@ -61,7 +61,7 @@ class Change:
 
 @dataclass
 class Found:
-    """What was measured of a change: of each distance, that of the pictured source first."""
+    """What was measured of a change, by distance; the pictured source comes first."""
 
     rows: list[tuple[Cell, ...]] = field(default_factory=list)
     panels: list[Panel] = field(default_factory=list)

@@ -15,7 +15,7 @@ class Gathered:
         self._random: dict[str, list[float]] = {}
 
     def add(self, part: str, number: float, is_pictured: bool) -> None:
-        """A number of a part of that name, or of parts of several statements that have the same."""
+        """Add a number to the part of a statement, or to parts of several statements, with that name."""
         (self._pictured if is_pictured else self._random).setdefault(part, []).append(float(number))
 
     def numbers(self, name: str) -> BySource | None:

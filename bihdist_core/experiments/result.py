@@ -61,7 +61,7 @@ class Claim:
 
     @property
     def measured(self) -> str:
-        """Its numbers in a line; why there are none, if so."""
+        """The claim's numbers in a line; why there are none, if so."""
         said = [f"{part.name}: {part.said(self.numbers[part.name])}" for part in self._measured()]
         return "; ".join(said) or self.failure or "not measured"
 

@@ -69,7 +69,7 @@ class Shapes:
         return cls({name: Path(folder) / f"{name}.ply" for name in NAMES if (Path(folder) / f"{name}.ply").exists()})
 
     def names(self, *names: str) -> tuple[str, ...]:
-        """These names, of shapes that an experiment would look at; the own surface's instead, if there is one."""
+        """The names of shapes that an experiment would look at; of the own surface instead, if there is one."""
         return (self.own.name,) if self.own is not None else names
 
     def __getitem__(self, name: str) -> Surface:
@@ -85,7 +85,7 @@ class Shapes:
         return self._surfaces[name]
 
     def laplacian(self, name: str) -> Laplacian:
-        """Its Laplacian, shared by all distances on it."""
+        """The Laplacian of a shape, shared by all distances on it."""
         if name not in self._laplacians:
             self._laplacians[name] = Laplacian(self[name])
         return self._laplacians[name]
@@ -105,7 +105,7 @@ class Shapes:
         return self._surfaces[key]
 
     def sizes(self, name: str, counts: Sequence[int], parts: Parts, progress: Progress | None = None) -> list[int]:
-        """Those of some sizes that the surface can have; the others are noted as not done.
+        """Of some numbers of vertices those that the surface can have; the others are noted as not done.
 
         Raises ParameterError where there are none.
         """
@@ -163,7 +163,7 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
 
 
 def distances_there(laplacian: Laplacian, parts: Parts, where: str) -> dict[str, Distance]:
-    """Those of `DISTANCES` that can be had on a surface; of the others it is noted why not, as "KIND on WHERE"."""
+    """The distances of `DISTANCES` that can be had on a surface; why not of the others is noted, as "KIND on WHERE"."""
     made = {kind: parts.do(f"{kind} on {where}", distance, laplacian, kind) for kind in DISTANCES}
     return {kind: each for kind, each in made.items() if each is not None}
 
@@ -189,8 +189,10 @@ PLACES: dict[str, dict[str, tuple[float, float]]] = {
 
 
 def random_sources(surface: Surface, count: int, among: BoolArray | None = None) -> list[int]:
-    """The same vertices (count,) every time: on the largest component, or `among` (n,) bool those of it; some may be
-    equal where there are few."""
+    """(count,) vertices, equal each time: on the largest component, or `among` (n,) bool those of it.
+
+    Some may be equal where there are few.
+    """
     if among is None:
         return [start_vertex(surface, start) for start in starts(count + 1)[1:]]
     ids = np.flatnonzero(among & (surface.component_of_vertex == 0))

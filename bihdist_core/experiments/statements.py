@@ -15,5 +15,5 @@ STATEMENTS: dict[str, Statement] = {
 
 
 def statements_of(experiment: str) -> tuple[Statement, ...]:
-    """Those of an experiment, by its id."""
+    """The statements of an experiment, by its id."""
     return tuple(s for id, s in STATEMENTS.items() if id.partition("-")[0] == experiment)

@@ -15,10 +15,10 @@ from .vtp_output import write_poly_data
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """points: (k, 3) in order; a closed curve does not repeat its first.
+    """A curve to be written, with numbers and arrays along it.
 
-    numbers: what is said of it, by name; the same names for all curves of a file.  along: arrays (k, ...) by name, that
-    only .json holds.
+    points: (k, 3) in order; a closed curve does not repeat its first.  numbers: by name; all curves of a file have
+    equal names.  along: arrays (k, ...) by name, that only .json holds.
     """
 
     points: FloatArray

@@ -39,6 +39,7 @@ class Block:
 
     @property
     def nbytes(self) -> int:
+        """Bytes of its matrices."""
         return self.K.nbytes + self.N.nbytes + self.K1.nbytes + self.M.nbytes
 
 
@@ -47,7 +48,7 @@ class Entries:
     """The entries of a matrix below its diagonal, ordered by the stack they belong to.
 
     near, far (e,): their vertices, the one in the front first; value (e,); starts: where each stack's begin.
-    diagonal (n,); areas (n,), scaled (see above), or None.
+    diagonal (n,); areas (n,), scaled as the matrix, or None.
     """
 
     near: IntArray

@@ -130,7 +130,7 @@ class Factor:
         return result
 
     def each_sandwich_piece(self, index: npt.ArrayLike, receive: ReceivePiece) -> None:
-        """The same without an array for all of it: `receive` gets every piece once, from several threads."""
+        """Call `receive` with each piece of G A G once, from several threads, without an array for all of it."""
         self._with_areas()
         index, n = np.asarray(index), self.tree.n
         if index.ndim != 1 or (index.size and (index.dtype.kind not in "iu" or index.min() < 0 or index.max() >= n)):

@@ -36,7 +36,7 @@ class EdgeFaces:
 
 
 def edge_faces(surface: Surface) -> EdgeFaces:
-    """Those of a surface, found once: sorting takes longer than a curve on it."""
+    """The edges' faces of a surface, found once: sorting takes longer than a curve on it."""
     with _lock:
         if surface not in _known:
             _known[surface] = EdgeFaces(surface)

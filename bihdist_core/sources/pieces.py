@@ -44,6 +44,7 @@ class Pieces:
         return len(self.faces)
 
     def some(self, which: IntArray | BoolArray) -> "Pieces":
+        """The pieces with these numbers, or where a mask is true."""
         return Pieces(self.faces[which], self.corners[which], self.start[which], self.stop[which], self.along[which])
 
     @property

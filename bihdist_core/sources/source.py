@@ -41,7 +41,7 @@ class SurfacePoint:
 
     @staticmethod
     def of(face: int, first: float, second: float) -> "SurfacePoint":
-        """From the weights of the first two corners; the third's is the rest.  ParameterError if none is left."""
+        """A place by the weights of the first two corners; the third gets the rest.  ParameterError if none is left."""
         # 0.2 and 0.2 leave 0.6, not 0.6000000000000001.
         rest = round(1 - first - second, 15)
         if not (first >= 0 and second >= 0 and rest >= -ROUNDING):
@@ -99,7 +99,10 @@ Member = int | SurfacePoint | BoundaryLoop | Curve
 
 @dataclass(frozen=True)
 class SourceSet:
-    """Several of the others, each once; the distance is that of the nearest."""
+    """Several vertices, places, loops or curves as one source; the distance is from the nearest.
+
+    members: each once.
+    """
 
     members: tuple[Member, ...] = field(default=())
 

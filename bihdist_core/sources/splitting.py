@@ -15,7 +15,7 @@ SNAP = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Split:
-    """A surface with vertices at some places; the same shape, so that lengths and linear fields are the same.
+    """A surface with vertices at some places; its shape stays, and so do lengths and linear fields.
 
     surface: the vertices of the whole one first, then one for each place that is none of them.  vertices (k,): those at
     the places.  parents (m,): the face of the whole surface that each face is part of.  Faces that are divided come

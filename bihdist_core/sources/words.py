@@ -108,7 +108,7 @@ def words_of(source: Source, files: Mapping[Curve, str] = NONE) -> str:
 
 
 def short_words_of(source: Source) -> str:
-    """The same for a heading: weights with three digits, and of a large set how many it has."""
+    """Words of a source for a heading: weights with three digits, and of a large set how many members it has."""
     if isinstance(source, SurfacePoint):
         return f"f{source.face}:{source.weights[0]:.3g},{source.weights[1]:.3g}"
     if isinstance(source, SourceSet):
