@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
+
 from .glyphs import DISC, Glyph
 
 
@@ -24,6 +26,9 @@ class PointMark:
     weights: tuple[float, ...] = ()
     name: str = ""
 
-    def on(self, vertices: np.ndarray) -> np.ndarray:
+    def on(self, vertices: FloatArray) -> FloatArray:
         """(3,) where it is on a surface with these vertices (n, 3)."""
-        return np.array(self.weights) @ vertices[list(self.corners)] if self.corners else vertices[self.vertex]
+        at: FloatArray = vertices[self.vertex]
+        if self.corners:
+            at = np.array(self.weights) @ vertices[list(self.corners)]
+        return at
