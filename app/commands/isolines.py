@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
 
+from ..document.looks import TWENTY_STEPS, Isolines
+from ..figures.options import ISOLINES, isolines_with
 from .field_of import FieldOf, field_of
-from .isoline_options import add_levels, isolines_of
-from .options import SOURCE, add_areas, add_distance, source
+from .options import SOURCE, add_areas, add_distance, add_rows, given, source
 from .terminal import progress_line
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..document.looks import Isolines
 
 WORDS = "isolines of a distance as coordinates, and the region between two values"
 TEXT = ".csv"
@@ -24,7 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
     parser.add_argument("-o", "--output", metavar="OUT", help="the isolines: a .csv, .obj, .vtp or .json file")
-    add_levels(parser)
+    add_rows(parser, ISOLINES)
     parser.add_argument(
         "--region", metavar="LOW:HIGH", help="between two values, or fractions of the maximum: 20%%:40%%"
     )
@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> None:
         (options.region_ids, SELECTION_WAYS["ids"]),
         (options.region_mesh, SELECTION_WAYS["mesh"]),
     )
-    wanted = isolines_of(options)
+    wanted = isolines_with(TWENTY_STEPS, given(options, ISOLINES))
     with progress_line() as progress:
         it = field_of(options, options.distance, progress)
     wanted = wanted.scaled(it.scale)
@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> None:
         print(f"region {options.region}: area {found.area:.6g}, {part:.1%}, {held}")
 
 
-def _values(it: FieldOf, wanted: "Isolines", through: Sequence[int]) -> "np.ndarray":
+def _values(it: FieldOf, wanted: Isolines, through: Sequence[int]) -> "np.ndarray":
     """Those that a figure would have lines at."""
     from bihdist_core.errors import ParameterError
 

@@ -34,7 +34,7 @@ def run(options: argparse.Namespace) -> int:
         (options.path and options.source, "--source beside --path, whose first vertex is the source"),
         (options.transparent, "--transparent"),
         (options.crop, "--crop"),
-        (options.two_views or len(options.view or ()) > 1, "more than one view"),
+        (options.two_views or len(options.views or ()) > 1, "more than one view"),
     ):
         if given:
             raise ParameterError(f"A movie takes no {name.removeprefix('no ')}.")

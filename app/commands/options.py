@@ -2,17 +2,17 @@
 
 import argparse
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
 
 from bihdist_core.distances.kinds import OURS, Spec, Value, kinds
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import source_from_words
 
-from ..document.document import AREAS, COMPARISON, Document
-from ..document.looks import UPS
-from ..document.profile import WAYS
+from ..document.document import COMPARISON
+from ..document.option import Option, Row, vertex as vertex_from_words
 from ..document.quantities import Quantity, quantity
+from ..figures.options import VERTEX_AREAS
 
 PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
 SOURCE = "vertex (12), several (12+40+7), place in a face (f311:0.2,0.5), boundary loop (loop:0) or curve (curve.json)"
@@ -37,93 +37,53 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "") -> None:
         )
 
 
+def add_rows(parser: argparse.ArgumentParser, *rows: Row | Option, **meanings: str) -> None:
+    """Options of the table of figures' options.  None stands for what is not given.
+
+    meanings: of some, by name, instead of their own.
+    """
+    for option in _options(rows):
+        how: dict[str, Any] = {"dest": option.name, "help": meanings.get(option.name, option.meaning)}
+        if option.is_switch:
+            parser.add_argument(option.word, action=argparse.BooleanOptionalAction, default=None, **how)
+            continue
+        how |= {"nargs": "?", "const": option.bare} if option.bare is not None else {}
+        how |= {"action": "append"} if option.repeats else {}
+        how |= {"metavar": option.metavar, "choices": option.choices, "type": _argument(option.read)}
+        parser.add_argument(option.word, **how)
+
+
+def _options(rows: Iterable[Row | Option]) -> Iterator[Option]:
+    for row in rows:
+        yield from row.options if isinstance(row, Row) else (row,)
+
+
+def given(options: argparse.Namespace, *known: Row | Option) -> dict[str, Any]:
+    """The values of those options that are given, by the names of their arguments."""
+    found = {option.name: getattr(options, option.name) for option in _options(known)}
+    return {name: value for name, value in found.items() if value is not None}
+
+
+def _argument(read: Callable[[str], Any]) -> Callable[[str], Any]:
+    """How argparse reads it; what is wrong is the same sentence."""
+    if read in (int, float, str):
+        return read
+
+    def read_argument(text: str) -> Any:
+        try:
+            return read(text)
+        except ParameterError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+
+    return read_argument
+
+
+source, vertex = _argument(source_from_words), _argument(vertex_from_words)
+"""A source from its words, and a vertex id."""
+
+
 def add_areas(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--areas", choices=AREAS, help="vertex areas (default: voronoi)")
-
-
-def add_up(parser: argparse.ArgumentParser, default: str = "guessed") -> None:
-    words = f"which axis points up: {', '.join(UPS)} (default: {default}); write --up=-z for those with a sign"
-    parser.add_argument("--up", choices=UPS, metavar="AXIS", help=words)
-
-
-def add_pins(parser: argparse.ArgumentParser) -> None:
-    words = "a pin with a number at a vertex or a place in a face (f311:0.2,0.5); repeat for more, in their order"
-    parser.add_argument("--pin", type=point, metavar="V", action="append", help=words)
-
-
-def add_profile(parser: argparse.ArgumentParser) -> None:
-    """The path of a profile, as figures draw it."""
-    parser.add_argument(
-        "--profile",
-        nargs="?",
-        const="",
-        metavar="V,W,…",
-        help="the path through points: vertices, places in faces, source, pin:1 (nothing: through the pins in order)",
-    )
-    add_way(parser)
-
-
-def add_way(parser: argparse.ArgumentParser) -> None:
-    words = "from point to point by auto, exact, straightened or edges; or by a section, section-longer, section-whole"
-    parser.add_argument("--way", choices=WAYS, metavar="NAME", help=f"{words} (default: auto)")
-    parser.add_argument("--across", type=direction, metavar="X,Y,Z", help="a direction that lies in a section's plane")
-
-
-def direction(text: str) -> tuple[float, ...]:
-    try:
-        found = tuple(float(word) for word in text.split(","))
-    except ValueError:
-        found = ()
-    if len(found) != 3:
-        raise argparse.ArgumentTypeError(f"{text!r} is no direction such as 0,0,1")
-    return found
-
-
-def with_path(document: Document, options: argparse.Namespace) -> Document:
-    """The document with the path that is named, if one is."""
-    if options.profile is None:
-        if options.way is not None or options.across is not None:
-            raise ParameterError("--way and --across go with --profile, the path that is drawn.")
-        return document
-    from ..document.profile import with_profile, words_in
-
-    return with_profile(document, words_in(options.profile), options.way or "auto", options.across)
-
-
-def panel_numbers(text: str) -> str | tuple[int, ...]:
-    """ "all", or numbers of panels."""
-    if text == "all":
-        return text
-    try:
-        return tuple(int(word) for word in text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not all, or numbers of panels such as 1,3") from None
-
-
-def with_pins(document: Document, options: argparse.Namespace) -> Document:
-    """The document with the pins that are named, if any are, and no others."""
-    if options.pin is None:
-        return document
-    from ..document.pins import pin_instead
-
-    return pin_instead(document, options.pin, document.surfaces[0].name)
-
-
-def add_selections(parser: argparse.ArgumentParser) -> None:
-    words = "vertices that stand out: ids and ranges (12,40-77), or a .txt, .npy or .csv file of ids; repeat for more"
-    parser.add_argument("--select", metavar="IDS", action="append", help=words)
-
-
-def with_selections(document: Document, options: argparse.Namespace) -> Document:
-    """The document with the selections that are named, if any are, and no others."""
-    if options.select is None:
-        return document
-    from bihdist_core.analysis.selecting import is_ids_file, read_ids
-
-    from ..document.selections import runs_from_words, runs_of, select_instead
-
-    chosen = [runs_of(read_ids(word)) if is_ids_file(word) else runs_from_words(word) for word in options.select]
-    return select_instead(document, chosen, document.surfaces[0].name)
+    add_rows(parser, VERTEX_AREAS)
 
 
 def spec(options: argparse.Namespace, text: str) -> Spec:
@@ -161,26 +121,6 @@ def check_parameters(options: argparse.Namespace, specs: Sequence[Spec]) -> None
         if name not in known:
             shown = ", ".join(dict.fromkeys(each.word for each in specs))
             raise ParameterError(f"--{name} {getattr(options, name)} is no parameter of {shown}.")
-
-
-def source(text: str) -> Source:
-    """A source from its words."""
-    try:
-        return source_from_words(text)
-    except ParameterError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-
-
-def point(text: str) -> Source:
-    """A vertex id, or a place in a face from its words."""
-    return source(text) if text.strip().startswith("f") else vertex(text)
-
-
-def vertex(text: str) -> int:
-    try:
-        return int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a vertex id (a whole number)") from None
 
 
 def vertices(text: str) -> list[int]:

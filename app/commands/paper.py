@@ -3,8 +3,9 @@
 import argparse
 import sys
 
+from ..figures.options import UP, up_meaning
 from .mesh import found_mesh
-from .options import add_up
+from .options import add_rows
 from .terminal import progress_line
 
 WORDS = "every figure and table of the paper, computed anew, as one page"
@@ -16,7 +17,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mesh", metavar="PATH", help="your own mesh, or a folder of meshes (claims and a picture each)"
     )
-    add_up(parser, "y on the bundled meshes, guessed for yours")
+    add_rows(parser, UP, up=up_meaning("y on the bundled meshes, guessed for yours"))
     parser.add_argument("--quick", action="store_true", help="smaller meshes and fewer samples, for a first look")
 
 

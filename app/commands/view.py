@@ -3,25 +3,13 @@
 import argparse
 import os
 import sys
-from dataclasses import replace
 from typing import NoReturn
 
-from .colour_options import add_colours, with_colours
+from ..document.option import Row
+from ..document.page import Recipe
+from ..figures.options import COLOURS, UP, VERTEX_AREAS, tool_rows, up_meaning, with_rows
 from .mesh import found_mesh
-from .options import (
-    PANELS,
-    SOURCE,
-    add_areas,
-    add_distance,
-    add_pins,
-    add_selections,
-    add_up,
-    given_parameters,
-    quantities,
-    source,
-    with_pins,
-    with_selections,
-)
+from .options import PANELS, SOURCE, add_distance, add_rows, given, given_parameters, quantities, source
 
 WORDS = "open the viewer"
 
@@ -37,17 +25,19 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
-    add_colours(parser)
     add_distance(parser, PANELS)
-    add_pins(parser)
-    add_selections(parser)
-    add_areas(parser)
-    add_up(parser, "as it was chosen for this mesh before, or guessed")
+    add_rows(parser, *_rows(), up=up_meaning("as it was chosen for this mesh before, or guessed"))
+
+
+def _rows() -> list[Row]:
+    """Of the options of figures those of tools, as far as they are not about the page, and some more."""
+    of_tools = (row for row in tool_rows() if not any(part.startswith("Page.") for part in row.parts))
+    return [COLOURS, UP, VERTEX_AREAS, *of_tools]
 
 
 def run(options: argparse.Namespace) -> NoReturn:
     from ..document.beside_edits import open_beside
-    from ..document.document import AREAS, COMPARISON, Document, MeshFile, comparison
+    from ..document.document import COMPARISON, Document, MeshFile, comparison
 
     # Not in the window, where a script would wait for ever.
     is_choice = options.mesh is None and not (options.screenshot or options.save_session)
@@ -63,9 +53,8 @@ def run(options: argparse.Namespace) -> NoReturn:
             raise ParameterError(f"A session says which meshes it has; leave out {options.beside}.")
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
-        shown = comparison(path, tuple(chosen), (options.source,), options.areas or AREAS[0])
-        shown = with_pins(with_colours(replace(shown, up=options.up or "auto"), options), options)
-        shown = with_selections(shown, options)
+        shown = comparison(path, tuple(chosen), (options.source,))
+        shown = with_rows(Recipe(shown), given(options, *_rows()), _rows()).document
         if options.beside is not None:
             shown = open_beside(shown, MeshFile("", found_mesh(options.beside)))
     if is_choice and options.source is not None:
@@ -88,9 +77,10 @@ def _refuse_options(options: argparse.Namespace) -> None:
     """ParameterError for what a session says itself."""
     from bihdist_core import ParameterError
 
-    own = ("source", "distance", "areas", "colours", "reversed", "bands", "up", "pin", "select")
-    given = {name: getattr(options, name) for name in own}
-    given |= given_parameters(options)
-    for name, value in given.items():
+    named = {f"--{name}": getattr(options, name) for name in ("source", "distance")}
+    named |= {f"--{name}": value for name, value in given_parameters(options).items()}
+    values = given(options, *_rows())
+    named |= {option.word: values.get(option.name) for row in _rows() for option in row.options}
+    for word, value in named.items():
         if value is not None:
-            raise ParameterError(f"A session says {name} itself; leave out --{name}.")
+            raise ParameterError(f"A session says {word[2:]} itself; leave out {word}.")

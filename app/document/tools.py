@@ -30,6 +30,7 @@ class Tool:
     icon: a name of `assets/icons`; in_bar: whether it has a button of its own; synonyms: other words by which it is
     found.  dock: its `Instrument`, if it has one.  commands: modules of commands, by their words.
     quantities: subclasses of `Quantity` that panels can show.  parts: subclasses of `Part`, of documents.
+    options: a tuple of `Row`, what figures can be told of them.
     """
 
     package: str
@@ -45,6 +46,7 @@ class Tool:
     commands: Mapping[str, str] = field(default_factory=dict)
     quantities: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
+    options: str = ""
 
     def load(self, name: str) -> Any:
         """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""

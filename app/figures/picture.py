@@ -6,38 +6,29 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from bihdist_core import ParameterError
-from bihdist_core.applications.changes import change_from_words
-from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
-from bihdist_core.sources.source import Source, checked_source
+from bihdist_core.sources.source import Source
 
-from ..document import between
-from ..document.anchors import Anchor, Anchors
-from ..document.camera import Camera, View
-from ..document.document import Document, Point, Zoom, free_names
+from ..document.camera import View
+from ..document.document import Document
 from ..document.file import read_recipe
-from ..document.isoline_edits import pass_through
-from ..document.looks import AS_IT_IS, Colours, Isolines, shaded
+from ..document.looks import Colours, Isolines
+from ..document.option import Option
 from ..document.page import Page, Recipe
-from ..document.perturbation import COLUMNS, with_changed
-from ..document.pins import add_pins
-from ..document.profile import with_profile
 from ..document.quantities import Quantity
-from ..document.regions import divide
-from ..document.selections import runs_from_words, runs_of, select_instead
-from ..scene.colour_file import colours_named
 from ..session.array_store import ArrayStore, Mesh, comparison_of_arrays, with_beside
 from ..version import version
 from .description import Figure
 from .draw import draw_figure
-from .ends import ranged
 from .export import Surfaces, compute, figure_of, open_document, write_figure
+from .options import arguments, with_options
 
 
 class Picture:
@@ -115,17 +106,7 @@ def figure(
     axes: bool = False,
     camera: Sequence[float] | None = None,
     zooms: Sequence[int | tuple[int, float] | tuple[int, float, int]] = (),
-    anchors: Mapping[int, float | None] | Sequence[int] = (),
-    anchor_values: bool = False,
-    exponent: float = 1.0,
-    smoothness: float = 0.0,
-    pins: Sequence[Source | str] = (),
     extrema: bool = False,
-    regions: str | Sequence[int] = (),
-    selections: Sequence[str | npt.ArrayLike] = (),
-    profile: bool | Sequence[Source | str] = False,
-    way: str = "auto",
-    across: Sequence[float] | None = None,
     height: float = 0.0,
     shading: str | None = None,
     crease: float | None = None,
@@ -140,6 +121,7 @@ def figure(
     font: str = "",
     text: float | None = None,
     progress: Progress | None = None,
+    **of_tools: Any,
 ) -> Picture:
     """What `bihdist figure` draws, with its options.
 
@@ -176,100 +158,35 @@ def figure(
     >>> picture.pixels.shape
     (200, 400, 3)
     """
+    named = dict(locals())
     several = isinstance(source, Sequence | np.ndarray) and not isinstance(source, str)
     sources = tuple(source) if isinstance(source, Sequence | np.ndarray) and not isinstance(source, str) else (source,)
     if not sources:
         raise ParameterError("There is no source in an empty list; name one, or None for the highest vertex.")
-    document, given = comparison_of_arrays(mesh, distances, {} if fields is None else fields, sources, areas)
-    marked = dict(anchors) if isinstance(anchors, Mapping) else dict.fromkeys(anchors)
-    names = free_names("anchor", len(marked), [point.name for point in document.points])
-    chosen = _views(views, camera)
-    lines = isolines if isinstance(isolines, Isolines) else Isolines(isolines, isoline_spacing, tuple(isoline_values))
-    lines = replace(
-        lines,
-        bold=bold_isolines or lines.bold,
-        labels=isoline_labels or lines.labels,
-        round=lines.round and not equal_isolines,
-    )
-    found = colours if isinstance(colours, Colours) else colours_named(colours)
-    document = replace(
-        document,
-        points=(*document.points, *(Point(name, vertex) for name, vertex in zip(names, marked, strict=True))),
-        zooms=tuple(_zoom(zoom) for zoom in zooms),
-        isolines=lines,
-        colours=replace(found, reversed=reversed or found.reversed, bands=bands or found.bands),
-        height=height,
-        up=up,
-        projection=projection,
-        axes=axes,
-        extrema=extrema,
-        shading=shaded(AS_IT_IS, shading, crease, wireframe),
-        camera=chosen[0] if chosen else "auto",
-    ).with_part(
-        Anchors(
-            anchors=tuple(Anchor(name, value) for name, value in zip(names, marked.values(), strict=True)),
-            weights=Weights(exponent, smoothness),
-        )
-    )
-    if len(pins):
-        document = add_pins(document, [checked_source(at) for at in pins])
-    if profile is not False:
-        document = with_profile(document, () if profile is True else profile, way, across)
-    if len(regions):
-        document = divide(document, regions)
-    if len(selections):
-        runs = (runs_from_words(each) if isinstance(each, str) else runs_of(np.asarray(each)) for each in selections)
-        document = select_instead(document, runs)
-    if len(isoline_through):
-        document = pass_through(document, tuple(isoline_through))
-    usual = len(distances) if several and len(sources) > 1 else None
-    if perturb:
-        usual = COLUMNS
-    page = Page(
-        size=size,
-        style=style,
-        views=chosen if len(chosen) > 1 else (),
-        columns=columns or usual,
-        hints=hints,
-        transparent=transparent,
-        crop=crop,
-        title=title,
-        font=font,
-        text=text,
-        anchor_values=anchor_values,
-    )
-    if perturb:
-        document = with_changed(document, change_from_words(perturb))
-    document = _with_second(document, given, beside, pairs, predict, maps)
-    document, _ = ranged(document, "shared" if shared_range and range == "own" else range)
-    document, surfaces = open_document(Recipe(document, page), given)
-    recipe = Recipe(document, page)
+    known = arguments()
+    named |= named.pop("of_tools")
+    unknown = named.keys() - known.keys() - {"mesh", "distances", "source", "fields", "beside", "progress"}
+    if unknown:
+        raise TypeError(f"figure() got an unexpected keyword argument {min(unknown)!r}")
+    values = {name: value for name, value in named.items() if name in known and not _is_usual(value, known[name])}
+    document, store = comparison_of_arrays(mesh, distances, {} if fields is None else fields, sources)
+    columns = len(distances) if several and len(sources) > 1 else None
+
+    def with_second(document: Document) -> Document:
+        return document if beside is None else with_beside(document, store, beside)
+
+    recipe = with_options(Recipe(document, Page(columns=columns)), values, with_second, progress=progress)
+    document, surfaces = open_document(recipe, store)
+    recipe = replace(recipe, document=document)
     # What cannot be drawn is refused before the long work.
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
-    return Picture(recipe, surfaces, given, compute(document, surfaces, progress))
+    return Picture(recipe, surfaces, store, compute(document, surfaces, progress))
 
 
-def _with_second(
-    document: Document,
-    given: ArrayStore,
-    beside: Mesh | None,
-    pairs: npt.ArrayLike,
-    predict: int | None,
-    maps: Sequence[str],
-) -> Document:
-    """With a second mesh, and what is shown of both, if anything is."""
-    if beside is not None:
-        document = with_beside(document, given, beside)
-    if np.size(pairs):
-        places = np.asarray(pairs)
-        if places.ndim != 2 or places.shape[1] != 2 or places.dtype.kind not in "iu":
-            raise ParameterError(f"Pairs are whole numbers of shape (k, 2), not {places.dtype} of {places.shape}.")
-        document = between.with_pairs(document, [(int(i), int(j)) for i, j in places])
-    if predict is not None and len(maps):
-        raise ParameterError("predict= and maps= are figures of their own; leave one of them out.")
-    if predict is not None:
-        return between.with_prediction(document, predict)
-    return between.with_maps(document, maps) if len(maps) else document
+def _is_usual(value: Any, option: Option) -> bool:
+    if isinstance(value, np.ndarray | Mapping | Sequence) and not isinstance(value, str):
+        return len(value) == 0
+    return bool(value == option.default)
 
 
 def figure_again(recipe: str | os.PathLike[str], progress: Progress | None = None) -> Picture:
@@ -280,22 +197,3 @@ def figure_again(recipe: str | os.PathLike[str], progress: Progress | None = Non
     read = replace(read, document=document)
     figure_of(read, surfaces, [Answer(label="")] * len(document.panels))
     return Picture(read, surfaces, given, compute(document, surfaces, progress))
-
-
-def _views(views: View | Sequence[View], camera: Sequence[float] | None) -> tuple[View, ...]:
-    chosen = (views,) if isinstance(views, str | Camera) else tuple(views)
-    if camera is None:
-        return chosen
-    numbers = [float(number) for number in camera]
-    if len(numbers) != 11:
-        raise ParameterError(f"A camera is eleven numbers (position, focal point, up, extent), not {len(numbers)}.")
-    x = tuple(numbers)
-    given = Camera((x[0], x[1], x[2]), (x[3], x[4], x[5]), (x[6], x[7], x[8]), (x[9], x[10]))
-    return (given,) if views == "auto" else (*chosen, given)  # a list with "auto" asks for both
-
-
-def _zoom(zoom: int | tuple[int, float] | tuple[int, float, int]) -> Zoom:
-    if not isinstance(zoom, tuple):
-        return Zoom(zoom)
-    vertex, factor, *steps = zoom
-    return Zoom(vertex, factor, isolines=steps[0] if steps else None)

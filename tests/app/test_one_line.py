@@ -1,6 +1,7 @@
 """Lines that make a figure: read again they mean what they were made from, and every part of a document has a row."""
 
 import argparse
+import inspect
 import shlex
 from dataclasses import fields, replace
 
@@ -9,7 +10,6 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 
 import app
 from app.commands.figure_options import add_figure_options, chosen_recipe
-from app.document import one_line
 from app.document.anchors import Anchor, Anchors
 from app.document.camera import VIEWS, Camera
 from app.document.document import Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
@@ -22,6 +22,9 @@ from app.document.regions import DividedPanels, can_divide, divide
 from app.document.selections import select_instead
 from app.document.starts import curves_in
 from app.document.tools import part_types
+from app.figures import one_line
+from app.figures.one_line import PANELS
+from app.figures.options import arguments, rows, tool_rows
 from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, SurfacePoint
 from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.kinds import Spec
@@ -204,6 +207,7 @@ WORDLESS = {"Zoom.corner", "Pin.colour", "Anchor.left_out"} | {
 }
 """Parts that only a recipe's file says so far."""
 
+ROWS = (PANELS, *rows())
 PARTS = [
     f"{part.__name__}.{f.name}"
     for part in (Document, *part_types(), Panel, Zoom, Anchor, Pin, Isolines, Colours, Shading, Page)
@@ -212,10 +216,25 @@ PARTS = [
 
 
 def test_every_part_of_a_document_and_its_page_has_a_row():
-    """A new field fails here until a row of `one_line.ROWS` says it, or UNSEEN why none need."""
-    rows = [part for row in one_line.ROWS for part in row.parts]
-    assert sorted([*rows, *one_line.UNSEEN]) == sorted(PARTS)
-    assert sorted([*EXAMPLES, *ELSEWHERE, *one_line.UNSEEN]) == sorted(PARTS)
+    """A new field fails here until a row of the table says it, or why none needs to."""
+    assert sorted(part for row in ROWS for part in row.parts) == sorted(PARTS)
+    unsaid = [part for row in ROWS for part in row.parts if row.reason]
+    assert sorted([*EXAMPLES, *ELSEWHERE, *unsaid]) == sorted(PARTS)
+    assert all(bool(row.reason) != bool(row.options) for row in ROWS)
+
+
+def test_arguments_and_options_are_those_of_the_table():
+    taken = inspect.signature(app.figure).parameters.values()
+    shown = {each.name: each.default for each in taken} | {"of_tools": None}
+    others = {"mesh", "distances", "source", "fields", "beside", "progress", "of_tools"}
+    of_tools = {option.name for row in tool_rows() for option in row.options}
+    known = arguments()
+    assert {*shown} - others == {*known} - of_tools
+    assert {name: shown[name] for name in shown if name not in others} == {
+        name: known[name].default for name in known if name not in of_tools
+    }
+    with pytest.raises(TypeError, match="argument 'pin'"):
+        app.figure("hand", pin=[3])
 
 
 @pytest.mark.parametrize("part", sorted(EXAMPLES))

@@ -10,7 +10,6 @@ import pytest
 
 import app as bihdist
 from app.commands.figure_options import add_figure_options, chosen_recipe
-from app.document import one_line
 from app.document.beside_edits import see
 from app.document.document import Document, comparison
 from app.document.edits import open_mesh as with_mesh
@@ -20,6 +19,7 @@ from app.document.page import Page, Recipe
 from app.document.perturbation import split, with_changed, without_changed
 from app.document.perturbation_edits import change_mesh, cut_by
 from app.document.quantities import quantity
+from app.figures import one_line
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.session.array_store import ArrayStore

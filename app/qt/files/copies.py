@@ -10,11 +10,11 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError, SurfacePoint
 
-from ...document import one_line
 from ...document.file import recipe_text
 from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...document.starts import curves_in
+from ...figures import one_line
 from ...figures.export import Surfaces, figure_of
 from ...figures.preview import whole_picture
 from ...session.questions import vertex_at

@@ -19,4 +19,5 @@ TOOL = Tool(
         "..document.pairs:Pairs",
         "..document.maps:Maps",
     ),
+    options="options:ROWS",
 )

@@ -16,4 +16,5 @@ TOOL = Tool(
     commands={"interpolate": "command"},
     quantities=("quantity:Interpolant",),
     parts=("..document.anchors:Anchors",),
+    options="options:ROWS",
 )

@@ -14,4 +14,5 @@ TOOL = Tool(
     synonyms="measure distance between points markers landmarks matrix table",
     dock="dock:PinsDock",
     parts=("..document.pins:Pins",),
+    options="options:ROWS",
 )

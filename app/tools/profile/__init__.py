@@ -15,4 +15,5 @@ TOOL = Tool(
     dock="dock:ProfileDock",
     commands={"profile": "command"},
     parts=("..document.profile:Profile",),
+    options="options:ROWS",
 )

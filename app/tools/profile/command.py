@@ -4,10 +4,11 @@ import argparse
 import os
 
 from ...commands.mesh import check_mesh
-from ...commands.options import SOURCE, add_areas, add_distance, add_way, quantities, source
+from ...commands.options import SOURCE, add_areas, add_distance, add_rows, quantities, source
 from ...commands.pairs import pins_in
 from ...commands.terminal import judged, progress_line, tell_repairs
 from ...document.profile import Profile
+from .options import ACROSS, WAY
 
 WORDS = "distances along a path through points of a mesh, as numbers and as a chart"
 TEXT = ".csv"
@@ -22,7 +23,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="V,W,…",
         help="vertices, places in faces, source, pin:1 (default: all pins in their order; of one, from the source)",
     )
-    add_way(parser)
+    add_rows(parser, WAY, ACROSS)
     parser.add_argument(
         "-o",
         "--output",

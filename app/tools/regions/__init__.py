@@ -14,4 +14,5 @@ TOOL = Tool(
     dock="dock:RegionsDock",
     commands={"samples": "samples_command", "regions": "command"},
     parts=("..document.regions:DividedPanels",),
+    options="options:ROWS",
 )

@@ -17,4 +17,5 @@ TOOL = Tool(
         "part:Scatter",
         "..document.selections:Selections",
     ),
+    options="options:ROWS",
 )

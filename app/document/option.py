@@ -1,0 +1,140 @@
+"""What a figure can be told: an option of `bihdist figure`, an argument of `bihdist.figure`, a part of a recipe."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Any
+
+from bihdist_core.errors import ParameterError
+
+from .document import Document, Point
+from .page import Recipe
+from .starts import Starts
+
+USUAL = Recipe(Document())
+
+
+class NotExpressible(ParameterError):
+    """Why a line cannot say it."""
+
+
+def digits(value: float) -> str:
+    """The shortest digits that are the number again."""
+    return repr(value if isinstance(value, int) else float(value))
+
+
+def with_commas(values: Any) -> str:
+    """Numbers, as `numbers` reads them."""
+    return ",".join(map(digits, values))
+
+
+def numbers(text: str) -> tuple[float, ...]:
+    """Of numbers with commas between them; ParameterError for other text."""
+    try:
+        return tuple(float(word) for word in text.split(","))
+    except ValueError:
+        raise ParameterError(f"{text!r} is not numbers with commas between them") from None
+
+
+@dataclass(frozen=True)
+class Option:
+    """One option of the command, and the argument of the function that means what it means.
+
+    name: the argument's, and with hyphens the option's if it has no `flag`.  default: the argument's.  meaning: the
+    help; metavar, choices: as argparse takes them.  read: the text behind the option as a value, ParameterError if it
+    is none; write: the inverse, where None is an option without text.  bare: the value of the option without text.
+    repeats: the value is a list, and the option is given for each of its elements; may_be_lone: the argument takes one
+    of them without a list, too.
+    """
+
+    name: str
+    meaning: str
+    default: Any = None
+    flag: str = ""
+    metavar: str | None = None
+    choices: tuple[str, ...] | None = None
+    read: Callable[[str], Any] = str
+    write: "Callable[[Any], str | Starts | None]" = lambda value: value if isinstance(value, str) else digits(value)
+    bare: Any = None
+    repeats: bool = False
+    may_be_lone: bool = False
+
+    @property
+    def word(self) -> str:
+        """Such as `--isoline-labels`."""
+        return f"--{self.flag or self.name.replace('_', '-')}"
+
+    @property
+    def is_switch(self) -> bool:
+        return self.default is False and self.bare is None
+
+    def words(self, value: Any) -> "list[tuple[str, str | Starts | None]]":
+        """The option as it is typed, with its text, for each time that it is given."""
+        if self.is_switch:
+            return [(self.word if value else f"--no-{self.word[2:]}", None)]
+        return [(self.word, self.write(each)) for each in (value if self.repeats else [value])]
+
+
+@dataclass(frozen=True)
+class Row:
+    """Options that belong together, and what they say of a recipe.
+
+    parts: of documents and pages, such as "Isolines.bold".  get: of a recipe, the values of those options that have to
+    be given, by name; NotExpressible where none say it.  put: the recipe with such values; ParameterError where they
+    make no sense.  reason: why no option needs to say the parts, if none does.
+    """
+
+    options: tuple[Option, ...] = ()
+    parts: tuple[str, ...] = ()
+    get: Callable[[Recipe], Mapping[str, Any]] = lambda recipe: {}
+    put: Callable[[Recipe, Mapping[str, Any]], Recipe] = lambda recipe, values: recipe
+    reason: str = ""
+
+
+def attribute(path: str, meaning: str, metavar: str | None = None, name: str = "", **how: Any) -> Row:
+    """The row of an option for an attribute such as "document.isolines.bold", a switch if that is a flag.
+
+    name: the argument's, that of the attribute if empty.  how: fields of `Option`.
+    """
+    owner, _, last = path.rpartition(".")
+    usual = _at(USUAL, path)
+    option = Option(name or last, meaning, usual, metavar=metavar, **how)
+
+    def get(recipe: Recipe) -> dict[str, Any]:
+        value = _at(recipe, path)
+        return {} if value == usual else {option.name: value}
+
+    def put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+        return with_attribute(recipe, path, values[option.name])
+
+    return Row((option,), (f"{type(_at(USUAL, owner)).__name__}.{last}",), get, put)
+
+
+def unsaid(reason: str, *parts: str) -> Row:
+    """Parts that no figure shows."""
+    return Row(parts=parts, reason=reason)
+
+
+def with_attribute(owner: Any, path: str, value: Any) -> Any:
+    """A frozen value with another at a path of attributes."""
+    name, _, rest = path.partition(".")
+    return replace(owner, **{name: with_attribute(getattr(owner, name), rest, value) if rest else value})
+
+
+def _at(owner: Any, path: str) -> Any:
+    return reduce(getattr, path.split(".") if path else [], owner)
+
+
+def vertex_of(point: Point) -> int | None:
+    """That of an anchor, or of a point that isolines pass through; None where nobody has put it."""
+    if point.at is not None and not isinstance(point.at, int):
+        raise NotExpressible("An anchor is at no vertex.")
+    return point.at
+
+
+def vertex(text: str) -> int:
+    """A vertex id; ParameterError for other text."""
+    try:
+        return int(text)
+    except ValueError:
+        raise ParameterError(f"{text!r} is not a vertex id (a whole number)") from None

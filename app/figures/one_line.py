@@ -1,0 +1,134 @@
+"""The one line, for a shell or for Python, that makes the figure of a recipe: only what is not as usual is named.
+
+It is the inverse of the options of `bihdist figure` and of the arguments of `bihdist.figure`, as all three follow from
+the table in `options`.
+"""
+
+import os
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from bihdist_core.applications.changes import words_of_change
+from bihdist_core.sources.source import Curve
+from bihdist_core.sources.words import NONE
+
+from ..document.document import COMPARISON
+from ..document.option import NotExpressible, Option, Row, with_attribute
+from ..document.page import Recipe
+from ..document.perturbation import COLUMNS, split
+from ..document.quantities import Quantity, from_point, own_fields
+from ..document.starts import Starts, as_argument
+from ..samples import mesh_path
+from .options import PERTURB, rows, rows_of_sources
+
+
+# ---------------------------------------------------------------------- the lines
+def command_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = NONE) -> str:
+    """For a shell: `bihdist figure ... -o OUTPUT`.
+
+    files: where curves that fields start from are saved.  ParameterError for what `why_not` names, and for a curve that
+    has no file.
+    """
+    words = ["bihdist", "figure", mesh_word(recipe.document.surfaces[0].path)]
+    for option, value in _options_of(recipe):
+        for word, start in option.words(value):
+            text = start.words(files) if isinstance(start, Starts) else start
+            words += [word] if text is None else [f"{word}={text}"] if text[:1] == "-" else [word, text]
+    return _joined([*words, "-o", output])
+
+
+def python_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = NONE) -> str:
+    """For Python: `import bihdist; bihdist.figure(...).save(OUTPUT)`; otherwise as `command_line`."""
+    arguments = [repr(mesh_word(recipe.document.surfaces[0].path))]
+    for option, value in _options_of(recipe):
+        shown = value[0] if option.may_be_lone and len(value) == 1 else value
+        arguments.append(f"{option.name}={as_argument(shown, files)!r}")
+    return f"import bihdist; bihdist.figure({', '.join(arguments)}).save({output!r})"
+
+
+def recipe_command_line(path: str, output: str) -> str:
+    """The same from a recipe's file, for what no line can say."""
+    return _joined(["bihdist", "figure", "--recipe", path, "-o", output])
+
+
+def recipe_python_line(path: str, output: str) -> str:
+    return f"import bihdist; bihdist.figure_again({path!r}).save({output!r})"
+
+
+def why_not(recipe: Recipe) -> str:
+    """A sentence on what of a recipe no line can say; empty if all of it can be said."""
+    try:
+        list(_options_of(recipe))
+    except NotExpressible as reason:
+        return str(reason)
+    return ""
+
+
+def mesh_word(path: str) -> str:
+    """How a line names a mesh wherever it is run: a sample by its name, a file by its whole path."""
+    stem = os.path.splitext(os.path.basename(path))[0]
+    sample = mesh_path(stem)
+    if not os.path.exists(path) or (sample != stem and os.path.exists(sample) and os.path.samefile(path, sample)):
+        return stem if os.path.exists(path) else path
+    return os.path.abspath(path)
+
+
+def _joined(words: list[str]) -> str:
+    return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
+
+
+def _options_of(recipe: Recipe) -> Iterator[tuple[Option, Any]]:
+    """What has to be said, in the order of the table, with its values; NotExpressible for what cannot be."""
+    document, change = split(recipe.document)
+    if change is not None:
+        pose = mesh_word(change.pose) if change.pose else ""
+        yield PERTURB, words_of_change(replace(change, pose=pose))
+        columns = None if recipe.page.columns in (None, COLUMNS) else recipe.page.columns
+        recipe = replace(recipe, document=document)
+        recipe = with_attribute(recipe, "page.columns", columns or rows_of_sources(recipe))
+    for row in (PANELS, *rows()):
+        values = row.get(recipe)
+        yield from ((option, values[option.name]) for option in row.options if option.name in values)
+
+
+# ---------------------------------------------------------------------- what is shown of what
+def _panels_of(recipe: Recipe) -> dict[str, Any]:
+    """Quantities, and the sources from which each of them is shown, if that is how the panels stand."""
+    document = recipe.document
+    if len(document.surfaces) != 1:
+        raise NotExpressible(f"{len(document.surfaces)} meshes do not go into one line.")
+    if not document.surfaces[0].path:
+        raise NotExpressible("The mesh was given from Python as arrays, which no line can hold.")
+    if document.fields or any(own_fields(panel.shows) for panel in document.panels):
+        raise NotExpressible("Fields of one's own were given from Python as arrays, which no line can hold.")
+    if not document.panels:
+        raise NotExpressible("There are no panels.")
+    names = list(dict.fromkeys(name for panel in document.panels for name in panel.shows.points))
+    shows: list[Quantity] = [
+        from_point(p.shows, "source") for p in document.panels if set(p.shows.points) == set(names[:1])
+    ]
+    # What starts nowhere, such as interpolants, is named once.
+    repeated = [from_point(each, name) for name in names or ["source"] for each in shows]
+    if [panel.shows for panel in document.panels] != repeated:
+        raise NotExpressible("The panels start from different points, and not each distance from each.")
+    places = [document.point(name).at for name in names]
+    if None in places and len(places) > 1:
+        raise NotExpressible("One of several sources is where nobody has put it.")
+    starts = [Starts(at) for at in places if at is not None]
+    words = [str(each) for each in shows]
+    said: dict[str, Any] = {} if words == [str(spec) for spec in COMPARISON] else {"distances": words}
+    return said | ({"source": starts} if starts else {})
+
+
+PANELS = Row(
+    (
+        Option("distances", "", flag="distance", repeats=True),
+        Option("source", "", write=lambda start: start, repeats=True, may_be_lone=True),
+    ),
+    ("Document.surfaces", "Document.fields", "Document.points", "Document.panels", "Panel.shows"),
+    _panels_of,
+)

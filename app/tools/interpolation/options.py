@@ -1,0 +1,100 @@
+"""Anchors and their weights as figures are told of them."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from bihdist_core.errors import ParameterError
+
+from ...document.anchors import Anchor, Anchors
+from ...document.document import Point, free_names
+from ...document.option import NotExpressible, Option, Row, attribute, digits, unsaid, vertex_of
+from ...document.page import Recipe
+from ...document.removal import without_orphans
+
+
+def _anchors_of(recipe: Recipe) -> dict[str, Any]:
+    document, anchors = recipe.document, recipe.document[Anchors].anchors
+    marks = [(vertex_of(document.point(anchor.point)), anchor.value) for anchor in anchors]
+    if len(dict(marks)) < len(marks) or None in dict(marks):
+        raise NotExpressible("Two marks are at one vertex, or one is where nobody has put it.")
+    if any(anchor.left_out for anchor in anchors):
+        raise NotExpressible("An anchor is left out.")
+    return {"anchors": dict(marks)} if marks else {}
+
+
+def _with_anchors(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+    document, marks = recipe.document, values["anchors"]
+    if len(document.surfaces) != 1:
+        raise ParameterError(f"--anchors are on one mesh, and this recipe has {len(document.surfaces)}.")
+    marks = marks.items() if isinstance(marks, Mapping) else [m if isinstance(m, tuple) else (m, None) for m in marks]
+    document = without_orphans(document, document.with_part(replace(document[Anchors], anchors=())))
+    names = free_names("anchor", len(marks), [point.name for point in document.points])
+    surface = document.surfaces[0].name
+    points = (Point(name, vertex, surface) for name, (vertex, _) in zip(names, marks, strict=True))
+    anchors = tuple(Anchor(name, value) for name, (_, value) in zip(names, marks, strict=True))
+    document = document.with_part(replace(document[Anchors], anchors=anchors), points=(*document.points, *points))
+    return replace(recipe, document=document)
+
+
+def _anchors(text: str) -> list[tuple[int, float | None]]:
+    found: list[tuple[int, float | None]] = []
+    for word in text.split(","):
+        vertex, _, value = word.partition("=")
+        try:
+            found.append((int(vertex), float(value) if value else None))
+        except ValueError:
+            raise ParameterError(f"{word!r} is not a vertex id, or one with a value such as 12=0.5") from None
+    return found
+
+
+def _anchors_text(marks: Mapping[int, float | None]) -> str:
+    return ",".join(f"{vertex}" if value is None else f"{vertex}={digits(value)}" for vertex, value in marks.items())
+
+
+def _weights_of(recipe: Recipe) -> dict[str, Any]:
+    weights, usual = recipe.document[Anchors].weights, Anchors().weights
+    names = [name for name in ("exponent", "smoothness") if getattr(weights, name) != getattr(usual, name)]
+    return {name: getattr(weights, name) for name in names}
+
+
+def _with_weights(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+    anchors = recipe.document[Anchors]
+    weights = replace(anchors.weights, **values)
+    return replace(recipe, document=recipe.document.with_part(replace(anchors, weights=weights)))
+
+
+ROWS = (
+    Row(
+        (
+            Option(
+                "anchors",
+                "mark vertices, coloured by a value",
+                (),
+                metavar="V[=VALUE],…",
+                read=_anchors,
+                write=_anchors_text,
+            ),
+        ),
+        ("Anchors.anchors", "Anchor.point", "Anchor.value", "Anchor.left_out"),
+        _anchors_of,
+        _with_anchors,
+    ),
+    attribute("page.anchor_values", "numbers beside the anchors that have a value (default: no)"),
+    Row(
+        (
+            Option("exponent", "of anchors' weights in interpolants (default: 1)", 1.0, metavar="P", read=float),
+            Option(
+                "smoothness",
+                "how far anchors' cones are rounded in interpolants, 0 to 1 (0)",
+                0.0,
+                metavar="S",
+                read=float,
+            ),
+        ),
+        ("Anchors.weights",),
+        _weights_of,
+        _with_weights,
+    ),
+    unsaid("figures show colours", "Anchor.name"),
+)
