@@ -105,7 +105,8 @@ def attribute(path: str, meaning: str, metavar: str | None = None, name: str = "
         return {} if value == usual else {option.name: value}
 
     def put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-        return with_attribute(recipe, path, values[option.name])
+        changed: Recipe = with_attribute(recipe, path, values[option.name])
+        return changed
 
     return Row((option,), (f"{type(_at(USUAL, owner)).__name__}.{last}",), get, put)
 
