@@ -31,6 +31,7 @@ class Tool:
     found.  dock: its `Instrument`, if it has one.  commands: modules of commands, by their words.
     quantities: subclasses of `Quantity` that panels can show.  parts: subclasses of `Part`, of documents.
     options: a tuple of `Row`, what figures can be told of them.
+    marks: a function from a `MarkedPanel` to what is marked there, primitives of `marks.primitives`.
     """
 
     package: str
@@ -47,6 +48,7 @@ class Tool:
     quantities: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
     options: str = ""
+    marks: str = ""
 
     def load(self, name: str) -> Any:
         """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""

@@ -26,7 +26,6 @@ from .legend import draw_legend
 from .marks import draw_frames, draw_marks
 from .shots import Line, Shot
 from .simplified import simplified
-from .strokes import strokes_on
 from .words_and_bars import draw_words, write
 
 if TYPE_CHECKING:
@@ -147,12 +146,15 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         )
         axes.add_artist(curve)
         curve.set_clip_path(frame)
-    for line in strokes_on(shot, style):
-        curve = _curve(line.lines, line.colour, line.width * stroke, "round", order + 3, f"{line.name}-{number}")
-        if line.dots:
-            curve.set_linestyle((0, (DOT, line.dots / line.width - DOT)))
-        axes.add_artist(curve)
-        curve.set_clip_path(frame)
+    for look, lines in shot.lines.items():
+        for parts, strokes in ((lines.course, look.hidden), (lines.seen, look.strokes)):
+            for each in strokes if parts else ():
+                width = each.width * stroke
+                curve = _curve(parts, style.named(each.colour), width, "round", order + 3, f"{look.name}-{number}")
+                if each.dots:
+                    curve.set_linestyle((0, (DOT, each.dots / each.width - DOT)))
+                axes.add_artist(curve)
+                curve.set_clip_path(frame)
     put = partial(write, axes, page)
     draw_marks(axes, page, shot, order + 4, frame, put)
     if shot.source is not None:

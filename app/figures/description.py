@@ -10,9 +10,8 @@ from ..document.camera import View, checked_view
 from ..document.document import Zoom
 from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
 from ..document.page import TITLES
-from ..marks.primitives import PointMark
+from ..marks.primitives import AreaMark, LineMark, PointMark
 from ..scene.camera import is_flat
-from ..scene.source_lines import SourceLine
 from ..scene.style import PAPER, Style
 from .fonts import check_font
 from .size import Size
@@ -28,10 +27,9 @@ class FigurePanel:
     its maximum is this share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
     signed: the field has values on both sides of 0, and its colour bar goes from -maximum to maximum. up: which axis is
     up in standard views.  source: the vertex that the view from the source looks at.  is_parallel: nothing gets smaller
-    with distance.  axes: where x, y and z point to is shown, unless it is in a panel before. lines: those that the
-    field starts from; regions: boundaries of the pins' regions; selected: (n, 4) uint8 colours of vertices that stand
-    out, see `selected_colours`; path: that of a profile.  colours: (n, 3) of the surface's own, instead of a field,
-    grey where they are NaN.  largest: of a difference, in words, how large it is and where.
+    with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.  marks, lines, areas: what
+    is marked on the surface.  colours: (n, 3) of the surface's own, instead of a field, grey where they are NaN.
+    largest: of a difference, in words, how large it is and where.
     """
 
     surface: Surface
@@ -54,10 +52,8 @@ class FigurePanel:
     source: int | None = None
     is_parallel: bool = False
     axes: bool = False
-    lines: tuple[SourceLine, ...] = ()
-    regions: tuple[SourceLine, ...] = ()
-    selected: np.ndarray | None = None
-    path: tuple[SourceLine, ...] = ()
+    lines: tuple[LineMark, ...] = ()
+    areas: tuple[AreaMark, ...] = ()
     colours: np.ndarray | None = None
     largest: str = ""
 

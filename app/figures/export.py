@@ -6,14 +6,9 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from bihdist_core import BihdistError, OutputError, ParameterError, SolverError, Surface
-from bihdist_core.analysis.region_boundaries import region_boundaries
+from bihdist_core import OutputError, ParameterError, SolverError
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress, part
-from bihdist_core.sources.pieces import pieces_of
-from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
@@ -22,31 +17,21 @@ from ..document.looks import NO_LINES, Isolines
 from ..document.maps import Maps
 from ..document.page import Recipe
 from ..document.perturbation import COLUMNS, changed_mesh
-from ..document.profile import shows_path
-from ..document.selections import Selections, vertices_of
-from ..document.source_edits import members_of
-from ..marks.glyphs import DOT, PIN, RING, TRIANGLE_DOWN, TRIANGLE_UP
-from ..marks.primitives import PointMark
+from ..marks.marked_panel import MarkedPanel, marks_of
+from ..marks.primitives import AreaMark, LineMark, PointMark, Remark, SurfaceMark
 from ..scene.levels import in_unit
-from ..scene.selected import selected_colours
-from ..scene.source_lines import SourceLine, source_lines
-from ..scene.style import PINS, style_of
-from ..session.anchors import anchors_on
+from ..scene.style import style_of
 from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
-from ..session.extrema import extrema_of
-from ..session.isoline_points import IsolinePoint, passed
+from ..session.isoline_points import passed
 from ..session.loaded_mesh import LoadedMesh, open_mesh
 from ..session.map_answers import map_in
+from ..session.pair_locations import plain_heading
 from ..session.perturbed_meshes import carried
-from ..session.pin_locations import located_pins
-from ..session.profiling import path_of
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
-from ..session.regions import regions_of, regions_questions
 from .description import Figure, FigurePanel
 from .draw import FIGURE_FORMATS, check_offscreen, check_transparency, save_figure
-from .pair_marks import pair_marks, plain_heading
 from .size import Size
 from .tex import tex_path, tex_snippet
 
@@ -112,23 +97,26 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
     style = style_of(page.style, document.colours)
     if not document.panels:
         raise ParameterError("The recipe has no panels.")
-    path, remarks = _path(document, surfaces)
+    marked = [
+        marks_of(MarkedPanel(document, panel, surfaces, answer))
+        for panel, answer in zip(document.panels, answers, strict=True)
+    ]
     shown = {panel.id: answer for panel, answer in zip(document.panels, answers, strict=True)}
     panels = tuple(
         replace(
-            _figure_panel(recipe, panel, surfaces[panel.surface], answer),
-            path=path.get(panel.surface, ()),
+            _figure_panel(recipe, panel, surfaces[panel.surface], answer, marks),
             maximum=(
                 own_end(document, shown, panel.id, surfaces.get)
                 if document.range == "own"
                 else typed_end(document, panel.id, answer)
             ),
         )
-        for panel, answer in zip(document.panels, answers, strict=True)
+        for panel, answer, marks in zip(document.panels, answers, marked, strict=True)
     )
+    remarks = (mark.text for marks in marked for mark in marks if isinstance(mark, Remark))
     return Figure(
         panels,
-        remarks=remarks,
+        remarks=tuple(dict.fromkeys(remarks)),
         columns=page.columns or (COLUMNS if changed_mesh(document) is not None else None),
         size=Size.parse(page.size) if page.size else Size(),
         style=style,
@@ -201,7 +189,9 @@ def export(
     return figure, recipe, answers
 
 
-def _figure_panel(recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answer) -> FigurePanel:
+def _figure_panel(
+    recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answer, marks: Sequence[SurfaceMark]
+) -> FigurePanel:
     document, surface = recipe.document, loaded.surface
     starts = [source_at(document.point(name).at, surface) for name in panel.shows.points]
     heading = answer.label
@@ -228,15 +218,9 @@ def _figure_panel(recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answ
         isolines=NO_LINES if answer.is_rough else _isolines(document, answer),
         through=tuple(point.value for point in through),
         views=tuple(loaded.view_of(view, up) for view in views),
-        marks=(
-            *_extremum_marks(document, panel, surface, answer),
-            *_dots(through, answer),
-            *_source_marks(starts, surface),
-            *_anchor_marks(recipe, panel, loaded),
-            *_largest(answer),
-            *_pin_marks(document, panel, surface),
-            *pair_marks(document, panel, loaded, answer),
-        ),
+        marks=tuple(_with_value(mark, recipe) for mark in marks if isinstance(mark, PointMark)),
+        lines=tuple(mark for mark in marks if isinstance(mark, LineMark)),
+        areas=tuple(mark for mark in marks if isinstance(mark, AreaMark)),
         zooms=_zooms(document, loaded),
         height=0.0 if answer.failure else document.height,
         signed=answer.is_signed,
@@ -246,10 +230,12 @@ def _figure_panel(recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answ
         source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.projection == "orthographic",
         axes=document.axes,
-        lines=_source_lines(starts, surface),
-        regions=() if answer.field is None else _region_lines(document, panel, loaded),
-        selected=_selected(document, panel, surface),
     )
+
+
+def _with_value(mark: PointMark, recipe: Recipe) -> PointMark:
+    """With its value beside it, where the page has those."""
+    return replace(mark, text=mark.value) if mark.value and recipe.page.anchor_values else mark
 
 
 def _isolines(document: Document, answer: Answer) -> Isolines:
@@ -263,116 +249,3 @@ def _zooms(document: Document, loaded: LoadedMesh) -> tuple[Zoom, ...]:
         return document.zooms
     places = [vertex_at(carried(zoom.vertex, loaded), loaded.surface) for zoom in document.zooms]
     return tuple(replace(zoom, vertex=vertex) for zoom, vertex in zip(document.zooms, places, strict=True))
-
-
-def _selected(document: Document, panel: Panel, surface: Surface) -> np.ndarray | None:
-    """The selections of the panel's surface; VertexError where that has no such vertex."""
-    chosen = [each for each in document[Selections].selections if each.surface == panel.surface and each.runs]
-    for each in chosen:
-        if each.runs[-1][1] >= len(surface.vertices):
-            surface.check_vertex(each.runs[-1][1])
-    return selected_colours([(vertices_of(each.runs), each.colour) for each in chosen], len(surface.vertices))
-
-
-def _path(document: Document, surfaces: Surfaces) -> tuple[dict[str, tuple[SourceLine, ...]], tuple[str, ...]]:
-    """The path of the profile by the name of its surface, or a sentence on why there is none."""
-    if not shows_path(document):
-        return {}, ()
-    try:
-        name, path = path_of(document, surfaces)
-    except BihdistError as error:
-        return {}, (f"No path is drawn: {error}",)
-    places = path.places
-    return {name: (SourceLine(places.corners, places.weights, is_closed=False),)}, ()
-
-
-def _region_lines(document: Document, panel: Panel, loaded: LoadedMesh) -> tuple[SourceLine, ...]:
-    """The boundaries of the pins' regions, where the panel shows them."""
-    question = regions_questions(document).get(panel.id)
-    if question is None:
-        return ()
-    curves = region_boundaries(loaded.surface, regions_of(question, loaded))
-    return tuple(SourceLine(curve.corners, curve.weights, curve.closed) for curve in curves)
-
-
-def _extremum_marks(document: Document, panel: Panel, surface: Surface, answer: Answer) -> list[PointMark]:
-    """Where the document says so: the same as the window's."""
-    found = extrema_of(questions(document)[panel.id], surface, answer) if document.extrema else None
-    if found is None:
-        return []
-    minima = [PointMark(vertex, TRIANGLE_DOWN) for vertex in found.minima.tolist()]
-    return minima + [PointMark(vertex, TRIANGLE_UP) for vertex in found.maxima.tolist()]
-
-
-def _source_lines(starts: Sequence[Source], surface: Surface) -> tuple[SourceLine, ...]:
-    """Those of boundary loops and curves."""
-    members = dict.fromkeys(member for start in starts for member in members_of(start))
-    return tuple(
-        line
-        for member in members
-        if isinstance(member, BoundaryLoop | Curve)
-        for line in source_lines(pieces_of(member, surface), _line_in_words(member))
-    )
-
-
-def _line_in_words(member: BoundaryLoop | Curve) -> str:
-    if isinstance(member, BoundaryLoop):
-        return f"Boundary loop {member.number}"
-    return f"The {'closed ' if member.closed else ''}curve of {len(member.places):,} points"
-
-
-def _source_marks(starts: Sequence[Source], surface: Surface) -> list[PointMark]:
-    """A mark for each vertex and place."""
-    marks: list[PointMark] = []
-    for start in starts:
-        points = pieces_of(start, surface).points
-        for face, corners, weights in zip(points.faces.tolist(), points.corners, points.start, strict=True):
-            vertex = int(corners[weights.argmax()])
-            is_vertex = weights.max() == 1
-            if is_vertex:
-                marks.append(PointMark(vertex))
-                continue
-            place = SurfacePoint(face, tuple(weights.tolist()))
-            at = (tuple(corners.tolist()), place.weights)
-            marks.append(PointMark(vertex, corners=at[0], weights=at[1], name=f"The place {short_words_of(place)}"))
-    return marks
-
-
-def _dots(through: Sequence[IsolinePoint], answer: Answer) -> list[PointMark]:
-    """On isolines through points; see `scene.levels` on the values that have one."""
-    low = -answer.maximum if answer.is_signed else 0.0
-    on_lines = [point for point in through if low < point.value < answer.maximum]
-    return [PointMark(p.vertices[0], DOT, corners=p.vertices, weights=p.weights) for p in on_lines]
-
-
-def _largest(answer: Answer) -> list[PointMark]:
-    """The place of the largest difference, with its value and name."""
-    vertex = answer.largest
-    if vertex is None or answer.field is None:
-        return []
-    value, percent = float(answer.field[vertex]), " %" if answer.scale == 100 else ""
-    return [PointMark(vertex, colour="largest", text=f"{value:+.3g}{percent} at {vertex}".replace("-", "−"))]
-
-
-def _anchor_marks(recipe: Recipe, panel: Panel, loaded: LoadedMesh) -> list[PointMark]:
-    found = anchors_on(recipe.document, panel.surface, loaded)
-    has_words = recipe.page.anchor_values
-    return [
-        PointMark(
-            vertex,
-            RING,
-            text=f"{value:.4g}".replace("-", "−") if has_words and value is not None else "",
-        )
-        for vertex, value in found
-    ]
-
-
-def _pin_marks(document: Document, panel: Panel, surface: Surface) -> list[PointMark]:
-    marks = []
-    for pinned in located_pins(document, panel.surface, surface):
-        vertex = pinned.vertex if pinned.vertex is not None else int(pinned.corners[pinned.weights.argmax()])
-        mark = PointMark(vertex, PIN, PINS[pinned.pin.colour], number=pinned.number)
-        if pinned.vertex is None:
-            mark = replace(mark, corners=tuple(pinned.corners.tolist()), weights=tuple(pinned.weights.tolist()))
-        marks.append(mark)
-    return marks

@@ -36,14 +36,14 @@ def draw_marks(
     placed = [(marks[k], True, x, y) for k, x, y in shot.ghosts] + [(marks[k], False, x, y) for k, x, y in shot.marks]
     written: list[Box] = []
     for mark, is_hidden, x, y in placed:
-        stands = mark.glyph.rank > 0
+        stands = mark.glyph.rise > 0
         if any(box.holds(x, y, across / 2) for box in insets):
             continue
         if not stands:
             _draw(axes, page, shot, mark, (x, y), is_hidden, order, frame)
         if not is_hidden:
             _write_beside(axes, page, shot, mark, (x, y), insets, written, order + 2 if stands else order + 1, write)
-    standing = [each for each in placed if each[0].glyph.rank > 0]
+    standing = [each for each in placed if each[0].glyph.rise > 0]
     standing.sort(key=lambda each: (each[0].glyph.rank, not each[1], -(each[0].number or 0)))
     for rank, (mark, is_hidden, x, y) in enumerate(standing):
         if not any(box.holds(x, y) for box in insets):
@@ -213,7 +213,7 @@ def hidden_words(page: Composition) -> list[str]:
                 continue
             for mark in some:
                 found[f"{_named(mark)} is {rest}"] = None
-        for name in dict.fromkeys(line.name for line in panel.lines):
+        for name in dict.fromkeys(line.name for line in panel.lines if line.name):
             if not any(name in shot.seen for shot in shots):
                 found[f"{name} is hidden in {views}; try --view source or --two-views."] = None
     return list(found)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from itertools import chain
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -14,12 +15,13 @@ from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
+from ..marks.line_looks import LineLook
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
 from ..scene.drawable import drawable, normals_shading, outward_faces
 from ..scene.levels import levels, too_many
 from ..scene.line_labels import Contour, Line
-from ..scene.source_lines import SourceLine
+from ..scene.selected import selected_colours
 from ..scene.style import Style
 from .description import Figure
 from .framing import Framed, shown_surface
@@ -37,14 +39,21 @@ PlacedMark = tuple[int, float, float]
 
 
 @dataclass(frozen=True, eq=False)
+class SeenLines:
+    """What is seen of lines of one look; course: all of them, if what is hidden is drawn, too."""
+
+    seen: list[Line]
+    course: list[Line]
+
+
+@dataclass(frozen=True, eq=False)
 class Shot:
     """A rectangle of the page with a picture in it.
 
     image: (h, w, 4) uint8, colours multiplied by alpha; isolines: in the order of their values; marks: their index in
     the panel, and where (x, y) on the page; frame: (3, 3) of the camera, see `scene.camera.frame`; ghosts: of marks
-    that the shape hides, the same; lines, regions: what is seen of those that the field starts from, and of boundaries
-    of regions; source: for an inset, what it enlarges; seen: the names of the lines of which something is seen; path:
-    what is seen of a profile's; course: all of that.
+    that the shape hides, the same; source: for an inset, what it enlarges; seen: the names of the lines of which
+    something is seen; lines: by their looks, those of a higher rank last.
     """
 
     panel: int
@@ -56,11 +65,8 @@ class Shot:
     frame: np.ndarray
     ghosts: list[PlacedMark] = field(default_factory=list)
     source: Box | None = None
-    lines: list[Line] = field(default_factory=list)
-    regions: list[Line] = field(default_factory=list)
     seen: frozenset[str] = frozenset()
-    path: list[Line] = field(default_factory=list)
-    course: list[Line] = field(default_factory=list)
+    lines: dict[LineLook, SeenLines] = field(default_factory=dict)
 
 
 class RenderCache:
@@ -122,7 +128,7 @@ def take_shots(
             mesh = render_cache.mesh(surface, shading) if surface is panel.surface else drawable(surface, shading)
             render_window.shown.show_surface(mesh)
             render_window.shown.show_shading(shading)
-            render_window.shown.show_selected(panel.selected)
+            render_window.shown.show_selected(selected_colours(panel.areas, len(surface.vertices)))
             if panel.field is not None:
                 render_window.shown.show_field(panel.field, tops[index], panel.signed)
                 render_window.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
@@ -177,14 +183,9 @@ class _Taker:
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         panel = self._panel
-        of_lines = self._visible(panel.lines)
-        self._lines = [part for parts in of_lines for part in parts]
-        named = zip(panel.lines, of_lines, strict=True)
-        self._seen = frozenset(line.name for line, parts in named if sum(map(_length, parts)) > LEAST_SEEN)
-        self._regions, self._path = (
-            [part for parts in self._visible(lines) for part in parts] for lines in (panel.regions, panel.path)
-        )
-        self._course = self._sight.outlined(self._curves_of(panel.path))
+        self._seen: set[str] = set()
+        looks = sorted(dict.fromkeys(line.look for line in panel.lines), key=lambda look: look.rank)
+        self._lines = {look: self._seen_lines(look) for look in looks}
         self._marks, self._ghosts = self._placed_marks()
 
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
@@ -217,11 +218,11 @@ class _Taker:
             self._projection.view[:3, :3].T,
             [mark for mark in ghosts if source is None and box.holds(*mark[1:])],
             source,
-            [(move(p + self._corner), c) for p, c in self._lines],
-            [(move(p + self._corner), c) for p, c in self._regions],
-            self._seen,
-            [(move(p + self._corner), c) for p, c in self._path],
-            [(move(p + self._corner), c) for p, c in self._course],
+            frozenset(self._seen),
+            {
+                look: SeenLines(*([(move(p + self._corner), c) for p, c in lines] for lines in (of.seen, of.course)))
+                for look, of in self._lines.items()
+            },
         )
 
     # ------------------------------------------------------------------ what is seen
@@ -251,13 +252,15 @@ class _Taker:
             raise ParameterError(said)
         return contours_seen(self._sight, panel.field, found)
 
-    def _visible(self, lines: Sequence[SourceLine]) -> list[list[Line]]:
-        """What is seen of each of the lines on the surface."""
-        return self._sight.visible(self._curves_of(lines))
-
-    def _curves_of(self, lines: Sequence[SourceLine]) -> list[Curve]:
-        x = self._surface.vertices
-        return [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
+    def _seen_lines(self, look: LineLook) -> SeenLines:
+        """Of the panel's lines of a look; the names of those of which something is seen are kept."""
+        lines, x = [line for line in self._panel.lines if line.look == look], self._surface.vertices
+        curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
+        seen = self._sight.visible(curves)
+        self._seen |= {
+            line.name for line, parts in zip(lines, seen, strict=True) if sum(map(_length, parts)) > LEAST_SEEN
+        }
+        return SeenLines(list(chain.from_iterable(seen)), self._sight.outlined(curves) if look.hidden else [])
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Those that are seen, and those that the shape hides."""

@@ -46,7 +46,7 @@ class Glyph:
     of_text: as a fraction of the size of labels, at least.  pixels: the reach in the window, 0 if the fraction says it.
     rim: as a fraction of the reach; least_rim: in pixels.  join: of corners, "round" or "miter"; cap: of open lines.
     rise: reaches from the place up to the middle of the shape, where a mark's number stands, in the colour `numeral`.
-    rank: glyphs of a higher one are painted over all others.  hidden: what is painted where the surface hides the
+    rank: glyphs of a higher one are painted over others.  hidden: what is painted where the surface hides the
     place; None for nothing.
     """
 
@@ -111,9 +111,11 @@ GHOST = Glyph(
     rim=0.24,
     least_rim=0.7,
 )
-DISC = Glyph("disc", CIRCLE, (Layer("mark_edge", 1.0, "own", inset=0.5),), least_rim=0.5, hidden=GHOST)
+DISC = Glyph("disc", CIRCLE, (Layer("mark_edge", 1.0, "own", inset=0.5),), least_rim=0.5, rank=2, hidden=GHOST)
 """Where a field starts."""
-DOT = replace(DISC, name="dot", reach=0.3, least=2.0, hidden=None)
+LARGEST = replace(DISC, name="largest", rank=4)
+"""Where a difference is largest."""
+DOT = replace(DISC, name="dot", reach=0.3, least=2.0, rank=1, hidden=None)
 """On an isoline through a point."""
 RING = Glyph(
     "ring",
@@ -121,6 +123,7 @@ RING = Glyph(
     # A dark ring on a white disc, which is its halo, too.
     (Layer(fill="white"), Layer(fill="mark_edge", inset=0.17), Layer(fill="white", inset=0.5)),
     rim=1.0,
+    rank=3,
     hidden=GHOST,
 )
 """At an anchor."""
@@ -177,7 +180,7 @@ _PIN = Glyph(
     rim=0.17,
     join="round",
     rise=RISE,
-    rank=1,
+    rank=5,
 )
 PIN = replace(
     _PIN,
@@ -192,7 +195,7 @@ _CANDIDATE = replace(
     _PIN,
     name="candidate",
     layers=(Layer("mark_edge", 2.4, "own"), Layer("white", 1.0, dashes=DASHED)),
-    rank=2,
+    rank=6,
 )
 CANDIDATE = replace(_CANDIDATE, hidden=_CANDIDATE)
 """Where a pin would be."""

@@ -1,20 +1,21 @@
-"""What tools say is to be seen on a surface: frozen, of vertices and faces, with no positions and no pixels."""
+"""What is marked on a surface: frozen, of vertices and faces, with no positions and no pixels."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from bihdist_core.arrays import FloatArray
+from bihdist_core.arrays import FloatArray, IntArray
 
 from .glyphs import DISC, Glyph
+from .line_looks import SOURCE, LineLook
 
 
 @dataclass(frozen=True)
 class PointMark:
     """A vertex, or a place in a face with these corners and weights, of which the vertex is one.
 
-    colour: such as "#1F7A3D", or a name that `Style.named` knows.  text: stands beside it.  number: stands in glyphs
-    that have room for one.  name: in sentences, its vertex or its number if empty.
+    colour: such as "#1F7A3D", or a name that `Style.named` knows.  text: stands beside it; value: too, where values are
+    asked for.  number: stands in glyphs that have room for one.  name: in sentences, its vertex or its number if empty.
     """
 
     vertex: int
@@ -25,6 +26,7 @@ class PointMark:
     corners: tuple[int, ...] = ()
     weights: tuple[float, ...] = ()
     name: str = ""
+    value: str = ""
 
     def on(self, vertices: FloatArray) -> FloatArray:
         """(3,) where it is on a surface with these vertices (n, 3)."""
@@ -32,3 +34,49 @@ class PointMark:
         if self.corners:
             at = np.array(self.weights) @ vertices[list(self.corners)]
         return at
+
+
+@dataclass(frozen=True, eq=False)
+class LineMark:
+    """A line on a surface through k places, whose neighbours share a face.
+
+    corners (k, 3): vertices of a face that holds each; weights (k, 3): of these.  is_closed: the last joins the first.
+    name: in sentences, if it is of a source.
+    """
+
+    corners: IntArray
+    weights: FloatArray
+    is_closed: bool = False
+    look: LineLook = SOURCE
+    name: str = ""
+
+    def positions(self, vertices: FloatArray) -> FloatArray:
+        """(k, 3) on a surface whose vertices are at (n, 3)."""
+        at: FloatArray = np.einsum("kc,kcx->kx", self.weights, vertices[self.corners])
+        return at
+
+    @property
+    def spans(self) -> IntArray:
+        """(k, 3) the vertices that have a weight, of a place on an edge or in a corner one of them twice or thrice."""
+        has = self.weights > 0
+        some = np.take_along_axis(self.corners, has.argmax(axis=1)[:, None], axis=1)
+        spans: IntArray = np.where(has, self.corners, some)
+        return spans
+
+
+@dataclass(frozen=True, eq=False)
+class AreaMark:
+    """Vertices (k,) that stand out, with a rim around them and hatching in a colour such as "#1F7A3D"."""
+
+    vertices: IntArray
+    colour: str
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A sentence on what cannot be marked."""
+
+    text: str
+
+
+SurfaceMark = PointMark | LineMark | AreaMark | Remark

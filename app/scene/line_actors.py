@@ -8,8 +8,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from .source_lines import RIM, WIDTH
-from .style import Colour, Style
+from ..marks.line_looks import LineLook
+from .style import Style
 
 _PLACED = "//VTK::PositionVC::Impl"
 _NEARER = """//VTK::PositionVC::Impl
@@ -17,6 +17,9 @@ _NEARER = """//VTK::PositionVC::Impl
 """
 NEARER = 0.0014
 """By which share of all depth lines are drawn before the surface they lie on."""
+
+LOWER = 0.0001
+"""Of all depth, for each rank."""
 
 SOFT = 0.16
 """Of the height of the band, from the rim to the line."""
@@ -29,26 +32,24 @@ _RIM = """//VTK::Light::Impl
 
 
 class RimmedLines:
-    """Lines, hidden until there are any, and where the surface is before them.
+    """Lines of a look with two strokes, hidden until there are any, and where the surface is before them.
 
-    line, rim: colours; width, rim_width: pixels, of the line and of the rim on each side; scale: device pixels per
-    pixel; nearer: see NEARER.
+    scale: device pixels per pixel.
     """
 
-    def __init__(
-        self, line: Colour, rim: Colour, width: float, rim_width: float, scale: float, nearer: float = NEARER
-    ) -> None:
-        whole = width + 2 * rim_width
-        self._width = whole * scale
-        self.actor = line_actor(line, self._width, nearer)
+    def __init__(self, look: LineLook, style: Style, scale: float) -> None:
+        rim, line = look.strokes
+        self._width = rim.width * scale
+        # Of a lower rank they are drawn under others.
+        self.actor = line_actor(style.named(line.colour), self._width, NEARER - LOWER * (2 - look.rank))
         look = self.actor.GetProperty()
         look.RenderLinesAsTubesOn()  # plain lines have no edges, and are thinner the more they slant
         look.LightingOn()  # which has that shader
-        edge = float(np.sqrt(1 - (width / whole) ** 2))
+        edge = float(np.sqrt(1 - (line.width / rim.width) ** 2))
         rimmed = _RIM.replace("FROM", f"{edge - SOFT:.4f}").replace("TO", f"{edge:.4f}")
         shader = self.actor.GetShaderProperty()
         shader.AddFragmentShaderReplacement(_LIT, False, rimmed, False)
-        shader.GetFragmentCustomUniforms().SetUniform3f("rimColour", rim)
+        shader.GetFragmentCustomUniforms().SetUniform3f("rimColour", style.named(rim.colour))
 
     def set_proportion(self, share: float) -> None:
         """Be of this share of the width."""
@@ -69,13 +70,6 @@ class RimmedLines:
         drawn.SetPoints(points)
         drawn.SetLines(cells)
         self.actor.GetMapper().SetInputData(drawn)
-
-
-class SourceLineActor(RimmedLines):
-    """What a source consists of."""
-
-    def __init__(self, style: Style, scale: float) -> None:
-        super().__init__(style.source, style.mark_edge, WIDTH, RIM, scale)
 
 
 def _without_specks(points: np.ndarray) -> np.ndarray:

@@ -8,12 +8,12 @@ from vtkmodules.vtkCommonDataModel import vtkBoundingBox, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from ..document.looks import Isolines, Shading
+from ..marks.line_looks import BOUNDARY, SOURCE
 from .field_actor import FieldActor, light
 from .insets import Insets
 from .levels import Levels
-from .line_actors import SourceLineActor
+from .line_actors import RimmedLines
 from .marks import DOT, Marks
-from .region_lines import RegionLines
 from .stand_in import StandIn
 from .style import PAPER, Style
 
@@ -35,11 +35,11 @@ class PanelScene:
         self.bounds: Sequence[float] = (0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
         self.seconds = 0.0  # that the last picture of all of it took
         self._field = FieldActor(style, scale)
-        self._lines = SourceLineActor(style, scale)
+        self._lines = RimmedLines(SOURCE, style, scale)
         self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
         self._anchored = Marks(style.marker_size * scale, style.mark_edge, are_rings=True)
         self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
-        self._regions = RegionLines(style, scale)
+        self._regions = RimmedLines(BOUNDARY, style, scale)
         marks = (self._largest, self._anchored, self._passed)
         solid = [self._field.actor, self._regions.actor, self._lines.actor, *(each.actor for each in marks)]
         solid += [self._field.stand_in.actor]

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .style import PINS
+from ..marks.primitives import AreaMark
 
 RIM, CASING = 2.2, 1.1
 """Pixels, at scale 1, that the rim is wide, and the light line along it."""
@@ -37,13 +37,13 @@ PAINT_SELECTED = f"""
 """For a fragment shader, with the attribute `selectedAt` and the uniforms `hatchOrigin`, in pixels, and `edgeScale`."""
 
 
-def selected_colours(selections: Sequence[tuple[np.ndarray, int]], count: int) -> np.ndarray | None:
-    """(n,) vertices in the colours of their selections, the last on top, as (n, 4) uint8; 0 where there is none.
+def selected_colours(areas: Sequence[AreaMark], count: int) -> np.ndarray | None:
+    """(n,) vertices in the colours of the areas they are in, the last on top, as (n, 4) uint8; 0 where there is none.
 
-    selections: vertices (k,), each with the number of a colour.  None if nothing is selected.
+    None if nothing is marked.
     """
     colours = np.zeros((count, 4), np.uint8)
-    for vertices, colour in selections:
-        words = PINS[colour]
-        colours[vertices[vertices < count]] = *(int(words[k : k + 2], 16) for k in (1, 3, 5)), 255
+    for area in areas:
+        inside = area.vertices[area.vertices < count]
+        colours[inside] = *(int(area.colour[k : k + 2], 16) for k in (1, 3, 5)), 255
     return colours if colours[:, 3].any() else None

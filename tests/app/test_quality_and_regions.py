@@ -12,6 +12,7 @@ from app.document.pins import Pins, add_pins, remove_pins
 from app.document.quantities import OwnField, quantity
 from app.document.regions import DividedPanels, show_regions
 from app.marks.glyphs import TRIANGLE_DOWN, TRIANGLE_UP
+from app.marks.line_looks import BOUNDARY
 from app.session.quality import Quality
 from app.session.regions import Dividing, regions_questions
 from app.session.sampling import SamplesQuestion, Sampling
@@ -336,10 +337,10 @@ def test_figures_draw_the_boundaries_that_the_window_draws(watching):
     w.session.show(show_regions(w.session.document, 1))
     loaded, document = w.session.loaded(), w.session.document
     figure = figure_of(Recipe(document, Page()), {"A": loaded}, [w.session.shown[k].answer for k in range(3)])
-    assert [bool(panel.regions) for panel in figure.panels] == [False, True, False]
+    assert [any(line.look is BOUNDARY for line in panel.lines) for panel in figure.panels] == [False, True, False]
     found = voronoi_regions(loaded.surface, w.distance(SHOWN[1]).from_sources([7, 90, 300]))
     length = 0.0
-    for line in figure.panels[1].regions:
+    for line in (line for line in figure.panels[1].lines if line.look is BOUNDARY):
         points = line.positions(loaded.surface.vertices)
         points = np.vstack([points, points[:1]]) if line.is_closed else points
         length += np.linalg.norm(np.diff(points, axis=0), axis=1).sum()

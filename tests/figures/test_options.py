@@ -7,9 +7,9 @@ from app.figures import raster
 from app.figures.draw import Figure, FigurePanel, Zoom, draw_figure, save_figure
 from app.figures.layout import lay_out
 from app.figures.size import Size
+from app.marks.field_marks import source_lines
 from app.marks.primitives import PointMark
 from app.scene.camera import Camera
-from app.scene.source_lines import source_lines
 from app.scene.style import DARK, PAPER, STYLES
 from bihdist_core import Curve, ParameterError, Surface, SurfacePoint
 from bihdist_core.sources.pieces import pieces_of

@@ -10,6 +10,7 @@ from app.document.file import read_recipe
 from app.document.selections import Selections, vertices_of
 from app.figures.picture import figure
 from app.main import main
+from app.marks.primitives import AreaMark
 from app.scene.selected import selected_colours
 from app.scene.style import PINS
 from tests.figures.recipes import SMALL
@@ -24,11 +25,11 @@ def picture(path):
 
 
 def test_vertices_have_the_colour_of_the_last_selection_that_they_are_in():
-    colours = selected_colours([(np.array([1, 2]), 0), (np.array([2, 9]), 1)], 4)
+    colours = selected_colours([AreaMark(np.array([1, 2]), PINS[0]), AreaMark(np.array([2, 9]), PINS[1])], 4)
     assert colours[:, 3].tolist() == [0, 255, 255, 0]
     assert colours[1, :3].tolist() == GREEN.tolist()
     assert colours[2, :3].tolist() == [int(PINS[1][k : k + 2], 16) for k in (1, 3, 5)]
-    assert selected_colours([(np.array([9]), 0)], 4) is None
+    assert selected_colours([AreaMark(np.array([9]), PINS[0])], 4) is None
 
 
 def test_what_is_selected_has_a_rim_and_hatching_and_the_field_is_seen_between(mesh, tmp_path):

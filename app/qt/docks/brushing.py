@@ -12,6 +12,7 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document, free_names
 from ...document.selections import Selections, select, vertices_of
+from ...marks.primitives import AreaMark
 from ...scene.selected import selected_colours
 from ...scene.style import PINS
 from .background import Background
@@ -70,7 +71,7 @@ class Brushing(QtCore.QObject):
             loaded = self._window.session.loaded(mesh.name)
             if loaded is not None:
                 here = [each for each in document[Selections].selections if each.surface == mesh.name]
-                chosen = [(vertices_of(each.runs), each.colour) for each in here]
+                chosen = [AreaMark(vertices_of(each.runs), PINS[each.colour]) for each in here]
                 colours[mesh.name] = selected_colours(chosen, len(loaded.surface.vertices))
         self._grid.marks.show_selected(colours)
 

@@ -142,7 +142,7 @@ class MarksOver:
         """What lies lowest first."""
         view = self._view
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        self.path.paint(painter, view.devicePixelRatioF(), view.proportion)
+        self.path.paint(painter, view.scene.style, view.devicePixelRatioF(), view.proportion)
         for colour, places in self._dabs:
             painter.setPen(QtGui.QPen(QtGui.QColor(colour), DAB))
             painter.drawPoints(places)
@@ -165,8 +165,7 @@ class MarksOver:
         for end in self.ends:
             self._paint_ring(painter, view.place_of(end), True, not view.sees(end))
         for stroke in self.strokes:
-            style = view.scene.style
-            overlay.paint_stroke(painter, [view.place_of(x) for x in stroke], style.source, style.mark_edge)
+            overlay.paint_stroke(painter, [view.place_of(x) for x in stroke], view.scene.style)
         if self.pointed is not None:
             self._paint_pointed(painter, self.pointed)
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from ...marks.line_looks import SOURCE
 from ...scene.axes import ARM, Arm
-from ...scene.source_lines import RIM, WIDTH
-from ...scene.style import Colour
+from ...scene.style import Style
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
 
@@ -72,12 +72,12 @@ def paint_ring(painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hid
         painter.drawEllipse(at, 2.0, 2.0)
 
 
-def paint_stroke(painter: QtGui.QPainter, places: Sequence[QtCore.QPointF], colour: Colour, rim: Colour) -> None:
+def paint_stroke(painter: QtGui.QPainter, places: Sequence[QtCore.QPointF], style: Style) -> None:
     """A line through places as it is drawn, in the source's colour with its rim."""
     painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
     path = QtGui.QPolygonF(places if len(places) > 1 else [*places, *places])
-    for shade, width in ((rim, WIDTH + 2 * RIM), (colour, WIDTH)):
-        pen = QtGui.QPen(QtGui.QColor.fromRgbF(*shade), width)
+    for stroke in SOURCE.strokes:
+        pen = QtGui.QPen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), stroke.width)
         pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
         pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
         painter.setPen(pen)

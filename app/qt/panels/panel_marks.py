@@ -9,7 +9,8 @@ from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.region_boundaries import Boundary
 from bihdist_core.sources.pieces import Pieces
 
-from ...scene.source_lines import SourceLine, source_lines
+from ...marks.field_marks import source_lines
+from ...marks.primitives import LineMark
 from ...scene.style import PINS, WAITING
 from ...session.isoline_points import IsolinePoint
 from ...session.pair_locations import Candidate, LocatedPairPoint
@@ -32,7 +33,7 @@ class PanelMarks:
     def _forget(self) -> None:
         self.source: int | None = None  # a vertex that stands for it
         self._pieces: tuple[Pieces, ...] = ()
-        self._lines: list[SourceLine] = []
+        self._lines: list[LineMark] = []
         self.anchors: Sequence[int] = ()
         self._held: Sequence[AnchorLabel] | None = None
         self._pins: Sequence[LocatedPin] = ()

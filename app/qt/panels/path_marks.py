@@ -3,11 +3,11 @@
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from ...marks.line_looks import PATH
 from ...scene.lines_of_sight import seen_in
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.panel_scene import PanelScene
-from ...scene.path_lines import DOTS, NARROW, THINNER, WIDE
-from .overlay import BRIGHT, DARK
+from ...scene.style import Style
 
 
 class PathMarks:
@@ -38,7 +38,7 @@ class PathMarks:
             low, high = (left, top), (left + width, top + height)
             self.pixels[((self.pixels >= low) & (self.pixels < high)).all(axis=1)] = np.nan
 
-    def paint(self, painter: QtGui.QPainter, ratio: float, share: float = 1.0) -> None:
+    def paint(self, painter: QtGui.QPainter, style: Style, ratio: float, share: float = 1.0) -> None:
         """ratio: device pixels in a logical one; share: of the usual widths."""
         if not len(self.pixels):
             return
@@ -47,13 +47,12 @@ class PathMarks:
         painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
         for seen in (False, True):  # what is hidden lies behind
             lines = _runs(places, self.is_seen == seen)
-            for colour, width in ((BRIGHT, WIDE), (DARK, NARROW)):
-                pen = QtGui.QPen(colour, share * width)
+            for stroke in PATH.strokes if seen else PATH.hidden:
+                pen = QtGui.QPen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), share * stroke.width)
                 pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
                 pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
-                if not seen:
-                    pen.setWidthF(share * (width - THINNER))
-                    pen.setDashPattern([0.01, share * DOTS / pen.widthF()])
+                if stroke.dots:
+                    pen.setDashPattern([0.01, stroke.dots / stroke.width])
                 painter.setPen(pen)
                 for line in lines:
                     painter.drawPolyline(line)

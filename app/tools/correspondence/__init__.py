@@ -20,4 +20,5 @@ TOOL = Tool(
         "..document.maps:Maps",
     ),
     options="options:ROWS",
+    marks="marks:marks",
 )

@@ -17,4 +17,5 @@ TOOL = Tool(
     quantities=("quantity:Interpolant",),
     parts=("..document.anchors:Anchors",),
     options="options:ROWS",
+    marks="marks:marks",
 )

@@ -15,4 +15,5 @@ TOOL = Tool(
     dock="dock:PinsDock",
     parts=("..document.pins:Pins",),
     options="options:ROWS",
+    marks="marks:marks",
 )

@@ -16,4 +16,5 @@ TOOL = Tool(
     commands={"profile": "command"},
     parts=("..document.profile:Profile",),
     options="options:ROWS",
+    marks="marks:marks",
 )

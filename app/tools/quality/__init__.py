@@ -12,4 +12,5 @@ TOOL = Tool(
     icon="quality",
     synonyms="measure check triangles extrema isotropy",
     dock="dock:QualityDock",
+    marks="marks:marks",
 )

@@ -15,4 +15,5 @@ TOOL = Tool(
     commands={"samples": "samples_command", "regions": "command"},
     parts=("..document.regions:DividedPanels",),
     options="options:ROWS",
+    marks="marks:marks",
 )

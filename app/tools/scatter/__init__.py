@@ -18,4 +18,5 @@ TOOL = Tool(
         "..document.selections:Selections",
     ),
     options="options:ROWS",
+    marks="marks:marks",
 )

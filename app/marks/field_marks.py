@@ -1,0 +1,100 @@
+"""The marks of what a panel shows, whatever the tool: where its field starts, and what stands out in it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bihdist_core import Surface
+from bihdist_core.analysis.chains import chains
+from bihdist_core.distances.answers import Answer
+from bihdist_core.sources.pieces import Pieces, pieces_of
+from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SurfacePoint
+from bihdist_core.sources.words import short_words_of
+
+from ..document.document import Document, Panel
+from ..document.source_edits import members_of
+from ..session.isoline_points import passed
+from ..session.loaded_mesh import LoadedMesh
+from ..session.questions import source_at
+from .glyphs import DOT, LARGEST
+from .primitives import LineMark, PointMark, SurfaceMark
+
+
+def field_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[SurfaceMark]:
+    """Dots on isolines through points, discs and lines where the field starts, and the largest of a difference."""
+    starts = [source_at(document.point(name).at, loaded.surface) for name in panel.shows.points]
+    return [
+        *_isoline_points(document, panel, loaded, answer),
+        *(mark for start in starts for mark in source_points(start, loaded.surface)),
+        *_source_lines(starts, loaded.surface),
+        *_largest(answer),
+    ]
+
+
+def _isoline_points(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[PointMark]:
+    """See `scene.levels` on the values that have a line."""
+    low = -answer.maximum if answer.is_signed else 0.0
+    found = [p for p in passed(document, panel.surface, loaded, answer) if low < p.value < answer.maximum]
+    return [PointMark(p.vertices[0], DOT, corners=p.vertices, weights=p.weights) for p in found]
+
+
+def source_points(start: Source, surface: Surface) -> list[PointMark]:
+    """A disc for each vertex and each place in a face."""
+    marks = []
+    points = pieces_of(start, surface).points
+    for face, corners, weights in zip(points.faces.tolist(), points.corners, points.start, strict=True):
+        vertex = int(corners[weights.argmax()])
+        if weights.max() == 1:
+            marks.append(PointMark(vertex))
+            continue
+        place = SurfacePoint(face, tuple(weights.tolist()))
+        name = f"The place {short_words_of(place)}"
+        marks.append(PointMark(vertex, corners=tuple(corners.tolist()), weights=place.weights, name=name))
+    return marks
+
+
+def _source_lines(starts: Sequence[Source], surface: Surface) -> list[LineMark]:
+    """Those of boundary loops and curves."""
+    members = dict.fromkeys(member for start in starts for member in members_of(start))
+    return [
+        line
+        for member in members
+        if isinstance(member, BoundaryLoop | Curve)
+        for line in source_lines(pieces_of(member, surface), _line_in_words(member))
+    ]
+
+
+def _line_in_words(member: BoundaryLoop | Curve) -> str:
+    if isinstance(member, BoundaryLoop):
+        return f"Boundary loop {member.number}"
+    return f"The {'closed ' if member.closed else ''}curve of {len(member.places):,} points"
+
+
+def source_lines(pieces: Pieces, name: str = "") -> list[LineMark]:
+    """The lines that the parts of lines among some pieces make, one after another; name: of each."""
+    lines = pieces.lines
+    corners = np.concatenate([lines.corners, lines.corners])
+    weights = np.concatenate([lines.start, lines.stop])
+    numbers: dict[tuple[tuple[int, float], ...], int] = {}
+    places: list[int] = []
+    of = []
+    for row, (ids, shares) in enumerate(zip(corners.tolist(), weights.tolist(), strict=True)):
+        key = tuple(sorted((id, share) for id, share in zip(ids, shares, strict=True) if share > 0))
+        if key not in numbers:
+            numbers[key] = len(places)
+            places.append(row)
+        of.append(numbers[key])
+    segments = np.array(of, np.int64).reshape(2, -1).T
+    segments = segments[segments[:, 0] != segments[:, 1]]
+    found = chains(segments) if len(segments) else []
+    at = np.array(places, np.int64)
+    return [LineMark(corners[at[ids]], weights[at[ids]], closed, name=name) for ids, closed in found]
+
+
+def _largest(answer: Answer) -> list[PointMark]:
+    """The place of the largest difference, with its value and name."""
+    vertex = answer.largest
+    if vertex is None or answer.field is None:
+        return []
+    value, percent = float(answer.field[vertex]), " %" if answer.scale == 100 else ""
+    return [PointMark(vertex, LARGEST, "largest", f"{value:+.3g}{percent} at {vertex}".replace("-", "−"))]

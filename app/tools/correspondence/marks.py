@@ -1,0 +1,52 @@
+"""Pairs of corresponding points: pins on both surfaces, and where the next would be."""
+
+from weakref import WeakKeyDictionary
+
+from bihdist_core.distances.answers import Answer
+
+from ...document.maps import Maps, Truth
+from ...marks.glyphs import CANDIDATE, CROSS, PIN
+from ...marks.marked_panel import MarkedPanel
+from ...marks.primitives import PointMark
+from ...scene.style import PINS, WAITING
+from ...session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
+from ...session.pair_locations import LocatedPairPoint, candidate_in, located_pair_points
+
+
+def marks(marked: MarkedPanel) -> list[PointMark]:
+    """The points on a panel's surface, and the best candidate of its answer with where the point belongs."""
+    document, panel = marked.document, marked.panel
+    found = [pair_mark(each) for each in located_pair_points(document, panel.surface, marked.loaded)]
+    candidate = candidate_in(document, panel, marked.answer)
+    if candidate is None:
+        return found
+    judged = _judged(marked, candidate.vertex)
+    name = f"The place where point {candidate.number} belongs"
+    found += [PointMark(vertex, CROSS, name=name) for vertex in judged.places]
+    off = judged.errors.get(panel.id)
+    fraction = f"{100 * candidate.share:.1f} %" if off is None else f"{100 * off:.1f} % off"
+    text, name = f"{candidate.vertex}, {fraction}", f"The candidate for point {candidate.number}"
+    return [*found, PointMark(candidate.vertex, CANDIDATE, WAITING, text, candidate.number, name=name)]
+
+
+def pair_mark(located: LocatedPairPoint) -> PointMark:
+    colour = WAITING if located.is_waiting else PINS[located.pair.colour]
+    return PointMark(located.vertex, PIN, colour, number=located.number, name=f"Point {located.number}")
+
+
+def _judged(marked: MarkedPanel, vertex: int) -> CandidatesJudged:
+    """Where the point belongs, and how far the candidate is from there, as far as that is known; found once."""
+    document, known = marked.document, _found.setdefault(marked.answer, {})
+    truth = document[Maps].truth
+    if truth not in known:
+        known[truth] = CandidatesJudged((), {})
+        one, two = (marked.loaded.standing_beside(mesh) for mesh in document.surfaces[:2])
+        asked = None
+        if one is not None and two is not None:
+            asked = candidates_asked(document, one, two, {marked.panel.id: vertex})
+        for judged in () if asked is None else CandidatesJudging().judge(asked):
+            known[truth] = judged
+    return known[truth]
+
+
+_found: WeakKeyDictionary[Answer, dict[Truth, CandidatesJudged]] = WeakKeyDictionary()

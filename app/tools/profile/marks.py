@@ -1,0 +1,25 @@
+"""The path of the profile."""
+
+from bihdist_core import BihdistError
+from bihdist_core.analysis.places import Places
+
+from ...document.profile import shows_path
+from ...marks.line_looks import PATH
+from ...marks.marked_panel import MarkedPanel
+from ...marks.primitives import LineMark, Remark
+from ...session.profiling import path_of
+
+
+def marks(marked: MarkedPanel) -> list[LineMark | Remark]:
+    """On panels of its surface; or a sentence on why there is none."""
+    if not shows_path(marked.document):
+        return []
+    try:
+        surface, path = path_of(marked.document, marked.surfaces)
+    except BihdistError as error:
+        return [Remark(f"No path is drawn: {error}")]
+    return [path_mark(path.places)] if surface == marked.panel.surface else []
+
+
+def path_mark(places: Places) -> LineMark:
+    return LineMark(places.corners, places.weights, look=PATH)

@@ -1,0 +1,17 @@
+"""Selected vertices."""
+
+from ...document.selections import Selections, vertices_of
+from ...marks.marked_panel import MarkedPanel
+from ...marks.primitives import AreaMark
+from ...scene.style import PINS
+
+
+def marks(marked: MarkedPanel) -> list[AreaMark]:
+    """The selections of the panel's surface; VertexError where that has no such vertex."""
+    selections = marked.document[Selections].selections
+    chosen = [each for each in selections if each.surface == marked.panel.surface and each.runs]
+    for each in chosen:
+        last = each.runs[-1][1]
+        if last >= len(marked.loaded.surface.vertices):
+            marked.loaded.surface.check_vertex(last)
+    return [AreaMark(vertices_of(each.runs), PINS[each.colour]) for each in chosen]
