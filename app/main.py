@@ -8,6 +8,7 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from .commands import batch, field, figure, info, isolines, movie, pairs, paper, view
 from .commands.mesh import check_mesh
@@ -97,7 +98,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 class _Completion(argparse.Action):
-    def __call__(self, parser: argparse.ArgumentParser, _: object, shell: str, *__: object) -> None:
+    def __call__(self, parser: argparse.ArgumentParser, _: object, shell: Any, *__: object) -> None:
         import shtab
 
         for action in _actions(parser):

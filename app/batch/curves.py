@@ -2,9 +2,8 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from bihdist_core.applications.map_errors import ErrorCurve, MeanCurve, error_curve
+from bihdist_core.arrays import FloatArray
 from bihdist_core.errors import ParameterError
 
 from ..figures.error_figure import ErrorFigure, save_error_figure
@@ -50,7 +49,7 @@ def write_curves(folder: Folder, rows: Sequence[Row]) -> tuple[list[str], list[R
     return files, [Row(ALL, "evaluate", "", 0.0, False, facts)]
 
 
-def _curve(errors: np.ndarray | None) -> ErrorCurve | None:
+def _curve(errors: FloatArray | None) -> ErrorCurve | None:
     try:
         return None if errors is None else error_curve(errors)
     except ParameterError:

@@ -254,7 +254,7 @@ def write_tables(
     table += [(*line[:-1], "") for line in kept if line[3] not in taken and _is_there(folder, line)]
     folder.write("summary.csv", _table(COLUMNS, sorted(table)))
     cells += [
-        tuple(line)
+        (line[0], line[1], line[2], line[3])
         for line in _lines(folder, "failures.csv", REASONS)
         if tuple(line[:3]) not in said and may_stay(line[0], line[1])
     ]

@@ -10,7 +10,7 @@ import hashlib
 import io
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -18,6 +18,7 @@ import numpy as np
 
 from bihdist_core.analysis.parcels import ParcelSums, labelled, parcel_sums
 from bihdist_core.analysis.surface_notes import surface_notes
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.errors import BihdistError
 from bihdist_core.solver.blas import one_blas_thread
@@ -148,7 +149,7 @@ def _written(task: Task, mesh: Mesh, work: str, folder: Folder, name: str, key: 
     return write_result(folder, name, key, arrays, facts, "mat", f"{layout}/{task.name}.mat")
 
 
-def _numbers(facts: dict[str, Any]) -> dict[str, np.ndarray]:
+def _numbers(facts: dict[str, Any]) -> dict[str, FloatArray]:
     """The vertices that are sources, and the labels of parcels, counted from 0."""
     given = {name: facts.get(name) for name in ("sources", "labels")}
     return {
@@ -219,11 +220,12 @@ def _do_part(task: Task, part: Part) -> Report:
             sums = parcel_sums(mesh.distance(part.distance), mesh.labels, mesh.mask, part.begin, part.end)
             columns = sums.sums
         elif part.work == "nearest":
-            made = neighbours(mesh, part.distance, part.begin, part.end).arrays
+            made: Mapping[str, Any] = neighbours(mesh, part.distance, part.begin, part.end).arrays
             # Whole numbers this small are exact as float64.
             columns = np.stack([made["indices"], made["distances"]])
         else:
-            columns = fields(mesh, part.distance, part.begin, part.end).arrays["fields"]
+            made = fields(mesh, part.distance, part.begin, part.end).arrays
+            columns = made["fields"]
             if part.work == "pairs":
                 columns = columns[np.array(mesh.sources(part.distance))].T
         with folder.writing(name) as path, path.open("wb") as file:
@@ -265,18 +267,20 @@ def _join(task: Task, part: Part) -> Report:
     return Report(task, (Row(task.name, part.work, part.distance, time.monotonic() - begin, True, facts),))
 
 
-def _read_part(folder: Folder, task: Task, part: Part) -> np.ndarray:
+def _read_part(folder: Folder, task: Task, part: Part) -> FloatArray:
     name = _part_name(task, part)
     if folder.local is not None and (folder.local / name).exists():
         # As much of it as is looked at.
-        return np.load(folder.local / name, mmap_mode="r", allow_pickle=False)
+        array: FloatArray = np.load(folder.local / name, mmap_mode="r", allow_pickle=False)
+        return array
     content = folder.read(name)
     if content is None:
         raise OSError(f"a part of the result is gone: {name}")
-    return np.load(io.BytesIO(content), allow_pickle=False)
+    array = np.load(io.BytesIO(content), allow_pickle=False)
+    return array
 
 
-def _both_ways(folder: Folder, task: Task, parts: list[Part]) -> Iterator[np.ndarray]:
+def _both_ways(folder: Folder, task: Task, parts: list[Part]) -> Iterator[FloatArray]:
     """Rows of a matrix of pairs of which each part has those from its sources: the means of both ways, and 0."""
     for part in parts:
         rows = np.array(_read_part(folder, task, part))

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from bihdist_core.applications.map_errors import (
     map_errors,
     sampled_vertices,
 )
+from bihdist_core.arrays import FloatArray
 from bihdist_core.errors import ParameterError
 from bihdist_core.formats.vertex_maps import IDENTITY, MAP_FORMATS, read_map
 
@@ -111,7 +112,8 @@ def evaluated(mesh: "Mesh", given: Map) -> Made:
     partners = read_map(given.symmetry, other.surface, other.surface) if given.symmetry else None
     distance = error_distance(other, len(np.unique(right[ids])))
     errors = map_errors(distance, found[ids], right[ids])
-    said, arrays = _numbers(errors), {"errors": errors}
+    said: dict[str, Any] = {**_numbers(errors)}
+    arrays = {"errors": errors}
     if partners is not None:
         arrays[WITH_PARTNERS] = map_errors(distance, found[ids], right[ids], partners)
         said |= {f"{name}_with_partners": n for name, n in _numbers(arrays[WITH_PARTNERS]).items()}
@@ -128,7 +130,7 @@ def evaluated(mesh: "Mesh", given: Map) -> Made:
     return Made(arrays, said)
 
 
-def _numbers(errors: np.ndarray) -> dict[str, float | None]:
+def _numbers(errors: FloatArray) -> dict[str, float | None]:
     """Of a map; None where a vertex is mapped nowhere and the number is infinite."""
     curve = error_curve(errors)
     numbers = {"mean": curve.mean, "median": curve.median, "area_under_curve": curve.area}

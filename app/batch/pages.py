@@ -25,9 +25,10 @@ def write_pages(folder: Folder, rows: Sequence[Row], failures: Sequence[Failure]
             continue
         content = folder.read(thumbnail_name(name)) or folder.read(drawn[name].facts["file"])
         assert content is not None
-        cells.append(Cell(name, thumbnail(content)))
+        picture = thumbnail(content)
+        cells.append(Cell(name, picture))
         if folder.size(thumbnail_name(name)) is None:
-            folder.write(thumbnail_name(name), as_jpeg(cells[-1].picture))
+            folder.write(thumbnail_name(name), as_jpeg(picture))
     words = said_of_ends(list(drawn.values()))
     folder.write(SHEET, as_png(contact_sheet(cells, words)))
     folder.write(PAGE, _page(cells, drawn, words).encode())

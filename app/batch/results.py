@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from bihdist_core.arrays import AnyArray
 from bihdist_core.errors import OutputError, ParameterError
 
 from .storage import Folder
@@ -30,7 +31,7 @@ class Blocks:
     shape: tuple[int, ...]
     dtype: np.dtype
     axis: int
-    each: Callable[[], Iterator[np.ndarray]]
+    each: Callable[[], Iterator[AnyArray]]
 
     def into(self, target: Any) -> None:
         """Fill what takes slices."""
@@ -40,13 +41,13 @@ class Blocks:
             target[(slice(None),) * self.axis + (slice(begin, end),)] = block
             begin = end
 
-    def whole(self) -> np.ndarray:
+    def whole(self) -> AnyArray:
         array = np.empty(self.shape, self.dtype)
         self.into(array)
         return array
 
 
-Array = np.ndarray | Blocks
+Array = AnyArray | Blocks
 
 
 def facts_of(folder: Folder, name: str, key: str) -> dict[str, Any] | None:
@@ -138,14 +139,14 @@ def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
         savemat(path, _whole(arrays), oned_as="column")
 
 
-def _whole(arrays: Mapping[str, Array]) -> dict[str, np.ndarray]:
+def _whole(arrays: Mapping[str, Array]) -> dict[str, AnyArray]:
     """Blocks that have two names are put together once."""
     blocks = {id(array): array for array in arrays.values() if isinstance(array, Blocks)}
     wholes = {key: array.whole() for key, array in blocks.items()}
-    return {name: wholes.get(id(array), array) for name, array in arrays.items()}
+    return {name: wholes[id(array)] if isinstance(array, Blocks) else array for name, array in arrays.items()}
 
 
-def read_arrays(folder: Folder, file: str) -> dict[str, np.ndarray]:
+def read_arrays(folder: Folder, file: str) -> dict[str, AnyArray]:
     """The arrays of a file that `write_result` has written, by name; a single one of .npy has none, ""."""
     if file.endswith(".zarr"):
         import zarr

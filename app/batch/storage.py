@@ -42,7 +42,8 @@ class Folder:
         import fsspec
 
         try:
-            return fsspec.core.url_to_fs(self.address)
+            system, root = fsspec.core.url_to_fs(self.address)
+            return system, str(root)
         except (ValueError, ImportError) as error:
             # fsspec names the package that is missing.
             raise ParameterError(f"{self.address} cannot be reached: {error}.") from None
@@ -61,10 +62,10 @@ class Folder:
     def size(self, name: str) -> int | None:
         """Bytes of a file, or of all in a folder; None if there is none."""
         if self.local is not None:
-            path = self.local / name
-            if path.is_dir():
-                return sum(each.stat().st_size for each in path.rglob("*") if each.is_file())
-            return path.stat().st_size if path.exists() else None
+            here = self.local / name
+            if here.is_dir():
+                return sum(each.stat().st_size for each in here.rglob("*") if each.is_file())
+            return here.stat().st_size if here.exists() else None
         system, root = self._elsewhere
         path = f"{root}/{name}"
         if not system.exists(path):

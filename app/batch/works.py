@@ -13,6 +13,7 @@ from bihdist_core.analysis.neighbours import nearest
 from bihdist_core.analysis.parcels import Parcels, checked_mask, parcel_means
 from bihdist_core.analysis.sampling import farthest_points
 from bihdist_core.analysis.upright import axis_of, guess_up
+from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.kinds import Spec
@@ -72,7 +73,7 @@ class Mesh:
         if asked.rule == "farthest":
             if words not in self._sources:
                 found = farthest_points(self.distance(words), self.highest, asked.count, among=counts)
-                self._sources[words] = found.tolist()
+                self._sources[words] = [*found.tolist()]
             return self._sources[words]
         if asked.rule == "landmarks":
             return _landmarks(self.wanted.file_for(asked.file, self.name), surface)
@@ -80,14 +81,14 @@ class Mesh:
             return [source_from_words(words) for words in asked.words] or [self.highest]
         chosen = np.flatnonzero(counts)
         if asked.rule == "all":
-            return chosen.tolist()
+            return [*chosen.tolist()]
         if asked.count > len(chosen):
             what = "vertices" if self.mask is None else "vertices that are not masked"
             raise ParameterError(f"{surface.name} has {len(chosen)} {what}, fewer than the sample of {asked.count}.")
-        return np.sort(np.random.default_rng(asked.seed).choice(chosen, asked.count, replace=False)).tolist()
+        return [*np.sort(np.random.default_rng(asked.seed).choice(chosen, asked.count, replace=False)).tolist()]
 
     @cached_property
-    def mask(self) -> np.ndarray | None:
+    def mask(self) -> BoolArray | None:
         """(n,) which vertices count, None for all; ParameterError if none does."""
         if not self.wanted.mask:
             return None
@@ -98,7 +99,7 @@ class Mesh:
         return found
 
     @cached_property
-    def counts(self) -> np.ndarray:
+    def counts(self) -> BoolArray:
         """(n,) the vertices of faces that are not masked: those that rules for sources choose from."""
         used = self.surface.component_of_vertex >= 0
         return used if self.mask is None else used & self.mask
@@ -111,7 +112,7 @@ class Mesh:
         return int(ids[np.argmax(self.surface.vertices[ids] @ axis_of(guess_up(self.surface, self.extension)))])
 
     @cached_property
-    def labels(self) -> np.ndarray:
+    def labels(self) -> IntArray:
         """(n,) the parcel of each vertex."""
         return read_whole_numbers(self.wanted.file_for(self.wanted.labels, self.name), "labels")
 
@@ -123,7 +124,7 @@ def _landmarks(file: str, surface: Surface) -> list[Source]:
         found = surface.check_vertices(read_whole_numbers(file, "list of landmarks"))
     if not len(found):
         raise ParameterError(f"There is no landmark in {file}.")
-    return found.tolist()
+    return [*found.tolist()]
 
 
 # ---------------------------------------------------------------------- works
@@ -153,7 +154,9 @@ def pairs(mesh: Mesh, words: str) -> Made:
     return Made(*pairs_made(mesh, distance, sources, _in(among, mesh.wanted.dtype)))
 
 
-def pairs_made(mesh: Mesh, distance: Distance, sources: list[Source], among: Array) -> tuple[dict[str, Array], dict]:
+def pairs_made(
+    mesh: Mesh, distance: Distance, sources: list[Source], among: Array
+) -> tuple[dict[str, Array], dict[str, Any]]:
     """With the root of the area, by which benchmarks divide."""
     area = float(np.sqrt(mesh.scaled.face_areas.sum()))
     arrays: dict[str, Array] = {"dist": among}
@@ -178,7 +181,7 @@ def sources_as_vertices(sources: list[Source]) -> list[int]:
 
 
 def neighbours_made(
-    mesh: Mesh, distance: Distance, sources: list[Source], indices: np.ndarray, values: np.ndarray
+    mesh: Mesh, distance: Distance, sources: list[Source], indices: IntArray, values: FloatArray
 ) -> Made:
     said = {"indices": "-1 where there is none", "order": "nearest first, equal ones by number"}
     arrays = {"indices": indices, "distances": _in(values, mesh.wanted.dtype)}
@@ -237,5 +240,5 @@ def _named(sources: list[Source]) -> list[int | str]:
     return [each if isinstance(each, int) else short_words_of(each) for each in sources]
 
 
-def _in(array: np.ndarray, dtype: str) -> np.ndarray:
+def _in(array: AnyArray, dtype: str) -> AnyArray:
     return np.ascontiguousarray(array, dtype=dtype)

@@ -9,9 +9,8 @@ from .options import quantities
 from .terminal import accuracy
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from bihdist_core import Laplacian, Surface
+    from bihdist_core.arrays import FloatArray
     from bihdist_core.progress import Progress
 
 
@@ -23,7 +22,7 @@ class FieldOf:
     """
 
     laplacian: "Laplacian"
-    field: "np.ndarray"
+    field: "FloatArray"
     label: str
     word: str
     unit: str

@@ -90,7 +90,7 @@ def _loops(surface: "Surface") -> str:
     return f"{count} ({', '.join(said)})" if said else "0"
 
 
-def _accuracies(surface, areas: str) -> list[tuple[str, str]]:
+def _accuracies(surface: "Surface", areas: str) -> list[tuple[str, str]]:
     """Label and words for each exact distance."""
     from bihdist_core import Laplacian, SolverError
     from bihdist_core.distances.answers import Distances

@@ -13,7 +13,7 @@ from .options import SOURCE, add_areas, add_distance, add_rows, given, source
 from .terminal import progress_line
 
 if TYPE_CHECKING:
-    import numpy as np
+    from bihdist_core.arrays import FloatArray
 
 
 WORDS = "isolines of a distance as coordinates, and the region between two values"
@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> None:
         print(f"region {options.region}: area {found.area:.6g}, {part:.1%}, {held}")
 
 
-def _values(it: FieldOf, wanted: Isolines, through: Sequence[int]) -> "np.ndarray":
+def _values(it: FieldOf, wanted: Isolines, through: Sequence[int]) -> "FloatArray":
     """Those that a figure would have lines at."""
     from bihdist_core.errors import ParameterError
 

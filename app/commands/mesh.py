@@ -83,7 +83,7 @@ def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Fa
         )
 
     def output(mesh: str) -> str:
-        return options.output.replace(NAME, os.path.splitext(os.path.basename(mesh))[0])
+        return str(options.output.replace(NAME, os.path.splitext(os.path.basename(mesh))[0]))
 
     taken: dict[str, str] = {}
     for mesh in options.meshes:

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 from bihdist_core.counts import counted
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from bihdist_core import Distance, Surface
+    from bihdist_core.arrays import FloatArray
     from bihdist_core.distances.answers import Answer
     from bihdist_core.progress import Progress
 
@@ -110,7 +109,7 @@ def judged(answers: "Iterable[Answer]", name: str) -> int:
     return 1 if failures else 0
 
 
-def tell_moved(path: str, noun: str, moved: "np.ndarray", names: "Sequence[object]", surface: "Surface") -> None:
+def tell_moved(path: str, noun: str, moved: "FloatArray", names: "Sequence[object]", surface: "Surface") -> None:
     """Say how far the points of a file (k,) had to be moved to vertices, if any were."""
     import numpy as np
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from bihdist_core.applications.changes import Perturbation, Runs
+from bihdist_core.arrays import IntArray
 from bihdist_core.errors import ParameterError
 
 from .document import Document
@@ -42,7 +43,7 @@ def can_change(document: Document) -> bool:
     return alone and any(panel.shows.is_distance for panel in document.panels)
 
 
-def cut_by(cut: Runs, faces: np.ndarray, is_restored: bool = False) -> Runs:
+def cut_by(cut: Runs, faces: IntArray, is_restored: bool = False) -> Runs:
     """What is cut out of a surface, with more faces (k,) or, if they are restored, without these."""
     known = vertices_of(cut) if cut else np.empty(0, np.int64)
     return runs_of(np.setdiff1d(known, faces) if is_restored else np.union1d(known, faces))

@@ -52,7 +52,7 @@ class Selections(Part):
         return {"selections": self.selections}
 
 
-def select(document: Document, name: str, vertices: np.ndarray, surface: str = "A") -> Document:
+def select(document: Document, name: str, vertices: IntArray, surface: str = "A") -> Document:
     """Vertices (k,) as the selection of a name, instead of the old one of that name; none at all remove it."""
     before = document[Selections].selections
     if not len(vertices):
@@ -79,7 +79,7 @@ def change_selection(document: Document, name: str, new_name: str | None = None,
     return document.with_part(Selections(tuple(changed)))
 
 
-def runs_of(vertices: np.ndarray) -> Runs:
+def runs_of(vertices: IntArray) -> Runs:
     """Vertex ids (k,) as runs."""
     ids = np.unique(np.asarray(vertices, np.int64))
     if not len(ids):
@@ -89,7 +89,7 @@ def runs_of(vertices: np.ndarray) -> Runs:
     return tuple(zip(firsts.tolist(), lasts.tolist(), strict=True))
 
 
-def vertices_of(runs: Runs) -> np.ndarray:
+def vertices_of(runs: Runs) -> IntArray:
     """(k,) the vertex ids of runs."""
     firsts, lasts = np.array(runs, np.int64).reshape(-1, 2).T
     counts = lasts - firsts + 1

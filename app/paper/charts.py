@@ -11,7 +11,7 @@ import numpy as np
 from bihdist_core.experiments import Chart
 
 if TYPE_CHECKING:
-    from matplotlib.axis import Axis
+    from matplotlib.axis import XAxis, YAxis
     from matplotlib.figure import Figure as Canvas
 
 SIZE = (5.85, 3.8)
@@ -56,7 +56,8 @@ def _of_distance(name: str) -> str:
         share = float(np.clip((np.log(float(Fraction(time[1]))) - low) / (high - low), 0, 1))
     from matplotlib.colors import to_hex, to_rgb
 
-    return str(to_hex((1 - share) * np.array(to_rgb(BRIEF[1])) + share * np.array(to_rgb(LONG[1]))))
+    red, green, blue = (1 - share) * np.array(to_rgb(BRIEF[1])) + share * np.array(to_rgb(LONG[1]))
+    return to_hex((red, green, blue))
 
 
 def chart_svg(chart: Chart) -> str:
@@ -103,7 +104,7 @@ def drawn(chart: Chart) -> "Canvas":
     return canvas
 
 
-def _scale(axis: "Axis", is_log: bool) -> None:
+def _scale(axis: "XAxis | YAxis", is_log: bool) -> None:
     """Plain numbers at ticks that are far enough from each other."""
     from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.arrays import FloatArray
 from bihdist_core.experiments import Mark as ExperimentMark, Panel, Result
 from bihdist_core.experiments.result import MARKS
 
@@ -83,8 +84,16 @@ def figure_of(result: Result, panels: Sequence[Panel], up: str = "y") -> Figure:
     views = max(len(panel.views) for panel in shown)
     columns = _columns(shown, views, any("source" in panel.views for panel in panels))
     size = Size(FINER * min(WIDTH, columns * views * ALONE), dpi=FINER * 96)
-    looks = {"style": STYLE, "crop": True, "text": TEXT, "dashes_all": False}
-    return Figure(tuple(shown), columns, size, legend=_legend(panels), **looks)
+    return Figure(
+        tuple(shown),
+        columns,
+        size,
+        legend=_legend(panels),
+        style=STYLE,
+        crop=True,
+        text=TEXT,
+        dashes_all=False,
+    )
 
 
 def _columns(panels: Sequence[FigurePanel], views: int, are_pairs: bool) -> int:
@@ -148,12 +157,12 @@ def _side(result: Result, panels: Sequence[Panel], up: str) -> str:
     return max(SIDES, key=score)
 
 
-def _across(vertices: np.ndarray, towards: np.ndarray, upright: np.ndarray) -> float:
+def _across(vertices: FloatArray, towards: FloatArray, upright: FloatArray) -> float:
     """The area of the rectangle that a shape takes in a view."""
     return float(np.ptp(vertices @ np.cross(upright, towards)) * np.ptp(vertices @ upright))
 
 
-def _is_seen(surface: Surface, vertex: int, towards: np.ndarray) -> bool:
+def _is_seen(surface: Surface, vertex: int, towards: FloatArray) -> bool:
     """Whether nothing but the faces at a vertex is in the way from it in a direction (3,)."""
     faces = surface.faces[(surface.faces != vertex).all(axis=1)]
     a, b, c = (surface.vertices[faces[:, k]] - surface.vertices[vertex] for k in range(3))

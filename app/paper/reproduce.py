@@ -252,7 +252,7 @@ def _each_mesh(
     return _written(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
 
 
-def _named(experiment: Experiment, name: str, path: Path) -> Named:
+def _named(experiment: Experiment | Named, name: str, path: Path) -> Named:
     return Named(f"{name}-{experiment.id}", f"{path.name}: {experiment.title}")
 
 
@@ -276,8 +276,8 @@ def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]], parts
 def _on_sheet(surface: Surface, up: str, parts: Parts) -> FigurePanel:
     name = f"{surface.name} on the contact sheet"
     source = parts.do(name, first_source, surface, up)
-    answer = source is not None and parts.do(name, _biharmonic, surface, source)
-    if source is None or not answer:
+    answer = None if source is None else parts.do(name, _biharmonic, surface, source)
+    if source is None or answer is None:
         return FigurePanel(surface, None, surface.name, failure=parts.why(name), up=up)
     if answer.failure:
         parts.note(name, answer.failure)

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
+
 CORNERS = ("bottom left", "bottom right", "top left", "top right")
 """Where it stands, the first that is free."""
 
@@ -41,7 +43,7 @@ class Arm:
         return (away * self.x, away * self.y) if away else None
 
 
-def arms(frame: np.ndarray) -> tuple[Arm, ...]:
+def arms(frame: FloatArray) -> tuple[Arm, ...]:
     """Those of a picture, the farthest first.  frame: (3, 3) columns: right, up, and back to the camera."""
     order = np.argsort(frame[:, 2], kind="stable")
     return tuple(

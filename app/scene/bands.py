@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ..document.looks import Isolines
 from .levels import levels
 from .style import Colour, Style
@@ -10,7 +12,7 @@ BAR_STEPS = 256
 """Parts of a colour bar that has no bands."""
 
 
-def band_edges(isolines: Isolines, maximum: float, signed: bool = False) -> np.ndarray:
+def band_edges(isolines: Isolines, maximum: float, signed: bool = False) -> FloatArray:
     """(k,) fractions of the maximum, from 0 or, if signed, -1 to 1, that have an isoline.
 
     Empty where there are none, or more than can be told apart.
@@ -20,7 +22,7 @@ def band_edges(isolines: Isolines, maximum: float, signed: bool = False) -> np.n
     return levels(isolines, maximum, maximum, signed).values / maximum
 
 
-def bar_parts(style: Style, edges: np.ndarray, signed: bool = False) -> list[tuple[float, Colour]]:
+def bar_parts(style: Style, edges: FloatArray, signed: bool = False) -> list[tuple[float, Colour]]:
     """Where on a colour bar, 0 to 1, a colour begins, from the first to the last; edges: as `band_edges` has them."""
     if not (style.bands and len(edges)):
         starts = np.arange(BAR_STEPS) / BAR_STEPS
@@ -32,7 +34,7 @@ def bar_parts(style: Style, edges: np.ndarray, signed: bool = False) -> list[tup
     return [(float(start), (float(r), float(g), float(b))) for start, (r, g, b) in zip(starts, colours, strict=True)]
 
 
-def beyond(field: np.ndarray | None, top: float, signed: bool = False) -> tuple[bool, bool]:
+def beyond(field: AnyArray | None, top: float, signed: bool = False) -> tuple[bool, bool]:
     """Whether a field (n,) goes beyond the ends of a colour bar: below 0 or, if signed, -top; and above top."""
     if field is None or not top > 0:
         return False, False

@@ -1,6 +1,6 @@
 """Where the camera stands: standard views, fitted closely around the shape, and what it sees of a point."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +11,7 @@ from bihdist_core import Surface
 from bihdist_core.analysis.first_view import is_flat
 from bihdist_core.analysis.upright import axes_of
 from bihdist_core.analysis.view_directions import FIRST_VIEWS
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.surface import connected
 
 from ..document.camera import Camera, Vector, checked_view
@@ -45,7 +46,7 @@ class Margins:
     bottom: float = 0.05
 
 
-def frame(camera: Camera) -> np.ndarray:
+def frame(camera: Camera) -> FloatArray:
     """(3, 3) columns: right, up, and back to the camera."""
     back = np.subtract(camera.position, camera.focal_point)
     back = back / np.linalg.norm(back)
@@ -54,12 +55,13 @@ def frame(camera: Camera) -> np.ndarray:
     return np.stack([right, np.cross(back, right), back], 1)
 
 
-def turned(camera: Camera, degrees: float, axis: np.ndarray) -> Camera:
+def turned(camera: Camera, degrees: float, axis: FloatArray) -> Camera:
     """The camera gone round its focal point, about an axis (3,)."""
     a, axis = np.radians(degrees), np.asarray(axis, float) / np.linalg.norm(axis)
 
-    def turn(arm: np.ndarray) -> np.ndarray:
-        return arm * np.cos(a) + np.cross(axis, arm) * np.sin(a) + axis * (axis @ arm) * (1 - np.cos(a))
+    def turn(arm: AnyArray) -> FloatArray:
+        turned: FloatArray = arm * np.cos(a) + np.cross(axis, arm) * np.sin(a) + axis * (axis @ arm) * (1 - np.cos(a))
+        return turned
 
     arm = turn(np.subtract(camera.position, camera.focal_point))
     up = turn(np.array(camera.up))
@@ -93,7 +95,7 @@ class Projection:
     """
 
     def __init__(
-        self, camera: Camera, aspect: float, points: np.ndarray, free: float = 0.0, is_parallel: bool = False
+        self, camera: Camera, aspect: float, points: FloatArray, free: float = 0.0, is_parallel: bool = False
     ) -> None:
         axes, self.position = frame(camera), np.array(camera.position, float)
         self.is_parallel, self.back = is_parallel, axes[:, 2]
@@ -128,7 +130,7 @@ class Projection:
         x, y, x_end, y_end = self._bounds
         return bool(x <= right and x_end >= left and y <= top and y_end >= bottom)
 
-    def __call__(self, points: np.ndarray) -> np.ndarray:
+    def __call__(self, points: FloatArray) -> FloatArray:
         """(n, 3) points to (n, 3): x, y, -1 … 1 inside the picture, and the distance along the line of sight."""
         local = points @ self.view[:3, :3].T + self.view[:3, 3]
         depth = -local[:, 2]
@@ -137,16 +139,16 @@ class Projection:
 
     def pixel_at(self, depth: float, width: float) -> float:
         """How long a pixel of a picture of this width is at a depth."""
-        return (1.0 if self.is_parallel else depth) / (self.matrix[0, 0] * width / 2)
+        return float((1.0 if self.is_parallel else depth) / (self.matrix[0, 0] * width / 2))
 
 
 def standard_camera(
-    points: np.ndarray,
+    points: FloatArray,
     aspect: float,
     view: str = "home",
     margins: Margins | None = None,
     up: str = "y",
-    outwards: np.ndarray | None = None,
+    outwards: FloatArray | None = None,
     is_parallel: bool = False,
 ) -> Camera:
     """The camera that sees points (n, 3) from a standard view so that they just fill a panel of this aspect.
@@ -160,7 +162,7 @@ def standard_camera(
     return aimed(points, aspect, direction, upright, margins or Margins(), is_parallel)
 
 
-def directions(view: str, up: str = "y", outwards: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+def directions(view: str, up: str = "y", outwards: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
     """(3,) from the shape to the camera, and (3,) what is up in the picture, for a standard view."""
     checked_view(view)
     if view == "relief":
@@ -175,7 +177,7 @@ def directions(view: str, up: str = "y", outwards: np.ndarray | None = None) -> 
     return turn @ np.array(direction, float), turn @ np.array(above, float)
 
 
-def outwards_at(surface: Surface, vertex: int) -> np.ndarray | None:
+def outwards_at(surface: Surface, vertex: int) -> FloatArray | None:
     """(3,) the unit normal that points out of a surface, averaged about a vertex; None where there is none."""
     x, faces = surface.vertices, surface.faces
     used = x[surface.component_of_vertex >= 0]
@@ -198,7 +200,7 @@ def outwards_at(surface: Surface, vertex: int) -> np.ndarray | None:
     return None if length <= 0 else total / length * (-1.0 if volume < 0 else 1.0)
 
 
-def _area_normals(corners: np.ndarray) -> np.ndarray:
+def _area_normals(corners: FloatArray) -> FloatArray:
     """(m, 3) normals of faces (m, 3, 3), twice as long as the faces are large."""
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
@@ -210,7 +212,7 @@ class SeenNow:
         self.view = array_of(camera.GetViewTransformMatrix())
         self.matrix = array_of(camera.GetProjectionTransformMatrix(aspect, -1, 1))
 
-    def __call__(self, points: np.ndarray) -> np.ndarray:
+    def __call__(self, points: FloatArray) -> FloatArray:
         """(n, 3) points to (n, 3), see `Projection`; x and y are NaN behind the camera."""
         local = np.column_stack([points, np.ones(len(points))]) @ self.view.T
         flat = local @ self.matrix.T
@@ -218,7 +220,7 @@ class SeenNow:
         return np.column_stack([flat[:, :2] / ahead[:, None], -local[:, 2]])
 
 
-def array_of(matrix: vtkMatrix4x4) -> np.ndarray:
+def array_of(matrix: vtkMatrix4x4) -> FloatArray:
     """(4, 4)."""
     return np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
 
@@ -271,10 +273,10 @@ def stand_back(camera: vtkCamera, bounds: Sequence[float]) -> None:
 
 
 def aimed(
-    points: np.ndarray,
+    points: FloatArray,
     aspect: float,
-    direction: np.ndarray,
-    up: np.ndarray,
+    direction: FloatArray,
+    up: FloatArray,
     margins: Margins,
     is_parallel: bool = False,
 ) -> Camera:
@@ -302,11 +304,11 @@ def aimed(
     return Camera(_vector(middle + distance * back), _vector(middle), _vector(up), _pair((wide, high)))
 
 
-def _vector(values) -> Vector:
+def _vector(values: Iterable[float]) -> Vector:
     x, y, z = values
     return float(x), float(y), float(z)
 
 
-def _pair(values) -> tuple[float, float]:
+def _pair(values: Iterable[float]) -> tuple[float, float]:
     x, y = values
     return float(x), float(y)

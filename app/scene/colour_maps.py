@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
+
 from ..document.looks import Stops
 from .oklab import oklab, srgb
 
@@ -24,7 +26,7 @@ class ColourMap:
     stops: Stops
 
 
-def _stops(colours: np.ndarray, low: float = 0.0) -> Stops:
+def _stops(colours: FloatArray, low: float = 0.0) -> Stops:
     """Colours (k, 3) at equal distances from `low` to 1."""
     places = np.linspace(low, 1, len(colours))
     return tuple(
@@ -32,7 +34,7 @@ def _stops(colours: np.ndarray, low: float = 0.0) -> Stops:
     )
 
 
-def _hex(*words: str) -> np.ndarray:
+def _hex(*words: str) -> FloatArray:
     """(k, 3)"""
     return np.array([[int(word[k : k + 2], 16) / 255 for k in (1, 3, 5)] for word in words])
 
@@ -142,7 +144,7 @@ def goes_both_ways(stops: Stops) -> bool:
     return bool(middle > max(first, last) + 0.15 or middle < min(first, last) - 0.15)
 
 
-def colours_at(stops: Stops, shares: np.ndarray) -> np.ndarray:
+def colours_at(stops: Stops, shares: FloatArray) -> FloatArray:
     """(k, 3) the colours at shares (k,)."""
     places, colours = (np.array(each) for each in zip(*stops, strict=True))
     return np.stack([np.interp(shares, places, each) for each in colours.T], 1)

@@ -7,6 +7,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from bihdist_core.arrays import AnyArray, BoolArray, FloatArray
+
 from ..document.document import Zoom
 
 SIDE = 0.40
@@ -40,7 +42,7 @@ def corner_boxes(size: tuple[float, float], side: float, gap: float) -> dict[str
     }
 
 
-def source_box(place: np.ndarray, side: float, zoom: Zoom) -> Rectangle:
+def source_box(place: FloatArray, side: float, zoom: Zoom) -> Rectangle:
     """What an inset enlarges, around a place (2,)."""
     half = side / zoom.factor / 2
     x, y = map(float, place)
@@ -51,8 +53,8 @@ def chosen_corners(
     zooms: Sequence[Zoom],
     boxes: dict[str, Rectangle],
     sources: Sequence[Rectangle],
-    surface: np.ndarray,
-    marks: np.ndarray,
+    surface: FloatArray,
+    marks: FloatArray,
 ) -> list[str]:
     """A corner for each zoom: its own, or the one that hides the least.
 
@@ -77,7 +79,7 @@ def chosen_corners(
     return found
 
 
-def cover(box: Rectangle, places: np.ndarray) -> float:
+def cover(box: Rectangle, places: FloatArray) -> float:
     """The share of a box where the surface is seen; places: (k, 2) all over it, NaN for unseen ones."""
     left, right, bottom, top = box
     cells = np.floor((places - (left, bottom)) / (right - left, top - bottom) * CELLS)
@@ -85,7 +87,7 @@ def cover(box: Rectangle, places: np.ndarray) -> float:
     return len(np.unique(within, axis=0)) / CELLS**2
 
 
-def joins(source: Rectangle, box: Rectangle, is_taken: Callable[[np.ndarray], np.ndarray]) -> list[np.ndarray]:
+def joins(source: Rectangle, box: Rectangle, is_taken: Callable[[FloatArray], BoolArray]) -> list[AnyArray]:
     """Lines (2, 2) between equal corners of an inset and of what it enlarges that run through neither.
 
     is_taken: which of places (k, 2) are on the surface or another inset; a line that crosses these is left out.
@@ -101,24 +103,27 @@ def joins(source: Rectangle, box: Rectangle, is_taken: Callable[[np.ndarray], np
 
 
 def taken_by(
-    places: np.ndarray, size: tuple[float, float], boxes: Sequence[Rectangle]
-) -> Callable[[np.ndarray], np.ndarray]:
+    places: FloatArray, size: tuple[float, float], boxes: Sequence[Rectangle]
+) -> Callable[[FloatArray], BoolArray]:
     """Which of points (k, 2) lie near one of many places (m, 2) of a view of this size, or in one of the boxes."""
     cell = max(min(size), 1) / FINE_CELLS
     known = places[np.isfinite(places).all(axis=1)]
     taken = {tuple(each) for each in np.unique(np.floor(known / cell).astype(int), axis=0).tolist()}
 
-    def is_taken(points: np.ndarray) -> np.ndarray:
-        on_surface = [tuple(each) in taken for each in np.floor(points / cell).astype(int).tolist()]
-        return np.any([on_surface, *(inside(points, box) for box in boxes)], axis=0)
+    def is_taken(points: FloatArray) -> BoolArray:
+        is_taken = np.array([tuple(each) in taken for each in np.floor(points / cell).astype(int).tolist()], bool)
+        for box in boxes:
+            is_taken |= inside(points, box)
+        return is_taken
 
     return is_taken
 
 
-def inside(points: np.ndarray, box: Rectangle) -> np.ndarray:
+def inside(points: FloatArray, box: Rectangle) -> BoolArray:
     """Which of points (k, 2) lie in a box."""
     x, y = points.T
-    return (box[0] < x) & (x < box[1]) & (box[2] < y) & (y < box[3])
+    is_inside: BoolArray = (box[0] < x) & (x < box[1]) & (box[2] < y) & (y < box[3])
+    return is_inside
 
 
 def _meetings(box: Rectangle, others: Sequence[Rectangle]) -> int:

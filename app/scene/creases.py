@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 from bihdist_core.surface import connected, dots
 
 from .winding import Winding
@@ -22,11 +23,11 @@ a car and an aeroplane."""
 class Split:
     """faces: (m, 3) ids of what is drawn: the surface's own, and from n on copies of its vertices (k,)."""
 
-    faces: np.ndarray
-    copies: np.ndarray
+    faces: IntArray
+    copies: IntArray
 
 
-def face_normals(vertices: np.ndarray, faces: np.ndarray) -> list[np.ndarray]:
+def face_normals(vertices: FloatArray, faces: IntArray) -> list[FloatArray]:
     """Three (m,), the coordinates of normals, whose lengths are twice the faces' areas."""
     x = np.ascontiguousarray(vertices.T)
     p, q, r = (x.take(faces[:, k], axis=1) for k in range(3))
@@ -34,15 +35,18 @@ def face_normals(vertices: np.ndarray, faces: np.ndarray) -> list[np.ndarray]:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
-def point_normals(normals: list[np.ndarray], faces: np.ndarray, n: int) -> np.ndarray:
+def point_normals(normals: list[FloatArray], faces: IntArray, n: int) -> AnyArray:
     """(n, 3) float32 of length 1, 0 at no face: along the mean of the normals, three (m,), of a vertex' faces."""
     corners = np.ascontiguousarray(faces.T)
-    sums = [sum(np.bincount(ids, x, n) for ids in corners) for x in normals]
+    sums = [np.zeros(n) for _ in normals]
+    for ids in corners:
+        for total, x in zip(sums, normals, strict=True):
+            total += np.bincount(ids, x, n)
     to_length_one(sums)
     return np.stack(sums, axis=1, dtype=np.float32)
 
 
-def bends(normals: list[np.ndarray], wound: Winding) -> np.ndarray:
+def bends(normals: list[FloatArray], wound: Winding) -> FloatArray:
     """(e,) the cosines of the angles at which faces meet at the edges of two; 1 where one has no area.
 
     normals: of length 1, of the faces as they are to be wound.
@@ -57,7 +61,7 @@ def bends(normals: list[np.ndarray], wound: Winding) -> np.ndarray:
     return cosine
 
 
-def has_creases(surface: Surface, edges: np.ndarray, cosines: np.ndarray, crease: float) -> bool:
+def has_creases(surface: Surface, edges: IntArray, cosines: FloatArray, crease: float) -> bool:
     """Whether edges (e,), with cosines (e,), are those of a made thing: with creases of more than so many degrees and
     little that is nearly one."""
     bent = np.flatnonzero(cosines < np.cos(np.radians(NEARLY * crease)))
@@ -68,7 +72,7 @@ def has_creases(surface: Surface, edges: np.ndarray, cosines: np.ndarray, crease
     return sharp > 0 and sharp > GAP * float(lengths[~is_sharp].sum())
 
 
-def split(surface: Surface, wound: Winding, is_cut: np.ndarray) -> Split:
+def split(surface: Surface, wound: Winding, is_cut: BoolArray) -> Split:
     """The surface's faces with vertices of their own on each side of the edges that are cut; is_cut: (e,) of all edges.
 
     At an end of a cut, faces stay together that can be reached from each other without crossing one.
@@ -102,14 +106,14 @@ def split(surface: Surface, wound: Winding, is_cut: np.ndarray) -> Split:
     return Split(np.ascontiguousarray(corner.reshape(3, m).T), vertex[is_copy])
 
 
-def _ends(side: np.ndarray, corner: np.ndarray, m: int) -> tuple[np.ndarray, np.ndarray]:
+def _ends(side: IntArray, corner: IntArray, m: int) -> tuple[IntArray, IntArray]:
     """The corners (face + m * corner) at the two ends of sides, that of the smaller vertex first."""
     a, b = side, side % m + (side // m + 1) % 3 * m
     swap = corner.take(a) > corner.take(b)
     return np.where(swap, b, a), np.where(swap, a, b)
 
 
-def to_length_one(vectors: list[np.ndarray]) -> None:
+def to_length_one(vectors: list[FloatArray]) -> None:
     """Divide vectors, three arrays of coordinates, by their lengths, in place; those of no length stay 0."""
     length = np.sqrt(dots(vectors, vectors))
     for x in vectors:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from bihdist_core.analysis.field_scatter import FieldScatter
+from bihdist_core.arrays import AnyArray, ByteArray
 
 FAINTEST = 0.22
 """How dark the cell of a single point is where the fullest is 1."""
@@ -27,8 +28,8 @@ def density_picture(
     scatter: FieldScatter,
     grid: tuple[int, int, tuple[float, float], tuple[float, float]],
     ink: RGB,
-    selections: Sequence[tuple[np.ndarray, RGB]] = (),
-) -> np.ndarray:
+    selections: Sequence[tuple[AnyArray, RGB]] = (),
+) -> ByteArray:
     """(rows, columns, 4) uint8 colours and alpha, the uppermost row first.
 
     grid: columns, rows, and the ends of both axes.  A cell is as dark as the logarithm of how many points are in it.

@@ -6,6 +6,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from bihdist_core import Surface
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 
 from ..document.looks import AS_IT_IS, Shading
 from .creases import bends, face_normals, has_creases, point_normals, split, to_length_one
@@ -55,7 +56,7 @@ def normals_shading(shading: Shading) -> Shading:
     return Shading(shading.normals, shading.crease)
 
 
-def poly_data(vertices: np.ndarray, faces: np.ndarray, normals: np.ndarray) -> vtkPolyData:
+def poly_data(vertices: FloatArray, faces: IntArray, normals: AnyArray) -> vtkPolyData:
     """Vertices (n, 3) with normals (n, 3), and faces (m, 3), in their own memory."""
     points = vtkPoints()
     points.SetData(numpy_to_vtk(vertices))
@@ -69,15 +70,16 @@ def poly_data(vertices: np.ndarray, faces: np.ndarray, normals: np.ndarray) -> v
     return mesh
 
 
-def copies_of(mesh: vtkPolyData) -> np.ndarray:
+def copies_of(mesh: vtkPolyData) -> IntArray:
     """(k,) of which vertices of the surface the points behind its own are copies."""
     array = mesh.GetFieldData().GetArray(_COPIES)
     return np.empty(0, np.int64) if array is None or not array.GetNumberOfTuples() else vtk_to_numpy(array)
 
 
-def faces_of(mesh: vtkPolyData) -> np.ndarray:
+def faces_of(mesh: vtkPolyData) -> IntArray:
     """(m, 3) the points of its faces."""
-    return vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    faces: IntArray = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return faces
 
 
 def with_backs_of(mesh: vtkPolyData, other: vtkPolyData) -> None:
@@ -93,7 +95,7 @@ def has_backs(mesh: vtkPolyData) -> bool:
     return array is not None and bool(array.GetValue(0))
 
 
-def outward_faces(mesh: vtkPolyData) -> np.ndarray | None:
+def outward_faces(mesh: vtkPolyData) -> IntArray | None:
     """(m, 3) vertices of the surface's faces, wound so that they go round to the left seen from outside.
 
     None if no inside can be seen.
@@ -101,7 +103,7 @@ def outward_faces(mesh: vtkPolyData) -> np.ndarray | None:
     return vertex_faces(mesh) if has_backs(mesh) else None
 
 
-def vertex_faces(mesh: vtkPolyData) -> np.ndarray:
+def vertex_faces(mesh: vtkPolyData) -> IntArray:
     """(m, 3) vertices of the surface's faces, wound as they are drawn."""
     copies = copies_of(mesh)
     return np.append(np.arange(mesh.GetNumberOfPoints() - len(copies)), copies)[faces_of(mesh)]

@@ -8,6 +8,7 @@ million vertices; figures, drawn in a process of their own, use one (`figures.hi
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.solver.z_order import z_order
 
 BLOCK = 128
@@ -33,7 +34,7 @@ class FaceBlocks:
         self._centres, self._halves = self._boxes()
         self._largest = float(np.abs(self._centres).max() + self._halves.max())
 
-    def first_hit(self, start: np.ndarray, end: np.ndarray) -> tuple[int, np.ndarray, np.ndarray] | None:
+    def first_hit(self, start: FloatArray, end: FloatArray) -> tuple[int, FloatArray, FloatArray] | None:
         """The face met first on the way from start (3,) to end (3,), its corners' weights (3,), and the point (3,) met.
 
         None if there is none.  No way slips through between two faces with a common edge: both decide about it by the
@@ -65,7 +66,7 @@ class FaceBlocks:
         face = int(faces[inside[first]])
         return face, weights[:, first], self._x[:, self._faces[face]] @ weights[:, first]
 
-    def _boxes(self) -> tuple[np.ndarray, np.ndarray]:
+    def _boxes(self) -> tuple[FloatArray, FloatArray]:
         """(3, b) centres of the blocks' boxes and (3, b) halves of their sides."""
         low, high = np.empty((3, len(self._blocks))), np.empty((3, len(self._blocks)))
         for begin in range(0, len(self._blocks), BLOCKS_AT_ONCE):
@@ -77,7 +78,7 @@ class FaceBlocks:
         return (low + high) / 2, (high - low) / 2
 
 
-def _along_a_curve(x: np.ndarray, faces: np.ndarray) -> np.ndarray:
+def _along_a_curve(x: FloatArray, faces: IntArray) -> IntArray:
     """(m,) the faces in the order in which Morton's curve meets the cells of their first corners; x (3, n)."""
     first = x.take(faces[:, 0], axis=1)
     low = first.min(axis=1)
@@ -91,7 +92,7 @@ def _along_a_curve(x: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return key & ((1 << bits) - 1)
 
 
-def _across(along: np.ndarray) -> np.ndarray:
+def _across(along: FloatArray) -> FloatArray:
     """(2, 3) two unit vectors at right angles to a unit vector (3,) and to each other."""
     axis = np.zeros(3)
     axis[np.abs(along).argmin()] = 1

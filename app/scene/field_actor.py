@@ -10,6 +10,8 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
+from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
+
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
 from .drawable import copies_of, has_backs
 from .face_look import pass_on, put_face_look
@@ -90,12 +92,14 @@ class FieldActor:
         self.maximum = 1.0
         self.mesh = vtkPolyData()
         self._mapper = vtkPolyDataMapper()
-        self._isolines, self._through = TWENTY_STEPS, ()
+        self._isolines = TWENTY_STEPS
+        self._through: tuple[float, ...] = ()
         self._edges = np.empty(0)
         self._own_maximum, self._has_lines = 1.0, True
         self._own = vtkPolyData()
-        self._has_edges, self._followed = False, None
-        self._tints: dict[str, np.ndarray] = {}
+        self._has_edges = False
+        self._followed: tuple[object, ...] | None = None
+        self._tints: dict[str, AnyArray] = {}
         self._passed_on: set[str] = set()  # of these, what reaches the shader
         self._make()
         self.stand_in = StandInActor(self.actor)
@@ -113,7 +117,7 @@ class FieldActor:
         count = mesh.GetNumberOfPoints() - len(copies_of(mesh))
         self._put_mesh(mesh, self._values[:count])
 
-    def _put_mesh(self, mesh: vtkPolyData, values: np.ndarray) -> None:
+    def _put_mesh(self, mesh: vtkPolyData, values: AnyArray) -> None:
         self.stand_in.take(None)
         self.mesh = mesh
         own = vtkPolyData()
@@ -131,11 +135,11 @@ class FieldActor:
             self._tint(name, kept if kept is not None and len(kept) == len(values) else None)
         self.actor.VisibilityOn()
 
-    def show_selected(self, colours: np.ndarray | None) -> None:
+    def show_selected(self, colours: ByteArray | None) -> None:
         """Vertices that stand out: (n, 4) uint8, see `selected_colours`; None for no such."""
         self._tint("selected", colours)
 
-    def show_colours(self, colours: np.ndarray) -> None:
+    def show_colours(self, colours: FloatArray) -> None:
         """Colours (n, 3) of its own, from 0 to 1, instead of a field; grey where they are NaN."""
         self.show_bare()
         known = np.isfinite(colours).all(axis=1)
@@ -143,7 +147,7 @@ class FieldActor:
         tint[known] = np.column_stack([np.round(255 * colours[known]), np.full(known.sum(), 255)])
         self._tint("colours", tint)
 
-    def _tint(self, name: str, colours: np.ndarray | None) -> None:
+    def _tint(self, name: str, colours: ByteArray | None) -> None:
         """Let vertices have these colours (n, 4) uint8, multiplied by alpha, for one of TINTS; None for none."""
         self._tints.pop(name, None)
         if colours is not None:
@@ -202,7 +206,7 @@ class FieldActor:
             self.show_isolines(isolines, other._through)
 
     def show_field(
-        self, field: np.ndarray, maximum: float | None = None, signed: bool = False, has_lines: bool = True
+        self, field: AnyArray, maximum: float | None = None, signed: bool = False, has_lines: bool = True
     ) -> None:
         """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey.
 
@@ -256,7 +260,7 @@ class FieldActor:
             padded[:count] = numbers[:count]
             self._uniforms.SetUniform1fv(name, MOST_LINES, padded.tolist())
 
-    def show_bands(self, edges: np.ndarray) -> None:
+    def show_bands(self, edges: FloatArray) -> None:
         """Where bands, if the style has any, end: shares (k,) of the maximum."""
         if not np.array_equal(edges, self._edges):
             self._edges = edges
@@ -367,7 +371,7 @@ class FieldActor:
         shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{paint}", False)
 
 
-def lookup_table(style: Style, signed: bool = False, edges: np.ndarray | None = None) -> vtkLookupTable:
+def lookup_table(style: Style, signed: bool = False, edges: FloatArray | None = None) -> vtkLookupTable:
     """The style's colours from 0 to 1, or those of a signed field, and what is undefined below.
 
     edges: (k,) fractions of the maximum at which, where the style has bands, one ends and the next begins.

@@ -5,9 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.arrays import FloatArray
 
 
-def warp_by_scalar(surface: Surface, field: np.ndarray, top: float, up: float) -> Surface:
+def warp_by_scalar(surface: Surface, field: FloatArray, top: float, up: float) -> Surface:
     """A flat surface raised along z by a field (n,), by `up` where that is `top` or more; not where it is NaN."""
     x = surface.vertices
     share = np.clip(np.nan_to_num(field / top), -1, 1) if top > 0 else np.zeros(len(x))

@@ -18,6 +18,8 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderer,
 )
 
+from bihdist_core.arrays import FloatArray
+
 from ..document.document import Zoom, isolines_in
 from .camera import array_of
 from .corners import SIDE, Rectangle, chosen_corners, corner_boxes, joins, source_box, taken_by
@@ -67,7 +69,7 @@ class Insets:
         plotter.add_own(self._frames)
         self._observer = self._main.AddObserver("StartEvent", lambda *_: self._place())
 
-    def show(self, zooms: tuple[Zoom, ...], vertices: np.ndarray) -> None:
+    def show(self, zooms: tuple[Zoom, ...], vertices: FloatArray) -> None:
         """These and no others; vertices (n, 3) of the surface."""
         if zooms != self._zooms:
             self._corners = [zoom.corner if zoom.corner != "auto" else "top right" for zoom in zooms]
@@ -90,10 +92,11 @@ class Insets:
         renderer, before = self.renderers[number], self._own[number]
         if is_own == (before is not None):
             return
-        own = self._own[number] = FieldActor(self._style, self._scale) if is_own else None
-        if own is not None:
+        own = before or FieldActor(self._style, self._scale)
+        self._own[number] = own if is_own else None
+        if is_own:
             own.set_scale(self._scale, self._proportion)
-        for each, is_drawn in ((self._field, not is_own), (before or self._own[number], is_own)):
+        for each, is_drawn in ((self._field, not is_own), (own, is_own)):
             for actor in (each.actor, each.stand_in.actor):
                 renderer.AddActor(actor) if is_drawn else renderer.RemoveActor(actor)
 
@@ -128,7 +131,7 @@ class Insets:
         self.show((), self._positions)
         self._main.RemoveObserver(self._observer)
 
-    def settle(self, samples: np.ndarray, marks: np.ndarray) -> None:
+    def settle(self, samples: FloatArray, marks: FloatArray) -> None:
         """Put those that may stand in any corner where they hide the least.
 
         samples: (k, 3) all over the surface; marks: (k, 3) the marked places.  Called where the view is set, and not
@@ -168,19 +171,20 @@ class Insets:
         places = self._pixels(self._positions)
         return [source_box(place, side, zoom) for place, zoom in zip(places, self._zooms, strict=True)]
 
-    def _pixels(self, points: np.ndarray) -> np.ndarray:
+    def _pixels(self, points: FloatArray) -> FloatArray:
         """(k, 2) where points (k, 3) are seen; NaN behind the camera."""
         width, height = self._main.GetSize()
         local = np.column_stack([points, np.ones(len(points))]) @ self._matrix().T
         ahead = np.where(local[:, 3] > 0, local[:, 3], np.nan)
-        return (local[:, :2] / ahead[:, None] + 1) / 2 * (width, height)
+        pixels: FloatArray = (local[:, :2] / ahead[:, None] + 1) / 2 * (width, height)
+        return pixels
 
-    def _matrix(self) -> np.ndarray:
+    def _matrix(self) -> FloatArray:
         """(4, 4) from the world to -1 … 1 in the view."""
         camera = self._main.GetActiveCamera()
         return self._projection() @ array_of(camera.GetViewTransformMatrix())
 
-    def _projection(self) -> np.ndarray:
+    def _projection(self) -> FloatArray:
         width, height = self._main.GetSize()
         return array_of(self._main.GetActiveCamera().GetProjectionTransformMatrix(width / max(height, 1), -1, 1))
 
@@ -259,7 +263,7 @@ class Insets:
 
 
 def _enlarge(
-    camera: vtkCamera, main: vtkCamera, projection: np.ndarray, source: Rectangle, size: tuple[int, int]
+    camera: vtkCamera, main: vtkCamera, projection: FloatArray, source: Rectangle, size: tuple[int, int]
 ) -> None:
     """Let a camera see a part of what another sees in a view of this size."""
     left, right, bottom, top = source
@@ -268,7 +272,7 @@ def _enlarge(
     enlarge = np.diag([width / (right - left), height / (top - bottom), 1.0, 1.0])
     enlarge[0, 3], enlarge[1, 3] = -enlarge[0, 0] * x, -enlarge[1, 1] * y
     matrix = vtkMatrix4x4()
-    matrix.DeepCopy((enlarge @ projection).ravel())
+    matrix.DeepCopy((enlarge @ projection).ravel().tolist())
     camera.SetPosition(*main.GetPosition())
     camera.SetFocalPoint(*main.GetFocalPoint())
     camera.SetViewUp(*main.GetViewUp())
@@ -276,12 +280,12 @@ def _enlarge(
     camera.SetExplicitProjectionTransformMatrix(matrix)
 
 
-def _rectangles(*boxes: Rectangle) -> list[np.ndarray]:
+def _rectangles(*boxes: Rectangle) -> list[FloatArray]:
     """Their sides, as lines (5, 2)."""
     return [np.array([[a, c], [b, c], [b, d], [a, d], [a, c]]) for a, b, c, d in boxes]
 
 
-def _draw(actor: vtkActor2D, lines: Sequence[np.ndarray]) -> None:
+def _draw(actor: vtkActor2D, lines: Sequence[FloatArray]) -> None:
     """Let it draw these lines (k, 2)."""
     points, cells, drawn = vtkPoints(), vtkCellArray(), vtkPolyData()
     for line in lines:
@@ -289,4 +293,4 @@ def _draw(actor: vtkActor2D, lines: Sequence[np.ndarray]) -> None:
         cells.InsertNextCell(len(ids), ids)
     drawn.SetPoints(points)
     drawn.SetLines(cells)
-    actor.GetMapper().SetInputData(drawn)
+    actor.GetMapper().SetInputData(drawn)  # type: ignore[attr-defined]  # it is a vtkPolyDataMapper2D

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bihdist_core.arrays import BoolArray, FloatArray
+
 from ..document.looks import MOST_ISOLINES, Isolines
 
 BOLD = 2.0
@@ -23,14 +25,14 @@ class Levels:
     step: from one line to the next, 0 where they are at given values.
     """
 
-    values: np.ndarray
-    is_bold: np.ndarray
-    is_through: np.ndarray
+    values: FloatArray
+    is_bold: BoolArray
+    is_through: BoolArray
     wanted: int
     step: float = 0.0
 
     @property
-    def widths(self) -> np.ndarray:
+    def widths(self) -> FloatArray:
         """(k,) in those of a usual line."""
         return np.where(self.is_bold | self.is_through, BOLD, 1.0)
 
@@ -66,7 +68,9 @@ def levels(
             step = 0.0
         number = np.arange(-last if signed else 1, last + 1) if step else np.empty(0, int)
         # 0.15 and not 0.15000000000000002.
-        values = np.array([float(f"{v:.12g}") for v in step * number]) if isolines.round else step * number
+        values = (
+            np.array([float(f"{v:.12g}") for v in step * number]) if isolines.round else step * number.astype(float)
+        )
     is_bold = number % isolines.bold == 0 if isolines.bold else np.zeros(len(number), bool)
     if signed:
         is_bold |= values == 0
@@ -74,7 +78,7 @@ def levels(
     return replace(_merged(values, is_bold, passed, wanted), step=float(step))
 
 
-def _merged(values: np.ndarray, is_bold: np.ndarray, through: np.ndarray, wanted: int) -> Levels:
+def _merged(values: FloatArray, is_bold: BoolArray, through: FloatArray, wanted: int) -> Levels:
     through = np.unique(through)
     kept = ~np.isin(values, through)
     values, is_bold = values[kept], is_bold[kept]

@@ -8,6 +8,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
+from bihdist_core.arrays import FloatArray
+
 from ..marks.line_looks import LineLook
 from .style import Style
 
@@ -55,7 +57,7 @@ class RimmedLines:
         """Be of this share of the width."""
         self.actor.GetProperty().SetLineWidth(self._width * share)
 
-    def show(self, lines: Sequence[tuple[np.ndarray, bool]]) -> None:
+    def show(self, lines: Sequence[tuple[FloatArray, bool]]) -> None:
         """Points (k, 3) of each, and whether the last joins the first."""
         self.actor.SetVisibility(len(lines) > 0)
         if not lines:
@@ -69,16 +71,17 @@ class RimmedLines:
             count += len(at)
         drawn.SetPoints(points)
         drawn.SetLines(cells)
-        self.actor.GetMapper().SetInputData(drawn)
+        self.actor.GetMapper().SetInputData(drawn)  # type: ignore[attr-defined]  # it is a vtkPolyDataMapper
 
 
-def _without_specks(points: np.ndarray) -> np.ndarray:
+def _without_specks(points: FloatArray) -> FloatArray:
     """Points (k, 3) of a line without most of those that are next to another: tubes so short have no direction."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     least = 0.2 * float(np.median(steps)) if len(steps) else 0.0
     far = np.append(True, steps >= least)
     far[-1] = True
-    return points[far]
+    kept: FloatArray = points[far]
+    return kept
 
 
 def line_actor(colour: Sequence[float], width: float, nearer: float) -> vtkActor:

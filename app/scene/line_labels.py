@@ -7,7 +7,9 @@ import numpy as np
 from scipy.ndimage import maximum_filter, minimum_filter
 from scipy.spatial import cKDTree
 
-Line = tuple[np.ndarray, bool]
+from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
+
+Line = tuple[FloatArray, bool]
 """Points (k, 2) in a picture, y down, and whether the last joins the first."""
 
 EVERY = 3.0
@@ -36,6 +38,10 @@ class Contour:
     is_through: bool = False
 
 
+Room = tuple[float, int, float, float, FloatArray, FloatArray]
+"""A place for a label: how good, the part of the line, from where to where on it, the middle and the way, (2,) each."""
+
+
 @dataclass(frozen=True)
 class Label:
     """Words about a middle (x, y) in the picture, turned by an angle in degrees, against the clock."""
@@ -62,8 +68,8 @@ def labelled(
     box: tuple[float, float, float, float],
     size: float,
     width: Callable[[str], float],
-    is_covered: Callable[[np.ndarray], np.ndarray],
-    marked: np.ndarray,
+    is_covered: Callable[[FloatArray], BoolArray],
+    marked: FloatArray,
     apart: float,
     written: Sequence[tuple[float, float]] = (),
 ) -> tuple[list[Contour], list[Label]]:
@@ -88,7 +94,7 @@ def labelled(
             continue
         text = value_text(line.value)
         wide = width(text) + 2 * PAD
-        best = None
+        best: Room | None = None
         for number, part in enumerate(line.parts):
             best = max(
                 [
@@ -113,7 +119,21 @@ def labelled(
     return lines, labels
 
 
-def _places(is_covered, part: Line, number: int, wide, size, tree, points, owner, k, marked, apart, taken, crowded):
+def _places(
+    is_covered: Callable[[FloatArray], BoolArray],
+    part: Line,
+    number: int,
+    wide: float,
+    size: float,
+    tree: cKDTree,
+    points: FloatArray,
+    owner: IntArray,
+    k: int,
+    marked: FloatArray,
+    apart: float,
+    taken: Sequence[tuple[FloatArray, float]],
+    crowded: Callable[[FloatArray], BoolArray],
+) -> list[Room]:
     """Places on a part of a line that have room: how good, the part, from where to where, the middle and the way."""
     at, length = _along(part, 1.0)
     starts = np.arange(0.0, length[-1] - wide, EVERY)
@@ -149,8 +169,8 @@ def _places(is_covered, part: Line, number: int, wide, size, tree, points, owner
 
 
 def _crowded(
-    box: tuple[float, float, float, float], points: np.ndarray, owner: np.ndarray, clear: float
-) -> Callable[[np.ndarray], np.ndarray]:
+    box: tuple[float, float, float, float], points: FloatArray, owner: IntArray, clear: float
+) -> Callable[[FloatArray], BoolArray]:
     """Says of places (k, 2) on lines whether another line is nearer than `clear` for sure.
 
     points: (n, 2) of all lines, owner: (n,) which line each is of.
@@ -161,7 +181,7 @@ def _crowded(
     left, top, across, down = box
     corner, shape = np.array([left, top]), (int(down) + 2, int(across) + 2)
 
-    def cells(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def cells(places: FloatArray) -> tuple[AnyArray, AnyArray]:
         column, row = np.floor(places - corner).astype(int).T
         return np.clip(row, 0, shape[0] - 1), np.clip(column, 0, shape[1] - 1)
 
@@ -172,13 +192,14 @@ def _crowded(
     return lambda places: least[cells(places)] < most[cells(places)]
 
 
-def _is_between(points: np.ndarray, a: np.ndarray, way: np.ndarray, chord: float) -> np.ndarray:
+def _is_between(points: FloatArray, a: FloatArray, way: FloatArray, chord: float) -> BoolArray:
     """(k,) whether points (k, 2) of the line itself are the part under the words, or go on from it."""
     along, across = (points - a) @ way, np.abs((points - a) @ [-way[1], way[0]])
-    return (across < min(0.5 * chord, 4.0)) | (along < 0) | (along > chord)
+    is_between: BoolArray = (across < min(0.5 * chord, 4.0)) | (along < 0) | (along > chord)
+    return is_between
 
 
-def _least_distance(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> float:
+def _least_distance(points: FloatArray, a: FloatArray, b: FloatArray) -> float:
     """From points (k, 2) to the segment from a to b."""
     if not len(points):
         return np.inf
@@ -190,7 +211,7 @@ def _length(line: Contour) -> float:
     return sum(float(_along(part, np.inf)[1][-1]) for part in line.parts)
 
 
-def _along(part: Line, step: float) -> tuple[np.ndarray, np.ndarray]:
+def _along(part: Line, step: float) -> tuple[FloatArray, FloatArray]:
     """(k, 2) points along a line, no farther apart than `step`, and their lengths (k,) from its start."""
     points, closed = part
     ring = np.concatenate([points, points[:1]]) if closed else points
@@ -206,7 +227,7 @@ def _without(part: Line, start: float, stop: float) -> list[Line]:
     """What is left of a line without the part from one length to another."""
     ring, length = _along(part, np.inf)
 
-    def cut(a: float, b: float) -> np.ndarray:
+    def cut(a: float, b: float) -> FloatArray:
         lengths = np.concatenate([[a], length[(length > a) & (length < b)], [b]])
         return np.stack([np.interp(lengths, length, ring[:, k]) for k in (0, 1)], 1)
 

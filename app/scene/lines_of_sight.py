@@ -3,11 +3,13 @@
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 SLACK = 0.004
 """By how much of the shape's diagonal a point may lie behind what was drawn: between two pixels, or on a stand-in."""
 
 
-def seen_in(renderer: vtkRenderer, points: np.ndarray, depths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def seen_in(renderer: vtkRenderer, points: FloatArray, depths: FloatArray) -> tuple[AnyArray, AnyArray]:
     """(k, 2) device pixels, y down, of points (k, 3), and (k,) whether they are seen.
 
     depths: (height, width) of the picture, 0 to 1, upright.  Behind the camera pixels are NaN.
@@ -34,7 +36,7 @@ def seen_in(renderer: vtkRenderer, points: np.ndarray, depths: np.ndarray) -> tu
     return pixels, inside & (nearer <= farthest)
 
 
-def pixels_in(renderer: vtkRenderer, points: np.ndarray, width: int, height: int) -> np.ndarray:
+def pixels_in(renderer: vtkRenderer, points: FloatArray, width: int, height: int) -> FloatArray:
     """(k, 2) device pixels, y down, of points (k, 3) in a picture of so many, be they seen or not."""
     camera = renderer.GetActiveCamera()
     found = camera.GetCompositeProjectionTransformMatrix(width / max(height, 1), -1, 1)
@@ -43,7 +45,7 @@ def pixels_in(renderer: vtkRenderer, points: np.ndarray, width: int, height: int
     return np.column_stack([(flat[:, 0] + 1) / 2 * width, (1 - flat[:, 1]) / 2 * height])
 
 
-def _divided(matrix: np.ndarray, points: np.ndarray) -> np.ndarray:
+def _divided(matrix: FloatArray, points: FloatArray) -> FloatArray:
     """(k, 3) points (k, 3) as -1 ... 1 in the picture and in depth; NaN behind the camera."""
     local = np.column_stack([points, np.ones(len(points))]) @ matrix.T
     return local[:, :3] / np.where(local[:, 3] > 0, local[:, 3], np.nan)[:, None]

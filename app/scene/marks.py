@@ -8,6 +8,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
+from bihdist_core.arrays import FloatArray
+
 from .style import Colour
 
 DOT = 0.6
@@ -34,9 +36,9 @@ class Marks:
 
     def __init__(self, size: float, rim: Colour | None = None, are_rings: bool = False) -> None:
         self.actor, self._size = vtkActor(), size
-        mapper = vtkPolyDataMapper()
-        mapper.SetColorModeToDirectScalars()
-        self.actor.SetMapper(mapper)
+        self._mapper = vtkPolyDataMapper()
+        self._mapper.SetColorModeToDirectScalars()
+        self.actor.SetMapper(self._mapper)
         look = self.actor.GetProperty()
         look.SetPointSize(size)
         look.RenderPointsAsSpheresOn()
@@ -52,7 +54,7 @@ class Marks:
         """Be of this share of the size."""
         self.actor.GetProperty().SetPointSize(self._size * share)
 
-    def show(self, positions: np.ndarray, colours: Sequence[Colour] | np.ndarray) -> None:
+    def show(self, positions: FloatArray, colours: Sequence[Colour] | FloatArray) -> None:
         """Mark these positions (k, 3), each in a colour."""
         self.actor.SetVisibility(len(positions) > 0)
         if not len(positions):
@@ -65,8 +67,8 @@ class Marks:
         marked.SetVerts(cells)
         shades = np.round(255 * np.asarray(colours, float).reshape(-1, 3)).astype(np.uint8)
         marked.GetPointData().SetScalars(numpy_to_vtk(shades, deep=True))
-        self.actor.GetMapper().SetInputData(marked)
+        self._mapper.SetInputData(marked)
 
-    def show_one(self, position: np.ndarray | None, colour: Colour) -> None:
+    def show_one(self, position: FloatArray | None, colour: Colour) -> None:
         """Mark one place (3,), or none."""
         self.show(np.empty((0, 3)) if position is None else position[None], [] if position is None else [colour])

@@ -3,6 +3,8 @@
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
+from bihdist_core.arrays import FloatArray
+
 TURN = 200.0
 """Degrees for a move across the whole view."""
 
@@ -10,7 +12,7 @@ STEEPEST = 89.0
 """Degrees of elevation up to which a turntable tilts: at the poles nothing would be upright."""
 
 
-def turn(camera: vtkCamera, dx: float, dy: float, size: tuple[float, float], upright: np.ndarray | None = None) -> None:
+def turn(camera: vtkCamera, dx: float, dy: float, size: tuple[float, float], upright: FloatArray | None = None) -> None:
     """Round the focal point, for a move by (dx, dy), y up, across a view of this size.
 
     upright: (3,) the unit vector that stays upright in the picture, as on a turntable; without one it turns freely.
@@ -24,7 +26,7 @@ def turn(camera: vtkCamera, dx: float, dy: float, size: tuple[float, float], upr
     camera.OrthogonalizeViewUp()
 
 
-def _turn_upright(camera: vtkCamera, across: float, along: float, upright: np.ndarray) -> None:
+def _turn_upright(camera: vtkCamera, across: float, along: float, upright: FloatArray) -> None:
     """By degrees about the upright axis, and up along the meridian as far as that goes."""
     focal_point = np.array(camera.GetFocalPoint())
     arm = np.array(camera.GetPosition()) - focal_point
@@ -59,7 +61,7 @@ def shift(camera: vtkCamera, dx: float, dy: float, height: float) -> None:
     _move(camera, -per_pixel * (dx * right + dy * np.cross(right, along)))
 
 
-def zoom(camera: vtkCamera, factor: float, about: np.ndarray) -> None:
+def zoom(camera: vtkCamera, factor: float, about: FloatArray) -> None:
     """Nearer by a factor; a point (3,) stays where it is seen."""
     for get, put in (
         (camera.GetPosition, camera.SetPosition),
@@ -69,7 +71,7 @@ def zoom(camera: vtkCamera, factor: float, about: np.ndarray) -> None:
     camera.SetParallelScale(camera.GetParallelScale() / factor)
 
 
-def centre(camera: vtkCamera, point: np.ndarray) -> None:
+def centre(camera: vtkCamera, point: FloatArray) -> None:
     """Let a point (3,) be in the middle, and what is turned about; seen from the same side, as large as before."""
     along = np.array(camera.GetDirectionOfProjection())
     offset = point - np.array(camera.GetPosition())
@@ -79,7 +81,7 @@ def centre(camera: vtkCamera, point: np.ndarray) -> None:
         camera.SetFocalPoint(*point)
 
 
-def at_focal_depth(renderer: vtkRenderer, x: float, y: float) -> np.ndarray:
+def at_focal_depth(renderer: vtkRenderer, x: float, y: float) -> FloatArray:
     """(3,) the place at device pixel (x, y), y up, that is as far as the focal point."""
     renderer.SetWorldPoint(*renderer.GetActiveCamera().GetFocalPoint(), 1.0)
     renderer.WorldToDisplay()
@@ -89,6 +91,6 @@ def at_focal_depth(renderer: vtkRenderer, x: float, y: float) -> np.ndarray:
     return np.array(place) / weight
 
 
-def _move(camera: vtkCamera, by: np.ndarray) -> None:
+def _move(camera: vtkCamera, by: FloatArray) -> None:
     camera.SetPosition(*(np.array(camera.GetPosition()) + by))
     camera.SetFocalPoint(*(np.array(camera.GetFocalPoint()) + by))

@@ -16,6 +16,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
+from bihdist_core.arrays import ByteArray, FloatArray
+
 from .camera import stand_back
 from .panel_scene import PanelScene
 from .style import PAPER, Style
@@ -63,7 +65,7 @@ class OffscreenRenderer:
         if tuple(self._window.GetSize()) != size:
             self._window.SetSize(*size)
 
-    def picture(self, scene: PanelScene, size: tuple[int, int]) -> np.ndarray:
+    def picture(self, scene: PanelScene, size: tuple[int, int]) -> ByteArray:
         """(height, width, 4) uint8, upright."""
         self.fit(size)
         for other in self._scenes:
@@ -77,19 +79,20 @@ class OffscreenRenderer:
         self._window.Render()
         self.pictures += 1
         width, height = size
-        self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._read)
+        self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._read, 0)
         if not scene.is_stand_in:
             scene.seconds = perf_counter() - start
         picture = np.ascontiguousarray(vtk_to_numpy(self._read).reshape(height, width, 4)[::-1])
         picture[..., 3] = 255  # what smoothing leaves there means nothing
         return picture
 
-    def depths(self) -> np.ndarray:
+    def depths(self) -> FloatArray:
         """(height, width) of the picture that was drawn last: 0 nearest to the camera, 1 for nothing; upright."""
         width, height = self._window.GetSize()
         read = vtkFloatArray()
         self._window.GetZbufferData(0, 0, width - 1, height - 1, read)
-        return vtk_to_numpy(read).reshape(height, width)[::-1]
+        depths: FloatArray = vtk_to_numpy(read).reshape(height, width)[::-1]
+        return depths
 
     def close(self) -> None:
         """Give back what the graphics have."""

@@ -6,21 +6,22 @@ Imported with the first panel that has something to draw, not before: PyVista ta
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
 import pyvista
 from pyvista import plotting
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkProp, vtkProp3D, vtkRenderWindow
 
+from bihdist_core.arrays import AnyArray
+
 from .drawable import copies_of, vertex_faces
 
 
-def mesh_of(drawn: vtkPolyData, fields: Mapping[str, np.ndarray]) -> pyvista.PolyData:
+def mesh_of(drawn: vtkPolyData, fields: Mapping[str, AnyArray]) -> pyvista.PolyData:
     """A surface as it is drawn, in memory of its own: vertex k is point k; fields (n,) by name are its arrays."""
     points = vtk_to_numpy(drawn.GetPoints().GetData())
     vertices = points[: len(points) - len(copies_of(drawn))].copy()
-    mesh = pyvista.PolyData.from_regular_faces(vertices, vertex_faces(drawn))
+    mesh: pyvista.PolyData = pyvista.PolyData.from_regular_faces(vertices, vertex_faces(drawn))
     for name, field in fields.items():
         mesh.point_data.set_array(field, name, deep_copy=True)
     return mesh
@@ -64,7 +65,7 @@ class PanelPlotter(pyvista.BasePlotter):
     def _others(self) -> list[vtkProp]:
         return [actor for actor in self.renderer.GetViewProps() if actor not in self._own]
 
-    def remove_actor(self, actor: Any, *arguments: Any, **options: Any) -> bool:
+    def remove_actor(self, actor: Any, *arguments: Any, **options: Any) -> bool:  # type: ignore[override]
         """Remove what was added: an actor, its name, or a list of such.
 
         ValueError for one of the panel's own, such as its surface.
@@ -94,7 +95,7 @@ class PanelPlotter(pyvista.BasePlotter):
         self.redraw, self.ren_win = lambda: None, None
         super().close()
 
-    def add_actor(self, *arguments: Any, **options: Any) -> Any:
+    def add_actor(self, *arguments: Any, **options: Any) -> Any:  # type: ignore[override]
         """Add an actor as PyVista does, but leave the camera where it is."""
         options["reset_camera"] = bool(options.get("reset_camera"))
         return super().add_actor(*arguments, **options)

@@ -7,6 +7,8 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkBoundingBox, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from bihdist_core.arrays import ByteArray, FloatArray
+
 from ..document.looks import Isolines, Shading
 from ..marks.line_looks import BOUNDARY, SOURCE
 from .field_actor import FieldActor, light
@@ -122,16 +124,16 @@ class PanelScene:
         return bool(self._field.stand_in.actor.GetVisibility())
 
     def show_field(
-        self, field: np.ndarray, maximum: float | None = None, signed: bool = False, has_lines: bool = True
+        self, field: FloatArray, maximum: float | None = None, signed: bool = False, has_lines: bool = True
     ) -> None:
         """Colour the surface by a field (n,), see `FieldActor.show_field`."""
         self._field.show_field(field, maximum, signed, has_lines)
 
-    def show_selected(self, colours: np.ndarray | None) -> None:
+    def show_selected(self, colours: ByteArray | None) -> None:
         """Vertices that stand out, see `selected_colours`."""
         self._field.show_selected(colours)
 
-    def show_colours(self, colours: np.ndarray) -> None:
+    def show_colours(self, colours: FloatArray) -> None:
         """Colours (n, 3) of its own instead of a field, see `FieldActor.show_colours`."""
         self._field.show_colours(colours)
 
@@ -143,11 +145,11 @@ class PanelScene:
         """These, and one of each value `through`."""
         self._field.show_isolines(isolines, through)
 
-    def show_regions(self, curves: Sequence[tuple[np.ndarray, bool]]) -> None:
+    def show_regions(self, curves: Sequence[tuple[FloatArray, bool]]) -> None:
         """Boundaries of regions: points (k, 3) of each curve, and whether it is closed."""
         self._regions.show(curves)
 
-    def show_bands(self, edges: np.ndarray) -> None:
+    def show_bands(self, edges: FloatArray) -> None:
         """Where bands end, see `FieldActor.show_bands`."""
         self._field.show_bands(edges)
 
@@ -162,7 +164,7 @@ class PanelScene:
         return self._field.isolines
 
     @property
-    def isolines(self) -> np.ndarray:
+    def isolines(self) -> FloatArray:
         """(k,) those values."""
         return self.levels.values
 
@@ -182,18 +184,18 @@ class PanelScene:
         return self._field.maximum
 
     # ------------------------------------------------------------------ marks
-    def show_source_lines(self, lines: Sequence[tuple[np.ndarray, bool]]) -> None:
+    def show_source_lines(self, lines: Sequence[tuple[FloatArray, bool]]) -> None:
         """Points (k, 3) of each line that the field starts from, and whether the last joins the first."""
         self._lines.show(lines)
 
-    def mark_largest(self, position: np.ndarray | None) -> None:
+    def mark_largest(self, position: FloatArray | None) -> None:
         """Where a signed field is largest."""
         self._largest.show_one(position, self.style.largest)
 
-    def mark_passed(self, positions: np.ndarray) -> None:
+    def mark_passed(self, positions: FloatArray) -> None:
         """Positions (k, 3) of points that isolines pass through."""
         self._passed.show(positions, [self.style.source] * len(positions))
 
-    def mark_anchors(self, positions: np.ndarray) -> None:
+    def mark_anchors(self, positions: FloatArray) -> None:
         """Rings at positions (k, 3)."""
         self._anchored.show(positions, [self.style.mark_edge] * len(positions))

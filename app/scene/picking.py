@@ -7,6 +7,7 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from bihdist_core import Surface
+from bihdist_core.arrays import FloatArray
 
 from .face_blocks import FaceBlocks
 
@@ -19,8 +20,8 @@ class Hit:
     """
 
     face: int
-    weights: np.ndarray
-    position: np.ndarray
+    weights: FloatArray
+    position: FloatArray
     vertex: int
 
 
@@ -41,7 +42,7 @@ class Picker:
         nearest = np.linalg.norm(self._surface.vertices[ids] - position, axis=1).argmin()
         return Hit(face, weights, position, int(ids[nearest]))
 
-    def sees(self, renderer: vtkRenderer, point: np.ndarray) -> bool:
+    def sees(self, renderer: vtkRenderer, point: FloatArray) -> bool:
         """Whether nothing but faces about it stands before a point (3,) of the surface."""
         hit = self._first_hit(renderer, *pixel_of(renderer, point))
         if hit is None:
@@ -53,7 +54,7 @@ class Picker:
             nearer = (point - hit[2]) @ np.array(camera.GetDirectionOfProjection())
         return bool(nearer <= 2 * self._surface.mean_edge_length)
 
-    def _first_hit(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, np.ndarray, np.ndarray] | None:
+    def _first_hit(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, FloatArray, FloatArray] | None:
         ends = []
         for depth in (0.0, 1.0):
             renderer.SetDisplayPoint(x, y, depth)
@@ -85,9 +86,9 @@ class LatePicker:
         return self._picker.sees(*where)
 
 
-def pixel_of(renderer: vtkRenderer, point: np.ndarray) -> tuple[float, float]:
+def pixel_of(renderer: vtkRenderer, point: FloatArray) -> tuple[float, float]:
     """Where a point (3,) is drawn: device pixels, y up."""
-    renderer.SetWorldPoint(*point, 1.0)
+    renderer.SetWorldPoint([*point, 1.0])
     renderer.WorldToDisplay()
     x, y, _ = renderer.GetDisplayPoint()
     return x, y

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.arrays import FloatArray
 
 from ..document.looks import AS_IT_IS, Shading
 
@@ -30,9 +31,9 @@ class Prepared:
 
     meshes: "Meshes"
     picker: Any
-    points: np.ndarray
+    points: FloatArray
     bounds: tuple[float, ...]
-    samples: np.ndarray
+    samples: FloatArray
     is_flat: bool
 
 
@@ -87,7 +88,8 @@ def _key(shading: Shading) -> Shading:
 
 def prepare(surface: Surface) -> Prepared:
     """What the panels need of the surface; on any thread."""
-    from .camera import is_flat
+    from bihdist_core.analysis.first_view import is_flat
+
     from .picking import Picker
 
     shown = surface.vertices[surface.component_of_vertex >= 0]
@@ -97,10 +99,13 @@ def prepare(surface: Surface) -> Prepared:
     return Prepared(Meshes(surface), Picker(surface), points, bounds, _samples(surface), is_flat(shown))
 
 
-def _samples(surface: Surface) -> np.ndarray:
+def _samples(surface: Surface) -> FloatArray:
     """(SAMPLES, 3) places on the faces."""
     random = np.random.default_rng(0)
     upto = np.cumsum(surface.face_areas)
     faces = np.searchsorted(upto, random.uniform(0, upto[-1], SAMPLES))
     weights = random.dirichlet(np.ones(3), SAMPLES)
-    return np.einsum("ij,ijk->ik", weights, surface.vertices[surface.faces[np.minimum(faces, len(upto) - 1)]])
+    samples: FloatArray = np.einsum(
+        "ij,ijk->ik", weights, surface.vertices[surface.faces[np.minimum(faces, len(upto) - 1)]]
+    )
+    return samples

@@ -13,6 +13,8 @@ from vtkmodules.vtkCommonCore import vtkDataArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
+
 from .drawable import copies_of, faces_of, poly_data, with_backs_of
 
 CLUSTERS = 40_000
@@ -36,11 +38,11 @@ MOST_CELLS = 1 << 20
 class StandIn:
     """mesh: the clusters (k,) as points with normals, and the faces whose corners lie in three of them."""
 
-    def __init__(self, mesh: vtkPolyData, of_point: np.ndarray, count: int) -> None:
+    def __init__(self, mesh: vtkPolyData, of_point: IntArray, count: int) -> None:
         self.mesh = mesh
         self._of_point, self._count = of_point, count
 
-    def averaged(self, values: np.ndarray, undefined: float) -> np.ndarray:
+    def averaged(self, values: AnyArray, undefined: float) -> AnyArray:
         """(k,) float32 means over each cluster of values (n,) of all points; `undefined` where all of its are."""
         known = values != undefined
         if known.all():
@@ -70,8 +72,8 @@ def stand_in(mesh: vtkPolyData, clusters: int = CLUSTERS) -> StandIn | None:
     of_point[shown] = cluster
     size = np.bincount(cluster, minlength=count)
     centres = np.stack([np.bincount(cluster, each[shown], count) / size for each in coordinates], 1)
-    means = [np.bincount(cluster, np.ascontiguousarray(each)[shown], count) for each in normals.T]
-    means = np.stack(means, 1)
+    sums = [np.bincount(cluster, np.ascontiguousarray(each)[shown], count) for each in normals.T]
+    means = np.stack(sums, 1).astype(float, copy=False)
     means /= np.maximum(np.linalg.norm(means, axis=1, keepdims=True), 1e-30)
     kept = _faces(of_point, faces, centres, means)
     if not len(kept):
@@ -81,7 +83,7 @@ def stand_in(mesh: vtkPolyData, clusters: int = CLUSTERS) -> StandIn | None:
     return StandIn(made, of_point, count)
 
 
-def _side(x: np.ndarray, faces: np.ndarray, clusters: int) -> float:
+def _side(x: FloatArray, faces: IntArray, clusters: int) -> float:
     """Of a cell, so that the surface passes through about as many as there are to be clusters."""
     # Some of the faces tell the area well enough.
     some = faces[:: max(1, len(faces) // 100_000)]
@@ -90,7 +92,7 @@ def _side(x: np.ndarray, faces: np.ndarray, clusters: int) -> float:
     return float(np.sqrt(CELLS_PER_PATCH * area / clusters))
 
 
-def _clusters(x: list[np.ndarray], normals: np.ndarray, side: float, least: float) -> np.ndarray:
+def _clusters(x: list[FloatArray], normals: AnyArray, side: float, least: float) -> IntArray:
     """(n,) the cluster of each point, from 0; least: the cosine to its cell's first normal that parts it from that."""
     lows = [float(each.min()) for each in x]
     longest = max(float(each.max()) - low for each, low in zip(x, lows, strict=True))
@@ -116,7 +118,7 @@ def _clusters(x: list[np.ndarray], normals: np.ndarray, side: float, least: floa
     return found
 
 
-def _faces(of_point: np.ndarray, faces: np.ndarray, centres: np.ndarray, normals: np.ndarray) -> np.ndarray:
+def _faces(of_point: IntArray, faces: IntArray, centres: FloatArray, normals: FloatArray) -> IntArray:
     """(m, 3) those with corners in three clusters, each once; not those that clustering has turned over."""
     a, b, c = (of_point.take(faces[:, k]) for k in range(3))
     whole = np.flatnonzero((a != b) & (b != c) & (c != a))
@@ -185,15 +187,16 @@ class StandInActor:
         values: (n,) of all points of the surface, under the name that they have there; tints: (n, 4) the same, of each
         of its colours that the shader knows.
         """
-        is_shown = is_shown and self._stand_in is not None and values is not None
-        if is_shown:
-            self._follow(values, undefined)
-            self._follow_tints(tints)
+        if is_shown and self._stand_in is not None and values is not None:
+            self._follow(self._stand_in, values, undefined)
+            self._follow_tints(self._stand_in, tints)
+        else:
+            is_shown = False
         if is_shown != bool(self.actor.GetVisibility()):
             self.actor.SetVisibility(is_shown)
             self._full.SetVisibility(not is_shown)
 
-    def _follow(self, values: vtkDataArray, undefined: float) -> None:
+    def _follow(self, stand_in: StandIn, values: vtkDataArray, undefined: float) -> None:
         """Show the values of now, in the colours of now."""
         full = self._full.GetMapper()
         if self._mapper.GetLookupTable() is not full.GetLookupTable():
@@ -212,10 +215,10 @@ class StandInActor:
                 "isolineAttribute", name, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
             )
         self._averaged = state
-        self._values[:] = self._stand_in.averaged(vtk_to_numpy(values), undefined)
+        self._values[:] = stand_in.averaged(vtk_to_numpy(values), undefined)
         self._array.Modified()
 
-    def _follow_tints(self, tints: Mapping[str, vtkDataArray]) -> None:
+    def _follow_tints(self, stand_in: StandIn, tints: Mapping[str, vtkDataArray]) -> None:
         """A cluster has the mean of its points' colours: it is selected by the share of them that are."""
         for name in [name for name in self._tints if name not in tints]:
             del self._tints[name]
@@ -224,7 +227,7 @@ class StandInActor:
             if self._tints.get(name) is tint:
                 continue
             self._tints[name] = tint
-            means = [self._stand_in.averaged(each, np.nan) for each in vtk_to_numpy(tint).T]
+            means = [stand_in.averaged(each, np.nan) for each in vtk_to_numpy(tint).T]
             array = numpy_to_vtk(np.ascontiguousarray(np.stack(means, 1)), deep=True)
             array.SetName(name)
             own = self._mapper.GetInput()

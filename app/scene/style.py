@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
 from bihdist_core.errors import ParameterError
 
 from ..document.looks import OF_THE_STYLE, Colours, Stops
@@ -64,30 +65,31 @@ class Style:
     signed_isoline: Colour = INK
     bands: bool = False
 
-    def colours(self, count: int = 512, signed: bool = False) -> np.ndarray:
+    def colours(self, count: int = 512, signed: bool = False) -> FloatArray:
         """(count, 3) the colour map from 0 to the maximum; signed: from -maximum to maximum."""
         return self.colours_at(np.linspace(-1 if signed else 0, 1, count), signed)
 
-    def band_colours(self, edges: np.ndarray, signed: bool = False) -> np.ndarray:
+    def band_colours(self, edges: FloatArray, signed: bool = False) -> FloatArray:
         """(k + 1, 3) the colours of bands, each that of its middle; edges: (k,) fractions of the maximum, going up."""
         ends = np.concatenate([[-1.0 if signed else 0.0], edges, [1.0]])
         return self.colours_at((ends[1:] + ends[:-1]) / 2, signed)
 
-    def colours_at(self, shares: np.ndarray, signed: bool = False) -> np.ndarray:
+    def colours_at(self, shares: FloatArray, signed: bool = False) -> FloatArray:
         """(k, 3) colours of values given as shares (k,) of the maximum, 0 to 1, or -1 to 1 if signed."""
         return colours_at(self.diverging if signed else self.stops, shares)
 
-    def bin_colours(self, ends: np.ndarray, top: float, signed: bool = False) -> np.ndarray:
+    def bin_colours(self, ends: FloatArray, top: float, signed: bool = False) -> FloatArray:
         """(b, 3) of the bins of a histogram with ends (b + 1,), each that of its middle, where colours end at `top`."""
         middle = (ends[1:] + ends[:-1]) / 2
         return self.colours_at(np.clip(middle / top if top > 0 else 0 * middle, -1 if signed else 0, 1), signed)
 
-    def colour_of(self, value: float, top: float, signed: bool = False) -> Colour | np.ndarray:
+    def colour_of(self, value: float, top: float, signed: bool = False) -> Colour | FloatArray:
         """The colour of one value where `top` is the end of the colour bar; what is undefined is grey."""
         if np.isnan(value):
             return self.undefined
         share = np.clip(value / top, -1 if signed else 0, 1) if top > 0 else 0.0
-        return self.colours_at(np.array([share]), signed)[0]
+        colour: FloatArray = self.colours_at(np.array([share]), signed)[0]
+        return colour
 
     def named(self, name: str) -> Colour:
         """A colour such as "#1F7A3D", "white", or that of one of the fields, such as "source"."""

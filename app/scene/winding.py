@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 from bihdist_core.surface import connected, dots
 
 BODY, SHELL = 0.3, 0.6
@@ -24,14 +25,14 @@ class Winding:
     Möbius strip.  has_backs: whether an inside can be seen.
     """
 
-    turn: np.ndarray
-    edges: np.ndarray
-    left: np.ndarray
-    right: np.ndarray
-    is_turned: np.ndarray
+    turn: BoolArray
+    edges: IntArray
+    left: IntArray
+    right: IntArray
+    is_turned: BoolArray
     has_backs: bool
 
-    def faces(self, faces: np.ndarray) -> np.ndarray:
+    def faces(self, faces: IntArray) -> IntArray:
         """(m, 3) faces with those turned over that are to be."""
         if not self.turn.any():
             return faces
@@ -40,7 +41,7 @@ class Winding:
         return np.where(self.turn[:, None], faces[:, [0, 2, 1]], faces)
 
 
-def winding(surface: Surface, normals: list[np.ndarray]) -> Winding:
+def winding(surface: Surface, normals: list[FloatArray]) -> Winding:
     """normals: three (m,), the coordinates of the faces' normals, whose lengths are twice their areas.
 
     In NumPy, most of which releases the interpreter lock; half a second for a million vertices.
@@ -63,7 +64,7 @@ def winding(surface: Surface, normals: list[np.ndarray]) -> Winding:
     return Winding(turn ^ inward, edges, left, right, is_turned, has_backs)
 
 
-def _alike(one: np.ndarray, other: np.ndarray, is_turned: np.ndarray, m: int) -> tuple[np.ndarray, ...]:
+def _alike(one: IntArray, other: IntArray, is_turned: BoolArray, m: int) -> tuple[AnyArray, ...]:
     """(m,) which faces to turn over, (m,) the patch of each, and (e,) where neighbours are still against each other.
 
     Each face is there twice, as it is and turned over, and joined to its neighbours as they then fit.  What hangs
@@ -79,8 +80,8 @@ def _alike(one: np.ndarray, other: np.ndarray, is_turned: np.ndarray, m: int) ->
 
 
 def _insides(
-    surface: Surface, normals: list[np.ndarray], turn: np.ndarray, patch: np.ndarray, one_sided: np.ndarray
-) -> tuple[np.ndarray, bool]:
+    surface: Surface, normals: list[FloatArray], turn: BoolArray, patch: IntArray, one_sided: IntArray
+) -> tuple[BoolArray, bool]:
     """(m,) which faces are those of a patch that is wound inwards, and whether the inside of a patch can be seen.
 
     one_sided: (k,) the patches that have only one side.
@@ -89,7 +90,7 @@ def _insides(
     area = np.bincount(patch, np.sqrt(dots(normals, normals)) / 2, patches)
     half = np.where(turn, -0.5, 0.5) if turn.any() else 0.5
     normals = [half * x for x in normals]
-    pointing = [np.bincount(patch, x, patches) for x in normals]
+    pointing = [np.bincount(patch, x, patches).astype(float, copy=False) for x in normals]
     # A hole is closed by triangles that meet in the middle of all edges of holes, so that they have no part in it.
     boundary = np.flatnonzero(surface.faces_per_edge.take(surface.edge_of_side) != 2)
     corner, where = surface.faces.T.ravel().take(boundary), patch.take(boundary % m)

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bihdist_core import ParameterError, Surface
-from bihdist_core.arrays import AnyArray
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.sources.source import Source
 
 from ..document.beside_edits import open_beside
@@ -38,7 +38,7 @@ class ArrayStore:
 
     def __init__(self) -> None:
         self._surfaces: dict[str, Surface] = {}
-        self._fields: dict[str, np.ndarray] = {}
+        self._fields: dict[str, FloatArray] = {}
 
     def add_surface(self, surface: Surface, name: str = "A") -> MeshFile:
         """Keep a surface; what a document calls it."""
@@ -78,7 +78,7 @@ class ArrayStore:
             raise ParameterError(f"The surface {mesh.name!r} was given from Python, and is not there any more.")
         return self._surfaces[mesh.sha256]
 
-    def field(self, sha256: str, name: str) -> np.ndarray:
+    def field(self, sha256: str, name: str) -> FloatArray:
         """(n,) the values of a field; ParameterError if they were never given."""
         if sha256 not in self._fields:
             raise ParameterError(f"The field {name!r} was given from Python, and is not there any more.")
@@ -90,9 +90,9 @@ class ArrayStore:
         self._fields.update(other._fields)
 
     # ------------------------------------------------------------------ files
-    def arrays(self, document: Document) -> dict[str, np.ndarray]:
+    def arrays(self, document: Document) -> dict[str, AnyArray]:
         """What a document needs, by the names that it has in an archive."""
-        arrays: dict[str, np.ndarray] = {}
+        arrays: dict[str, AnyArray] = {}
         for mesh in document.surfaces:
             if not mesh.path and mesh.change is None:
                 surface, at = self.surface(mesh), f"surface/{mesh.name}"
@@ -187,7 +187,7 @@ def _surface(mesh: Any) -> Surface:
     return Surface(vertices, faces)
 
 
-def _checksum(*arrays: np.ndarray) -> str:
+def _checksum(*arrays: AnyArray) -> str:
     digest = hashlib.sha256()
     for array in arrays:
         digest.update(np.ascontiguousarray(array).tobytes())

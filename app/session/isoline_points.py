@@ -35,7 +35,7 @@ def passed(document: Document, surface: str, loaded: LoadedMesh, answer: Answer 
     return tuple(_passed(point, loaded, answer.field) for point in points if point.surface == surface)
 
 
-def _passed(point: Point, loaded: LoadedMesh, field: np.ndarray) -> IsolinePoint:
+def _passed(point: Point, loaded: LoadedMesh, field: FloatArray) -> IsolinePoint:
     vertex = vertex_at(point.at, loaded.surface)  # also refuses a face that is not there
     if isinstance(point.at, SurfacePoint):
         corners = loaded.surface.faces[point.at.face]

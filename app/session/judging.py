@@ -20,7 +20,7 @@ from bihdist_core.applications.map_errors import (
     map_errors,
     sampled_vertices,
 )
-from bihdist_core.arrays import IntArray
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.distances.geodesic import GeodesicDistance
 from bihdist_core.distances.kinds import Spec
@@ -61,7 +61,7 @@ def is_same_ids(one: Surface, two: Surface) -> bool:
     return len(one.vertices) == len(two.vertices) and np.array_equal(one.faces, two.faces)
 
 
-def truth_of(truth: Truth, one: Surface, two: Surface) -> np.ndarray | None:
+def truth_of(truth: Truth, one: Surface, two: Surface) -> IntArray | None:
     """(n,) where each vertex of one surface belongs on the other, -1 where that is not known; None for no such map.
 
     ParameterError for a map that is none between these surfaces.
@@ -73,12 +73,12 @@ def truth_of(truth: Truth, one: Surface, two: Surface) -> np.ndarray | None:
     return None
 
 
-def _on_faces(right: np.ndarray, two: Surface) -> np.ndarray:
+def _on_faces(right: IntArray, two: Surface) -> IntArray:
     """From vertices of no face no distance is defined: what belongs there belongs nowhere."""
     return np.where((right != NOWHERE) & (two.component_of_vertex[right] >= 0), right, NOWHERE)
 
 
-def partners_of(truth: Truth, two: Surface) -> np.ndarray | None:
+def partners_of(truth: Truth, two: Surface) -> IntArray | None:
     """(n,) the symmetric partner of each vertex of the second surface, if that counts; the same error."""
     return _on_faces(map_in(truth.partners, two, two), two) if truth.mirror and truth.partners is not None else None
 
@@ -112,7 +112,7 @@ class KeptGeodesics:
         self.surface = laplacian.surface
         self.distance: GeodesicDistance = error_distance(laplacian, count)
         self.most = max(MOST_KEPT // max(len(self.surface.vertices), 1), 1)
-        self._columns: dict[int, np.ndarray] = {}
+        self._columns: dict[int, FloatArray] = {}
 
     def missing(self, vertices: Sequence[int]) -> list[int]:
         return [vertex for vertex in dict.fromkeys(vertices) if vertex not in self._columns]
@@ -128,7 +128,7 @@ class KeptGeodesics:
         while len(self._columns) > max(self.most, len(vertices)):
             del self._columns[next(iter(self._columns))]
 
-    def from_sources(self, vertices: np.ndarray) -> np.ndarray:
+    def from_sources(self, vertices: IntArray) -> AnyArray:
         """(n, m) from (m,) vertices."""
         ids = np.asarray(vertices).tolist()
         self.find(ids)
@@ -215,10 +215,10 @@ class Judging:
         return min(wanted, max(MOST_KEPT // len(asked.two.surface.vertices), 1))
 
     def _found(
-        self, asked: Asked, ids: np.ndarray, progress: Progress | None
+        self, asked: Asked, ids: IntArray, progress: Progress | None
     ) -> tuple[dict[Map, IntArray], dict[Map, str]]:
         """Of each map where it leads from these vertices (m,), or why that is not known."""
-        found: dict[Map, np.ndarray] = {}
+        found: dict[Map, IntArray] = {}
         failures: dict[Map, str] = {}
         for k, map in enumerate(asked.maps):
             step = part(progress, k / len(asked.maps), (k + 1) / len(asked.maps))
@@ -242,7 +242,7 @@ class Judging:
         return kept
 
     @staticmethod
-    def _stops(kept: KeptGeodesics, right: np.ndarray, partners: np.ndarray | None, report: Progress) -> Iterator[int]:
+    def _stops(kept: KeptGeodesics, right: IntArray, partners: IntArray | None, report: Progress) -> Iterator[int]:
         """How many of the right answers (m,) are known by now, each time that more of them are."""
         answers = [[int(each)] for each in right]
         if partners is not None:

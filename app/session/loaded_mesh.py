@@ -15,6 +15,7 @@ from bihdist_core.analysis.first_view import FirstLook, first_look
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.perturbation import perturbed
+from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.formats.mesh_io import mesh_content, surface_in
@@ -55,7 +56,7 @@ class LoadedMesh:
         surface: Surface,
         given: ArrayStore | None = None,
         origin: "LoadedMesh | None" = None,
-        ids: np.ndarray | None = None,
+        ids: IntArray | None = None,
     ) -> None:
         self.origin = origin
         self.ids = np.arange(len(surface.vertices)) if ids is None else ids
@@ -130,7 +131,7 @@ class LoadedMesh:
                     del self._last[next(iter(self._last))]
         return known
 
-    def own_field(self, field: FieldArray) -> np.ndarray:
+    def own_field(self, field: FieldArray) -> FloatArray:
         """(n,) a field of the user's own."""
         return self._given.field(field.sha256, field.name)
 

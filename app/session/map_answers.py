@@ -9,6 +9,7 @@ import numpy as np
 from bihdist_core import BihdistError, Cancelled, ParameterError, Surface, VertexError
 from bihdist_core.applications.carrying import carried_back, position_colours
 from bihdist_core.applications.correspondence import NOWHERE
+from bihdist_core.arrays import IntArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed
 from bihdist_core.distances.kinds import Spec
@@ -116,7 +117,7 @@ def map_question(shows: MapColours, document: Document, surface: str) -> Positio
     return MapQuestion(mesh, areas, shows.by, other, () if there is None else pairs_on(document, surface, there))
 
 
-def _said(found: np.ndarray, onto: Surface) -> str:
+def _said(found: IntArray, onto: Surface) -> str:
     """How much of the other surface is reached, and how many vertices are mapped nowhere."""
     reached, count = len(np.unique(found[found != NOWHERE])), len(onto.vertices)
     said = f"{reached:,} of {count:,} vertices of {onto.name} are reached"
@@ -141,7 +142,7 @@ def map_file(path: str, one: Surface, two: Surface) -> MapFile:
     return MapFile(path, "" if path == SAME_IDS else checksum(path))
 
 
-def map_in(map: MapFile, one: Surface, two: Surface) -> np.ndarray:
+def map_in(map: MapFile, one: Surface, two: Surface) -> IntArray:
     """(n,) the map; ParameterError if the file is not what it was, or no map between these surfaces."""
     if map.sha256 and checksum(map.path) != map.sha256:
         raise ParameterError(f"The map {map.path} is not what it was when it was chosen (its checksum differs).")

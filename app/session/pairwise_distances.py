@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from bihdist_core import BihdistError, Cancelled
+from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.kinds import Spec
@@ -31,7 +32,7 @@ class _Known:
     """matrix: (k, k) the distances among k places."""
 
     places: tuple[Source, ...]
-    matrix: np.ndarray
+    matrix: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +70,7 @@ class PairwiseDistances:
         elif old is None or not _is_same(old, asked) or self.progress is None:
             self._worker.submit(asked)
 
-    def matrix(self, loaded: LoadedMesh, areas: str, spec: Spec, places: Sequence[Source]) -> np.ndarray | None:
+    def matrix(self, loaded: LoadedMesh, areas: str, spec: Spec, places: Sequence[Source]) -> FloatArray | None:
         """(k, k) the distances among k places, NaN between components; None as long as they are not known."""
         known = self._known.get((loaded, areas, spec))
         if known is None:
@@ -130,7 +131,7 @@ class PairwiseDistances:
 
 def distances_among(
     distance: Distance, places: Sequence[Source], known: _Known | None, progress: Progress
-) -> np.ndarray:
+) -> FloatArray:
     """(k, k) those among places; of what is known, none is computed again."""
     count = len(places)
     matrix, rows = np.full((count, count), np.nan), np.full(count, -1)
@@ -151,7 +152,7 @@ def distances_among(
     return matrix
 
 
-def _rows_in(known: Sequence[Source], places: Sequence[Source]) -> np.ndarray:
+def _rows_in(known: Sequence[Source], places: Sequence[Source]) -> IntArray:
     """(k,) where places stand among those that are known, -1 for those that are not there."""
     rows = {at: row for row, at in enumerate(known)}
     return np.array([rows.get(at, -1) for at in places], int)

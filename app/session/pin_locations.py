@@ -7,7 +7,7 @@ import numpy as np
 
 from bihdist_core import Surface, SurfacePoint
 from bihdist_core.analysis.places import weighted
-from bihdist_core.arrays import FloatArray
+from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats import pins as pin_files
 from bihdist_core.sources.words import words_of
@@ -29,8 +29,8 @@ class LocatedPin:
     pin: Pin
     vertex: int | None
     face: int
-    corners: np.ndarray
-    weights: np.ndarray
+    corners: IntArray
+    weights: FloatArray
 
     @property
     def point(self) -> str:
@@ -55,12 +55,12 @@ class LocatedPin:
         """For the user: its number if nobody has named it."""
         return self.pin.name or str(self.number)
 
-    def position(self, vertices: np.ndarray) -> np.ndarray:
+    def position(self, vertices: FloatArray) -> FloatArray:
         """(3,) where it is, with the vertices (n, 3) there."""
         at: FloatArray = vertices[self.vertex] if self.vertex is not None else self.weights @ vertices[self.corners]
         return at
 
-    def value(self, field: np.ndarray) -> float:
+    def value(self, field: FloatArray) -> float:
         """That of a field (n,), linear in the face; NaN where it is undefined."""
         return float(weighted(field, self.corners[None], self.weights[None])[0])
 
@@ -131,7 +131,7 @@ def pins_text(places: Sequence[LocatedPin], surface: Surface, answers: Sequence[
     return "\n".join(lines) + "\n"
 
 
-def matrix_text(places: Sequence[LocatedPin], matrix: np.ndarray) -> str:
+def matrix_text(places: Sequence[LocatedPin], matrix: FloatArray) -> str:
     """The distances (k, k) among k pins, with a tab between columns and the pins' names before rows and columns."""
     lines = ["\t".join(["", *(place.name for place in places)])]
     for place, row in zip(places, matrix.tolist(), strict=True):

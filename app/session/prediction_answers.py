@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bihdist_core import BihdistError, Cancelled, Correspondence, VertexError
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed, same_on
 from bihdist_core.distances.kinds import Spec
@@ -40,15 +41,15 @@ class KnownColumns:
 
     def __init__(self) -> None:
         self.solved = 0
-        self._columns: dict[tuple[str, Spec], dict[int, np.ndarray]] = {}
+        self._columns: dict[tuple[str, Spec], dict[int, FloatArray]] = {}
         self._lock = threading.Lock()
 
-    def of(self, areas: str, spec: Spec) -> dict[int, np.ndarray]:
+    def of(self, areas: str, spec: Spec) -> dict[int, FloatArray]:
         """What is known by a distance, by vertex: a copy, to which more can be added."""
         with self._lock:
             return dict(self._columns.get((areas, spec), {}))
 
-    def put(self, areas: str, spec: Spec, columns: dict[int, np.ndarray], wanted: set[int]) -> None:
+    def put(self, areas: str, spec: Spec, columns: dict[int, FloatArray], wanted: set[int]) -> None:
         """Keep these, as far as they are wanted or among the latest."""
         with self._lock:
             known = self._columns.pop((areas, spec), {})
@@ -179,7 +180,7 @@ def correspondence(
     return found
 
 
-def candidate_of(field: np.ndarray) -> tuple[int, float]:
+def candidate_of(field: FloatArray) -> tuple[int, float]:
     """The vertex with the least misfit (n,), not all of them NaN, and that as a fraction of the largest."""
     best, most = int(np.nanargmin(field)), float(np.nanmax(field))
     return best, float(field[best]) / most if most > 0 else 0.0

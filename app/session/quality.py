@@ -12,8 +12,6 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from bihdist_core.analysis.diagnostics import TriangleSample
 from bihdist_core.analysis.quality import (
     TRIANGLE_POINTS,
@@ -24,6 +22,7 @@ from bihdist_core.analysis.quality import (
     other_extrema,
     triangle_samples,
 )
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer, failure_in_words
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import BihdistError, Cancelled
@@ -75,7 +74,7 @@ class _Judgeable:
 
     question: Question
     loaded: LoadedMesh
-    field: np.ndarray
+    field: FloatArray
     only_extrema: bool
 
     @property
@@ -96,7 +95,7 @@ class Quality:
         # Triangles of a distance are those of a component; of which, is found out on the lane.
         self._samples: dict[tuple[Hashable, int], Found] = {}
         self._components: OrderedDict[Hashable, int] = OrderedDict()
-        self._near: tuple[DistanceQuestion, np.ndarray] | None = None
+        self._near: tuple[DistanceQuestion, FloatArray] | None = None
         self._lock = threading.Lock()
         self._fields: LatestRequestWorker[_Request] = LatestRequestWorker("quality", self._judge, _silent, _unheard)
         self._triangles: LatestRequestWorker[_Distances] = LatestRequestWorker(
@@ -184,7 +183,7 @@ class Quality:
             found = replace(found, failure=failure_in_words(error))
         self._remember(each.question, found)
 
-    def _nearness(self, each: _Judgeable, source: Source, request: _Request, progress: Progress) -> np.ndarray:
+    def _nearness(self, each: _Judgeable, source: Source, request: _Request, progress: Progress) -> FloatArray:
         """(n,) geodesic distances from a source; BihdistError where there are none."""
         asked = DistanceQuestion(each.question.mesh, each.question.areas, GEODESIC, source)
         if asked in request:

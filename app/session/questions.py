@@ -11,6 +11,7 @@ import numpy as np
 from bihdist_core import Surface
 from bihdist_core.analysis.first_view import first_look
 from bihdist_core.analysis.quality import apparent_source
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, difference_of
 from bihdist_core.distances.kinds import Spec
@@ -85,7 +86,7 @@ class Question(ABC):
         """Whether nothing has to be solved for the answer."""
         return False
 
-    def start(self, field: np.ndarray, surface: Surface) -> Source | None:
+    def start(self, field: FloatArray, surface: Surface) -> Source | None:
         """Where the field (n,) of the answer starts; VertexError or ParameterError for a point not on the surface."""
         return apparent_source(field)
 
@@ -128,7 +129,7 @@ class DistanceQuestion(ByDistance):
         source = source_at(self.at, loaded.surface)
         return loaded.distances(self.areas).answer(self.spec, source, progress, at_once)
 
-    def start(self, field: np.ndarray, surface: Surface) -> Source | None:
+    def start(self, field: FloatArray, surface: Surface) -> Source | None:
         return source_at(self.at, surface)
 
 
@@ -199,7 +200,7 @@ class DifferenceQuestion(Question):
         second = self.subtrahend.answer(loaded, part(progress, 0.5, 1))
         return difference_of(first, second, self.raw)
 
-    def start(self, field: np.ndarray, surface: Surface) -> Source | None:
+    def start(self, field: FloatArray, surface: Surface) -> Source | None:
         """All that the distances start from that it is made of."""
         starts = [each.start(field, surface) for each in self.parts if each.starts_at_point]
         members = tuple(dict.fromkeys(member for start in starts if start is not None for member in members_of(start)))

@@ -13,6 +13,7 @@ import numpy as np
 
 from bihdist_core.analysis.region_boundaries import Boundary, region_boundaries
 from bihdist_core.analysis.regions import Regions, voronoi_regions
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import Cancelled
@@ -52,7 +53,7 @@ class Divided:
     question: RegionsQuestion
     regions: Regions | None = None
     boundaries: tuple[Boundary, ...] = ()
-    columns: np.ndarray | None = None
+    columns: FloatArray | None = None
     failure: str = ""
 
 
@@ -97,7 +98,7 @@ class Dividing:
         self._post, self._told = post, told
         self._asked: dict[int, RegionsQuestion] = {}
         self._divided: dict[int, Divided] = {}
-        self._fields: OrderedDict[Hashable, np.ndarray] = OrderedDict()
+        self._fields: OrderedDict[Hashable, FloatArray] = OrderedDict()
         self._worker: LatestRequestWorker[_Request] | None = None
 
     def ask(self, asked: Mapping[int, tuple[RegionsQuestion, LoadedMesh]]) -> None:
@@ -154,7 +155,7 @@ class Dividing:
         except Exception as error:
             return Divided(question, failure=failure_in_words(error))
 
-    def _columns(self, question: RegionsQuestion, loaded: LoadedMesh, progress: Progress) -> np.ndarray:
+    def _columns(self, question: RegionsQuestion, loaded: LoadedMesh, progress: Progress) -> FloatArray:
         """(n, k) the fields from the places."""
         keys = [(question.about, at) for at in question.places]
         missing = [at for key, at in zip(keys, question.places, strict=True) if key not in self._fields]

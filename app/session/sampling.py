@@ -3,9 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
-
 from bihdist_core.analysis.sampling import farthest_points, starts_of
+from bihdist_core.arrays import IntArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import Cancelled
@@ -33,7 +32,7 @@ class Sampled:
     """The answer (k,), or why there is none."""
 
     question: SamplesQuestion
-    vertices: np.ndarray | None = None
+    vertices: IntArray | None = None
     failure: str = ""
 
 
