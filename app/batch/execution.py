@@ -218,7 +218,7 @@ def _do_part(task: Task, part: Part) -> Report:
         mesh = mesh_of(task)
         if task.wanted.labels and part.work == "pairs":
             sums = parcel_sums(mesh.distance(part.distance), mesh.labels, mesh.mask, part.begin, part.end)
-            columns = sums.sums
+            columns: Any = sums.sums
         elif part.work == "nearest":
             made: Mapping[str, Any] = neighbours(mesh, part.distance, part.begin, part.end).arrays
             # Whole numbers this small are exact as float64.

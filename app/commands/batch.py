@@ -117,7 +117,9 @@ def run(options: argparse.Namespace) -> int:
     folder = Folder(address)
     folder.make()
     maps, unnamed = _maps(options, meshes)
-    evaluated = [each.name for each in (*maps, *unnamed)] if "evaluate" in wanted.works else None
+    evaluated = (
+        [*(map.name for map in maps), *(failure.name for failure in unnamed)] if "evaluate" in wanted.works else None
+    )
     engine, outcome = _engine(options), Outcome(failures=unnamed)
     try:
         do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)
@@ -164,7 +166,9 @@ def _reasons(outcome: "Outcome") -> list[str]:
 
 def _pages(folder: "Folder", outcome: "Outcome") -> "tuple[list[str], list[Row]]":
     """What shows all results at once: the names of its files, and lines for the summary."""
-    pages, lines, works = [], [], {row.work for row in outcome.rows}
+    pages: list[str] = []
+    lines: list[Row] = []
+    works = {row.work for row in outcome.rows}
     if "figure" in works:
         from ..batch.pages import write_pages
 

@@ -52,7 +52,7 @@ def _one(options: argparse.Namespace) -> Facts:
     labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
     columns, label = fields[0], " − ".join(labels)
     if chosen.is_difference:
-        columns, unit = difference_in_unit(*fields, (known[0].unit, known[1].unit), chosen.raw)
+        columns, unit = difference_in_unit(fields[0], fields[1], (known[0].unit, known[1].unit), not chosen.in_percent)
         label = f"{label}, {unit}" if unit == PERCENTAGE_POINTS else label
     names = distinct([field_name(chosen, [each]) for each in options.source])
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))

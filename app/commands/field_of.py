@@ -49,7 +49,7 @@ class FieldOf:
 
 
 def field_of(
-    options: argparse.Namespace, words: str, progress: "Progress", laplacian: "Laplacian | None" = None
+    options: argparse.Namespace, words: str, progress: "Progress | None", laplacian: "Laplacian | None" = None
 ) -> FieldOf:
     """What `words` say, from the source, with the options beside them; laplacian: of the mesh if it is there."""
     from bihdist_core.distances.answers import Distances
@@ -63,7 +63,7 @@ def field_of(
     fields = [distance.from_source(options.source, progress) for distance in known]
     unit, field = known[0].unit, fields[0]
     if chosen.is_difference:
-        field, unit = difference_in_unit(*fields, (known[0].unit, known[1].unit), chosen.raw)
+        field, unit = difference_in_unit(fields[0], fields[1], (known[0].unit, known[1].unit), not chosen.in_percent)
     return FieldOf(
         laplacian,
         field,

@@ -152,8 +152,8 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
     check_parameters(options, [spec for panel in document.panels for spec in panel.shows.specs])
     if options.source:
         moved = dict(zip(document.sources, options.source, strict=True))
-        names = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
-        for name, point in [(name, document.point(name)) for name in names]:
+        shown = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
+        for name, point in [(name, document.point(name)) for name in shown]:
             document = put_point(document, name, moved[point.at], point.surface)
     return document, None
 

@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
-from bihdist_core.distances.kinds import OURS, Spec, Value, kinds
+from bihdist_core.distances.kinds import OURS, Spec, kinds
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.words import source_from_words
 
@@ -108,7 +108,7 @@ def quantities(options: argparse.Namespace, texts: Sequence[str], fields: Sequen
     return found
 
 
-def given_parameters(options: argparse.Namespace) -> dict[str, Value]:
+def given_parameters(options: argparse.Namespace) -> dict[str, Any]:
     """The parameters that have been named, by option."""
     given = {name: getattr(options, name) for name in PARAMETERS}
     return {name: PARAMETERS[name].parsed(text) for name, text in given.items() if text is not None}

@@ -21,7 +21,7 @@ def mesh_of(drawn: vtkPolyData, fields: Mapping[str, AnyArray]) -> pyvista.PolyD
     """A surface as it is drawn, in memory of its own: vertex k is point k; fields (n,) by name are its arrays."""
     points = vtk_to_numpy(drawn.GetPoints().GetData())
     vertices = points[: len(points) - len(copies_of(drawn))].copy()
-    mesh: pyvista.PolyData = pyvista.PolyData.from_regular_faces(vertices, vertex_faces(drawn))
+    mesh: pyvista.PolyData = pyvista.PolyData.from_regular_faces(vertices, vertex_faces(drawn).astype(int, copy=False))
     for name, field in fields.items():
         mesh.point_data.set_array(field, name, deep_copy=True)
     return mesh
