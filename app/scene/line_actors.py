@@ -44,9 +44,9 @@ class RimmedLines:
         self._width = rim.width * scale
         # Of a lower rank they are drawn under others.
         self.actor = line_actor(style.named(line.colour), self._width, NEARER - LOWER * (2 - look.rank))
-        look = self.actor.GetProperty()
-        look.RenderLinesAsTubesOn()  # plain lines have no edges, and are thinner the more they slant
-        look.LightingOn()  # which has that shader
+        drawn = self.actor.GetProperty()
+        drawn.RenderLinesAsTubesOn()  # plain lines have no edges, and are thinner the more they slant
+        drawn.LightingOn()  # which has that shader
         edge = float(np.sqrt(1 - (line.width / rim.width) ** 2))
         rimmed = _RIM.replace("FROM", f"{edge - SOFT:.4f}").replace("TO", f"{edge:.4f}")
         shader = self.actor.GetShaderProperty()

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from bihdist_core.arrays import ByteArray
+
 from ..marks.primitives import AreaMark
 
 RIM, CASING = 2.2, 1.1
@@ -37,7 +39,7 @@ PAINT_SELECTED = f"""
 """For a fragment shader, with the attribute `selectedAt` and the uniforms `hatchOrigin`, in pixels, and `edgeScale`."""
 
 
-def selected_colours(areas: Sequence[AreaMark], count: int) -> np.ndarray | None:
+def selected_colours(areas: Sequence[AreaMark], count: int) -> ByteArray | None:
     """(n,) vertices in the colours of the areas they are in, the last on top, as (n, 4) uint8; 0 where there is none.
 
     None if nothing is marked.

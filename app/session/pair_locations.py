@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.arrays import IntArray
 from bihdist_core.distances.answers import Answer
 
 from ..document.document import Document, Panel
@@ -75,7 +76,7 @@ def plain_heading(document: Document, panel: Panel, loaded: LoadedMesh, answer: 
     return loaded.surface.name, pair_words(document, panel.surface)[0] if is_here else ""
 
 
-def vertex_pairs(document: Document, first: Surface, second: Surface) -> np.ndarray:
+def vertex_pairs(document: Document, first: Surface, second: Surface) -> IntArray:
     """(k, 2) the vertices of whole pairs on both surfaces, for a file.  ParameterError if there are none."""
     pairs = [
         [
