@@ -28,9 +28,9 @@ class Tool:
     package: the tool's, by its full name.  word: by which documents know its dock.  title: of the dock; text: in menus,
     with an `&` before the letter of its key there; key: opens and closes the dock; tip: what it is for, in a few words;
     icon: a name of `assets/icons`; in_bar: whether it has a button of its own; synonyms: other words by which it is
-    found.  dock: its `Instrument`, if it has one.  commands: modules of commands, by their words.
-    quantities: subclasses of `Quantity` that panels can show.  parts: subclasses of `Part`, of documents.
-    options: a tuple of `Row`, what figures can be told of them.
+    found.  dock: its `Instrument`, if it has one.  gesture: its `Gesture`, what clicks and drags mean.  commands:
+    modules of commands, by their words.  quantities: subclasses of `Quantity` that panels can show.  parts:
+    subclasses of `Part`, of documents.  options: a tuple of `Row`, what figures can be told of them.
     marks: a function from a `MarkedPanel` to what is marked there, primitives of `marks.primitives`.
     """
 
@@ -44,6 +44,7 @@ class Tool:
     in_bar: bool = False
     synonyms: str = ""
     dock: str = ""
+    gesture: str = ""
     commands: Mapping[str, str] = field(default_factory=dict)
     quantities: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()

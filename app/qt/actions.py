@@ -1,19 +1,45 @@
 """The window's actions: one for each row of the table of what can be done (`acts`)."""
 
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
 from qtpy import QtCore, QtGui, QtWidgets
 
-from .acts import ALL, Act
+from .context import Context
 from .look.icons import put_icon
+
+
+@dataclass(frozen=True)
+class Act:
+    """word: its name here; do: what it does.
+
+    keys: the first is the one that is shown.  of_view: they work where a panel has the keys, and not in a box.
+    needs_mesh: it makes no sense without one.  is_on: a check is ticked at first.  lack: why it cannot be done where it
+    is disabled although there is a mesh.
+    """
+
+    word: str
+    text: str
+    do: Callable[[Context], object]
+    keys: tuple[str, ...] = ()
+    tip: str = ""
+    icon: str = ""
+    of_view: bool = False
+    needs_mesh: bool = False
+    is_check: bool = False
+    is_on: bool = False
+    lack: str = ""
 
 
 class Actions:
     """The window's actions by their words; each also has its keys, wherever the focus is."""
 
-    def __init__(self, window: QtWidgets.QMainWindow) -> None:
-        self._window = window
-        self._made: dict[str, QtWidgets.QAction] = {}
+    def __init__(self, context: Context, acts: Sequence[Act]) -> None:
+        self._context = context
+        self._made = context.actions
         self._of_view: dict[str, QtWidgets.QAction] = {}
-        for act in ALL:
+        self._acts = acts
+        for act in acts:
             self._made[act.word] = self._new(act)
 
     def __getitem__(self, word: str) -> QtWidgets.QAction:
@@ -21,7 +47,7 @@ class Actions:
 
     def allow(self, has_mesh: bool) -> None:
         """What needs a mesh can be done while there is one."""
-        for act in ALL:
+        for act in self._acts:
             if act.needs_mesh:
                 self._made[act.word].setEnabled(has_mesh)
 
@@ -39,7 +65,7 @@ class Actions:
         return True
 
     def _new(self, act: Act) -> QtWidgets.QAction:
-        action = QtWidgets.QAction(act.text, self._window, objectName=act.word)
+        action = QtWidgets.QAction(act.text, self._context.widget, objectName=act.word)
         action.setProperty("lack", act.lack)
         action.setShortcuts([QtGui.QKeySequence(key) for key in act.keys])
         action.setCheckable(act.is_check)
@@ -50,11 +76,11 @@ class Actions:
         action.setToolTip(f"{words} ({shown})" if shown else words)
         if act.icon:
             put_icon(action, act.icon)
-        action.triggered.connect(lambda *_: act.do(self._window))
+        action.triggered.connect(lambda *_: act.do(self._context))
         if act.of_view:
             # Shown in the menu; a box and a slider have arrows of their own.
             action.setShortcutContext(QtCore.Qt.ShortcutContext.WidgetShortcut)
             self._of_view.update({QtGui.QKeySequence(key).toString(): action for key in act.keys})
         else:
-            self._window.addAction(action)
+            self._context.widget.addAction(action)
         return action

@@ -1,75 +1,109 @@
-"""All that can be done by a menu, a key or a button, in one table.  `window` is the main window throughout."""
+"""All that can be done by a menu, a key or a button, in one table."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from qtpy import QtCore, QtWidgets
 
 from ..document.edits import PANEL_EDITS
 from ..document.tools import Tool, docked_tools
+from .actions import Act
+from .choices import Choices
+from .context import Context
+from .files.curve_files import CurveFiles
+from .files.field_files import FieldFiles
+from .files.files import Files
+from .files.session_actions import SessionFile
+from .guide import Guide
+from .progress_display import ProgressDisplay
+from .typed_source import TypedSource
+from .views import Views
 
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
 VIEW_TEXTS = {"right": "Ri&ght", "bottom": "Botto&m", "source": "From the &source"}
 """Where not the first letter is the key in a menu."""
 
+if TYPE_CHECKING:
+    from .docks.docks import Docks
+    from .gestures import Gestures
+
 NO_SECOND = "open a mesh beside first"
 
-ISOLINES = (0, 10, 20, 30, 50)
+
+def _gestures(context: Context) -> "Gestures":
+    from .gestures import Gestures  # with the panels: the window is shown before
+
+    return context[Gestures]
 
 
-@dataclass(frozen=True)
-class Act:
-    """word: its name here; do: what it does with the window.
+def _docks(context: Context) -> "Docks":
+    from .docks.docks import Docks  # with the panels: the window is shown before
 
-    keys: the first is the one that is shown.  of_view: they work where a panel has the keys, and not in a box.
-    needs_mesh: it makes no sense without one.  is_on: a check is ticked at first.  lack: why it cannot be done where it
-    is disabled although there is a mesh.
-    """
-
-    word: str
-    text: str
-    do: Callable[[Any], object]
-    keys: tuple[str, ...] = ()
-    tip: str = ""
-    icon: str = ""
-    of_view: bool = False
-    needs_mesh: bool = False
-    is_check: bool = False
-    is_on: bool = False
-    lack: str = ""
+    return context[Docks]
 
 
-def _turn(right: int, up: int) -> Callable[[Any], object]:
-    return lambda window: window.with_view(lambda view: view.turn_by(right, up))
+def stop(context: Context) -> None:
+    """Esc: out of the tour, a box, the live source or the full screen; otherwise stop what is being computed."""
+    box, session = context[TypedSource].box, context.session
+    if context[Guide].end_tour():
+        return
+    if box.hasFocus():
+        box.give_up()
+        context.focus_panels()
+    elif context.is_built and _gestures(context).put_down():
+        return
+    elif session.progress or not context[Choices].is_full_screen:
+        session.cancel()
+        context[ProgressDisplay].show()
+        if context.is_built:
+            _docks(context).show_stopped()
+    else:
+        context[Choices].toggle_full_screen()
 
 
-def _shift(right: int, up: int) -> Callable[[Any], object]:
-    return lambda window: window.with_view(lambda view: view.shift_by(right, up))
+def _change_part(context: Context) -> None:
+    """From the panels to the tool bar, and back."""
+    window = context.widget
+    bar = window.findChild(QtWidgets.QToolBar, "tools")
+    if bar.isAncestorOf(window.focusWidget() or window):
+        context.focus_panels()
+    else:
+        bar.findChild(QtWidgets.QWidget, "open").setFocus(QtCore.Qt.FocusReason.TabFocusReason)
 
 
-def _zoom(factor: float) -> Callable[[Any], object]:
-    return lambda window: window.with_view(lambda view: view.zoom(factor))
+def _turn(right: int, up: int) -> Callable[[Context], object]:
+    return lambda context: context.active and context.active.view.turn_by(right, up)
 
 
-def _step(right: int, up: int) -> Callable[[Any], object]:
-    return lambda window: window.gestures.step_source(right, up)
+def _shift(right: int, up: int) -> Callable[[Context], object]:
+    return lambda context: context.active and context.active.view.shift_by(right, up)
 
 
-def _of_view(word: str, text: str, do: Callable[[Any], object], *keys: str) -> Act:
+def _zoom(factor: float) -> Callable[[Context], object]:
+    return lambda context: context.active and context.active.view.zoom(factor)
+
+
+def _step(right: int, up: int) -> Callable[[Context], object]:
+    return lambda context: _gestures(context).sources.step(right, up)
+
+
+def _of_view(word: str, text: str, do: Callable[[Context], object], *keys: str) -> Act:
     return Act(word, text, do, keys, of_view=True, needs_mesh=True)
 
 
 def _dock(tool: Tool) -> Act:
     """Opens and closes the dock of a tool."""
-    act = Act(f"dock {tool.word}", tool.text, lambda w: w.docks.toggle(tool.word), (tool.key,), tool.tip, tool.icon)
+    act = Act(f"dock {tool.word}", tool.text, lambda c: _docks(c).toggle(tool.word), (tool.key,), tool.tip, tool.icon)
     return replace(act, needs_mesh=True, is_check=True)
 
 
 FILE = (
-    Act("open", "&Open…", lambda w: w.files.choose(), ("Ctrl+O",), "Open a mesh, a session or a recipe", "open"),
+    Act("open", "&Open…", lambda c: c[Files].choose(), ("Ctrl+O",), "Open a mesh, a session or a recipe", "open"),
     Act(
         "open beside",
         "Open beside…",
-        lambda w: w.files.choose_beside(),
+        lambda c: c[Files].choose_beside(),
         ("Ctrl+Shift+O",),
         "A second mesh, with panels and a camera of its own",
         needs_mesh=True,
@@ -77,43 +111,43 @@ FILE = (
     Act(
         "close beside",
         "Close the mesh beside",
-        lambda w: w.session.close_beside(),
+        lambda c: c.session.close_beside(),
         tip="The first mesh alone, without the panels of the second",
         needs_mesh=True,
         lack=NO_SECOND,
     ),
-    Act("save", "&Save session", lambda w: w.session_file.save_or_say(), ("Ctrl+S",), "", "save", needs_mesh=True),
-    Act("save as", "Save session &as…", lambda w: w.session_file.choose_and_save(), ("Ctrl+Shift+S",), needs_mesh=True),
+    Act("save", "&Save session", lambda c: c[SessionFile].save_or_say(), ("Ctrl+S",), "", "save", needs_mesh=True),
+    Act("save as", "Save session &as…", lambda c: c[SessionFile].choose_and_save(), ("Ctrl+Shift+S",), needs_mesh=True),
     Act(
         "figure",
         "&Export figure…",
-        lambda w: w.files.export_figure(),
+        lambda c: c[Files].export_figure(),
         ("Ctrl+E",),
         "A figure of what is shown, for a paper or a slide",
         "export-figure",
         needs_mesh=True,
     ),
-    Act("movie", "Export &movie…", lambda w: w.files.export_movie(), ("Ctrl+M",), needs_mesh=True),
+    Act("movie", "Export &movie…", lambda c: c[Files].export_movie(), ("Ctrl+M",), needs_mesh=True),
     Act(
-        "screenshot", "S&creenshot of the window…", lambda w: w.files.choose_screenshot(), ("Ctrl+P",), needs_mesh=True
+        "screenshot", "S&creenshot of the window…", lambda c: c[Files].choose_screenshot(), ("Ctrl+P",), needs_mesh=True
     ),
     Act(
         "save fields",
         "Save all &fields…",
-        lambda w: w.field_files.save_all(),
+        lambda c: c[FieldFiles].save_all(),
         tip="The values of all panels at the vertices, in one file",
         needs_mesh=True,
     ),
-    Act("quit", "&Quit", lambda w: w.close(), ("Ctrl+Q",)),
+    Act("quit", "&Quit", lambda c: c.widget.close(), ("Ctrl+Q",)),
 )
 EDIT = (
     Act(
-        "undo", "&Undo", lambda w: w.session.undo(), ("Ctrl+Z",), "Undo the last change", "undo", lack="nothing to undo"
+        "undo", "&Undo", lambda c: c.session.undo(), ("Ctrl+Z",), "Undo the last change", "undo", lack="nothing to undo"
     ),
     Act(
         "redo",
         "&Redo",
-        lambda w: w.session.redo(),
+        lambda c: c.session.redo(),
         ("Ctrl+Shift+Z", "Ctrl+Y"),
         "Do it again",
         "redo",
@@ -122,7 +156,7 @@ EDIT = (
     Act(
         "copy camera",
         "Copy ca&mera",
-        lambda w: w.views.copy(),
+        lambda c: c[Views].copy(),
         ("Ctrl+Alt+C",),
         "As text, for another window or bihdist figure --camera",
         needs_mesh=True,
@@ -130,7 +164,7 @@ EDIT = (
     Act(
         "paste camera",
         "P&aste camera",
-        lambda w: w.views.paste(),
+        lambda c: c[Views].paste(),
         ("Ctrl+Alt+V",),
         "Look from where a copied camera looked",
         needs_mesh=True,
@@ -138,7 +172,7 @@ EDIT = (
     Act(
         "copy picture",
         "&Copy picture",
-        lambda w: w.files.copy("picture"),
+        lambda c: c[Files].copy("picture"),
         ("Ctrl+Shift+C",),
         "The figure as an image, to be pasted elsewhere",
         "copy",
@@ -147,26 +181,26 @@ EDIT = (
     Act(
         "copy command",
         "Copy as command &line",
-        lambda w: w.files.copy("command"),
+        lambda c: c[Files].copy("command"),
         tip="One line for a shell that makes the figure of what is shown",
         needs_mesh=True,
     ),
     Act(
         "copy python",
         "Copy as P&ython",
-        lambda w: w.files.copy("python"),
+        lambda c: c[Files].copy("python"),
         tip="One line of Python that makes the figure of what is shown",
         needs_mesh=True,
     ),
-    Act("preferences", "&Preferences…", lambda w: w.choices.ask_preferences(), ("Ctrl+,",), "", "settings"),
+    Act("preferences", "&Preferences…", lambda c: c[Choices].ask_preferences(), ("Ctrl+,",), "", "settings"),
 )
 VIEW = (
-    Act("reset", "Hom&e", lambda w: w.reset_view(), ("R", "Home"), "See all of it", "reset-view", needs_mesh=True),
+    Act("reset", "Hom&e", lambda c: c[Views].reset(), ("R", "Home"), "See all of it", "reset-view", needs_mesh=True),
     *(
         Act(
             f"view {name}",
             VIEW_TEXTS.get(name, f"&{name.capitalize()}"),
-            lambda w, name=name: w.reset_view(name),
+            lambda c, name=name: c[Views].reset(name),
             (str(number),),
             needs_mesh=True,
         )
@@ -175,7 +209,7 @@ VIEW = (
     Act(
         "centre",
         "&Centre the view here",
-        lambda w: w.gestures.centre_here(),
+        lambda c: _gestures(c).centre_here(),
         ("C",),
         "What is under the pointer comes into the middle, and is turned about",
         needs_mesh=True,
@@ -183,7 +217,7 @@ VIEW = (
     Act(
         "zoom to",
         "&Zoom to it",
-        lambda w: w.gestures.zoom_here(),
+        lambda c: _gestures(c).zoom_here(),
         ("Z",),
         "What is pointed at, larger",
         needs_mesh=True,
@@ -191,7 +225,7 @@ VIEW = (
     Act(
         "link",
         "Link the two cameras",
-        lambda w: w.views.link(),
+        lambda c: c[Views].link(),
         ("K",),
         "Turning one of two meshes turns the other",
         needs_mesh=True,
@@ -199,12 +233,12 @@ VIEW = (
         is_on=True,
         lack=NO_SECOND,
     ),
-    Act("next up", "The &next axis up", lambda w: w.views.next_up(), ("U",), needs_mesh=True),
-    Act("other end up", "Upside &down", lambda w: w.views.other_end_up(), ("Shift+U",), needs_mesh=True),
+    Act("next up", "The &next axis up", lambda c: c[Views].next_up(), ("U",), needs_mesh=True),
+    Act("other end up", "Upside &down", lambda c: c[Views].other_end_up(), ("Shift+U",), needs_mesh=True),
     Act(
         "orthographic",
         "&Orthographic",
-        lambda w: w.views.project(),
+        lambda c: c[Views].project(),
         ("O",),
         "What is farther away is drawn as large",
         needs_mesh=True,
@@ -213,7 +247,7 @@ VIEW = (
     Act(
         "axes",
         "A&xes",
-        lambda w: w.views.show_axes(),
+        lambda c: c[Views].show_axes(),
         ("X",),
         "Where x, y and z point to, in a corner",
         needs_mesh=True,
@@ -222,26 +256,26 @@ VIEW = (
     Act(
         "turntable",
         "Turn as on a tur&ntable",
-        lambda w: w.views.turn_upright(),
+        lambda c: c[Views].turn_upright(),
         tip="What is up stays upright while the surface turns",
         is_check=True,
     ),
-    Act("view before", "The &view before", lambda w: w.views.back(), ("Ctrl+[",), needs_mesh=True),
-    Act("view after", "The view &after", lambda w: w.views.on(), ("Ctrl+]",), needs_mesh=True),
+    Act("view before", "The &view before", lambda c: c[Views].back(), ("Ctrl+[",), needs_mesh=True),
+    Act("view after", "The view &after", lambda c: c[Views].on(), ("Ctrl+]",), needs_mesh=True),
     Act(
         "wireframe",
         "&Wireframe",
-        lambda w: w.choices.wireframe(w.actions_by_word["wireframe"].isChecked()),
+        lambda c: c[Choices].wireframe(c.actions["wireframe"].isChecked()),
         ("W",),
         "The edges of the mesh",
         needs_mesh=True,
         is_check=True,
     ),
-    Act("crease", "&Angle of creases…", lambda w: w.choices.ask_crease(), needs_mesh=True),
+    Act("crease", "&Angle of creases…", lambda c: c[Choices].ask_crease(), needs_mesh=True),
     Act(
         "full screen",
         "&Full screen for talks",
-        lambda w: w.choices.toggle_full_screen(),
+        lambda c: c[Choices].toggle_full_screen(),
         ("F11",),
         "Panels and bars only, in larger text",
         is_check=True,
@@ -258,11 +292,11 @@ TURNS = (
     Act("move down", "Move down", _shift(0, -1), ("Shift+Down",), of_view=True, needs_mesh=True),
     Act("nearer", "Nearer", _zoom(1.2), ("+", "="), of_view=True, needs_mesh=True),
     Act("farther", "Farther", _zoom(1 / 1.2), ("-",), of_view=True, needs_mesh=True),
-    _of_view("remove anchor", "Remove the chosen anchor or pair", lambda w: w.gestures.remove_chosen(), "Delete"),
+    _of_view("remove anchor", "Remove the chosen anchor or pair", lambda c: _gestures(c).remove_chosen(), "Delete"),
     _of_view(
         "accept pair",
         "Accept the predicted partner",
-        lambda w: w.guide.go_on() or w.gestures.pairs.accept(),
+        lambda c: c[Guide].go_on() or _gestures(c).accept(),
         "Return",
         "Enter",
     ),
@@ -271,34 +305,34 @@ PANELS = (
     Act(
         "add panel",
         "&Add a panel",
-        lambda w: w.choices.add_panel(),
+        lambda c: c[Choices].add_panel(),
         ("Ctrl+T",),
         "One more panel",
         "add-panel",
         needs_mesh=True,
     ),
     *(
-        Act(f"panel {word}", word, lambda w, word=word: w.choices.edit_panel(w.grid.active, word), needs_mesh=True)
+        Act(f"panel {word}", word, lambda c, word=word: c[Choices].edit_panel(c.grid.active, word), needs_mesh=True)
         for word in PANEL_EDITS
         if word != "Add a panel"
     ),
     Act(
         "save field",
         "Save &field…",
-        lambda w: w.field_files.save(w.grid.active),
+        lambda c: c[FieldFiles].save(c.grid.active),
         tip="The values of the active panel at the vertices",
         needs_mesh=True,
     ),
-    Act("next panel", "&Next panel", lambda w: w.grid.focus(1), ("Tab",), of_view=True, needs_mesh=True),
-    Act("previous panel", "&Previous panel", lambda w: w.grid.focus(-1), ("Shift+Tab",), of_view=True, needs_mesh=True),
-    Act("panels and bars", "Between panels and tool bar", lambda w: w.change_part(), ("F6",)),
+    Act("next panel", "&Next panel", lambda c: c.grid.focus(1), ("Tab",), of_view=True, needs_mesh=True),
+    Act("previous panel", "&Previous panel", lambda c: c.grid.focus(-1), ("Shift+Tab",), of_view=True, needs_mesh=True),
+    Act("panels and bars", "Between panels and tool bar", lambda c: _change_part(c), ("F6",)),
 )
 TOOLS = (
-    Act("source id", "&Type a source", lambda w: w.typed_source.ask(), ("G",), "", "source", needs_mesh=True),
+    Act("source id", "&Type a source", lambda c: c[TypedSource].ask(), ("G",), "", "source", needs_mesh=True),
     Act(
         "snap",
         "Snap to &vertices",
-        lambda w: w.gestures.sources.set_snapping(w.actions_by_word["snap"].isChecked()),
+        lambda c: _gestures(c).sources.set_snapping(c.actions["snap"].isChecked()),
         ("V",),
         "The source is put on vertices, and not anywhere in faces",
         needs_mesh=True,
@@ -308,7 +342,7 @@ TOOLS = (
     Act(
         "draw source",
         "&Draw a source",
-        lambda w: w.gestures.sources.set_drawing(w.actions_by_word["draw source"].isChecked()),
+        lambda c: _gestures(c).sources.set_drawing(c.actions["draw source"].isChecked()),
         ("D",),
         "Drag over the surface: distances from a curve",
         needs_mesh=True,
@@ -317,16 +351,16 @@ TOOLS = (
     Act(
         "save curve",
         "Save the drawn curve…",
-        lambda w: w.curve_files.save_source(w.grid.active),
+        lambda c: c[CurveFiles].save_source(c.grid.active),
         tip="The curve that distances start from, as curve.json: a source in words and on the command line",
         needs_mesh=True,
     ),
-    Act("source before", "The source be&fore", lambda w: w.session.walk_sources(-1), ("Alt+Left",), needs_mesh=True),
-    Act("source after", "The source &after", lambda w: w.session.walk_sources(1), ("Alt+Right",), needs_mesh=True),
+    Act("source before", "The source be&fore", lambda c: c.session.walk_sources(-1), ("Alt+Left",), needs_mesh=True),
+    Act("source after", "The source &after", lambda c: c.session.walk_sources(1), ("Alt+Right",), needs_mesh=True),
     Act(
         "live",
         "&Live: the source follows the pointer",
-        lambda w: w.gestures.set_live(w.actions_by_word["live"].isChecked()),
+        lambda c: _gestures(c).set_live(c.actions["live"].isChecked()),
         ("L",),
         "The source follows the pointer while the key is held, or until this is switched off",
         "live",
@@ -337,14 +371,14 @@ TOOLS = (
     Act("step right", "Step along an edge to the right", _step(1, 0), ("Ctrl+Right",), of_view=True, needs_mesh=True),
     Act("step up", "Step along an edge up", _step(0, 1), ("Ctrl+Up",), of_view=True, needs_mesh=True),
     Act("step down", "Step along an edge down", _step(0, -1), ("Ctrl+Down",), of_view=True, needs_mesh=True),
-    Act("stop", "&Stop what is being computed", lambda w: w.cancel(), ("Esc",)),
+    Act("stop", "&Stop what is being computed", lambda c: stop(c), ("Esc",)),
 )
 INSTRUMENTS = tuple(map(_dock, docked_tools().values()))
 """The docks, in the order of the menu."""
 
 HELP = (
-    Act("keys", "All &commands and gestures", lambda w: w.guide.show_commands(), ("F1",), "", "info"),
-    Act("tour", "A &tour in five steps", lambda w: w.guide.start_tour()),
-    Act("about", "&About", lambda w: w.guide.show_about()),
+    Act("keys", "All &commands and gestures", lambda c: c[Guide].show_commands(), ("F1",), "", "info"),
+    Act("tour", "A &tour in five steps", lambda c: c[Guide].start_tour()),
+    Act("about", "&About", lambda c: c[Guide].show_about()),
 )
 ALL = (*FILE, *EDIT, *VIEW, *TURNS, *PANELS, *TOOLS, *INSTRUMENTS, *HELP)

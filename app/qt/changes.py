@@ -1,34 +1,89 @@
-"""From one document to the next: the panels are shown what is another.
+"""From one document to the next: the panels are shown what is another."""
 
-`window` is the main window.
-"""
+from collections.abc import Callable
+from typing import NamedTuple
+
+from qtpy import QtCore
 
 from ..document.anchors import Anchor, Anchors
 from ..document.document import Document, Point
 from ..document.pairs import Pairs
 from ..document.pins import Pins
-from ..document.selections import Selections
-from ..scene.style import Style
+from ..document.selections import Selections, vertices_of
+from ..marks.primitives import AreaMark
+from ..scene.selected import selected_colours
+from ..scene.style import PINS, Style
 from ..session.loaded_mesh import LoadedMesh
+from .context import Context
 from .look.canvas import canvas_style
 from .look.look import LOOK
+from .progress_display import ProgressDisplay
+from .typed_source import TypedSource
+from .views import Views
 
 
-class Changes:
+class Row(NamedTuple):
+    """Something of a document, and what shows it in all panels."""
+
+    of: Callable[[Document], object]
+    show: Callable[[Context], object]
+
+
+def _sources(context: Context) -> None:
+    context.grid.marks.expect_sources(context.document)
+    context[TypedSource].show()
+
+
+def _selections(context: Context) -> None:
+    document, colours = context.document, {}
+    for mesh in document.surfaces:
+        loaded = context.session.loaded(mesh.name)
+        if loaded is not None:
+            here = [each for each in document[Selections].selections if each.surface == mesh.name]
+            chosen = [AreaMark(vertices_of(each.runs), PINS[each.colour]) for each in here]
+            colours[mesh.name] = selected_colours(chosen, len(loaded.surface.vertices))
+    context.grid.marks.show_selected(colours)
+
+
+def _anchored(document: Document) -> list[tuple[Anchor, Point]]:
+    """Where the anchors are, whatever other points do: a pin that is dragged redraws none."""
+    return [(anchor, document.point(anchor.point)) for anchor in document[Anchors].anchors]
+
+
+TABLE = (
+    Row(lambda d: d.points, _sources),
+    Row(_anchored, lambda c: c.grid.marks.mark_anchors(c.document)),
+    Row(lambda d: (d.points, d[Pins].pins), lambda c: c.grid.marks.show_pins(c.document)),
+    Row(lambda d: (d.points, d[Pairs].pairs), lambda c: c.grid.marks.show_pairs(c.document)),
+    Row(lambda d: d.zooms, lambda c: c.grid.marks.show_insets(c.document)),
+    Row(lambda d: (d.isolines, d.isolines.through and d.points), lambda c: c.grid.marks.show_isolines(c.document)),
+    Row(lambda d: d.shading, lambda c: c.grid.show_shading()),
+    Row(lambda d: d[Selections].selections, _selections),
+)
+"""What panels show besides their fields."""
+
+
+class Changes(QtCore.QObject):
     """What the panels show, kept equal to what the session does."""
 
-    def __init__(self, window) -> None:
-        self._window = window
+    answered = QtCore.Signal(int)  # a panel has to show its answer again
+    surfaces_changed = QtCore.Signal(object, bool)  # those in the panels now; whether the first is that from before
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self._loaded: tuple[LoadedMesh | None, ...] = ()  # the surfaces in the panels
+        context.page_changed.connect(self._apply_theme_next)
+        context.style_changed.connect(self.apply_theme)
 
     @property
     def _style(self) -> Style:
         """What fields look like: that of the page, in the document's colours, on the window's ground."""
-        return canvas_style(self._window.page.style, LOOK.theme, self._window.session.document.colours)
+        return canvas_style(self._context.page.style, LOOK.theme, self._context.document.colours)
 
     def show(self, before: Document) -> None:
         """The session's document, where the one before is shown."""
-        window, session, grid = self._window, self._window.session, self._window.grid
+        context, session, grid = self._context, self._context.session, self._context.grid
         document = session.document
         loaded = tuple(session.loaded(mesh.name) for mesh in document.surfaces)
         is_dressed = grid.show_style(self._style)  # in other colours
@@ -39,71 +94,45 @@ class Changes:
         if is_other:
             shown, self._loaded = self._loaded, loaded
             is_remade = _is_remade(shown, loaded)
-            (window.surface_remade if is_remade else window.surface_changed)(*loaded)
+            self.surfaces_changed.emit(loaded, is_remade)
             grid.show_surface([mesh.name for mesh in document.surfaces[1:]] if is_remade and not is_dressed else None)
         elif is_dressed:
             grid.show_surface()
-        if other_panels or document.points != before.points:
-            grid.marks.expect_sources(document)
-            window.typed_source.show()
-        if other_panels or _anchored(document) != _anchored(before):
-            grid.marks.mark_anchors(document)
-        if other_panels or (document.points, document[Pins].pins) != (before.points, before[Pins].pins):
-            grid.marks.show_pins(document)
-        if other_panels or (document.points, document[Pairs].pairs) != (before.points, before[Pairs].pairs):
-            grid.marks.show_pairs(document)
-        if other_panels or document.zooms != before.zooms:
-            grid.marks.show_insets(document)
-        passed = document.isolines.through and document.points != before.points
-        if is_other or is_dressed or passed or document.isolines != before.isolines:
-            grid.marks.show_isolines(document)
+        for row in TABLE:
+            if other_panels or row.of(document) != row.of(before):
+                row.show(context)
         is_raised = document.height != before.height
-        if document.shading != before.shading and not is_other:
-            grid.show_shading()
         if other_panels or is_raised or document.range != before.range:
             for panel in document.panels:
                 if session.is_answered(panel.id) or (is_dressed and panel.id in session.shown):
-                    window.answer_changed(panel.id)
-        window.views.document_changed(before, is_other, is_raised)
-        if other_panels or document[Selections].selections != before[Selections].selections:
-            window.docks.brushing.show(document)
+                    self.answered.emit(panel.id)
+        context[Views].document_changed(before, is_other, is_raised)
 
     def apply_theme(self) -> None:
         """Other colours of the window, or another style of the fields."""
-        if self._window.grid is not None and self._window.grid.show_style(self._style):
+        if self._context.is_built and self._context.grid.show_style(self._style):
             self.show_all_again()
 
-    def apply_theme_next(self) -> None:
+    def _apply_theme_next(self) -> None:
         """The same, with the next change of the document, which then shows all anew."""
-        if self._window.grid is not None and self._window.grid.show_style(self._style):
+        if self._context.is_built and self._context.grid.show_style(self._style):
             self._loaded = ()
 
     def show_all_again(self) -> None:
         """All that is in the panels, where nothing has changed but how it looks."""
-        window, session, grid = self._window, self._window.session, self._window.grid
-        if session.loaded() is None:
+        context, grid = self._context, self._context.grid
+        if context.session.loaded() is None:
             return
-        document = session.document
         grid.show_surface()
-        grid.marks.expect_sources(document)
-        grid.marks.show_isolines(document)
-        grid.marks.mark_anchors(document)
-        grid.marks.show_pins(document)
-        grid.marks.show_pairs(document)
-        grid.marks.show_insets(document)
-        window.docks.brushing.show(document)
-        for id in session.shown:
+        for row in TABLE:
+            row.show(context)
+        for id in context.session.shown:
             grid.show_answer(id)
-        window.docks.show_again()
-        window.progress_display.show()
+        context.panels_cleared.emit()
+        context[ProgressDisplay].show()
 
 
 def _is_remade(before: tuple[LoadedMesh | None, ...], after: tuple[LoadedMesh | None, ...]) -> bool:
     """Whether the first surface stays, and the others are made from it, or were."""
     others = [*before[1:], *after[1:]]
     return bool(before and after) and before[0] is after[0] and all(o and o.origin is after[0] for o in others)
-
-
-def _anchored(document: Document) -> list[tuple[Anchor, Point]]:
-    """Where the anchors are, whatever other points do: a pin that is dragged redraws none."""
-    return [(anchor, document.point(anchor.point)) for anchor in document[Anchors].anchors]

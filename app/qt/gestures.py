@@ -1,20 +1,20 @@
-"""What the mouse and the keys mean on the panels.  `window` is the main window."""
+"""What the mouse and the keys mean on the panels: each event goes to the gesture of the tool that is on."""
 
 from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core.sources.source import Source
-
-from ..document.edits import move_source
-from ..document.perturbation_edits import show_in_row
-from ..document.quantities import Quantity
-from .anchor_gestures import AnchorGestures
-from .docks.isoline_files import save_isolines
+from ..document.tools import tools
+from .context import Context
+from .dragging import Dragging
+from .files.field_files import FieldFiles
+from .files.isoline_files import save_isolines
+from .gesture import Gesture
+from .held_keys import HeldKeys
+from .isoline_choices import IsolineChoices
 from .look.numbers import number
-from .pair_gestures import PairGestures
-from .pin_gestures import PinGestures
+from .panels.events import Click, Hover, MarkClick, MarkDrag, MarkRelease, MenuWanted
 from .source_gestures import SourceGestures
 
 if TYPE_CHECKING:
@@ -24,79 +24,92 @@ CLOSER = 2.0
 """By how much "zoom to it" enlarges."""
 
 REST_MS = 200
-"""How long the pointer has to be still for a live source to have arrived."""
-
-LEAST_TOWARDS = 0.3
-"""Cosine of the angle between a direction and an edge that still leads there."""
+"""How long the pointer has to be still for what it leads to have arrived."""
 
 
-class Gestures:
-    """See the module.
+class Gestures(QtCore.QObject):
+    """is_live: whether the source follows the pointer; sources: what is done to it, where no other tool is on."""
 
-    is_live: whether the source follows the pointer; sources: what else is done to it; pins: the same of pins.
-    """
-
-    def __init__(self, window) -> None:
-        self._window = window
-        self._grid = grid = window.grid
-        self._met: Hit | None = None  # what is under the pointer
-        self._met_in = -1  # in which panel
-        self.is_live = self.is_dragging = False
-        self._has_followed = False  # the source, since it became live
-        self.sources = SourceGestures(window)
-        self.pins = PinGestures(window, self.sources)
-        self.anchors, self.pairs = AnchorGestures(window), PairGestures(window)
-        self._rest_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context, self._grid = context, context.grid
+        self._dragging, self.sources = context[Dragging], context[SourceGestures]
+        made = [context[tool.load(tool.gesture)] for tool in tools() if tool.gesture]
+        self._first = [gesture for gesture in made if gesture.comes_first]
+        self._others = [gesture for gesture in made if not gesture.comes_first]
+        self._all: tuple[Gesture, ...] = (*self._first, *self._others, self.sources)
+        self.is_live = False
+        self._has_followed = False  # what is led, since the pointer leads it
+        self._rest_soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
         self._rest_soon.timeout.connect(self._release)
-        self._stepped_soon = QtCore.QTimer(window, singleShot=True, interval=REST_MS)
-        self._stepped_soon.timeout.connect(self._stepped)
-        grid.clicked.connect(self._click)
-        grid.dragged.connect(self._drag)
-        grid.released.connect(self._release)
-        grid.hovered.connect(self._hover)
-        window.held_keys.live_key_up.connect(self._live_key_up)
-        grid.menu_wanted.connect(self._open_menu)
+        events = self._grid.events
+        events.on(Click, self._click)
+        events.on(MarkClick, self._click_mark)
+        events.on(MarkDrag, self._drag)
+        events.on(MarkRelease, lambda panel, mark: self._release(mark.kind))
+        events.on(Hover, lambda panel, hover: self._hover(panel, hover.hit))
+        events.on(MenuWanted, self._open_menu)
+        context[HeldKeys].live_key_up.connect(self._live_key_up)
 
     def begin(self) -> None:
         """Another surface is there."""
-        self._met = None
-        self.is_dragging = False
+        self._context.hit = None
+        self._dragging.is_on = False
         self._rest_soon.stop()
-        self._stepped_soon.stop()
-        self.sources.begin()
+        for gesture in self._all:
+            gesture.begin()
 
-    @property
-    def hovered(self) -> int | None:
-        """The vertex under the pointer."""
-        return None if self._met is None else self._met.vertex
+    def _on(self, panel: int) -> Gesture:
+        """That of the tool that is on in a panel."""
+        return next(gesture for gesture in self._all if gesture.is_on(panel))
 
-    # ------------------------------------------------------------------ the source
-    def _click(self, panel: int, hit: "Hit") -> None:
-        self._window.picked.emit(panel, hit)
-        if self._window.docks.picking.is_on:
-            self._window.docks.picking.take(panel, hit.vertex)
-        elif self.anchors.are_meant(panel):
-            self.anchors.put(panel, hit)
-        elif self.pairs.are_meant(panel):
-            self.pairs.put(panel, hit)
-        else:
-            self._move(panel, self.sources.at(panel, hit))
+    def _of(self, kind: str) -> list[Gesture]:
+        """Those whose pin markers are of a kind; with "" those that have none."""
+        return [gesture for gesture in self._all if gesture.kind == kind]
 
-    def _move(self, panel: int, at: Source, **how: object) -> None:
-        session = self._window.session
-        session.show(move_source(session.document, panel, at), **how)
+    # ------------------------------------------------------------------ clicks and drags
+    def _click(self, panel: int, click: Click) -> None:
+        if click.is_plain:
+            self._context.picked.emit(panel, click.hit)
+        next(gesture for gesture in self._all if gesture.takes(panel, click)).click(panel, click)
 
-    def _drag(self, panel: int, mark: int, hit: "Hit") -> None:
-        self.is_dragging = True
-        (self.anchors if self.anchors.are_meant(panel) else self.sources).drag(panel, mark, hit)
+    def _click_mark(self, panel: int, mark: MarkClick) -> None:
+        for gesture in self._of(mark.kind):
+            gesture.click_mark(panel, mark.number, mark.has_ctrl)
 
-    def _release(self) -> None:
-        """The source has arrived: now all is answered, and what is late is said to be."""
-        self._rest_soon.stop()
-        self.is_dragging = False
-        self.sources.rest()
-        self.anchors.rest()
-        self._window.session.show(self._window.session.document)
+    def _drag(self, panel: int, mark: MarkDrag) -> None:
+        if not mark.kind:
+            self._dragging.is_on = True
+        for gesture in self._of(mark.kind) if mark.kind else [self._on(panel)]:
+            gesture.drag(panel, mark.number, mark.hit)
+
+    def _release(self, kind: str = "") -> None:
+        """It has arrived: now all is answered, and what is late is said to be."""
+        if not kind:
+            self._rest_soon.stop()
+            self._dragging.is_on = False
+        for gesture in self._of(kind):
+            gesture.release()
+        self._context.edit(self._context.document)
+
+    # ------------------------------------------------------------------ the keys
+    def put_down(self) -> bool:
+        """Let the pointer mean what it usually does; whether it has meant something else."""
+        if any(gesture.put_down() for gesture in (*self._first, self.sources)):
+            return True
+        if self.is_live:
+            self._context.actions["live"].trigger()
+            return True
+        return any(gesture.put_down() for gesture in self._others)
+
+    def remove_chosen(self) -> None:
+        """The pair or the anchor that stands out."""
+        any(gesture.remove_chosen() for gesture in reversed(self._all))
+
+    def accept(self) -> None:
+        """What is proposed is meant."""
+        for gesture in self._all:
+            gesture.accept()
 
     def set_live(self, is_live: bool) -> None:
         """Let the source follow the pointer, or no longer."""
@@ -107,150 +120,98 @@ class Gestures:
     def _live_key_up(self) -> None:
         """A key that was held while the source followed ends that; one that was tapped does not."""
         if self.is_live and self._has_followed:
-            self._window.actions_by_word["live"].trigger()
-
-    def step_source(self, right: int, up: int) -> None:
-        """Along the edge that leads most nearly to where a direction of the screen points."""
-        session, id = self._window.session, self._grid.active
-        sources = session.document.panel(id).shows.points if id >= 0 else ()
-        surface = session.surface_in(id)
-        if surface is None or not sources:
-            return
-        panel = self._grid.panel(id)
-        vertex = panel.source
-        if vertex is None:
-            return
-        faces = surface.faces[(surface.faces == vertex).any(axis=1)]
-        others = np.setdiff1d(faces, [vertex])
-        at = panel.view.place_of(panel.positions[vertex])
-        ways = []
-        for other in others:
-            place = panel.view.place_of(panel.positions[other])
-            ways.append((place.x() - at.x(), at.y() - place.y()))
-        ways = np.array(ways)
-        towards = ways @ (right, up) / np.maximum(np.linalg.norm(ways, axis=1), 1e-9)
-        if towards.max() > LEAST_TOWARDS:
-            # Held, the key is a drag: stand-ins will do.
-            is_held = self._stepped_soon.isActive()
-            self._move(id, int(others[towards.argmax()]), key=f"steps in {id}", live=is_held)
-            if is_held:
-                self.sources.set_off()
-            self._stepped_soon.start()
-
-    def _stepped(self) -> None:
-        """The last of several steps along edges was taken."""
-        self.sources.rest()
-        self._window.session.show(self._window.session.document, key=f"steps in {self._grid.active}")
-
-    def remove_chosen(self) -> None:
-        """The pair or the anchor that stands out."""
-        if not self.pairs.remove_chosen():
-            self.anchors.remove_chosen()
+            self._context.actions["live"].trigger()
 
     # ------------------------------------------------------------------ the pointer
+    @property
+    def hovered(self) -> int | None:
+        """The vertex under the pointer."""
+        return None if self._context.hit is None else self._context.hit.vertex
+
     def _hover(self, panel: int, hit: "Hit | None") -> None:
-        window = self._window
-        before, last, last_in = self.hovered, self._met, self._met_in
-        self._met, self._met_in = hit, panel
+        context, pointing = self._context, self._grid.pointing
+        before, last, last_in = self.hovered, context.hit, context.hit_in
+        context.hit, context.hit_in = hit, panel
         vertex = self.hovered
-        is_beside = vertex is None and before is None and not self._grid.pointing.is_on
-        if window.session.surface is None or is_beside:
+        is_beside = vertex is None and before is None and not pointing.is_on
+        if context.session.surface is None or is_beside:
             return
         if not self._grid.has(panel):  # it has gone from under the pointer
-            self._met = None
-            self._grid.pointing.leave()
-            window.docks.pointed(None, "")
-            window.status.show_place(None, None)
+            context.hit = None
+            pointing.leave()
+            context.pointed.emit(None, "")
+            context.status.show_place(None, None)
             return
-        self._grid.pointing.show(panel, vertex)
-        surface = window.session.surface_in(panel)
-        window.docks.pointed(vertex, self._grid.panel(panel).surface)
-        window.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], self._letter(panel))
-        is_led = self.is_live and not self.anchors.are_meant(panel)
-        is_elsewhere = last is None or panel != last_in or self._at(panel, hit) != self._at(panel, last)
-        if is_led and hit is not None and is_elsewhere:
-            self.is_dragging = self._has_followed = True
-            self.sources.set_off()
-            if self.pairs.are_meant(panel):
-                self.pairs.follow(panel, hit)
-            else:
-                self._move(panel, self.sources.at(panel, hit), key="live", live=True)
+        pointing.show(panel, vertex)
+        widget, surface = self._grid.panel(panel), context.session.surface_in(panel)
+        context.pointed.emit(vertex, widget.surface)
+        context.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], widget.head.letter)
+        gesture = self._on(panel)
+        at, was = (None if each is None else self.sources.at(panel, each) for each in (hit, last))
+        is_elsewhere = last is None or panel != last_in or at != was
+        if self.is_live and gesture.follows and hit is not None and is_elsewhere:
+            self._dragging.is_on = self._has_followed = True
+            self._dragging.set_off()
+            gesture.follow(panel, hit)
             self._rest_soon.start()
-
-    def _at(self, panel: int, hit: "Hit | None") -> Source | None:
-        return None if hit is None else self.sources.at(panel, hit)
-
-    def _letter(self, panel: int) -> str:
-        """Of the surface of a panel, where there are two."""
-        return self._grid.panel(panel).head.letter
 
     def centre_here(self) -> None:
         """What is under the pointer comes into the middle, and is turned about."""
-        if self._met is not None:
-            self._grid.panel(self._met_in).view.centre(self._met.position)
+        if self._context.hit is not None:
+            self._grid.panel(self._context.hit_in).view.centre(self._context.hit.position)
 
     def zoom_here(self) -> None:
         """What is under the pointer, in the middle and larger."""
-        if self._met is not None:
-            self._zoom_to(self._met_in, self._met)
+        if self._context.hit is not None:
+            self._zoom_to(self._context.hit_in, self._context.hit)
 
     def _zoom_to(self, panel: int, hit: "Hit") -> None:
         view = self._grid.panel(panel).view
         view.centre(hit.position)
         view.zoom(CLOSER)
 
-    # ------------------------------------------------------------------ what is chosen
-    def choose(self, panel: int, shows: Quantity) -> None:
-        """Another quantity is a step; the values that a slider passes are one."""
-        session = self._window.session
-        before = session.document.panel(panel).shows
-        words = [tuple(part.word for part in each.parts) for each in (before, shows)]
-        key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
-        session.show(show_in_row(session.document, panel, shows), key)
-
-    def _open_menu(self, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
+    # ------------------------------------------------------------------ the menu
+    def _open_menu(self, panel: int, wanted: MenuWanted) -> None:
         """On the surface: what can be done with the place; beside it, with the view."""
-        window, actions = self._window, self._window.actions_by_word
-        menu = QtWidgets.QMenu(window)
+        context, actions, hit = self._context, self._context.actions, wanted.hit
+        menu = QtWidgets.QMenu(context.widget)
         if hit is not None:
-            view, vertex = self._grid.panel(panel).view, hit.vertex
-            self._grid.pointing.show(panel, vertex)
-            if self.anchors.are_meant(panel):
-                self.anchors.offer(menu, panel, hit)
-            elif self.pairs.are_meant(panel):
-                self.pairs.offer(menu, panel, hit)
-            else:
-                menu.addAction("Source here\tClick", lambda: self._click(panel, hit))
-                self.sources.offer(menu, panel, hit)
-            self.pins.offer(menu, panel, hit, where)
-            menu.addSeparator()
-            menu.addAction("Isoline through here", lambda: window.choices.isoline.pass_through(panel, vertex))
-            if window.session.document.isolines.through:
-                menu.addAction("Remove isolines through points", window.choices.isoline.pass_through_none)
-            menu.addAction("Save isolines…", lambda: save_isolines(window, panel))
-            menu.addAction("Save field…", lambda: window.field_files.save(panel))
-            menu.addSeparator()
-            menu.addAction("Centre the view here\tC", lambda: view.centre(hit.position))
-            menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, hit))
-            menu.addSeparator()
-            menu.addAction(f"Copy vertex id {vertex}", lambda: _copy(str(vertex)))
-            menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(panel, vertex))))
-            menu.addAction("Copy values", lambda: _copy(self._values(panel, vertex)))
+            self._grid.pointing.show(panel, hit.vertex)
+            self._on(panel).offer(menu, panel, hit)
+        for gesture in self._all:
+            gesture.offer_always(menu, panel, hit, wanted.where)
+        menu.addSeparator()
+        if hit is not None:
+            self._offer_place(menu, panel, hit)
         else:
-            self.pins.offer(menu, panel, None, where)
-            menu.addSeparator()
             for word in ("reset", "view before", "view after"):
                 menu.addAction(actions[word])
             menu.addSeparator()
             for word in ("undo", "redo", "add panel"):
                 menu.addAction(actions[word])
             menu.addSeparator()
-            menu.addAction("Save field…", lambda: window.field_files.save(panel))
+            menu.addAction("Save field…", lambda: context[FieldFiles].save(panel))
         menu.aboutToHide.connect(menu.deleteLater)
-        menu.popup(where)
+        menu.popup(wanted.where)
+
+    def _offer_place(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
+        context, view, vertex = self._context, self._grid.panel(panel).view, hit.vertex
+        isolines = context[IsolineChoices]
+        menu.addAction("Isoline through here", lambda: isolines.pass_through(panel, vertex))
+        if context.document.isolines.through:
+            menu.addAction("Remove isolines through points", isolines.pass_through_none)
+        menu.addAction("Save isolines…", lambda: save_isolines(context, panel))
+        menu.addAction("Save field…", lambda: context[FieldFiles].save(panel))
+        menu.addSeparator()
+        menu.addAction("Centre the view here\tC", lambda: view.centre(hit.position))
+        menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, hit))
+        menu.addSeparator()
+        menu.addAction(f"Copy vertex id {vertex}", lambda: _copy(str(vertex)))
+        menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(panel, vertex))))
+        menu.addAction("Copy values", lambda: _copy(self._values(panel, vertex)))
 
     def _place(self, panel: int, vertex: int) -> np.ndarray:
-        return self._window.session.surface_in(panel).vertices[vertex]
+        return self._context.session.surface_in(panel).vertices[vertex]
 
     def _values(self, id: int, vertex: int) -> str:
         """What every panel of the same surface has there."""

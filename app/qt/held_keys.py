@@ -1,6 +1,8 @@
-"""Keys that mean something as long as they are held, whichever widget has the focus.  `window` is the main window."""
+"""Keys that mean something as long as they are held, whichever widget has the focus."""
 
 from qtpy import QtCore, QtWidgets
+
+from .context import Context
 
 BRUSH, LIVE = QtCore.Qt.Key.Key_B, QtCore.Qt.Key.Key_L
 """Held, a drag paints a selection; held, the source follows the pointer."""
@@ -15,10 +17,10 @@ class HeldKeys(QtCore.QObject):
     brush_held = QtCore.Signal(bool)  # its key is down, or up again
     live_key_up = QtCore.Signal()
 
-    def __init__(self, window: QtWidgets.QWidget) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self._widgets: dict[QtCore.QObject, QtWidgets.QWidget] = {}  # by what Qt calls their windows
-        self.watch(window)
+        self.watch(context.widget)
 
     def watch(self, widget: QtWidgets.QWidget) -> None:
         """The keys of a window, or of a dock that floats over it."""

@@ -1,4 +1,4 @@
-"""What the user chooses of isolines.  `window` is the main window throughout."""
+"""What the user chooses of isolines."""
 
 from dataclasses import replace
 
@@ -9,7 +9,10 @@ from bihdist_core import ParameterError
 from ..document.isoline_edits import pass_through, pass_through_none
 from ..document.looks import MOST_ISOLINES
 from ..scene.levels import levels, too_many
-from .bars.isoline_menu import BOLD
+from .context import Context
+
+BOLD = 5
+"""Every so many are bolder, once some are."""
 
 IN_UNIT = "in each panel's unit (0.05 for 5 % of a difference)"
 
@@ -17,30 +20,30 @@ IN_UNIT = "in each panel's unit (0.05 for 5 % of a difference)"
 class IsolineChoices:
     """Edits of the document's isolines."""
 
-    def __init__(self, window) -> None:
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        self._context = context
 
     def steps(self, count: int) -> None:
         """About so many, at round values, or as many equal steps."""
         self._change("isolines", count=count, spacing=None, values=())
 
     def ask_steps(self) -> None:
-        now = self._window.session.document.isolines.count
+        now = self._context.document.isolines.count
         count, chosen = QtWidgets.QInputDialog.getInt(
-            self._window, "Isolines", "About how many in each panel:", now, 0, MOST_ISOLINES
+            self._context.widget, "Isolines", "About how many in each panel:", now, 0, MOST_ISOLINES
         )
         if chosen:
             self.steps(count)
-        self._window.choices.show()
+        self._context.choice_changed.emit()
 
     def ask_spacing(self) -> None:
-        now = self._window.session.document.isolines.spacing
+        now = self._context.document.isolines.spacing
         said = f"From one isoline to the next, {IN_UNIT}:"
         self._ask(said, "" if now is None else f"{now:.6g}", self.spacing)
 
     def spacing(self, text: str) -> None:
         """A typed one; ParameterError if it makes more lines than can be drawn."""
-        session = self._window.session
+        session = self._context.session
         wanted = replace(session.document.isolines, spacing=_number(text), values=())
         for shown in session.shown.values():
             answer = shown.answer
@@ -50,7 +53,7 @@ class IsolineChoices:
         self._change("", spacing=wanted.spacing, values=())
 
     def ask_values(self) -> None:
-        now = self._window.session.document.isolines.values
+        now = self._context.document.isolines.values
         said = f"Isolines at these values, {IN_UNIT}, with spaces between them:"
         self._ask(said, " ".join(f"{value:.6g}" for value in now), self.values)
 
@@ -77,24 +80,24 @@ class IsolineChoices:
     # ------------------------------------------------------------------ through points
     def pass_through(self, panel: int, vertex: int) -> None:
         """One more, through a vertex of a panel's surface, in all panels of that."""
-        session = self._window.session
+        session = self._context.session
         surface = session.document.panel(panel).surface
         session.show(pass_through(session.document, (vertex,), surface))
 
     def pass_through_none(self) -> None:
-        session = self._window.session
+        session = self._context.session
         session.show(pass_through_none(session.document))
 
     # ------------------------------------------------------------------
     def _change(self, key: str, **changes: object) -> None:
-        session = self._window.session
+        session = self._context.session
         isolines = replace(session.document.isolines, **changes)
         session.show(replace(session.document, isolines=isolines), key=key)
-        self._window.choices.show()
+        self._context.choice_changed.emit()
 
     def _ask(self, said: str, now: str, take) -> None:
         """For a text, until it is one that can be taken."""
-        dialog = QtWidgets.QInputDialog(self._window)
+        dialog = QtWidgets.QInputDialog(self._context.widget)
         dialog.setWindowTitle("Isolines")
         dialog.setTextValue(now)
         dialog.setLabelText(said)
@@ -104,7 +107,7 @@ class IsolineChoices:
                 break
             except ParameterError as error:
                 dialog.setLabelText(f"{said}\n{error}")
-        self._window.choices.show()
+        self._context.choice_changed.emit()
         dialog.deleteLater()
 
 

@@ -1,7 +1,10 @@
-"""How many fields a second follow the source while it moves, in the status bar.  `window` is the main window."""
+"""How many fields a second follow the source while it moves, in the status bar."""
 
 import time
 from collections import deque
+
+from ..session.session import Session
+from .status_bar import StatusBar
 
 SPAN = 1.0
 """Seconds that are counted over."""
@@ -10,10 +13,8 @@ SAY_EVERY = 0.25
 
 
 class LiveRate:
-    """See the module."""
-
-    def __init__(self, window) -> None:
-        self._window = window
+    def __init__(self, session: Session, status: StatusBar) -> None:
+        self._session, self._status = session, status
         self._shown: deque[float] = deque()
         self._begun = self._said = 0.0
         self._is_going = False
@@ -32,19 +33,19 @@ class LiveRate:
         self._shown.append(now)
         if now - self._said > SAY_EVERY and now - self._begun > SAY_EVERY:
             self._said = now
-            self._window.status.show_rate(self._words(now))
+            self._status.show_rate(self._words(now))
 
     def end(self) -> None:
         """It rests."""
         if self._is_going:
             self._is_going = False
-            self._window.status.show_rate("")
+            self._status.show_rate("")
 
     def _words(self, now: float) -> str:
         while self._shown and now - self._shown[0] > SPAN:
             self._shown.popleft()
         rate = len(self._shown) / min(now - self._begun, SPAN)
-        shown = self._window.session.shown.values()
+        shown = self._session.shown.values()
         quick = dict.fromkeys(each.answer.label for each in shown if each.is_preview)
         ending = f"; {', '.join(quick)}, until it rests" if quick else ""
         return f"Live: {rate:.0f} fields a second{ending}"

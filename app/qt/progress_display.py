@@ -1,13 +1,12 @@
-"""What the window says while something is computed: in the panel that waits for it, and on meshes being read.
-
-`window` is the main window.
-"""
+"""What the window says while something is computed: in the panel that waits for it, and on meshes being read."""
 
 from math import nan
 
 from qtpy import QtCore
 
 from ..document.document import Document
+from .context import Context
+from .dragging import Dragging
 
 PROGRESS_MS = 200
 """How often progress is shown at most."""
@@ -18,20 +17,25 @@ QUIET_MS = 150
 WAITING = (nan, "Waiting")
 
 
-class ProgressDisplay:
-    """See the module."""
+class ProgressDisplay(QtCore.QObject):
+    """shown: what goes on has been told."""
 
-    def __init__(self, window) -> None:
-        self._window = window
+    shown = QtCore.Signal()
+    opening = QtCore.Signal(str)  # the first mesh is being read: how far that is, in words
+    nothing_open = QtCore.Signal()
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self._is_late = False
-        self._show_soon = QtCore.QTimer(window, singleShot=True, interval=PROGRESS_MS)
+        self._show_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
         self._show_soon.timeout.connect(self.show)
-        self._late_soon = QtCore.QTimer(window, singleShot=True, interval=QUIET_MS)
+        self._late_soon = QtCore.QTimer(self, singleShot=True, interval=QUIET_MS)
         self._late_soon.timeout.connect(self._be_late)
 
     def expect(self, before: Document) -> None:
         """Something new may have been asked; before: what was shown."""
-        session = self._window.session
+        session = self._context.session
         if session.is_complete:
             for panel in session.document.panels:
                 self.note(panel.id)  # what was stopped may not be asked any more
@@ -43,15 +47,15 @@ class ProgressDisplay:
             words = [part.word for part in panel.shows.parts]
             if names.get(panel.id, words) != words and not session.is_answered(panel.id):
                 # Never an old field under a new name.
-                self._window.grid.panel(panel.id).show_waiting(WAITING)
+                self._context.grid.panel(panel.id).show_waiting(WAITING)
 
     def retry(self, id: int) -> None:
         """Let what was stopped in a panel be computed again."""
-        self._window.grid.panel(id).show_waiting(WAITING, is_old=not self._window.session.is_quick_look(id))
-        self._window.session.retry(id)
+        self._context.grid.panel(id).show_waiting(WAITING, is_old=not self._context.session.is_quick_look(id))
+        self._context.session.retry(id)
 
     def progress_changed(self) -> None:
-        if not self._window.session.progress:
+        if not self._context.session.progress:
             self.show()
         elif not self._show_soon.isActive():
             self._show_soon.start()
@@ -67,34 +71,34 @@ class ProgressDisplay:
 
     def show(self) -> None:
         self._show_soon.stop()
-        window = self._window
-        load, session = self._load, window.session
-        window.status.show_progress(_sentence(*load) if load is not None else "")
+        context = self._context
+        load, session = self._load, context.session
+        context.status.show_progress(_sentence(*load) if load is not None else "")
         if session.surface is not None:
-            for panel in session.document.panels if window.grid is not None else ():
+            for panel in session.document.panels if context.is_built else ():
                 self.note(panel.id)
         elif session.is_opening:
-            window.show_opening(_sentence(*load) if load is not None else "Opening…")
-        elif window.grid is not None:
-            window.show_start()
-        window.announce_soon()
+            self.opening.emit(_sentence(*load) if load is not None else "Opening…")
+        elif context.is_built:
+            self.nothing_open.emit()
+        self.shown.emit()
 
     @property
     def _load(self) -> tuple[float, str] | None:
         """How far the reading of meshes is, and what is being done; None where nothing is."""
-        load = self._window.session.progress.get("load")
+        load = self._context.session.progress.get("load")
         return load if load is not None and load[1] else None
 
     def stop(self, id: int) -> None:
         """What a panel waits for is no longer wanted."""
-        session = self._window.session
+        session = self._context.session
         session.cancel(None if session.document.panel(id).surface in session.replaced else id)
         self.show()
 
     def note(self, id: int) -> None:
         """Say in a panel what it is waiting for."""
-        window, session = self._window, self._window.session
-        panel, shown = window.grid.panel(id), session.shown.get(id)
+        context, session = self._context, self._context.session
+        panel, shown = context.grid.panel(id), session.shown.get(id)
         is_answered = session.is_answered(id)
         fraction, text = session.progress.get(id, (nan, ""))
         if self._load is not None and session.document.panel(id).surface in session.replaced:
@@ -106,14 +110,14 @@ class ProgressDisplay:
             # A quick look, which the exact answer follows, or one whose accuracy is being found out.
             words = "Checking the accuracy" if is_answered else "A quick look; the exact one follows"
             panel.show_waiting((fraction, words) if text else None, is_old=False)
-        elif window.gestures.is_dragging and shown is not None:
+        elif context[Dragging].is_on and shown is not None:
             panel.show_waiting(None)  # it is a moment behind, all the time
         elif text or self._is_late:
             panel.show_waiting((fraction, words_of(text)) if text else WAITING)
 
     def _is_other(self, id: int) -> bool:
         """Whether what a panel shows is not what it is asked for now."""
-        shown, document = self._window.session.shown[id], self._window.session.document
+        shown, document = self._context.session.shown[id], self._context.document
         return [str(spec) for spec in shown.asked.specs] != [str(spec) for spec in document.panel(id).shows.specs]
 
 

@@ -31,6 +31,7 @@ from ..session.array_store import Mesh, comparison_of_arrays, with_beside
 from ..session.loaded_mesh import checked_path
 from ..session.questions import source_at
 from .application import application, check_screen, interrupts_noted, run_until
+from .files.files import Files
 from .look.look import LOOK
 from .main_window import MainWindow
 from .preferences import load
@@ -100,7 +101,7 @@ class Viewer:
     def __init__(self, window: MainWindow, on_pick: Callable[[Pick], object] | None) -> None:
         self._window: MainWindow | None = window
         self._on_pick = on_pick
-        window.picked.connect(self._picked)
+        window.context.picked.connect(self._picked)
         window.closed.connect(self._closed)
         _open.add(self)
 
@@ -163,7 +164,7 @@ class Viewer:
     def screenshot(self, path: str | os.PathLike[str]) -> Path:
         """The window as a PNG, once everything has been computed; OutputError if it cannot be written."""
         self._complete()
-        self._there.files.save_screenshot(os.fspath(path))
+        self._there.context[Files].save_screenshot(os.fspath(path))
         return Path(path)
 
     def plotter(self) -> Any:
@@ -182,7 +183,7 @@ class Viewer:
     def close(self) -> None:
         """Close the window, without questions; nothing happens if it is closed already."""
         if self._window is not None:
-            self._window.quiet = True
+            self._window.context.quiet = True
             self._window.close()
 
     @property
@@ -224,7 +225,7 @@ class Viewer:
         window = self._there
         refusals: list[str] = []
         arrived: list[bool] = []
-        was_quiet, window.quiet = window.quiet, True
+        was_quiet, window.context.quiet = window.context.quiet, True
         window.refused.connect(refusals.append)
         try:
             window.show_document(document, arrived=lambda: arrived.append(True))
@@ -232,7 +233,7 @@ class Viewer:
         finally:
             if self._window is not None:
                 window.refused.disconnect(refusals.append)
-                window.quiet = was_quiet
+                window.context.quiet = was_quiet
         if self._window is None:
             raise BihdistError("The window was closed.")
         if refusals:
@@ -324,7 +325,7 @@ def show(
             preferences = load()
             LOOK.choose(preferences.theme)
             window = MainWindow(document, preferences)
-            window.remembers = False
+            window.context.remembers = False
             window.setAttribute(QtCore.Qt.WidgetAttribute.WA_QuitOnClose, False)
             viewer = Viewer(window, on_pick)
             window.session.given.update(given)

@@ -1,12 +1,9 @@
-"""What is done to sources on the panels: places, sets, boundary loops, and curves that are drawn.
-
-`window` is the main window.
-"""
+"""What is done to sources on the panels: places, sets, boundary loops, and curves that are drawn."""
 
 from typing import TYPE_CHECKING
 
 import numpy as np
-from qtpy import QtWidgets
+from qtpy import QtCore, QtWidgets
 
 from bihdist_core.sources.boundary import boundary_loops
 from bihdist_core.sources.pieces import pieces_of
@@ -16,7 +13,11 @@ from bihdist_core.sources.words import short_words_of
 from ..document.edits import move_source, source_name
 from ..document.source_edits import members_of, place_at, place_in, points_of, with_member, with_moved, without_member
 from ..session.stroke_sources import source_from_strokes
-from .live_rate import LiveRate
+from .context import Context
+from .dragging import Dragging
+from .files.curve_files import CurveFiles
+from .gesture import Gesture
+from .panels.events import Click, Stroke, StrokeEnd
 
 if TYPE_CHECKING:
     from ..scene.picking import Hit
@@ -24,55 +25,88 @@ if TYPE_CHECKING:
 NEAR = 24.0
 """Pixels from the pointer to a member of the source, or to a boundary, that a menu means."""
 
+REST_MS = 200
+"""After the last of several steps, until the source has arrived."""
+
+LEAST_TOWARDS = 0.3
+"""Cosine of the angle between a direction and an edge that still leads there."""
+
 CLOSING = 14.0
 """Pixels between the ends of what is drawn below which it is closed, if it has been farther away."""
 
 
-class SourceGestures:
-    """See the module.
+class SourceGestures(Gesture):
+    """What is done where no other tool is on.
 
     is_drawing: whether the left button draws.
     """
 
-    def __init__(self, window) -> None:
-        self._window, self._grid = window, window.grid
+    follows = True
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._grid = context.grid
         self.is_drawing = False
-        self.rate = LiveRate(window)
         self._moved: tuple[str, Source, Member] | None = None  # a point, what it was, and which member moves
         self._strokes: list[list[SurfacePoint]] = []
         self._is_beside = True  # the pointer is not on the surface, or the button was up
-        self._grid.added.connect(self.add_or_remove)
-        self._grid.stroked.connect(self._draw)
-        self._grid.stroke_ended.connect(self._stroke_ended)
+        self._stepped_soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
+        self._stepped_soon.timeout.connect(self._stepped)
+        self._grid.events.on(Stroke, lambda panel, stroke: self._draw(panel, stroke.hit))
+        self._grid.events.on(StrokeEnd, lambda panel, end: self._stroke_ended(panel, end.has_ctrl))
 
     def begin(self) -> None:
-        """Another surface is there."""
-        self.rest()
+        self._stepped_soon.stop()
+        self.release()
         self._forget_stroke()
+
+    def is_on(self, panel: int) -> bool:
+        return True
+
+    def takes(self, panel: int, click: Click) -> bool:
+        return True
+
+    def click(self, panel: int, click: Click) -> None:
+        if click.has_ctrl:
+            self.add_or_remove(panel, click.hit)
+        else:
+            self._move(panel, self.at(panel, click.hit))
+
+    def follow(self, panel: int, hit: "Hit") -> None:
+        self._move(panel, self.at(panel, hit), key="live", live=True)
+
+    def put_down(self) -> bool:
+        is_drawing = self.is_drawing
+        if is_drawing:
+            self.context.actions["draw source"].trigger()
+        return is_drawing
+
+    def _move(self, panel: int, at: Source, key: str = "", live: bool = False) -> None:
+        self.context.edit(move_source(self.context.document, panel, at), key, live)
 
     # ------------------------------------------------------------------ points
     @property
     def is_snapping(self) -> bool:
         """Whether the source is put on vertices."""
-        return self._window.session.document.snap
+        return self.context.document.snap
 
     def at(self, panel: int, hit: "Hit") -> Source:
         """The source that a place in a panel means."""
         if self.is_snapping:
             return hit.vertex
-        faces = self._window.session.surface_in(panel).faces
+        faces = self.context.session.surface_in(panel).faces
         return place_at(faces[hit.face], hit.face, hit.weights)
 
     def set_snapping(self, is_snapping: bool) -> None:
         """Whether the source is put on vertices, or anywhere in faces, also at the next start."""
-        self._window.session.keep_snapping(is_snapping)
-        self._window.choices.prefer(snap=is_snapping)
+        self.context.session.keep_snapping(is_snapping)
+        self.context.prefer(snap=is_snapping)
         where = "on vertices" if is_snapping else "anywhere in faces"
-        self._window.say(f"A click puts the source {where}")
+        self.context.tell(f"A click puts the source {where}")
 
-    def drag(self, panel: int, mark: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """One of the marks of a panel's source is over a place."""
-        session = self._window.session
+        session = self.context.session
         if self._moved is None:
             document = session.document
             marked = [
@@ -80,24 +114,50 @@ class SourceGestures:
                 for name in document.panel(panel).shows.points
                 for member in points_of(document.point(name).at)
             ]
-            if mark >= len(marked):
+            if number >= len(marked):
                 return
-            self._moved = marked[mark]
-            self.set_off()
+            self._moved = marked[number]
+            self.context[Dragging].set_off()
         name, whole, member = self._moved
         moved = with_moved(session.document, name, whole, member, self.at(panel, hit))
         session.show(moved, key=f"drag in {panel}", live=True)
 
-    def set_off(self) -> None:
-        """The source begins to move; nothing while it does."""
-        self.rate.begin()
-        self._grid.marks.keep_steps(True)
-
-    def rest(self) -> None:
-        """The source has arrived."""
+    def release(self) -> None:
         self._moved = None
-        self.rate.end()
-        self._grid.marks.keep_steps(False)
+        self.context[Dragging].rest()
+
+    def step(self, right: int, up: int) -> None:
+        """Along the edge that leads most nearly to where a direction of the screen points."""
+        session, id = self.context.session, self._grid.active
+        sources = session.document.panel(id).shows.points if id >= 0 else ()
+        surface = session.surface_in(id)
+        if surface is None or not sources:
+            return
+        panel = self._grid.panel(id)
+        vertex = panel.source
+        if vertex is None:
+            return
+        faces = surface.faces[(surface.faces == vertex).any(axis=1)]
+        others = np.setdiff1d(faces, [vertex])
+        at = panel.view.place_of(panel.positions[vertex])
+        ways = []
+        for other in others:
+            place = panel.view.place_of(panel.positions[other])
+            ways.append((place.x() - at.x(), at.y() - place.y()))
+        ways = np.array(ways)
+        towards = ways @ (right, up) / np.maximum(np.linalg.norm(ways, axis=1), 1e-9)
+        if towards.max() > LEAST_TOWARDS:
+            # Held, the key is a drag: stand-ins will do.
+            is_held = self._stepped_soon.isActive()
+            self._move(id, int(others[towards.argmax()]), key=f"steps in {id}", live=is_held)
+            if is_held:
+                self.context[Dragging].set_off()
+            self._stepped_soon.start()
+
+    def _stepped(self) -> None:
+        """The last of several steps along edges was taken."""
+        self.release()
+        self.context.edit(self.context.document, key=f"steps in {self._grid.active}")
 
     # ------------------------------------------------------------------ members
     def add_or_remove(self, panel: int, hit: "Hit") -> None:
@@ -112,27 +172,27 @@ class SourceGestures:
 
     def add(self, panel: int, more: Source) -> None:
         """Something joins the source that a panel shows."""
-        session = self._window.session
+        session = self.context.session
         session.show(with_member(session.document, panel, more))
         self._say(panel)
 
     def remove(self, panel: int, member: Member) -> None:
         """A member leaves it; the last one stays."""
-        session = self._window.session
+        session = self.context.session
         if len(self._members(panel)) < 2:
-            self._window.say("The source consists of this alone")
+            self.context.tell("The source consists of this alone")
             return
         session.show(without_member(session.document, panel, member))
         self._say(panel)
 
     def put(self, panel: int, source: Source) -> None:
         """The source is something else."""
-        session = self._window.session
+        session = self.context.session
         session.show(move_source(session.document, panel, source))
         self._say(panel)
 
     def _say(self, panel: int) -> None:
-        session = self._window.session
+        session = self.context.session
         name = source_name(session.document, panel)
         at = session.document.point(name).at if name else None
         if at is not None:
@@ -140,10 +200,10 @@ class SourceGestures:
             def holds() -> bool:
                 return any(point.name == name and point.at == at for point in session.document.points)
 
-            self._window.say(f"Source: {short_words_of(at)}", holds)
+            self.context.tell(f"Source: {short_words_of(at)}", holds)
 
     def _members(self, panel: int) -> tuple[Member, ...]:
-        document = self._window.session.document
+        document = self.context.document
         name = source_name(document, panel)
         return members_of(document.point(name).at) if name else ()
 
@@ -158,7 +218,7 @@ class SourceGestures:
 
     def _nearest_of(self, panel: int, member: Member, hit: "Hit") -> np.ndarray:
         """(3,) the point of a member that is nearest to a place."""
-        pieces = pieces_of(member, self._window.session.surface_in(panel))
+        pieces = pieces_of(member, self.context.session.surface_in(panel))
         start, stop = pieces.positions(self._grid.panel(panel).positions)
         way = stop - start
         share = np.einsum("kx,kx->k", hit.position - start, way) / np.maximum(np.einsum("kx,kx->k", way, way), 1e-300)
@@ -172,22 +232,27 @@ class SourceGestures:
 
     # ------------------------------------------------------------------ the menu
     def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
-        """What can be done to the source at a place."""
+        """What can be done to the source there."""
+        menu.addAction("Source here\tClick", lambda: self._click_by_menu(panel, hit))
         member, members = self._member_at(panel, hit), self._members(panel)
         if member is None:
             menu.addAction("Add to the source\tCtrl+click", lambda: self.add(panel, self.at(panel, hit)))
         elif len(members) > 1:
             menu.addAction("Remove from the source\tCtrl+click", lambda: self.remove(panel, member))
         if isinstance(member, Curve):
-            menu.addAction("Save this curve…", lambda: self._window.curve_files.choose_and_save(member))
+            menu.addAction("Save this curve…", lambda: self.context[CurveFiles].choose_and_save(member))
         loop = self._loop_near(panel, hit)
         if loop is not None:
             menu.addAction("This boundary as source", lambda: self.put(panel, loop))
             if members and loop not in members:
                 menu.addAction("Add this boundary to the source", lambda: self.add(panel, loop))
 
+    def _click_by_menu(self, panel: int, hit: "Hit") -> None:
+        self.context.picked.emit(panel, hit)
+        self.click(panel, Click(hit))
+
     def _loop_near(self, panel: int, hit: "Hit") -> BoundaryLoop | None:
-        surface, positions = self._window.session.surface_in(panel), self._grid.panel(panel).positions
+        surface, positions = self.context.session.surface_in(panel), self._grid.panel(panel).positions
         edges = surface.boundary_edges
         if not len(edges):
             return None
@@ -205,7 +270,7 @@ class SourceGestures:
         self.is_drawing = is_drawing
         self._forget_stroke()
         self._grid.marks.draw_on(is_drawing)
-        self._window.say("Drag over the surface: a curve as source (with Ctrl it is added); Esc ends" * is_drawing)
+        self.context.tell("Drag over the surface: a curve as source (with Ctrl it is added); Esc ends" * is_drawing)
 
     def _draw(self, panel: int, hit: "Hit | None") -> None:
         if hit is None:
@@ -226,12 +291,12 @@ class SourceGestures:
             return
         away = np.linalg.norm(ends - ends[0], axis=1)
         is_closed = len(ends) > 3 and away[-1] < CLOSING and away.max() > 2 * CLOSING
-        drawn = source_from_strokes(strokes, self._window.session.surface_in(panel), bool(is_closed))
+        drawn = source_from_strokes(strokes, self.context.session.surface_in(panel), bool(is_closed))
         (self.add if has_ctrl else self.put)(panel, drawn)
 
     def _on_view(self, panel: int) -> np.ndarray:
         """(k, 2) where what has been drawn is seen."""
-        widget, faces = self._grid.panel(panel), self._window.session.surface_in(panel).faces
+        widget, faces = self._grid.panel(panel), self.context.session.surface_in(panel).faces
         places = [place for stroke in self._strokes for place in stroke]
         points = [np.array(place.weights) @ widget.positions[faces[place.face]] for place in places]
         seen = [widget.view.place_of(point) for point in points]
@@ -239,7 +304,7 @@ class SourceGestures:
 
     def _show_strokes(self, panel: int) -> None:
         """On all panels of the surface."""
-        surface, name = self._window.session.surface_in(panel), self._grid.panel(panel).surface
+        surface, name = self.context.session.surface_in(panel), self._grid.panel(panel).surface
         strokes = [
             (surface.faces[[place.face for place in stroke]], np.array([place.weights for place in stroke]))
             for stroke in self._strokes

@@ -15,7 +15,8 @@ from bihdist_core import BihdistError
 from ..document.document import Document
 from ..samples import SAMPLES
 from .application import application, check_screen
-from .files.session_actions import offer_lost_state
+from .files.files import Files
+from .files.session_actions import SessionFile, offer_lost_state
 from .look.look import LOOK
 from .main_window import MainWindow
 from .preferences import Preferences, load, restore_geometry
@@ -58,7 +59,7 @@ def run_viewer(
     _alive.append(window)
     failures: list[str] = []
     if screenshot:
-        window.quiet, window.remembers = True, False
+        window.context.quiet, window.context.remembers = True, False
 
         def refuse(message: str) -> None:
             failures.append(message)
@@ -66,9 +67,9 @@ def run_viewer(
 
         def save() -> None:
             try:
-                window.files.save_screenshot(screenshot)
+                window.context[Files].save_screenshot(screenshot)
                 if save_session:
-                    window.session_file.save(save_session)
+                    window.context[SessionFile].save(save_session)
             except BihdistError as error:
                 failures.append(str(error))
             window.close()
@@ -79,7 +80,7 @@ def run_viewer(
         save_once(window, save_session)
     # The mesh is read while the panels are made.
     if isinstance(shown, str):
-        window.files.open(shown)
+        window.context[Files].open(shown)
     elif not is_empty:
         window.show_document(shown)
     window.show()
@@ -125,7 +126,7 @@ def save_once(window: MainWindow, path: str) -> None:
 
     def save() -> None:
         window.complete.disconnect(save)
-        window.session_file.save_or_say(path)
+        window.context[SessionFile].save_or_say(path)
 
     window.complete.connect(save)
 
@@ -135,5 +136,5 @@ def build_panels(window: MainWindow) -> None:
     it does, the window stands still for a tenth of a second."""
     window.build_panels()
     gc.freeze()
-    if window.remembers:
-        offer_lost_state(window)
+    if window.context.remembers:
+        offer_lost_state(window.context)

@@ -1,7 +1,4 @@
-"""Where the surface is seen from: standard views, which way is up, and where the camera has been, back and forth.
-
-`window` is the main window.
-"""
+"""Where the surface is seen from: standard views, which way is up, and where the camera has been, back and forth."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -16,8 +13,7 @@ from ..document.camera_text import camera_text, read_camera
 from ..document.document import Document
 from ..document.edits import stand
 from ..document.history import Trail
-from .look.numbers import MINUS
-from .preferences import save
+from .context import Context
 from .remembered import remember_up
 
 if TYPE_CHECKING:
@@ -30,16 +26,19 @@ STILL_MS = 500
 """When the camera has not moved for so long, what is seen is a view that one can come back to."""
 
 
-class Views:
+class Views(QtCore.QObject):
     """The views of the meshes; their history is apart from the document's.
 
     What is chosen is meant for the surface of the active panel, and for the other as well where they are linked.
     """
 
-    def __init__(self, window) -> None:
-        self._window = window
+    changed = QtCore.Signal()  # what is seen
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self._trail: Trail[Cameras] = Trail()
-        self._still = QtCore.QTimer(window, singleShot=True, interval=STILL_MS)
+        self._still = QtCore.QTimer(self, singleShot=True, interval=STILL_MS)
         self._still.timeout.connect(self._remember)
 
     def begin(self) -> None:
@@ -49,17 +48,17 @@ class Views:
 
     def document_changed(self, before: Document, is_other: bool, is_raised: bool) -> None:
         """Let the camera see what the document says.  is_other: another mesh is there; is_raised: the height is."""
-        window, document = self._window, self._window.session.document
-        if window.remembers and not is_other and document.up != before.up:
+        context, document = self._context, self._context.document
+        if context.remembers and not is_other and document.up != before.up:
             remember_up(document.surfaces[0].sha256, document.up)
-        window.grid.show_axes(document.axes)
-        for eye in (eye for eye in window.grid.eyes if eye.surface):
+        context.grid.show_axes(document.axes)
+        for eye in (eye for eye in context.grid.eyes if eye.surface):
             camera, up = document.camera_of(eye.surface), document.up_of(eye.surface)
             old_camera, old_up = before.camera_of(eye.surface), before.up_of(eye.surface)
             is_stood_otherwise = (up, document.projection) != (old_up, before.projection)
             follows = camera == "source" and document.points != before.points
             if is_other or is_raised or is_stood_otherwise or follows or camera != old_camera:
-                window.grid.turn_upright()
+                context.grid.turn_upright()
                 eye.look(camera)
                 self.rest_soon()
             if up != old_up and isinstance(camera, Camera) and camera == old_camera:
@@ -67,8 +66,8 @@ class Views:
 
     def moved(self, view: View, surface: str) -> None:
         """The camera of a surface sees this now."""
-        self._window.session.look(view, surface)
-        self._show_name()
+        self._context.session.look(view, surface)
+        self.changed.emit()
         self._offer()
         self.rest_soon()
 
@@ -81,7 +80,7 @@ class Views:
 
         Where two are linked, both see the same standard view, and move together to any other.
         """
-        grid, document = self._window.grid, self._window.session.document
+        grid, document = self._context.grid, self._context.document
         eye = self._active_eye
         before = eye.known
         self._see(view, eye)
@@ -96,6 +95,11 @@ class Views:
                     self.moved(followed, other.surface)
         grid.redraw()
 
+    def reset(self, view: View = "auto") -> None:
+        """See the surface from a standard view, or from where a camera is, if there is one."""
+        if self._context.session.surface is not None:
+            self.see(view)
+
     def _see(self, view: View, eye: "Eye") -> None:
         view = eye.look(view)
         # From where the source is now; the view does not follow it about.
@@ -104,15 +108,15 @@ class Views:
     @property
     def _active_eye(self) -> "Eye":
         """That of the active panel's surface."""
-        grid = self._window.grid
-        surfaces = {panel.id: panel.surface for panel in self._window.session.document.panels}
+        grid = self._context.grid
+        surfaces = {panel.id: panel.surface for panel in self._context.document.panels}
         return grid.eye_of(surfaces.get(grid.active, ""))
 
     def link(self) -> None:
         """As the menu says: two cameras move together from where they are, or each for itself."""
-        is_linked = self._window.actions_by_word["link"].isChecked()
-        self._window.session.link(is_linked)
-        self._window.say("The two cameras move together" if is_linked else "Each mesh is turned for itself")
+        is_linked = self._context.actions["link"].isChecked()
+        self._context.session.link(is_linked)
+        self._context.tell("The two cameras move together" if is_linked else "Each mesh is turned for itself")
 
     def back(self) -> None:
         """Look from where one looked before."""
@@ -124,104 +128,90 @@ class Views:
         self._see_again(self._trail.on())
 
     # ------------------------------------------------------------------ what is chosen
-    def show(self) -> None:
-        """Let menus and buttons say what is chosen."""
-        window, document = self._window, self._window.session.document
-        self._show_name()
-        up = self._up
-        window.tools["up"].show_value("" if up == "auto" else up.replace("-", MINUS))
-        window.menus.show_choice(window.menus.up, up)
-        for word, is_on in {
-            "orthographic": document.projection == "orthographic",
-            "axes": document.axes,
-            "turntable": window.preferences.turntable,
-        }.items():
-            window.actions_by_word[word].setChecked(is_on)
-
     def stand(self, up: str) -> None:
         """Let an axis, such as "z" or "-z", point up."""
-        session, name = self._window.session, self._surface
+        session, name = self._context.session, self._surface
         document = session.document
         is_first = not document.surfaces or name == document.surfaces[0].name
         session.show(stand(document, up) if is_first else stand_beside(document, up, name), key=f"up of {name}")
-        self.show()
+        self._context.choice_changed.emit()
 
     @property
     def _surface(self) -> str:
         """That of the active panel, by its name in the document; before there are panels the first."""
-        document, grid = self._window.session.document, self._window.grid
-        if grid is not None:
+        document = self._context.document
+        if self._context.is_built:
             return self._active_eye.surface
         return document.surfaces[0].name if document.surfaces else ""
 
     @property
-    def _up(self) -> str:
-        return self._window.session.document.up_of(self._surface)
+    def up(self) -> str:
+        """Which axis of the active panel's surface points up."""
+        return self._context.document.up_of(self._surface)
 
     def next_up(self) -> None:
         """From y to z, from z to x, from x to y."""
-        self.stand({"y": "z", "z": "x", "x": "y"}[self._up[-1]])
+        self.stand({"y": "z", "z": "x", "x": "y"}[self.up[-1]])
 
     def other_end_up(self) -> None:
         """What was up is down."""
-        up = self._up
+        up = self.up
         self.stand(up[1:] if up.startswith("-") else f"-{up}")
 
     def project(self) -> None:
         """As the menu says: nothing gets smaller with distance, or in perspective."""
-        session, is_on = self._window.session, self._window.actions_by_word["orthographic"].isChecked()
+        session, is_on = self._context.session, self._context.actions["orthographic"].isChecked()
         session.show(replace(session.document, projection="orthographic" if is_on else "perspective"))
 
     def show_axes(self) -> None:
         """As the menu says."""
-        session = self._window.session
-        session.show(replace(session.document, axes=self._window.actions_by_word["axes"].isChecked()))
+        session = self._context.session
+        session.show(replace(session.document, axes=self._context.actions["axes"].isChecked()))
 
     def turn_upright(self) -> None:
         """As the menu says: as on a turntable, or freely."""
-        window, is_on = self._window, self._window.actions_by_word["turntable"].isChecked()
-        window.preferences = replace(window.preferences, turntable=is_on)
-        if window.remembers:
-            save(window.preferences)
-        if window.grid is not None:
-            window.grid.turn_upright(is_on)
+        context, is_on = self._context, self._context.actions["turntable"].isChecked()
+        context.prefer(turntable=is_on)
+        if context.is_built:
+            context.grid.turn_upright(is_on)
 
     # ------------------------------------------------------------------ the camera as text
     def copy(self) -> None:
         """The camera, to the clipboard."""
         QtWidgets.QApplication.clipboard().setText(camera_text(self._active_eye.seen))
-        self._window.say("The camera is on the clipboard")
+        self._context.tell("The camera is on the clipboard")
 
     def paste(self) -> None:
         """Look from where the camera on the clipboard looks, or say what there is instead."""
         try:
             view = read_camera(QtWidgets.QApplication.clipboard().text())
         except BihdistError as error:
-            self._window.failed(str(error))
+            self._context.fail(error)
         else:
             self.see(view)
 
     # ------------------------------------------------------------------ where one has been
     def _remember(self) -> None:
-        self._trail.visit(_cameras(self._window.session.document))
+        self._trail.visit(_cameras(self._context.document))
         self._offer()
 
     def _offer(self) -> None:
         """What can be gone back to, and on."""
-        cameras, actions = _cameras(self._window.session.document), self._window.actions_by_word
+        cameras, actions = _cameras(self._context.document), self._context.actions
         actions["view before"].setEnabled(not self._trail.is_first(cameras))
         actions["view after"].setEnabled(not self._trail.is_last(cameras))
 
     def _see_again(self, cameras: "Cameras | None") -> None:
         known = dict(cameras or ())
-        for eye in self._window.grid.eyes:
+        for eye in self._context.grid.eyes:
             if eye.surface in known:
                 self._see(known[eye.surface], eye)
 
-    def _show_name(self) -> None:
-        """Let the button of views say what is seen."""
-        camera = self._window.session.document.camera_of(self._surface)
-        self._window.tools["views"].show_value(camera.capitalize() if isinstance(camera, str) else "Free")
+    @property
+    def name(self) -> str:
+        """What of the active panel's surface is seen, in a word."""
+        camera = self._context.document.camera_of(self._surface)
+        return camera.capitalize() if isinstance(camera, str) else "Free"
 
 
 def _cameras(document: Document) -> Cameras:

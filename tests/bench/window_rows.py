@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 
 from .case import EXACT, main_case
 from .child import in_child
@@ -180,6 +181,8 @@ def stalls(size: Size) -> Iterator[Line]:
 
 def _drawing(size: Size) -> tuple[float, float, float, int, int, int, int]:
     """Seconds of a click, of three pictures, and their ratio; pictures for a click, for pointing; places; vertices."""
+    from app.qt.panels.events import Click
+
     vertices, faces = bumpy_sphere(size.window[0])
     with mesh_file(vertices, faces) as path, _window(path) as (application, window):
         _wait(application, lambda: window.session.is_complete)
@@ -187,14 +190,14 @@ def _drawing(size: Size) -> tuple[float, float, float, int, int, int, int]:
         view, paints = panels[0].view, _Paints([panel.view for panel in panels])
         places = [_place(view, 0.5 + x, 0.5) for x in (-0.1, 0.1)]
         for place in places:
-            view.clicked.emit(view.pick(place))
+            view.happened.emit(Click(view.pick(place)))
             _wait(application, lambda: window.session.is_complete)
         _wait_a_while(application, STILL)
         turn = iter(range(10_000))
 
         def click() -> None:
             paints.begin()
-            view.clicked.emit(view.pick(places[next(turn) % 2]))
+            view.happened.emit(Click(view.pick(places[next(turn) % 2])))
             _wait(application, paints.are_done)
 
         def draw() -> None:
@@ -259,7 +262,7 @@ def _point(application: Any, window: Any, view: Any) -> Iterator[int | None]:
         )
         application.sendEvent(view, move)
         application.processEvents()
-        yield window.gestures.hovered
+        yield parts(window).gestures.hovered
 
 
 def _stalls(size: Size) -> tuple[float, float, int]:
@@ -323,7 +326,7 @@ def _window(path: str):
     application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bench"])
     document = comparison(path, COMPARED)
     window = MainWindow(document)
-    window.quiet, window.remembers = True, False
+    window.context.quiet, window.context.remembers = True, False
     window.show()
     application.processEvents()
     build_panels(window)

@@ -13,6 +13,8 @@ from bihdist_core.distances.kinds import Spec
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest
 
+from tests.qt.parts import parts
+
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
 KINDS = (BiharmonicDistance, GeodesicDistance)
 
@@ -27,7 +29,7 @@ def open_it(screen, path):
 
 
 def dock_of(s):
-    return s.window.docks._instrument("robustness")
+    return parts(s.window).docks._instrument("robustness")
 
 
 def complete(s):

@@ -25,7 +25,7 @@ class Screen:
 
         self.application = application
         self.window = MainWindow(comparison("", tuple(specs)))
-        self.window.quiet, self.window.remembers = True, False
+        self.window.context.quiet, self.window.context.remembers = True, False
         self.refusals, self.completions = [], []
         self.window.refused.connect(self.refusals.append)
         self.window.complete.connect(lambda: self.completions.append(self.source))

@@ -15,6 +15,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from tests.qt.parts import parts
+
 from .driver import Driver, Look
 from .instrument_scenes import instruments
 from .map_scenes import full_maps
@@ -95,7 +97,7 @@ def drive(look: Look, options: argparse.Namespace) -> None:
         driver.open(path)
         driver.point_at_surface(1)
         driver.shot(f"mesh {path.stem}")
-    driver.window.quiet = True
+    driver.window.context.quiet = True
     driver.window.close()
     sys.stdout.flush()
     os._exit(0)
@@ -155,14 +157,14 @@ def _bars_and_menus(d: Driver) -> None:
         d.shot(f"menu {action.text().strip('&')}")
         action.menu().hide()
     for style in ("lines", "dark", "paper"):
-        d.window.choices.style(style)
+        parts(d.window).choices.style(style)
         d.shot(f"style {style}")
 
 
 def _looks(d: Driver) -> None:
     """Colours, ranges, isolines, shading and cameras."""
     window, before = d.window, d.window.session.document
-    choices, first = window.choices, before.panels[0].id
+    choices, first = parts(window).choices, before.panels[0].id
     choices.colour_map("safe")
     choices.band_colours(True)
     d.shot("safe colours in bands")
@@ -208,9 +210,9 @@ def _panels(d: Driver) -> None:
     d.window.session.show(document)
     d.complete()
     d.shot("six panels")
-    d.window.choices.range("shared")
+    parts(d.window).choices.range("shared")
     d.shot("shared range")
-    d.window.choices.range("own")
+    parts(d.window).choices.range("own")
     while len(d.window.session.document.panels) > 3:
         d.window.session.undo()
     d.complete()
@@ -233,7 +235,7 @@ def _waiting(d: Driver) -> None:
         d.point_at_surface(2)
         d.shot("a hundred thousand vertices")
         first = d.window.session.document.panels[0].id
-        d.window.gestures.choose(first, quantity("truncated(k=300)"))
+        parts(d.window).choices.choose(first, quantity("truncated(k=300)"))
         d.spin(0.6)
         d.shot("computing")
         d.window.cancel()
@@ -250,7 +252,7 @@ def _dialogs(d: Driver) -> None:
     from app.qt.files.export_dialog import ExportDialog
     from app.qt.pages.messages import WhichFile, tell
 
-    d.window.files.export_figure()
+    parts(d.window).files.export_figure()
     (dialog,) = (each for each in d.application.topLevelWidgets() if isinstance(each, ExportDialog))
     d.until(lambda: dialog.pane.is_true)
     d.shot("export figure")
@@ -263,10 +265,10 @@ def _dialogs(d: Driver) -> None:
     dialog.choose_path()
     d.shot("a width that is none")
     d.close_dialogs()
-    d.window.files.export_movie()
+    parts(d.window).files.export_movie()
     d.shot("export movie")
     d.close_dialogs()
-    d.window.choices.ask_preferences()
+    parts(d.window).choices.ask_preferences()
     d.shot("preferences")
     d.close_dialogs()
     tell(d.window, "The mesh hand.off cannot be read: face 12 has the corner 99, and there are 50 vertices.")
@@ -286,18 +288,18 @@ def _help(d: Driver) -> None:
     d.tool("type", "difference")
     d.shot("commands with a word")
     d.close_dialogs()
-    d.window.guide.start_tour()
+    parts(d.window).guide.start_tour()
     for step in range(5):
-        d.window.guide.tour.go(step)
+        parts(d.window).guide.tour.go(step)
         d.shot(f"tour {step + 1}")
-    d.window.guide.tour.end()
+    parts(d.window).guide.tour.end()
 
 
 def _talk(d: Driver) -> None:
-    d.window.choices.toggle_full_screen()
+    parts(d.window).choices.toggle_full_screen()
     d.spin(0.6)
     d.shot("full screen")
-    d.window.choices.toggle_full_screen()
+    parts(d.window).choices.toggle_full_screen()
     d.spin(0.6)
     d.shot("after the full screen")
 

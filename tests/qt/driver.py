@@ -125,9 +125,13 @@ class Driver:
         act()
 
     def with_menu(self, button: str, name: str) -> None:
-        menu = self.window.tools[button].menu()
+        menu = self.window.tool_bar.buttons[button].menu()
         from qtpy import QtCore
 
-        menu.popup(self.window.tools[button].mapToGlobal(QtCore.QPoint(0, self.window.tools[button].height())))
+        menu.popup(
+            self.window.tool_bar.buttons[button].mapToGlobal(
+                QtCore.QPoint(0, self.window.tool_bar.buttons[button].height())
+            )
+        )
         self.shot(name)
         menu.hide()

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.qt.parts import parts
+
 from .hands import Hands
 
 SLACK = 0.002
@@ -19,11 +21,11 @@ KEPT = Path(os.environ["BIHDIST_KEPT"]) if os.environ.get("BIHDIST_KEPT") else N
 
 def faults(hands: Hands) -> list[str]:
     """In words; what was stopped is asked again before."""
-    if hands.window.choices.is_full_screen:
-        hands.window.choices.toggle_full_screen()
+    if parts(hands.window).choices.is_full_screen:
+        parts(hands.window).choices.toggle_full_screen()
     hands.window.actions_by_word["live"].setChecked(False)
-    hands.window.gestures.set_live(False)
-    hands.window.guide.end_tour()
+    parts(hands.window).gestures.set_live(False)
+    parts(hands.window).guide.end_tour()
     hands.shut()
     hands.tool("mousemove", hands.screen.width() - 2, hands.screen.height() - 2)
     hands.window.session.show(hands.window.session.document)  # what was stopped is asked again
@@ -31,7 +33,7 @@ def faults(hands: Hands) -> list[str]:
         return [f"never complete: {hands.window.session.progress}, {hands.done[-10:]}"]
     found = _untrue(hands)
     for word in hands.window.session.document.docks:  # a new window has them elsewhere, and its panels other sizes
-        hands.window.docks.close(word)
+        parts(hands.window).docks.close(word)
     hands.settle()
     return [*found, *_stale(hands)]
 
@@ -58,7 +60,7 @@ def _untrue(hands: Hands) -> list[str]:
             "head": widget.head.shows == panel.shows
             and widget.head.name.accessibleName()
             == f"Shown here: {_plain(panel, session) or quantity_name(panel.shows)}",
-            "style": widget.view.scene.style == canvas_style(window.page.style, LOOK.theme, document.colours),
+            "style": widget.view.scene.style == canvas_style(window.context.page.style, LOOK.theme, document.colours),
             "source": widget.source == _start(panel, document, session, vertex_at),
             "not dimmed": not widget.view._is_dimmed and widget.waiting.isHidden(),
             "maximum": answer.field is None or (reading.maximum == answer.maximum and reading.high == top),
@@ -69,10 +71,10 @@ def _untrue(hands: Hands) -> list[str]:
     starting = [name for panel in document.panels for name in panel.shows.points]
     points = [document.point(name) for name in starting[:1]]
     known = "".join(words_of(source_at(point.at, session.loaded(point.surface).surface)) for point in points)
-    if window.source_box.text() != known:
-        found.append(f"the box says {window.source_box.text()!r}, the document {known}")
+    if parts(window).typed_source.box.text() != known:
+        found.append(f"the box says {parts(window).typed_source.box.text()!r}, the document {known}")
     names = ", ".join(dict.fromkeys(session.loaded(mesh.name).surface.name for mesh in document.surfaces))
-    path = window.session_file.path
+    path = parts(window).session_file.path
     title = f"{Path(path).name}[*] - {names}" if path else f"{names}[*]"
     if window.windowTitle() != f"{title} - Biharmonic distance":
         found.append(f"title {window.windowTitle()}")
@@ -89,12 +91,12 @@ def _stale(hands: Hands) -> list[str]:
     before = _pictures(window)
     window.grid.redraw()
     found += _differing("drawn again", before, _pictures(window))
-    window.changes.show_all_again()
+    parts(window).changes.show_all_again()
     hands.spin(0.3)
     found += _differing("shown again", before, _pictures(window))
     other = hands.new_window(type(window), window.session.document)
-    other.page = window.page
-    other.apply_theme()
+    other.context.page = window.context.page
+    other.context.style_changed.emit()
     other.resize(window.size())
     other.show_document(window.session.document)
     hands.until(lambda: other.session.is_complete)

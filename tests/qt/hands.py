@@ -58,7 +58,7 @@ class Hands:
     @staticmethod
     def new_window(kind: type, document: object) -> object:
         window = kind(document)
-        window.quiet, window.remembers = True, False
+        window.context.quiet, window.context.remembers = True, False
         window.show()
         window.build_panels()
         return window

@@ -8,6 +8,7 @@ from app.document.pins import Pins
 from app.document.profile import Profile
 from app.document.regions import DividedPanels
 from app.document.tools import docked_tools
+from tests.qt.parts import parts
 
 from .hands import Hands
 
@@ -43,7 +44,7 @@ class InstrumentHands(Hands):
         self.window.actions_by_word["draw source"].trigger()
         self._drag([], [])
         self.key("Esc")
-        if self.window.gestures.sources.is_drawing:
+        if parts(self.window).sources.is_drawing:
             self.window.actions_by_word["draw source"].trigger()
 
     def _drag(self, before: list, after: list) -> None:
@@ -62,7 +63,7 @@ class InstrumentHands(Hands):
     # ------------------------------------------------------------------ docks
     def _dock(self):
         """One that is open, or is now."""
-        docks = self.window.docks
+        docks = parts(self.window).docks
         loaded = self.window.session.document.docks
         if not loaded or (len(loaded) < 3 and self.chance.random() < 0.5):
             docks.toggle(self.chance.choice([word for word in docked_tools() if word not in loaded]))
@@ -71,7 +72,7 @@ class InstrumentHands(Hands):
         return docks._docks[self.chance.choice(loaded)] if loaded else None
 
     def toggle_dock(self) -> None:
-        self.window.docks.toggle(self.chance.choice(list(docked_tools())))
+        parts(self.window).docks.toggle(self.chance.choice(list(docked_tools())))
 
     def in_dock(self) -> None:
         """The pointer goes somewhere in a dock, and clicks, drags or turns the wheel there."""
@@ -156,7 +157,7 @@ class InstrumentHands(Hands):
             session.show(show_regions(session.document, panel, panel not in session.document[DividedPanels].regions))
 
     def farthest(self) -> None:
-        dock = self._dock() and self.window.docks._docks.get("regions")
+        dock = self._dock() and parts(self.window).docks._docks.get("regions")
         if dock is not None and not dock.isHidden():
             dock.content.sampler.count.setValue(self.chance.randint(2, 6))
             if dock.content.sampler.pin.isEnabled():
@@ -164,7 +165,7 @@ class InstrumentHands(Hands):
 
     def interpolate(self) -> None:
         """Interpolants, or distances again; then a click is an anchor."""
-        docks = self.window.docks
+        docks = parts(self.window).docks
         if "anchors" not in self.window.session.document.docks:
             docks.toggle("anchors")
             self.spin(0.05)
@@ -178,7 +179,7 @@ class InstrumentHands(Hands):
 
     def in_anchors(self) -> None:
         """A row of the list: its eye, slider and keys, samples, and the panels' Delete."""
-        docks = self.window.docks
+        docks = parts(self.window).docks
         dock = docks._docks["anchors"].content if "anchors" in docks._docks else None
         if dock is None or not dock.rows or not dock.isVisible():
             return
@@ -201,7 +202,7 @@ class InstrumentHands(Hands):
 
     def change_mesh(self) -> None:
         """Noise, holes, fewer vertices, a stroke that cuts, two places that are joined; or as it was."""
-        docks = self.window.docks
+        docks = parts(self.window).docks
         if "robustness" not in self.window.session.document.docks:
             docks.toggle("robustness")
             self.spin(0.05)
@@ -231,7 +232,7 @@ class InstrumentHands(Hands):
 
     def correspond(self) -> None:
         """A second mesh with the tool, or the first alone again; then clicks are points of pairs."""
-        session, docks = self.window.session, self.window.docks
+        session, docks = self.window.session, parts(self.window).docks
         if len(session.document.surfaces) < 2:
             session.open_beside(self.chance.choice(self.meshes[:2]))
             self.until(lambda: not session.is_opening)
@@ -249,7 +250,7 @@ class InstrumentHands(Hands):
 
     def in_pairs(self) -> None:
         """A row of the list, a drop, and the keys of the tool."""
-        docks, document = self.window.docks, self.window.session.document
+        docks, document = parts(self.window).docks, self.window.session.document
         dock = docks._docks["pairs"].content if "pairs" in docks._docks else None
         if dock is None or not document[Pairs].pairs or not dock.isVisible():
             return
@@ -289,7 +290,7 @@ class InstrumentHands(Hands):
 
     def in_maps(self) -> None:
         """The section of errors: what is right, full maps, the map of a file, the chart."""
-        docks, document = self.window.docks, self.window.session.document
+        docks, document = parts(self.window).docks, self.window.session.document
         dock = docks._docks["pairs"].content if "pairs" in docks._docks else None
         if dock is None or not dock.isVisible() or not dock.errors.isVisible():
             return

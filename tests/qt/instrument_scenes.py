@@ -6,6 +6,7 @@ from typing import Any
 
 from app.document.pins import Pins
 from app.document.selections import Selections
+from tests.qt.parts import parts
 
 from .driver import Driver
 
@@ -82,7 +83,7 @@ def _dock(d: Driver, word: str, key: str = "") -> Any:
         _to_panels(d)
         d.pointer("key", key)
     d.complete()
-    return d.window.docks._docks[word].content
+    return parts(d.window).docks._docks[word].content
 
 
 def _to_panels(d: Driver) -> None:
@@ -94,7 +95,7 @@ def _to_panels(d: Driver) -> None:
 
 def _close_all(d: Driver) -> None:
     for word in d.window.session.document.docks:
-        d.window.docks.close(word)
+        parts(d.window).docks.close(word)
     d.complete()
 
 
@@ -253,7 +254,7 @@ def _interpolation(d: Driver) -> None:
         d.pointer("type", value)
         d.pointer("key", "Return")
         d.complete()
-    d.until(lambda: d.window.docks.findings.is_complete and "…" not in str(dock.extrema.facts))
+    d.until(lambda: parts(d.window).findings.is_complete and "…" not in str(dock.extrema.facts))
     d.shot("anchors")
     row = list(dock.rows.values())[3]
     x, y = _on(d, row.slider, 0.7, 0.5)
@@ -263,7 +264,7 @@ def _interpolation(d: Driver) -> None:
     _press(d, dock.samples.add)
     d.until(lambda: len(dock.rows) > len(ANCHORED))
     d.complete()
-    d.until(lambda: d.window.docks.findings.is_complete)
+    d.until(lambda: parts(d.window).findings.is_complete)
     d.shot("samples as anchors")
     _scroll_of(dock).ensureWidgetVisible(dock.shows)
     d.pointer("mousemove", *_on(d, dock.shows, 0.75, 0.5), "click", 1)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from app.document.pins import Pins
+from tests.qt.parts import parts
 
 
 def ids(s):
@@ -31,7 +32,7 @@ def seen_vertices(s, count):
 def dock_of(s):
     s.window.actions_by_word["dock pins"].trigger()
     s.settle(0.1)
-    return s.window.docks._docks["pins"].content
+    return parts(s.window).docks._docks["pins"].content
 
 
 def type_ids(s, dock, text):

@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from app.document.tools import docked_tools
+from tests.qt.parts import parts
 
 from .faults import faults
 from .hands import rss
@@ -112,11 +113,11 @@ class RandomHands(InstrumentHands):
     def choose(self) -> None:
         from app.document.quantities import quantity
 
-        self.window.gestures.choose(self.panel(), quantity(self.chance.choice(QUANTITIES)))
+        parts(self.window).choices.choose(self.panel(), quantity(self.chance.choice(QUANTITIES)))
 
     # ------------------------------------------------------------------ how it looks
     def isolines(self) -> None:
-        choices, document = self.window.choices.isoline, self.window.session.document
+        choices, document = parts(self.window).choices.isoline, self.window.session.document
         maxima = [shown.answer.maximum for shown in self.window.session.shown.values() if shown.answer.maximum]
         least, most = (min(maxima), max(maxima)) if maxima else (1.0, 1.0)
         way = self.chance.choice(["steps", "spacing", "values", "bold", "labels", "through", "none", "other"])
@@ -142,7 +143,7 @@ class RandomHands(InstrumentHands):
     def range(self) -> None:
         from app.document.looks import RANGES
 
-        choices, session = self.window.choices, self.window.session
+        choices, session = parts(self.window).choices, self.window.session
         way = self.chance.choice([*RANGES, "typed", "taken"])
         panel = self.panel()
         if way == "typed":
@@ -151,7 +152,7 @@ class RandomHands(InstrumentHands):
         elif way == "taken":
             path = self.folder / "ends.json"
             if not path.exists() and session.surface is not None:
-                self.window.session_file.save(str(path))
+                parts(self.window).session_file.save(str(path))
             choices.ends.take(str(path))
         else:
             choices.range(way)
@@ -159,7 +160,7 @@ class RandomHands(InstrumentHands):
     def colours(self) -> None:
         from app.scene.colour_maps import MAPS
 
-        choices, menu = self.window.choices, self.window.menus.colours
+        choices, menu = parts(self.window).choices, self.window.menus.colours
         way = self.chance.choice(["map", "map", "file", "reversed", "bands"])
         if way == "map":
             choices.colour_map(self.chance.choice(["", *MAPS]))
@@ -176,12 +177,12 @@ class RandomHands(InstrumentHands):
         if self.chance.random() < 0.4:
             self.window.actions_by_word["wireframe"].trigger()
         else:
-            self.window.choices.shading(self.chance.choice(NORMALS))
+            parts(self.window).choices.shading(self.chance.choice(NORMALS))
 
     def camera(self) -> None:
         from bihdist_core.analysis.upright import DIRECTIONS
 
-        views, words = self.window.views, ["orthographic", "axes", "turntable", "view source", "copy camera"]
+        views, words = parts(self.window).views, ["orthographic", "axes", "turntable", "view source", "copy camera"]
         way = self.chance.choice([*words, "paste camera", "up", "up"])
         if way == "up":
             if self.window.session.surface is not None:
@@ -207,15 +208,15 @@ class RandomHands(InstrumentHands):
         self.shut()
 
     def style(self) -> None:
-        self.window.choices.style(self.chance.choice(["paper", "uniform", "lines", "dark"]))
+        parts(self.window).choices.style(self.chance.choice(["paper", "uniform", "lines", "dark"]))
 
     def theme(self) -> None:
-        self.window.choices.theme(self.chance.choice(["light", "dark", "desktop"]))
+        parts(self.window).choices.theme(self.chance.choice(["light", "dark", "desktop"]))
 
     def edit_panels(self) -> None:
         from app.document.edits import PANEL_EDITS
 
-        self.window.choices.edit_panel(self.panel(), self.chance.choice([*PANEL_EDITS, "Remove it"]))
+        parts(self.window).choices.edit_panel(self.panel(), self.chance.choice([*PANEL_EDITS, "Remove it"]))
 
     def undo(self) -> None:
         for _ in range(self.chance.randint(1, 4)):
@@ -251,17 +252,17 @@ class RandomHands(InstrumentHands):
         self.window.resize(1500, 950)
         count = len(session.document.panels)
         for _ in range(MOST_ADDED - count):
-            self.window.choices.add_panel()
+            parts(self.window).choices.add_panel()
         self.until(lambda: session.is_complete)
         self.spin(0.1)
         while len(session.document.panels) > count:
-            self.window.choices.edit_panel(session.document.panels[-1].id, "Remove it")
+            parts(self.window).choices.edit_panel(session.document.panels[-1].id, "Remove it")
         for word in docked_tools():
-            self.window.docks.toggle(word)
+            parts(self.window).docks.toggle(word)
             self.spin(0.2)
         self.until(lambda: session.is_complete)
         for word in session.document.docks:
-            self.window.docks.close(word)
+            parts(self.window).docks.close(word)
         self.window.resize(size)
         self.spin(0.1)
 

@@ -8,6 +8,8 @@ import os
 import sys
 from pathlib import Path
 
+from tests.qt.parts import parts
+
 from .hands import Hands
 
 
@@ -17,12 +19,12 @@ def main() -> None:
     window, wanted = hands.window, [int(side) for side in os.environ["WINDOW_SIZE"].split("x")]
     window.resize(*wanted)
     hands.spin(0.2)
-    window.session_file.open(session)
+    parts(window).session_file.open(session)
     hands.until(lambda: window.session.surface is not None and not window.session.is_opening)
     rested(hands)
     window.grab().save(picture)
     shown = [written(window)]
-    window.gestures.choose(window.session.document.panels[0].id, window.session.document.panels[1].shows)
+    parts(window).choices.choose(window.session.document.panels[0].id, window.session.document.panels[1].shows)
     hands.settle()
     shown.append(written(window))
     window.session.undo()
@@ -42,7 +44,7 @@ def rested(hands: Hands) -> None:
 def written(window) -> dict:
     from app.document.form import document_data
 
-    return document_data(window.session_file.recipe().document)
+    return document_data(parts(window).session_file.recipe().document)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import numpy as np
 
 from app.main import main
+from tests.qt.parts import parts
 
 
 def open_file(s, path, source):
@@ -51,7 +52,7 @@ def drag(s, places, panel=0, end=True):
 def typed(s, words):
     from qtpy import QtTest
 
-    box = s.window.source_box
+    box = parts(s.window).typed_source.box
     box.setFocus()
     box.selectAll()
     QtTest.QTest.keyClicks(box, f"{words}\r")

@@ -21,6 +21,7 @@ from qtpy import QtCore, QtTest
 
 from app.document.anchors import Anchors
 from app.qt.panels.anchor_labels import label_boxes
+from tests.qt.parts import parts
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
 BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
@@ -39,7 +40,7 @@ def loaded(screen, mesh_file):
 
 
 def dock_of(s):
-    return s.window.docks._instrument("anchors")
+    return parts(s.window).docks._instrument("anchors")
 
 
 def click(s, panel, vertex):
@@ -171,7 +172,7 @@ def test_weights_and_extrema_are_those_of_the_library(loaded):
     complete(s)
     assert (s.document[Anchors].weights.exponent, s.document[Anchors].weights.smoothness) == (2.5, 0.1)
     check(s)
-    s.until(lambda: "…" not in str(dock.extrema.facts) and s.window.docks.findings.is_complete)
+    s.until(lambda: "…" not in str(dock.extrema.facts) and parts(s.window).findings.is_complete)
     s.settle(0.05)
     vertices = SourceSet(tuple(s.document.point(a.point).at for a in s.document[Anchors].anchors))
     for panel, (_, at_tips, elsewhere) in enumerate(dock.extrema.facts[1:]):
@@ -190,7 +191,7 @@ def test_extrema_are_marked_on_interpolants_only(loaded):
 
     def rest():
         complete(s)
-        s.until(lambda: s.window.docks.findings.is_complete)
+        s.until(lambda: parts(s.window).findings.is_complete)
         s.settle(0.05)
 
     def counted():
@@ -226,7 +227,7 @@ def test_anchors_are_saved_and_read_and_kept_in_sessions(loaded, tmp_path):
     QtTest.QTest.keyClick(rows[0].name, QtCore.Qt.Key.Key_Return)
     complete(s)
     before, field = s.document, s.answers[0].field
-    s.window.session_file.save(str(tmp_path / "session.json"))
+    parts(s.window).session_file.save(str(tmp_path / "session.json"))
     from app.document.file import read_recipe
 
     kept = read_recipe(str(tmp_path / "session.json")).document

@@ -14,6 +14,7 @@ from app.document.tools import docked_tools
 from app.scene.camera import frame
 from bihdist_core import Surface
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 from tests.shapes import bumpy, grid
 
 ONE = (Spec.of("geodesic", method="dijkstra"),)
@@ -147,12 +148,12 @@ def test_a_session_of_two_meshes_is_opened_again_and_drawn(two, screen, tmp_path
     s, path = two, tmp_path / "s.json"
     s.window.actions_by_word["link"].trigger()
     s.panels[1].view.turn_by(1, 1)
-    s.window.session_file.save(str(path))
+    parts(s.window).session_file.save(str(path))
     recipe = read_recipe(str(path))
     assert recipe.document.beside == s.document.beside
     assert recipe.document.beside[0].camera != "home"
     other = screen(ONE)
-    other.window.session_file.open(str(path))
+    parts(other.window).session_file.open(str(path))
     other.until(lambda: other.session.is_complete and len(other.document.surfaces) == 2)
     other.settle()
     assert other.document == s.document
@@ -167,7 +168,7 @@ def test_three_meshes_are_refused_in_a_sentence(two, tmp_path):
     s = two
     more = replace(s.document, surfaces=(*s.document.surfaces, replace(s.document.surfaces[0], name="C")))
     (tmp_path / "three.json").write_text(recipe_text(Recipe(more), "1"))
-    s.window.session_file.open(str(tmp_path / "three.json"))
+    parts(s.window).session_file.open(str(tmp_path / "three.json"))
     assert "up to 2 meshes" in s.refusals[-1]
 
 
@@ -177,7 +178,7 @@ def test_all_docks_live_with_a_second_mesh_of_another_size(screen, mesh_file):
     s.session.show(open_beside(s.document, MeshFile("", str(mesh_file(bumpy(500), "second.off")))))
     s.until(lambda: len(s.document.surfaces) == 2 and s.session.is_complete)
     for word in docked_tools():
-        s.window.docks.toggle(word)
+        parts(s.window).docks.toggle(word)
         s.settle(0.1)
         for number in (1, 0):
             s.window.grid.activate(s.panels[number].id)
@@ -186,5 +187,5 @@ def test_all_docks_live_with_a_second_mesh_of_another_size(screen, mesh_file):
             s.settle(0.1)
             click(s, number, foremost(s, number), QtCore.Qt.KeyboardModifier.ShiftModifier)
     s.until(lambda: s.session.is_complete)
-    s.window.docks.close_all()
+    parts(s.window).docks.close_all()
     assert not s.refusals

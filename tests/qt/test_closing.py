@@ -20,6 +20,7 @@ from app.document.pins import add_pins
 from app.document.selections import select
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.sources.source import Curve, SurfacePoint
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -60,7 +61,7 @@ def curve():
 def test_closing_asks_where_work_would_be_lost_that_was_never_saved(screen, mesh_file, tmp_path):
     s, asked = screen(), Asked()
     s.open(mesh_file(bumpy(300)), 5)
-    file = s.window.session_file
+    file = parts(s.window).session_file
     s.session.show(move_source(s.document, 0, 6))
     assert file.may_close(asked.answering("cancel"))
     s.until(lambda: title(s.window) == ("mesh.off[*] - Biharmonic distance", False))
@@ -77,7 +78,7 @@ def test_closing_asks_where_work_would_be_lost_that_was_never_saved(screen, mesh
         s.session.show(WORK[word](s.document))
     assert not file.may_close(asked.answering("cancel"))
     assert asked.pop() == "The pins, anchors and drawn sources have not been saved."
-    s.window.curve_files.save(curve(), str(tmp_path / "curve.json"))
+    parts(s.window).curve_files.save(curve(), str(tmp_path / "curve.json"))
     assert not file.may_close(asked.answering("cancel"))
     assert asked.pop() == "The pins and anchors have not been saved."
     assert file.may_close(asked.answering("discard"))
@@ -87,10 +88,10 @@ def test_what_was_given_from_outside_is_not_asked_about_until_there_is_more(scre
     s, asked = screen(), Asked()
     s.window.show_document(add_pins(comparison(mesh_file(bumpy(300)), sources=(curve(),)), [7, 8]))
     s.until(lambda: s.session.is_complete)
-    assert s.window.session_file.may_close(asked.answering("cancel"))
+    assert parts(s.window).session_file.may_close(asked.answering("cancel"))
     assert not s.window.isWindowModified()
     s.session.show(add_pins(s.document, [9]))
-    assert not s.window.session_file.may_close(asked.answering("cancel"))
+    assert not parts(s.window).session_file.may_close(asked.answering("cancel"))
     assert asked == ["The pins have not been saved."]
 
 
@@ -100,7 +101,7 @@ def test_pairs_are_asked_about(screen, mesh_file):
     s.session.open_beside(mesh_file(bumpy(120), "other.off"))
     s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
     s.session.show(place_point(s.document, "A", 7))
-    assert not s.window.session_file.may_close(asked.answering("cancel"))
+    assert not parts(s.window).session_file.may_close(asked.answering("cancel"))
     assert asked == ["The pairs have not been saved."]
     s.until(lambda: title(s.window) == ("mesh.off, other.off[*] - Biharmonic distance", True))
 
@@ -108,7 +109,7 @@ def test_pairs_are_asked_about(screen, mesh_file):
 def test_closing_asks_where_a_session_has_changed_since_it_was_saved(screen, mesh_file, tmp_path):
     s, asked = screen(), Asked()
     s.open(mesh_file(bumpy(300)), 5)
-    file = s.window.session_file
+    file = parts(s.window).session_file
     file.save(str(tmp_path / "s [*].json"))
     s.until(lambda: title(s.window) == ("s [*][*].json[*] - mesh.off - Biharmonic distance", False))
     s.window.reset_view("top")
@@ -137,13 +138,13 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
     from app.qt.files.session_actions import offer_lost_state
 
     s, saved = screen(), tmp_path / "s.json"
-    s.window.remembers = True
+    s.window.context.remembers = True
     s.open(mesh_file(bumpy(300)), 5)
     if was_saved:
-        s.window.session_file.save(str(saved))
+        parts(s.window).session_file.save(str(saved))
     s.session.show(replace(move_source(s.document, 0, 9), isolines=12))
     s.until(lambda: s.session.is_complete)
-    s.window.session_file.keep()
+    parts(s.window).session_file.keep()
     assert remembered.own_state().exists()
     assert remembered.lost_states() == []  # this process is there
     # Another process keeps its state, and ends without a word once it is told to.
@@ -164,15 +165,15 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
         process.wait()
     assert remembered.lost_states() == [lost]
     other, asked = screen(), Asked()
-    other.window.remembers = True
-    offer_lost_state(other.window)
+    other.window.context.remembers = True
+    offer_lost_state(other.window.context)
     box = other.window.findChild(QMessageBox)
     box.button(QMessageBox.StandardButton.Yes).click()
     other.until(lambda: other.session.is_complete)
     assert other.document == s.document
     # It is kept by the other window from now on.
     assert remembered.lost_states() == []
-    file = other.window.session_file
+    file = parts(other.window).session_file
     name = "s.json[*] - mesh.off" if was_saved else "mesh.off[*]"
     other.until(lambda: title(other.window) == (f"{name} - Biharmonic distance", True))
     assert not file.may_close(asked.answering("cancel"))
@@ -198,12 +199,12 @@ def test_what_is_shown_again_stays_where_it_was_kept_if_it_cannot_be_kept_anew(s
         raise OutputError("The disk is full.")
 
     s = screen()
-    s.window.remembers = True
+    s.window.context.remembers = True
     remembered.folder().mkdir(parents=True)
     lost = remembered.folder() / "open-999999.json"
     lost.write_text(recipe_text(Recipe(comparison(mesh_file(bumpy(60)))), "9"))
     monkeypatch.setattr(SessionFile, "_write", write)
-    offer_lost_state(s.window)
+    offer_lost_state(s.window.context)
     s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.Yes).click()
     s.until(lambda: s.session.is_complete)
     assert remembered.lost_states() == [lost]
@@ -219,11 +220,11 @@ def test_what_cannot_be_shown_again_is_offered_the_next_time(screen, mesh_file):
     remembered.folder().mkdir(parents=True)
     lost = remembered.folder() / "open-999999.json"
     lost.write_text(recipe_text(Recipe(comparison(str(lost.parent / "gone.off"))), "9"))
-    offer_lost_state(s.window)
+    offer_lost_state(s.window.context)
     s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.Yes).click()
     assert "gone.off is not there" in s.refusals[-1]
     assert remembered.lost_states() == [lost]
     s.settle(0.05)
-    offer_lost_state(s.window)
+    offer_lost_state(s.window.context)
     s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.No).click()
     assert remembered.lost_states() == []

@@ -17,6 +17,7 @@ from app.scene.colour_maps import MAPS
 from app.scene.style import STYLES
 from app.session.array_store import ArrayStore
 from app.session.recipe_file import recipe_written
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 WORDS = ("biharmonic", "geodesic")
@@ -57,12 +58,12 @@ def test_a_map_is_chosen_shown_and_undone(shown):
     assert shown.document.colours == Colours("ember")
     assert shown.panels[0].view.scene.style.stops == MAPS["ember"].stops
     assert not are_equal(before, pixels(shown))
-    assert "Ember" in shown.window.tools["colours"].accessibleDescription()
+    assert "Ember" in shown.window.tool_bar.buttons["colours"].accessibleDescription()
     shown.window.menus.colours.bands.trigger()
     shown.window.menus.colours.reversed.trigger()
     shown.settle()
     assert shown.document.colours == Colours("ember", (), True, True)
-    assert shown.window.tools["colours"].accessibleDescription() == "Ember, reversed, bands"
+    assert shown.window.tool_bar.buttons["colours"].accessibleDescription() == "Ember, reversed, bands"
     for _ in range(3):
         shown.window.session.undo()
     shown.settle()
@@ -90,24 +91,24 @@ def test_styles_and_maps_have_names_of_their_own_and_lines_have_no_map(shown):
     choose(shown, "lines")
     assert not any(action.isEnabled() for action in (menu.bands, menu.reversed))
     assert menu.isEnabled()
-    assert shown.window.tools["colours"].accessibleDescription() == "Lines only"
+    assert shown.window.tool_bar.buttons["colours"].accessibleDescription() == "Lines only"
     assert ticked(shown) == ["Lines only", "Uniform"]
 
 
 def test_the_style_that_is_a_map_of_another_is_shown_as_that_map(shown):
-    shown.window.page = replace(shown.window.page, style="uniform")
-    shown.window.apply_theme()
-    shown.window.choices.show()
+    shown.window.context.page = replace(shown.window.context.page, style="uniform")
+    shown.window.context.style_changed.emit()
+    shown.window.context.choice_changed.emit()
     assert ticked(shown) == ["White ground", "Uniform"]
-    assert shown.window.tools["colours"].accessibleDescription() == "Uniform"
+    assert shown.window.tool_bar.buttons["colours"].accessibleDescription() == "Uniform"
     choose(shown, "dark")
-    assert (shown.window.page.style, shown.document.colours) == ("dark", Colours("uniform"))
+    assert (shown.window.context.page.style, shown.document.colours) == ("dark", Colours("uniform"))
     assert ticked(shown) == ["Dark ground", "Uniform"]
 
 
 def test_bands_are_on_the_bar_where_the_isolines_are(shown):
-    shown.window.choices.isolines(6)
-    shown.window.choices.band_colours(True)
+    parts(shown.window).choices.isolines(6)
+    parts(shown.window).choices.band_colours(True)
     shown.settle()
     bar = shown.panels[0].bar
     picture, box = bar.grab().toImage(), bar._layout.bar
@@ -124,12 +125,12 @@ def test_bands_are_on_the_bar_where_the_isolines_are(shown):
 
 def test_a_map_from_a_file(shown, tmp_path):
     (tmp_path / "mine.csv").write_text("r,g,b\n10,20,30\n200,180,90\n")
-    shown.window.choices.take_colours(str(tmp_path / "mine.csv"))
+    parts(shown.window).choices.take_colours(str(tmp_path / "mine.csv"))
     shown.settle()
     assert shown.document.colours.map == "mine"
-    assert shown.window.tools["colours"].accessibleDescription() == "mine"
+    assert shown.window.tool_bar.buttons["colours"].accessibleDescription() == "mine"
     (tmp_path / "none.csv").write_text("10,20\n")
-    shown.window.choices.take_colours(str(tmp_path / "none.csv"))
+    parts(shown.window).choices.take_colours(str(tmp_path / "none.csv"))
     assert "none.csv, line 1: there are 2 numbers" in shown.refusals[-1]
     assert shown.document.colours.map == "mine"
 
@@ -169,7 +170,7 @@ def test_an_end_is_typed_at_the_bar(shown):
     assert panel.view.scene.maximum == end
     assert bar_of(shown)._beyond == (False, True)
     assert shown.document.panels[1].maximum is None
-    assert shown.window.tools["range"].accessibleDescription() == "Typed"
+    assert shown.window.tool_bar.buttons["range"].accessibleDescription() == "Typed"
     assert [action.text() for action in shown.window.menus.range.actions() if action.isChecked()] == [
         "This panel ends at…"
     ]
@@ -181,16 +182,16 @@ def test_an_end_is_typed_at_the_bar(shown):
 
 
 def test_shares_are_read_on_the_bar_and_colour_as_before(shown):
-    shown.window.choices.isolines(0)  # those of shares are at round percentages
+    parts(shown.window).choices.isolines(0)  # those of shares are at round percentages
     shown.settle()
     before = pixels(shown)
-    shown.window.choices.end_at(1, 0.2)
-    shown.window.choices.range("shares")
+    parts(shown.window).choices.end_at(1, 0.2)
+    parts(shown.window).choices.range("shares")
     shown.settle()
     assert ticks(shown)[0] == "0 %"
     assert ticks(shown)[-1].endswith("100 %")
     assert are_equal(before, pixels(shown))
-    shown.window.choices.range("own")
+    parts(shown.window).choices.range("own")
     shown.settle()
     assert shown.document.panels[1].maximum is None
     assert not any("%" in tick for tick in ticks(shown))
@@ -206,11 +207,11 @@ def saved(shown, tmp_path, **more):
 def test_ends_are_taken_from_a_session(shown, tmp_path):
     path = saved(shown, tmp_path)
     own = [answer.maximum for answer in shown.answers]
-    shown.window.typed_source.choose(7)
+    parts(shown.window).typed_source.choose(7)
     shown.until(lambda: shown.session.is_complete)
     said = []
-    shown.window.choices.ends.taken.connect(said.append)
-    shown.window.choices.ends.take(str(path))
+    parts(shown.window).choices.ends.taken.connect(said.append)
+    parts(shown.window).choices.ends.take(str(path))
     shown.until(lambda: said or shown.refusals)
     shown.settle()
     assert [panel.maximum for panel in shown.document.panels] == own
@@ -220,7 +221,7 @@ def test_ends_are_taken_from_a_session(shown, tmp_path):
 
 
 def test_ends_that_cannot_be_taken_are_refused_and_those_in_the_making_cancelled(shown, tmp_path):
-    ends = shown.window.choices.ends
+    ends = parts(shown.window).choices.ends
     (tmp_path / "none.json").write_text(json.dumps({"a": 1}))
     ends.take(str(tmp_path / "none.json"))
     shown.until(lambda: shown.refusals)

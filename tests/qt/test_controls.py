@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -35,7 +36,7 @@ def test_the_empty_window_s_controls_too(screen):
 def test_every_action_of_the_tool_bar_names_its_key(screen):
     s = screen()
     for name, key in {"undo": "Ctrl+Z", "redo": "Ctrl+Shift+Z", "live": "L", "export": "Ctrl+E"}.items():
-        assert f"({key})" in s.window.tools[name].toolTip()
+        assert f"({key})" in s.window.tool_bar.buttons[name].toolTip()
 
 
 def test_no_two_actions_have_one_key():
@@ -58,15 +59,17 @@ def test_keys_work_while_something_is_typed(screen, mesh_file, monkeypatch, key)
         action.triggered.disconnect()
         shown = action.shortcut().toString()
         action.triggered.connect(lambda *_, shown=shown: done.append(shown))
-    s.window.source_box.setFocus()
+    parts(s.window).typed_source.box.setFocus()
     s.settle(0.2)
     code = QtGui.QKeySequence(key)[0]
     QtTest.QTest.keyClick(
-        s.window.source_box, code & 0x01FFFFFF, s.application.keyboardModifiers().__class__(code & ~0x01FFFFFF)
+        parts(s.window).typed_source.box,
+        code & 0x01FFFFFF,
+        s.application.keyboardModifiers().__class__(code & ~0x01FFFFFF),
     )
     s.settle(0.1)
     assert done == [key]
-    assert s.window.source_box.text() == "5"
+    assert parts(s.window).typed_source.box.text() == "5"
 
 
 def test_the_full_screen_of_a_talk_has_panels_only_and_one_comes_back(screen, mesh_file):
@@ -138,8 +141,8 @@ def test_what_has_no_room_in_the_tool_bar_is_in_the_menu_of_the_dots_at_every_wi
         return offered
 
     for source in ("5", "12+40+7+55+60+61+62+63"):
-        window.source_box.setText(source)
-        window.source_box._choose()
+        parts(window).typed_source.box.setText(source)
+        parts(window).typed_source.box._choose()
         s.until(lambda: s.session.is_complete)
         for width in (1600, 1500, 1400, 1250, 1100, 900, 800, 700, 640):
             check(width)

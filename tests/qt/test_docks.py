@@ -3,6 +3,7 @@
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 WORDS = ("statistics", "quality", "regions", "pins", "scatter", "profile")
@@ -10,7 +11,7 @@ WORDS = ("statistics", "quality", "regions", "pins", "scatter", "profile")
 
 def places(s, area):
     """Of the open docks in an area: how many beside each other, as sets of tabs."""
-    docks = s.window.docks._docks
+    docks = parts(s.window).docks._docks
     there = [word for word, dock in docks.items() if not dock.isHidden() and s.window.dockWidgetArea(dock) == area]
     tabs = {word: {word, *(each.word for each in s.window.tabifiedDockWidgets(docks[word]))} for word in there}
     return {frozenset(tabs[word] & set(there)) for word in there}
@@ -21,11 +22,11 @@ def test_docks_that_have_been_alone_become_tabs_when_all_are_opened(screen, mesh
     s.window.resize(1400, 900)
     s.open(mesh_file(bumpy(200)), 5)
     for word in WORDS:
-        s.window.docks.toggle(word)
+        parts(s.window).docks.toggle(word)
         s.settle(0.1)
-        s.window.docks.toggle(word)
+        parts(s.window).docks.toggle(word)
     for word in WORDS:
-        s.window.docks.toggle(word)
+        parts(s.window).docks.toggle(word)
         s.settle(0.1)
     areas = QtCore.Qt.DockWidgetArea
     assert len(places(s, areas.RightDockWidgetArea)) == 2
@@ -41,9 +42,9 @@ def test_a_narrow_window_has_room_for_pins_beside_a_profile(screen, mesh_file):
     s.open(mesh_file(bumpy(200)), 5)
     s.session.show(add_pins(s.document, range(10, 70, 10)))
     for word in ("pins", "profile"):
-        s.window.docks.toggle(word)
+        parts(s.window).docks.toggle(word)
     s.settle(0.5)
-    pins, profile = (s.window.docks._docks[word] for word in ("pins", "profile"))
+    pins, profile = (parts(s.window).docks._docks[word] for word in ("pins", "profile"))
     assert pins.width() >= 320
     assert profile.geometry().right() < pins.geometry().left()
     for button in (profile.head.close_button, profile.content.save):
@@ -57,7 +58,7 @@ def test_a_profile_stays_on_the_panels_whatever_they_look_like(screen, mesh_file
     s = screen()
     s.open(mesh_file(bumpy(200)), 5)
     s.session.show(add_pins(s.document, (7, 90)))
-    s.window.docks.toggle("profile")
+    parts(s.window).docks.toggle("profile")
     paths = [panel.view.over.path for panel in s.panels]
     s.until(lambda: all(len(path.points) for path in paths))
     before = paths[0].points
@@ -66,7 +67,7 @@ def test_a_profile_stays_on_the_panels_whatever_they_look_like(screen, mesh_file
         LOOK.choose("dark" if not theme.is_dark else "light")
         s.settle(0.2)
         assert all(np.array_equal(path.points, before) for path in paths)
-        s.window.choices.style("lines")
+        parts(s.window).choices.style("lines")
         s.settle(0.2)
         assert all(np.array_equal(path.points, before) for path in paths)
     finally:
@@ -79,14 +80,14 @@ def test_the_quality_of_other_panels_comes_while_its_dock_is_closed(screen, mesh
     s = screen()
     s.open(mesh_file(bumpy(200)), 5)
     for _ in range(2):
-        s.window.docks.toggle("quality")
+        parts(s.window).docks.toggle("quality")
         s.settle(0.1)
     shows = s.document.panels[0].shows
     s.session.show(add_panel(remove_panel(s.document, s.document.panels[1].id), shows))
-    s.window.docks.findings.quality_changed.emit()
-    s.window.docks.toggle("quality")
+    parts(s.window).findings.quality_changed.emit()
+    parts(s.window).docks.toggle("quality")
     s.until(lambda: s.session.is_complete)
-    dock = s.window.docks._docks["quality"].content
+    dock = parts(s.window).docks._docks["quality"].content
     assert list(dock.charts) == [panel.id for panel in s.document.panels]
     assert dock.table.columnCount() == 3
 
@@ -95,8 +96,8 @@ def test_a_click_leaves_no_outline_on_a_button_of_a_dock(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(200)), 5)
     for word in WORDS:
-        s.window.docks.toggle(word)
+        parts(s.window).docks.toggle(word)
     clicks = QtCore.Qt.FocusPolicy.ClickFocus
-    for dock in s.window.docks._docks.values():
+    for dock in parts(s.window).docks._docks.values():
         for button in dock.content.findChildren(QtWidgets.QPushButton):
             assert not button.focusPolicy() & clicks

@@ -10,6 +10,7 @@ from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
 
+from tests.qt.parts import parts
 from tests.qt.sourcing import check_fields, click, drag, open_file, typed, where
 
 
@@ -90,7 +91,7 @@ def test_what_is_drawn_on_the_surface_becomes_a_curve(loaded, tmp_path):
     path.write_text(curve_text(s.source))
     check_fields(s, str(path), tmp_path)
     QtTest.QTest.keyClick(view, QtCore.Qt.Key.Key_Escape)
-    assert not s.window.gestures.sources.is_drawing
+    assert not parts(s.window).sources.is_drawing
     s.session.undo()
     assert s.source == 5
 
@@ -100,7 +101,7 @@ def draw(s, panel=0, count=16, by=(8, 1)):
     from qtpy import QtCore
 
     s.window.actions_by_word["draw source"].setChecked(True)
-    s.window.gestures.sources.set_drawing(True)
+    parts(s.window).sources.set_drawing(True)
     start = s.panels[panel].view.rect().center() - QtCore.QPoint(by[0] * count // 2, 0)
     drag(s, [start + QtCore.QPoint(by[0] * k, by[1] * k) for k in range(count)], panel)
 
@@ -127,7 +128,7 @@ def in_the_dialog(s, path, do):
 def copied(s, what):
     from qtpy import QtWidgets
 
-    s.window.files.copy(what)
+    parts(s.window).files.copy(what)
     return QtWidgets.QApplication.clipboard().text()
 
 
@@ -162,12 +163,12 @@ def test_a_drawn_curve_is_saved_and_the_copied_lines_name_its_file(loaded, tmp_p
     for what in ("command", "python"):
         assert str(path) in copied(s, what)
         assert "--recipe" not in copied(s, what)
-    typed(s, f"7+{s.window.source_box.text()}")
+    typed(s, f"7+{parts(s.window).typed_source.box.text()}")
     assert s.source == SourceSet((7, curve)), "what the box says of it means the curve"
     assert read_again(copied(s, "command")) == (s.source,)
     path.write_text(json.dumps({"points": [[1, 0.2, 0.2], [2, 0.2, 0.2]]}))
     assert read_again(copied(s, "command")) == (s.source,), "a file that has changed is not named"
-    s.window.files.open(str(path))
+    parts(s.window).files.open(str(path))
     s.until(lambda: s.session.is_complete)
     assert s.source == source_from_words(str(path)), "a curve's file can be opened like a session's"
     assert s.refusals == []
@@ -185,7 +186,7 @@ def test_a_quick_stroke_follows_the_pointer_and_is_parted_beside_the_surface(loa
 
     s, view = loaded, loaded.panels[0].view
     s.window.actions_by_word["draw source"].setChecked(True)
-    s.window.gestures.sources.set_drawing(True)
+    parts(s.window).sources.set_drawing(True)
     middle = view.rect().center()
     drag(s, [middle, middle + QtCore.QPoint(90, 0)])
     assert isinstance(s.source, Curve)

@@ -11,6 +11,7 @@ from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
@@ -20,12 +21,12 @@ def exported(s, path, size=None):
     """The dialog's figure at a path, once it is there."""
     from app.qt.files.figure_actions import export_figure
 
-    dialog = export_figure(s.window)
+    dialog = export_figure(s.window.context)
     if size is not None:
         dialog.size.write(size)
     ended = []
-    s.window.exports.saved.connect(ended.append)
-    s.window.exports.failed.connect(ended.append)
+    parts(s.window).exports.saved.connect(ended.append)
+    parts(s.window).exports.failed.connect(ended.append)
     dialog.export(str(path))
     s.until(lambda: ended)
     assert ended == [str(path)]
@@ -55,16 +56,16 @@ def test_an_export_that_is_cancelled_leaves_nothing(screen, mesh_file, tmp_path)
 
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
-    dialog = export_figure(s.window)
+    dialog = export_figure(s.window.context)
     dialog.size.write("12000px")
     out = tmp_path / "out"
     out.mkdir()
     dialog.export(str(out / "large.png"))
     assert not dialog.isVisible()
-    (export,) = s.window.exports.running
+    (export,) = parts(s.window).exports.running
     s.until(lambda: export.fraction > 0)
-    s.window.exports.cancel(export)
-    s.until(lambda: not s.window.exports.running)
+    parts(s.window).exports.cancel(export)
+    s.until(lambda: not parts(s.window).exports.running)
     assert os.listdir(out) == []
     assert s.refusals == []
 
@@ -74,15 +75,15 @@ def test_closing_the_window_cancels_what_is_drawn(screen, mesh_file, tmp_path):
 
     s = screen()
     s.open(mesh_file(bumpy(800)), 5)
-    dialog = export_movie(s.window)
+    dialog = export_movie(s.window.context)
     dialog.frames.setValue(2000)
     out = tmp_path / "out"
     out.mkdir()
     dialog.export(str(out / "long.gif"))
-    (export,) = s.window.exports.running
+    (export,) = parts(s.window).exports.running
     s.until(lambda: export.words.startswith("frame"))
     s.window.close()
-    assert s.window.exports.running == []
+    assert parts(s.window).exports.running == []
     assert os.listdir(out) == []
 
 
@@ -90,10 +91,10 @@ def test_what_cannot_be_exported_is_said_at_once(screen, mesh_file, tmp_path):
     from app.qt.files.figure_actions import export_figure
 
     s = screen()
-    assert export_figure(s.window) is None
+    assert export_figure(s.window.context) is None
     assert "not complete" in s.refusals[-1]
     s.open(mesh_file(bumpy(300)), 5)
-    dialog = export_figure(s.window)
+    dialog = export_figure(s.window.context)
     dialog.export(str(tmp_path / "no" / "f.png"))
     assert "no folder" in dialog.refusal.text()
     assert dialog.isVisible()
@@ -107,14 +108,14 @@ def test_a_movie_is_made_and_announced(screen, mesh_file, tmp_path):
 
     s = screen()
     s.open(mesh_file(bumpy(200)), 5)
-    dialog = export_movie(s.window)
+    dialog = export_movie(s.window.context)
     dialog.size.write("300x120")
     dialog.path_text.setText("5,90")
     dialog.turn.setValue(0)
     dialog.frames.setValue(2)
     ended, said = [], []
-    s.window.exports.saved.connect(ended.append)
-    s.window.say = said.append
+    parts(s.window).exports.saved.connect(ended.append)
+    s.window.context.tell = said.append
     out = tmp_path / "m.gif"
     dialog.export(str(out))
     s.until(lambda: ended)
@@ -136,7 +137,7 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     )
     s = screen()
     s.open(mesh_file(bumpy(400), "other.off"))
-    s.window.session_file.open(str(tmp_path / "f.json"))
+    parts(s.window).session_file.open(str(tmp_path / "f.json"))
     s.until(lambda: s.document.mesh().path == mesh and s.session.is_complete)
     assert [p.answer.label for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
     assert s.source == 7
@@ -147,7 +148,7 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     assert again.page.style == "dark"
     assert np.allclose(again.document.camera.position, (3, 1, 2))
     assert np.all(np.array(again.document.camera.extent) >= np.array([0.4, 0.3]) - 1e-9)
-    s.window.session_file.open(str(tmp_path / "none.json"))
+    parts(s.window).session_file.open(str(tmp_path / "none.json"))
     assert "cannot be read" in s.refusals[-1]
 
 
@@ -158,11 +159,11 @@ def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tm
     (tmp_path / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
     document = comparison("bad.off", (Spec.of("commute-time"),), (0,), "barycentric")
     (tmp_path / "bad.json").write_text(recipe_text(Recipe(replace(document, isolines=7, camera="top")), "0"))
-    s.window.session_file.open(str(tmp_path / "bad.json"))
+    parts(s.window).session_file.open(str(tmp_path / "bad.json"))
     s.until(lambda: any("bad.off" in words for words in s.refusals))
     s.settle()
     assert s.document == before
-    assert s.window.page == Page()
+    assert s.window.context.page == Page()
     assert s.panels[0].head.shows == before.panels[0].shows
     s.open(mesh_file(grid(3, 3), "other.off"))
     assert s.document.panels == before.panels
@@ -170,7 +171,7 @@ def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tm
 
 def opened_recipe(s, tmp_path, document, **page):
     (tmp_path / "r.json").write_text(recipe_text(Recipe(document, Page(**page)), "0"))
-    s.window.session_file.open(str(tmp_path / "r.json"))
+    parts(s.window).session_file.open(str(tmp_path / "r.json"))
 
 
 def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, mesh_file, tmp_path):
@@ -186,7 +187,7 @@ def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, m
     opened_recipe(s, tmp_path, document)
     s.until(lambda: s.session.is_complete)
     s.settle()
-    assert s.window.source_box.value() == SurfacePoint(3, (0.2, 0.2, 0.6))
+    assert parts(s.window).typed_source.box.value() == SurfacePoint(3, (0.2, 0.2, 0.6))
     assert s.pictures()[0].std() > 20
     s.window.grid.pointing.show(s.panels[0].id, 5)
     assert s.panels[0].bar.accessibleDescription()
@@ -219,9 +220,9 @@ def test_a_recipe_without_panels_leaves_an_empty_window_that_works(screen, mesh_
     assert s.panels == []
     assert s.document.isolines.count == 500
     s.window.reset_view("top")
-    assert export_figure(s.window) is None
+    assert export_figure(s.window.context) is None
     assert "no panels" in s.refusals[-1]
-    s.window.choices.add_panel()
+    parts(s.window).choices.add_panel()
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert s.pictures()[0].std() > 20

@@ -15,6 +15,7 @@ from app.document.page import Page
 from app.document.quantities import DistanceFrom
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -23,8 +24,8 @@ pytest.importorskip("qtpy")
 def shown_dialog(s, **page):
     from app.qt.files.figure_actions import export_figure
 
-    s.window.page = replace(s.window.page, **page)
-    dialog = export_figure(s.window)
+    s.window.context.page = replace(s.window.context.page, **page)
+    dialog = export_figure(s.window.context)
     s.until(lambda: dialog.pane.is_true)
     return dialog
 
@@ -54,7 +55,7 @@ def test_the_preview_is_the_figure_and_the_window_does_not_wait(screen, mesh_fil
     assert dialog.pane.caption.startswith("One column, 85 × ")
     first = pixels_of(dialog.pane.image)
     dialog.export(str(tmp_path / "f.png"))
-    s.until(lambda: (tmp_path / "f.json").exists() and not s.window.exports.running)
+    s.until(lambda: (tmp_path / "f.json").exists() and not parts(s.window).exports.running)
     with Image.open(tmp_path / "f.png") as file:
         small = np.asarray(file.convert("RGB").resize(first.shape[1::-1], Image.Resampling.BOX)).astype(int)
         assert abs(file.size[0] / 300 * 25.4 - 85) < 0.1
@@ -95,9 +96,9 @@ def test_a_picture_that_comes_late_is_shown_dimmed_until_the_right_one_is_there(
 
     s = screen()
     s.open(mesh_file(bumpy(400)), 5)
-    dialog = export_figure(s.window)
+    dialog = export_figure(s.window.context)
     s.until(lambda: dialog._number)
-    s.until(lambda: not s.window.exports.previews._asked)  # it is being drawn
+    s.until(lambda: not parts(s.window).exports.previews._asked)  # it is being drawn
     dialog.size.write("500x300")
     s.until(lambda: not dialog.pane.image.isNull())
     pane = dialog.pane
@@ -123,7 +124,7 @@ def test_a_process_that_dies_is_said_and_the_next_change_starts_another(screen, 
     s = screen()
     s.open(mesh_file(bumpy(400)), 5)
     dialog = shown_dialog(s)
-    s.window.exports.previews._worker._child.process.kill()
+    parts(s.window).exports.previews._worker._child.process.kill()
     dialog.hints.click()
     s.until(lambda: "ended without a word" in dialog.pane.caption)
     assert not dialog.pane.is_true
@@ -151,13 +152,13 @@ def test_the_picture_on_the_clipboard_is_the_exported_one(screen, mesh_file, tmp
 
     s = screen()
     s.open(mesh_file(bumpy(400)), 5)
-    s.window.page = replace(s.window.page, size="400x300")
+    s.window.context.page = replace(s.window.context.page, size="400x300")
     pasted().clear()
     s.window.actions_by_word["copy picture"].trigger()
     s.until(lambda: not pasted().image().isNull())
     dialog = shown_dialog(s)
     dialog.export(str(tmp_path / "f.png"))
-    s.until(lambda: (tmp_path / "f.json").exists() and not s.window.exports.running)
+    s.until(lambda: (tmp_path / "f.json").exists() and not parts(s.window).exports.running)
     with Image.open(tmp_path / "f.png") as file:
         assert np.array_equal(pixels_of(pasted().image()), np.asarray(file.convert("RGB")).astype(int))
     assert s.refusals == []
@@ -197,7 +198,7 @@ def test_the_copied_lines_make_the_bytes_of_the_export(screen, mesh_file, tmp_pa
     python = pasted().text()
     out = tmp_path / f"window.{format}"
     dialog.export(str(out))
-    s.until(lambda: out.with_suffix(".json").exists() and not s.window.exports.running)
+    s.until(lambda: out.with_suffix(".json").exists() and not parts(s.window).exports.running)
     (tmp_path / "elsewhere").mkdir()
     place = {"cwd": tmp_path / "elsewhere", "env": {**os.environ, "PYTHONPATH": os.getcwd()}, "check": True}
     made = tmp_path / "elsewhere" / f"a-mesh-figure.{format}"
@@ -223,13 +224,13 @@ def test_what_no_line_can_say_is_kept_as_a_recipe(screen, mesh_file, tmp_path, m
     s.session.show(replace(document, panels=panels))
     s.until(lambda: s.session.is_complete)
     said = []
-    s.window.say = said.append
-    s.window.files.copy("command")
+    s.window.context.tell = said.append
+    parts(s.window).files.copy("command")
     words = shlex.split(pasted().text())
     assert words[:3] == ["bihdist", "figure", "--recipe"]
     assert "different points" in said[-1]
     out = tmp_path / "again.png"
     assert main([*words[1:4], "--size", "300x200", "-o", str(out)]) == 0
     assert out.exists()
-    s.window.files.copy("python")
+    parts(s.window).files.copy("python")
     assert f"figure_again({words[3]!r})" in pasted().text()

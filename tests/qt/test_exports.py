@@ -20,23 +20,25 @@ pytestmark = pytest.mark.usefixtures("application")
 
 @pytest.fixture
 def small(application, mesh_file):
-    """A window that has what exports ask of the main one, with a mesh in it."""
-    from qtpy import QtCore, QtTest, QtWidgets
+    """A window with a mesh in it, that only exports."""
+    from qtpy import QtTest, QtWidgets
 
-    from app.document.page import Page
+    from app.qt.context import Context
     from app.qt.files.exports import ExportChip, Exports
+    from app.qt.preferences import Preferences
+    from app.qt.status_bar import StatusBar
     from app.session.session import Session
 
     class Small(QtWidgets.QMainWindow):
-        posted = QtCore.Signal(object)
-
         def __init__(self):
             super().__init__()
-            self.posted.connect(lambda function: function())
-            self.page, self.said, self.refusals = Page(), [], []
-            self.say, self.failed = self.said.append, self.refusals.append
-            self.session = Session(self, self.posted.emit, document=comparison("", (Spec.of("biharmonic"),)))
-            self.exports = Exports(self)
+            self.context = Context(self, Preferences(), StatusBar(self))
+            self.said, self.refusals = [], []
+            self.failed, self.context.tell = self.refusals.append, self.said.append
+            self.context.failed.connect(self.refusals.append)
+            document = comparison("", (Spec.of("biharmonic"),))
+            self.session = self.context.session = Session(self, self.context.post, document=document)
+            self.exports = self.context[Exports]
             self.chip = ExportChip(self.exports)
             self.statusBar().addPermanentWidget(self.chip)
 
@@ -74,7 +76,7 @@ def out(tmp_path):
 def movie_dialog(small, frames, size="300x120"):
     from app.qt.files.figure_actions import export_movie
 
-    dialog = export_movie(small)
+    dialog = export_movie(small.context)
     dialog.frames.setValue(frames)
     dialog.size.write(size)
     return dialog
@@ -86,7 +88,7 @@ def test_a_figure_is_drawn_while_the_window_answers(small, out):
 
     from app.qt.files.figure_actions import export_figure
 
-    dialog = export_figure(small)
+    dialog = export_figure(small.context)
     dialog.size.write("400x300")
     beats = []
     heart = QtCore.QTimer(interval=20)
@@ -123,7 +125,7 @@ def test_a_movie_says_how_far_it_is(small, out):
 def test_a_movie_s_fractions_go_evenly_with_its_frames(small, out):
     from app.figures.movie import Movie, write_movie
 
-    recipe = Recipe(small.session.document, replace(small.page, size="120x100"))
+    recipe = Recipe(small.session.document, replace(small.context.page, size="120x100"))
     told = {}
 
     def note(fraction, words):
@@ -313,7 +315,7 @@ def test_the_path_is_asked_for_in_the_format_that_is_chosen(small, out):
     from app.qt.files.figure_actions import export_figure
 
     small.exports.folder = str(out)
-    dialog = export_figure(small)
+    dialog = export_figure(small.context)
     dialog.kinds.choose("PDF")
     dialog.save.click()
     files = dialog.findChild(QtWidgets.QFileDialog)
@@ -330,7 +332,7 @@ def test_a_size_has_a_name_or_is_one_s_own(small):
 
     from app.qt.files.figure_actions import export_figure
 
-    dialog = export_figure(small)
+    dialog = export_figure(small.context)
     size = dialog.size
     assert size.name() == "Usual"
     next(row for row in size.rows.buttons() if row.text() == "Two columns").click()
@@ -358,7 +360,7 @@ def test_every_box_has_a_name_and_a_tip(small):
 
     from app.qt.files.figure_actions import export_figure, export_movie
 
-    for dialog in (export_figure(small), export_movie(small)):
+    for dialog in (export_figure(small.context), export_movie(small.context)):
         boxes = [
             box
             for kind in (QtWidgets.QAbstractButton, QtWidgets.QComboBox, QtWidgets.QSpinBox)

@@ -13,6 +13,7 @@ from app.document.quantities import quantity
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.formats.field_output import FIELD_FORMATS
 from bihdist_core.sources.source import SourceSet, SurfacePoint
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -28,7 +29,7 @@ def paths(monkeypatch, tmp_path):
         asked.append((title, name))
         return str(tmp_path / answers.pop(0))
 
-    monkeypatch.setattr("app.qt.docks.writing.ask_path", ask)
+    monkeypatch.setattr("app.qt.files.writing.ask_path", ask)
     return answers, asked
 
 
@@ -41,7 +42,7 @@ def said(s):
     """What the status bar says, once something has been written."""
     s.until(lambda: s.window.status.message.text.startswith("Saved") or s.refusals)
     text = s.window.status.message.text
-    s.window.say("")
+    s.window.context.tell("")
     return text
 
 
@@ -82,13 +83,15 @@ def test_every_panel_saves_what_the_command_writes_in_every_format(screen, mesh_
 def test_the_menu_at_the_pointer_offers_it_on_the_surface_and_beside_it(screen, mesh_file, tmp_path, paths):
     from qtpy import QtCore, QtWidgets
 
+    from app.qt.panels.events import MenuWanted
+
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
     answers, _ = paths
     view = s.panels[1].view
     for hit in (view.pick(view.rect().center()), None):
         answers.append("at.npy")
-        view.menu_wanted.emit(hit, QtCore.QPoint(5, 5))
+        view.happened.emit(MenuWanted(hit, QtCore.QPoint(5, 5)))
         menu = QtWidgets.QApplication.activePopupWidget()
         entry(menu, "Save field…")
         menu.close()
@@ -145,15 +148,15 @@ def test_a_field_that_is_not_there_is_not_saved(screen, mesh_file, tmp_path, pat
     s.open(mesh_file(bumpy(300)), 5)
     s.session.show(move_source(s.document, 0, 9))
     assert not s.session.is_complete  # the answers are those of the source before
-    s.window.field_files.save(s.document.panels[0].id)
-    s.window.field_files.save_all()
+    parts(s.window).field_files.save(s.document.panels[0].id)
+    parts(s.window).field_files.save_all()
     assert s.refusals == [
         "Biharmonic has no field yet.",
         "Biharmonic has no field yet. Geodesic has no field yet. Diffusion has no field yet.",
     ]
     s.until(lambda: s.session.is_complete)
     paths[0].append("nowhere/a.npy")
-    s.window.field_files.save(s.document.panels[0].id)
+    parts(s.window).field_files.save(s.document.panels[0].id)
     s.until(lambda: len(s.refusals) == 3)
     assert "nowhere" in s.refusals[2]
 
@@ -162,7 +165,7 @@ def test_files_are_written_one_after_the_other_and_none_is_left_out(screen, mesh
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
     for number in range(5):
-        s.window.field_files.save(s.document.panels[number % 3].id, str(tmp_path / f"{number}.npy"))
+        parts(s.window).field_files.save(s.document.panels[number % 3].id, str(tmp_path / f"{number}.npy"))
     s.until(lambda: s.window.status.message.text.startswith("Saved 4.npy"))
     for number in range(5):
         assert np.array_equal(np.load(tmp_path / f"{number}.npy"), s.answers[number % 3].field)
@@ -172,7 +175,7 @@ def test_files_that_wait_when_the_window_closes_are_written(screen, mesh_file, t
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
     for number in range(4):
-        s.window.field_files.save(s.document.panels[0].id, str(tmp_path / f"{number}.npy"))
+        parts(s.window).field_files.save(s.document.panels[0].id, str(tmp_path / f"{number}.npy"))
     s.window.close()
     for number in range(4):
         assert np.array_equal(np.load(tmp_path / f"{number}.npy"), s.answers[0].field)
@@ -185,7 +188,7 @@ def test_the_dialog_writes_the_format_that_is_chosen_in_it(screen, mesh_file, tm
 
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
-    s.window.preferences = replace(s.window.preferences, last_folder=str(tmp_path))
+    s.window.context.preferences = replace(s.window.context.preferences, last_folder=str(tmp_path))
 
     def choose():
         dialog = QtWidgets.QApplication.activeModalWidget()
@@ -196,6 +199,6 @@ def test_the_dialog_writes_the_format_that_is_chosen_in_it(screen, mesh_file, tm
         dialog.accept()
 
     QtCore.QTimer.singleShot(0, choose)
-    s.window.field_files.save(s.document.panels[0].id)
+    parts(s.window).field_files.save(s.document.panels[0].id)
     assert said(s) == f"Saved mesh-field-biharmonic-from-5.vtp in {tmp_path}"
     assert b"biharmonic_from_5" in (tmp_path / "mesh-field-biharmonic-from-5.vtp").read_bytes()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from bihdist_core.applications.changes import Perturbation
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -56,7 +57,7 @@ def test_a_click_draws_each_panel_once_and_pointing_draws_nothing(loaded):
     for step in range(20):
         QtTest.QTest.mouseMove(view, place + QtCore.QPoint(3 * step, 2 * step))
         s.application.processEvents()
-    assert s.window.gestures.hovered is not None
+    assert parts(s.window).gestures.hovered is not None
     assert drawn(s) == before
 
 
@@ -137,7 +138,7 @@ def test_tab_goes_from_panel_to_panel_and_shows_where_the_keys_are(loaded):
 def test_the_source_goes_along_edges_where_the_keys_point(loaded):
     s = loaded
     begun = front(s)
-    s.window.typed_source.choose(begun)
+    parts(s.window).typed_source.choose(begun)
     s.until(lambda: s.session.is_complete)
     s.panels[0].view.setFocus()
     for name, (right, up) in {"Ctrl+Left": (-1, 0), "Ctrl+Up": (0, 1), "Ctrl+Right": (1, 0)}.items():
@@ -161,7 +162,7 @@ def test_steps_that_follow_fast_are_a_drag_that_ends_exact(loaded):
         show(document, key, **how),
     )
     for _ in range(3):
-        s.window.gestures.step_source(1, 0)
+        parts(s.window).sources.step(1, 0)
     assert live == [False, True, True]
     s.until(lambda: len(live) == 4)
     assert live[-1] is False
@@ -255,8 +256,8 @@ def test_a_live_source_that_rests_is_answered_everywhere_without_a_further_move(
     view = s.panels[0].view
     for step in range(6):
         s.hover(view.rect().center() + view.rect().center() * (step / 40))
-    assert s.window.gestures.hovered not in (None, 5)
-    s.until(lambda: not s.window.gestures.is_dragging)
+    assert parts(s.window).gestures.hovered not in (None, 5)
+    s.until(lambda: not parts(s.window).dragging.is_on)
     s.until(lambda: s.session.is_complete)
     assert all(answer.is_final for answer in s.answers)
     assert [answer.label for answer in s.answers] == ["biharmonic, exact", "geodesic, exact", "diffusion, t = 1"]
@@ -265,7 +266,7 @@ def test_a_live_source_that_rests_is_answered_everywhere_without_a_further_move(
 
 def test_the_button_of_views_follows_the_camera(loaded):
     s = loaded
-    button = s.window.tools["views"]
+    button = s.window.tool_bar.buttons["views"]
     assert button.accessibleDescription() == "Home"
     key(s, "Left")
     assert button.accessibleDescription() == "Free"
@@ -278,17 +279,17 @@ def test_letters_typed_into_the_source_box_are_no_shortcuts(loaded):
 
     s = loaded
     s.activate()
-    s.window.source_box.setFocus()
-    s.window.source_box.selectAll()
-    QtTest.QTest.keyClicks(s.window.source_box, "zl4c2")
-    assert s.window.source_box.text() == "zl4c2"
-    assert not s.window.gestures.is_live
+    parts(s.window).typed_source.box.setFocus()
+    parts(s.window).typed_source.box.selectAll()
+    QtTest.QTest.keyClicks(parts(s.window).typed_source.box, "zl4c2")
+    assert parts(s.window).typed_source.box.text() == "zl4c2"
+    assert not parts(s.window).gestures.is_live
 
 
 def test_views_before_and_after_are_offered_where_there_are_some(loaded):
     s = loaded
     before, after = (s.window.actions_by_word[word] for word in ("view before", "view after"))
-    s.until(lambda: not s.window.views._still.isActive())
+    s.until(lambda: not parts(s.window).views._still.isActive())
     assert (before.isEnabled(), after.isEnabled()) == (False, False)
     key(s, "Left")
     assert (before.isEnabled(), after.isEnabled()) == (True, False)

@@ -21,6 +21,7 @@ from qtpy.QtGui import QColor
 from app.document.anchors import Anchors
 from app.qt.look.canvas import canvas_style
 from app.qt.look.look import LOOK
+from tests.qt.parts import parts
 
 SIZE = 2  # device pixels by which a place may be off
 USUAL = Page()
@@ -30,12 +31,12 @@ USUAL = Page()
 def shown(screen, mesh_file, tmp_path):
     """A window with a recipe opened in it."""
 
-    def show(surface, page=USUAL, source=4, **parts):
+    def show(surface, page=USUAL, source=4, **others):
         document = comparison(mesh_file(surface), (Spec.of("biharmonic"), Spec.of("geodesic")), (source,))
-        document = replace(document, **parts)
+        document = replace(document, **others)
         (tmp_path / "r.json").write_text(recipe_text(Recipe(document, page), "0"))
         s = screen()
-        s.window.session_file.open(str(tmp_path / "r.json"))
+        parts(s.window).session_file.open(str(tmp_path / "r.json"))
         s.until(lambda: s.session.is_complete or s.refusals)
         assert s.refusals == []
         s.settle()
@@ -198,13 +199,13 @@ def test_a_recipe_is_shown_in_its_style_on_the_windows_ground_and_the_next_in_it
         return {panel.view.scene.style for panel in s.panels}
 
     assert styles() == {canvas_style("uniform", LOOK.theme)}
-    s.window.choices.add_panel()
+    parts(s.window).choices.add_panel()
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert (len(s.panels), styles()) == (3, {canvas_style("uniform", LOOK.theme)})
     (tmp_path / "p.json").write_text(recipe_text(Recipe(s.document), "0"))
-    s.window.session_file.open(str(tmp_path / "p.json"))
-    s.until(lambda: s.window.page == Page())
+    parts(s.window).session_file.open(str(tmp_path / "p.json"))
+    s.until(lambda: s.window.context.page == Page())
     s.settle()
     assert styles() == {canvas_style("paper", LOOK.theme)}
 
@@ -220,7 +221,7 @@ def test_another_theme_has_the_twin_of_a_style_and_changes_no_page_and_nothing_o
         theme(word.split()[0])
         s.settle()
         pictures[word] = s.pictures()
-        assert s.window.page == Page(style="dark")
+        assert s.window.context.page == Page(style="dark")
         for panel, lines in zip(s.panels, isolines, strict=True):
             scene = panel.view.scene
             assert (scene.style.stops, is_on_the_windows_ground(panel)) == (STYLES[style].stops, True)
@@ -276,7 +277,7 @@ def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
     s = shown(bumpy(300))
     shown_by = weakref.ref(s.answers[1].field)
     kept = s.panels[1]
-    s.window.choices.edit_panel(s.document.panels[1].id, "Remove it")
+    parts(s.window).choices.edit_panel(s.document.panels[1].id, "Remove it")
     s.session._answering._kept = type(s.session._answering._kept)()
     s.settle()
     gc.collect()
@@ -309,4 +310,4 @@ def test_a_style_leaves_nothing_of_the_one_before(shown, chosen_in):
         assert panel.view.scene.style.stops == STYLES[style].stops
         assert counted() == before
         assert all((a != b).any() == (style != "paper") for a, b in zip(pictures, s.pictures(), strict=True))
-    assert s.window.page == Page()
+    assert s.window.context.page == Page()

@@ -26,6 +26,7 @@ pytest.importorskip("qtpy")
 from qtpy import QtCore
 
 from app.document.pins import Pins
+from tests.qt.parts import parts
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCKS = ("statistics", "pins", "quality", "regions", "scatter", "profile")
@@ -50,8 +51,8 @@ def everything(s):
     )
     s.session.show(document)
     for dock in DOCKS:
-        s.window.docks.toggle(dock)
-    docks = s.window.docks._docks
+        parts(s.window).docks.toggle(dock)
+    docks = parts(s.window).docks._docks
     # As by hand: one on the other side, one in a tab of another, and other sizes.
     s.window.addDockWidget(QtCore.Qt.LeftDockWidgetArea, docks["quality"])
     s.window.tabifyDockWidget(docks["pins"], docks["regions"])
@@ -80,9 +81,9 @@ def test_all_instruments_open_are_the_same_in_another_process(screen, mesh_file,
     everything(s)
     rested(s)
     session, picture = tmp_path / "all.json", tmp_path / "other.png"
-    s.window.session_file.save(str(session))
-    assert not s.window.session_file.is_changed
-    before = json.loads(json.dumps(document_data(s.window.session_file.recipe().document)))
+    parts(s.window).session_file.save(str(session))
+    assert not parts(s.window).session_file.is_changed
+    before = json.loads(json.dumps(document_data(parts(s.window).session_file.recipe().document)))
     s.window.grab().save(str(tmp_path / "one.png"))
     env = {**os.environ, "XDG_DATA_HOME": str(tmp_path / "data"), "WINDOW_SIZE": "{}x{}".format(*SIZE)}
     command = [sys.executable, "-m", "tests.qt.restored", str(session), str(picture)]

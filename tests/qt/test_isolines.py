@@ -19,6 +19,7 @@ pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest
 
 from app.qt.panels.line_labels import Finder, asked_of
+from tests.qt.parts import parts
 from tests.qt.sourcing import drag
 
 
@@ -34,8 +35,8 @@ def words(menu):
 
 
 def test_the_menu_and_the_button_say_where_they_are(s):
-    menu, button = s.window.menus.isolines, s.window.tools["isolines"]
-    choices = s.window.choices.isoline
+    menu, button = s.window.menus.isolines, s.window.tool_bar.buttons["isolines"]
+    choices = parts(s.window).choices.isoline
     assert (words(menu), button.accessibleDescription()) == (["About 20"], "20")
     choices.steps(7)
     assert (words(menu), button.accessibleDescription()) == (["Another number (7)…"], "7")
@@ -56,7 +57,7 @@ def test_the_menu_and_the_button_say_where_they_are(s):
 
 
 def test_what_is_typed_wrong_is_said(s):
-    choices = s.window.choices.isoline
+    choices = parts(s.window).choices.isoline
     for take, text, said in [
         (choices.spacing, "wide", "'wide' is not a number"),
         (choices.spacing, "0", "positive"),
@@ -76,21 +77,21 @@ def test_a_spacing_is_a_fraction_for_differences(s):
     s.until(lambda: s.session.is_complete)
     field = s.answers[0].field
     step = np.abs(field).max() / 100 / 20.5
-    s.window.choices.isoline.spacing(f"{step:.12g}")
+    parts(s.window).choices.isoline.spacing(f"{step:.12g}")
     assert np.diff(s.panels[0].view.scene.isolines) == pytest.approx(100 * step)
     # In percentage points there would be a hundred times as many.
-    s.window.choices.isoline.spacing(f"{step / 20:.12g}")
+    parts(s.window).choices.isoline.spacing(f"{step / 20:.12g}")
     with pytest.raises(ParameterError, match="isolines up to 0"):
-        s.window.choices.isoline.spacing(f"{step / 100:.12g}")
+        parts(s.window).choices.isoline.spacing(f"{step / 100:.12g}")
 
 
 def test_lines_are_where_their_values_are(s):
-    s.window.choices.isoline.steps(0)
+    parts(s.window).choices.isoline.steps(0)
     s.settle()
     bare = s.pictures()[0].astype(int)
     field = s.answers[0].field
     values = np.array([0.2, 0.4, 0.7, 0.9]) * field.max()
-    s.window.choices.isoline.values(" ".join(map(repr, values.tolist())))
+    parts(s.window).choices.isoline.values(" ".join(map(repr, values.tolist())))
     s.settle()
     changed = np.abs(s.pictures()[0].astype(int) - bare).max(axis=2) > 40
     assert changed.sum() > 100
@@ -111,7 +112,7 @@ def test_lines_are_where_their_values_are(s):
 
 
 def test_a_line_through_a_point_follows_source_and_undo(s):
-    choices = s.window.choices.isoline
+    choices = parts(s.window).choices.isoline
     choices.pass_through(0, 40)
     s.settle()
     field = s.answers[0].field
@@ -137,7 +138,7 @@ def test_a_line_through_a_point_follows_source_and_undo(s):
     s.session.undo()
     assert through() == [s.answers[0].field[40]]
     # A new panel has it, too.
-    s.window.choices.add_panel()
+    parts(s.window).choices.add_panel()
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert s.panels[-1].view.scene.levels.is_through.sum() == 1
@@ -148,7 +149,7 @@ def test_lines_are_at_round_values_unless_equal_steps_are_chosen(s):
     top = scene.maximum
     step = round_step(top, 20)
     assert scene.isolines == pytest.approx(np.arange(step, top, step))
-    s.window.choices.range("shares")
+    parts(s.window).choices.range("shares")
     assert scene.isolines == pytest.approx(top * np.arange(1, 20) / 20)
     s.session.undo()
     assert scene.isolines == pytest.approx(np.arange(step, top, step))
@@ -165,7 +166,7 @@ def test_lines_keep_their_step_until_a_dragged_source_is_released(s):
         s.until(lambda: s.session.is_complete)
         tops.append(scene.maximum)
     count = next(n for n in range(10, 100) if len({round_step(top, n) for top in tops}) == 2)
-    s.window.choices.isolines(count)
+    parts(s.window).choices.isolines(count)
     before, after = (round_step(top, count) for top in reversed(tops))
     place = s.point_of(panel, one)
     drag(s, [s.point_of(panel, other), place], end=False)
@@ -178,7 +179,7 @@ def test_lines_keep_their_step_until_a_dragged_source_is_released(s):
 
 
 def test_the_colour_bar_tells_bold_lines_and_lines_through_points(s):
-    choices = s.window.choices.isoline
+    choices = parts(s.window).choices.isoline
     choices.steps(10)
     choices.equal(True)
     choices.bold(True)
@@ -268,7 +269,7 @@ def test_labels_say_the_values_of_the_lines_they_stand_on(s):
 def test_an_inset_has_a_number_of_its_own(s):
     panel = s.panels[0]
     vertex = panel.view.pick(panel.view.rect().center()).vertex
-    s.window.choices.isoline.equal(True)
+    parts(s.window).choices.isoline.equal(True)
     s.session.show(replace(s.document, zooms=(Zoom(vertex, 3.0, "top left"),)))
     s.settle()
     view, same = panel.view, panel.view.shot()

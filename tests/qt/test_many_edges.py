@@ -12,6 +12,8 @@ pytest.importorskip("qtpy")
 
 from qtpy import QtCore, QtTest, QtWidgets
 
+from tests.qt.parts import parts
+
 pytestmark = pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed")
 
 COUNT = 2500
@@ -50,7 +52,7 @@ def hover(s, count=24):
         x, y = round(panel.view.width() * (0.1 + 0.8 * k / count)), round(panel.view.height() * (0.3 + 0.02 * k))
         run("mousemove", x0 + x, y0 + y)
         s.settle(0.03)
-        hit += s.window.gestures.hovered is not None
+        hit += parts(s.window).gestures.hovered is not None
     for widget in (s.window.tool_bar, s.panels[0].head, s.panels[1].bar, s.window.status):
         middle = widget.mapToGlobal(widget.rect().center())
         run("mousemove", middle.x(), middle.y())
@@ -92,11 +94,11 @@ def test_a_click_selects_the_vertex_that_is_met_there(loaded):
         point = QtCore.QPoint(round(x * panel.view.width()), round(y * panel.view.height()))
         hit = panel.view.pick(point)
         run("mousemove", x0 + point.x(), y0 + point.y())
-        s.until(lambda hit=hit: s.window.gestures.hovered == hit.vertex, 10)
+        s.until(lambda hit=hit: parts(s.window).gestures.hovered == hit.vertex, 10)
         assert s.source != hit.vertex
         run("click", 1)
         s.until(lambda hit=hit: s.session.is_complete and s.source == hit.vertex)
-        assert s.window.source_box.text() == str(hit.vertex)
+        assert parts(s.window).typed_source.box.text() == str(hit.vertex)
         QtTest.QTest.qWait(QtWidgets.QApplication.doubleClickInterval())
 
 

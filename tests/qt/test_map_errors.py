@@ -28,6 +28,7 @@ pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest, QtWidgets
 
 from app.document.maps import Maps
+from tests.qt.parts import parts
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
 BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
@@ -69,7 +70,7 @@ def complete(s):
 
 
 def section(s):
-    return s.window.docks._instrument("pairs").errors
+    return parts(s.window).docks._instrument("pairs").errors
 
 
 def whole(s):
@@ -182,7 +183,7 @@ def test_the_truth_of_a_file_counts_and_a_wrong_one_is_refused(two, tmp_path):
     assert section(s).truth.button.text() == "truth: right"
     (tmp_path / "wrong.txt").write_text("1\n2\n")
     said = []
-    s.window.failed = said.append
+    s.window.context.failed.connect(said.append)
     section(s).truth.take(str(tmp_path / "wrong.txt"))
     assert "2 vertices" in said[0]
     assert section(s).truth.button.text() == "truth: right"
@@ -222,7 +223,7 @@ def test_partners_that_nobody_names_do_not_count(two, monkeypatch):
 
 # ---------------------------------------------------------------------- the candidate
 def judged(s):
-    return s.window.docks.candidates.judged
+    return parts(s.window).pairs.errors.judged
 
 
 def test_the_truth_is_a_cross_and_the_candidate_says_how_far_it_is_off(two):
@@ -321,7 +322,7 @@ def test_a_map_of_a_file_is_shown_and_judged(two, tmp_path):
     assert section(s).named_curves()["ours"].mean == pytest.approx(curve.mean, abs=1e-6)
     (tmp_path / "none.txt").write_text("no\n")
     said = []
-    s.window.failed = said.append
+    s.window.context.failed.connect(said.append)
     section(s).truth.take_map(str(tmp_path / "none.txt"))
     assert "no" in said[0]
     assert isinstance(s.document[Maps].maps[0], MapFile)
@@ -335,14 +336,14 @@ def test_a_session_of_it_is_the_same_again_and_drawn(two, tmp_path, screen):
     complete(s)
     s.until(lambda: whole(s) and "ours" in numbers(s))
     path = tmp_path / "session.json"
-    s.window.session_file.save(str(path))
+    parts(s.window).session_file.save(str(path))
     recipe = read_recipe(path)
     document, loaded = open_document(recipe, ArrayStore())
     drawn = compute(document, loaded)
     for panel, answer in zip(s.panels, drawn, strict=True):
         assert np.array_equal(panel.answer.colours, answer.colours)
     again = screen((BIHARMONIC,))
-    again.window.session_file.open(str(path))
+    parts(again.window).session_file.open(str(path))
     again.until(lambda: again.session.surface is not None and again.session.is_complete)
     again.until(lambda: whole(again))
     assert again.document.panels == s.document.panels
@@ -351,7 +352,7 @@ def test_a_session_of_it_is_the_same_again_and_drawn(two, tmp_path, screen):
 
 def test_the_curves_are_saved_as_numbers_and_as_a_figure(two, tmp_path, monkeypatch):
     import app.tools.correspondence.map_truth as map_truth
-    from app.qt.docks.saving import written
+    from app.qt.files.saving import written
 
     s = two
     monkeypatch.setattr(

@@ -5,6 +5,8 @@ from collections import Counter
 
 import pytest
 
+from tests.qt.parts import parts
+
 pytest.importorskip("qtpy")
 
 SMALL = 560
@@ -43,6 +45,8 @@ def test_all_keys_are_in_the_palette(screen):
     from app.qt.acts import ALL
 
     s = screen()
-    said = {keys for each in s.window.guide.commands() for keys in each.keys.split(" or ") if each.action.shortcuts()}
+    said = {
+        keys for each in parts(s.window).guide.commands() for keys in each.keys.split(" or ") if each.action.shortcuts()
+    }
     native = QtGui.QKeySequence.SequenceFormat.NativeText
     assert {QtGui.QKeySequence(key).toString(native) for act in ALL for key in act.keys} == said

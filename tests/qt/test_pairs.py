@@ -21,6 +21,7 @@ pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
 from app.document.pairs import Pairs
+from tests.qt.parts import parts
 
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
 BIHARMONIC, GEODESIC = Spec.of("biharmonic"), Spec.of("geodesic")
@@ -53,7 +54,7 @@ def complete(s):
 
 
 def dock_of(s):
-    return s.window.docks._instrument("pairs")
+    return parts(s.window).docks._instrument("pairs")
 
 
 def click(s, panel, vertex):
@@ -110,7 +111,7 @@ def test_the_tool_shows_the_first_mesh_plain_and_the_second_for_each_distance(tw
     ]
     assert [panel.answer.field for panel in s.panels] == [None] * 3
     assert s.panels[0].head.name.text() == "first.off"
-    assert not s.window.source_box.isEnabled()
+    assert not parts(s.window).typed_source.box.isEnabled()
     s.window.session.undo()
     complete(s)
     assert len(s.document.panels) == 4
@@ -169,7 +170,7 @@ def test_the_active_panel_says_which_candidate_is_accepted_and_its_drop_can_be_c
     assert f"Enter takes\u00a0{best[0]}, by\u00a0biharmonic;" in dock_of(s).or_click.text()
     label = s.panels[1].view.grab().toImage()
     s.window.grid.activate(s.panels[2].id)
-    assert s.window.gestures.pairs.candidate()[1].vertex == best[1]
+    assert parts(s.window).pairs.candidate()[1].vertex == best[1]
     assert meant() == [False, False, True]
     assert f"Enter takes\u00a0{best[1]}, by\u00a0geodesic;" in dock_of(s).or_click.text()
     assert [row.second for row in dock_of(s).rows.values()][-1] == f"{best[1]} ?"
@@ -209,7 +210,7 @@ def test_a_drag_of_a_drop_is_one_step_and_of_the_waiting_point_costs_no_solve(tw
     before, view = solved(), s.panels[0].view
     drag(s, view, s.point_of(s.panels[0], start), s.point_of(s.panels[0], stop))
     assert (places(s)[-1], solved()) == ((stop,), before)
-    assert not s.window.gestures.is_dragging
+    assert not parts(s.window).dragging.is_on
     assert "Live" not in s.window.status.message.text
     assert s.answers[1].field == pytest.approx(misfit(s, BiharmonicDistance, stop), abs=1e-9)
     s.window.session.undo()
@@ -286,7 +287,7 @@ def test_rows_are_chosen_walked_and_removed_by_bin_and_key(two):
     complete(s)
     assert places(s) == [pairs[1], pairs[3]]
     # A point that a pair has already chooses that, and Delete over the panels removes it.
-    s.window.gestures.pairs.put_at(s.panels[0].id, pairs[1][0])
+    parts(s.window).pairs.put(s.panels[0].id, pairs[1][0])
     press(s, 0, KEYS.Key_Delete)
     assert places(s) == [pairs[3]]
 
@@ -304,7 +305,7 @@ def test_pairs_are_read_and_saved_and_what_is_wrong_is_said(two, tmp_path, monke
     dock_of(s).read(str(tmp_path / "wrong.csv"))
     assert "line 2: second.off has vertices 0 to 499, not 500" in refused[-1]
     assert places(s) == [(3, 3), (40, 41)]
-    monkeypatch.setattr("app.qt.docks.saving.ask_path", lambda *_: str(tmp_path / "out.csv"))
+    monkeypatch.setattr("app.qt.files.saving.ask_path", lambda *_: str(tmp_path / "out.csv"))
     dock_of(s).choose_and_save()
     assert (tmp_path / "out.csv").read_text() == "3,3\n40,41\n"
 
@@ -313,7 +314,7 @@ def test_a_session_keeps_them_and_a_figure_draws_them(two, tmp_path):
     s = two
     paired(s)
     click(s, 0, s.seen(6, 0)[-1])
-    s.window.session_file.save(str(tmp_path / "session.json"))
+    parts(s.window).session_file.save(str(tmp_path / "session.json"))
     recipe = read_recipe(str(tmp_path / "session.json"))
     assert recipe.document[Pairs].pairs == s.document[Pairs].pairs
     assert "pairs" in recipe.document.docks

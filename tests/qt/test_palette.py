@@ -6,6 +6,7 @@ pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtWidgets
 from qtpy.QtTest import QTest
 
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 KEYS = QtCore.Qt.Key
@@ -98,7 +99,7 @@ def test_the_words_people_know_find_what_they_mean_and_all_synonyms_belong_to_so
     from app.qt.pages.commands import found, plain
     from app.qt.synonyms import SYNONYMS
 
-    commands = shown.window.guide.commands()
+    commands = parts(shown.window).guide.commands()
     for typed, meant in {
         "rotate": "Turn to the left",
         "difference": "Difference with: Geodesic",

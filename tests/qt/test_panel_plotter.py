@@ -209,7 +209,7 @@ def test_the_window_opens_before_pyvista_is_imported(application):
         "from app.qt.preferences import Preferences\n"
         "app = application()\n"
         "window = MainWindow(None, Preferences())\n"
-        "window.remembers, window.quiet = False, True\n"
+        "window.remembers, window.context.quiet = False, True\n"
         "window.show(); app.processEvents(); window.build_panels(); app.processEvents()\n"
         "print('pyvista' in sys.modules)\n"
         "window.close()\n"

@@ -14,6 +14,7 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
+from tests.qt.parts import parts
 from tests.qt.test_head import choose
 
 
@@ -70,7 +71,7 @@ def test_colours_and_their_bars_end_where_the_document_says(screen, mesh_file):
     s.session.show(replace(s.document, panels=panels))
     assert ends() == [2 * own[0], *own[1:]]
     s.session.undo()
-    s.window.choices.range("shared")
+    parts(s.window).choices.range("shared")
     largest = max(own[:2])
     assert ends() == [largest, largest, own[2]]
     s.session.undo()
@@ -83,13 +84,13 @@ def test_undo_brings_back_source_parameters_and_lines_but_not_the_view(screen, m
     before = s.pictures()
 
     def lines():
-        said, scene = s.window.tools["isolines"].accessibleDescription(), s.panels[0].view.scene
+        said, scene = s.window.tool_bar.buttons["isolines"].accessibleDescription(), s.panels[0].view.scene
         step = round_step(scene.maximum, int(said))
         assert scene.isolines == pytest.approx(np.arange(step, scene.maximum, step))
         return said
 
     assert lines() == "20"
-    s.window.choices.isolines(7)
+    parts(s.window).choices.isolines(7)
     assert lines() == "7"
     s.session.show(move_source(s.document, 0, 9))
     s.panels[2].head.changed.emit(DistanceFrom(Spec.of("diffusion", t=0.25)))
@@ -98,7 +99,7 @@ def test_undo_brings_back_source_parameters_and_lines_but_not_the_view(screen, m
     assert all((a != b).any() for a, b in zip(before, s.pictures(), strict=True))
     for _ in range(3):
         s.session.undo()
-    assert (s.window.source_box.text(), lines()) == ("5", "20")
+    assert (parts(s.window).typed_source.box.text(), lines()) == ("5", "20")
     assert s.panels[2].head.shows == DistanceFrom(Spec.of("diffusion"))
     s.until(lambda: s.session.is_complete)
     s.settle()
@@ -134,7 +135,7 @@ def test_a_panel_shows_the_difference_of_two_distances_and_names_the_largest(scr
     farther = "biharmonic" if value > 0 else "geodesic"
     words = f"{farther} is farther by {abs(value):.3g} % of its maximum at vertex {vertex}"
     for word in ("own", "shared", "shares"):
-        s.window.choices.range(word)
+        parts(s.window).choices.range(word)
         assert (panel.bar._reading.unit, panel.bar._reading.remark) == ("percentage points", words)
         assert ends() == pytest.approx((-panel.answer.maximum, panel.answer.maximum))
         ticks = [tick.text for tick in panel.bar._layout.ticks]
@@ -176,10 +177,10 @@ def test_panels_are_added_duplicated_moved_and_removed_from_their_menus(screen, 
     assert shown() == ["geodesic", "diffusion", "biharmonic"]
     assert possible(0) == {"Add a panel", "Duplicate this panel", "Move it on", "Remove it"}
     for count in (4, 5, 6):
-        s.window.choices.add_panel()
+        parts(s.window).choices.add_panel()
         assert len(set(shown())) == count
     assert "Add a panel" not in possible(5)
-    s.window.choices.add_panel()
+    parts(s.window).choices.add_panel()
     assert len(s.panels) == 6
     for _ in range(5):
         edit(0, "Remove it")
@@ -228,7 +229,7 @@ def test_views_have_a_history_of_their_own(screen, mesh_file):
         return s.window.grid.eye.camera.GetPosition()
 
     for step, place in [(-1, 1), (-1, 0), (-1, 0), (1, 1), (1, 2), (1, 2), (-1, 1)]:
-        s.window.views.back() if step < 0 else s.window.views.on()
+        parts(s.window).views.back() if step < 0 else parts(s.window).views.on()
         assert np.allclose(there(), cameras[place])
     assert not s.session.history.can_undo
 
@@ -253,7 +254,7 @@ def test_escape_puts_the_box_back_and_elsewhere_stops_the_work(screen, mesh_file
     s.open(mesh_file(bumpy(300)), 5)
     s.activate()
     s.settle()
-    box, view = s.window.source_box, s.panels[0].view
+    box, view = parts(s.window).typed_source.box, s.panels[0].view
     QTest.keyClick(view, Qt.Key_G)
     assert s.window.focusWidget() is box
     QTest.keyClicks(box, "7")
@@ -297,12 +298,12 @@ def test_a_first_mesh_that_fails_leaves_the_page_to_start_from_which_says_why(sc
     assert (page.isVisible(), page.message.isVisible(), page.message.said) == (True, True, s.refusals[-1])
     assert "gone.off" in page.message.said
     assert not s.window.grid.isVisible()
-    assert (s.window.source_box.text(), s.window.source_box.isEnabled()) == ("", False)
+    assert (parts(s.window).typed_source.box.text(), parts(s.window).typed_source.box.isEnabled()) == ("", False)
     assert not s.window.actions_by_word["save"].isEnabled()
     s.open(mesh_file(bumpy(300)), 5)
     assert s.panels[0].isVisible()
     assert not page.isVisible()
-    assert (s.window.source_box.value(), s.window.source_box.isEnabled()) == (5, True)
+    assert (parts(s.window).typed_source.box.value(), parts(s.window).typed_source.box.isEnabled()) == (5, True)
     assert s.window.actions_by_word["save"].isEnabled()
     assert all(picture.std() > 20 for picture in s.pictures())
 

@@ -7,6 +7,7 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 
 from app.document.pins import Pins
+from tests.qt.parts import parts
 from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click
 
 
@@ -57,7 +58,7 @@ def test_a_pin_on_the_far_side_is_hollow(loaded):
     s.session.show(add_pins(s.document, [far]))
     head = s.point_of(s.panels[0], far) - QtCore.QPoint(6, 17)
     assert colour_at(s, 0, head) != PINS[0].lower()
-    s.window.views.see("back")
+    parts(s.window).views.see("back")
     s.settle(0.1)
     assert view.sees(s.session.surface.vertices[far])
     head = s.point_of(s.panels[0], far) - QtCore.QPoint(6, 17)

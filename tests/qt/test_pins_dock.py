@@ -8,6 +8,7 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 
 from app.document.pins import Pins
+from tests.qt.parts import parts
 from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click, type_ids
 
 
@@ -46,7 +47,7 @@ def test_the_key_opens_the_dock_and_typed_ids_are_pinned(loaded):
     QtTest.QTest.keyClick(s.panels[0].view, QtCore.Qt.Key.Key_P)
     s.settle(0.1)
     assert s.document.docks == ("pins",)
-    dock = s.window.docks._docks["pins"].content
+    dock = parts(s.window).docks._docks["pins"].content
     assert dock.empty.isVisible()
     type_ids(s, dock, "12, 40 700")
     assert ids(s) == [12, 40, 700]
@@ -78,7 +79,7 @@ def test_the_list_says_what_every_panel_has_there(loaded):
     for text, answer in zip(dock.table.rows.rows[1].values, s.answers, strict=True):
         assert read_number(text.removesuffix(" %")) == pytest.approx(100 * answer.field[40] / answer.maximum, abs=0.06)
     # And of another source.
-    s.window.typed_source.choose(700)
+    parts(s.window).typed_source.choose(700)
     s.until(lambda: s.session.is_complete)
     s.settle(0.05)
     assert read_number(dock.table.rows.rows[0].values[0].removesuffix(" %")) == pytest.approx(
@@ -113,7 +114,7 @@ def test_pins_in_faces_are_listed_and_compared(loaded, tmp_path):
     dock = dock_of(s)
     type_ids(s, dock, "12, f17:0.2,0.5")
     assert ids(s) == [12, SurfacePoint.of(17, 0.2, 0.5)]
-    s.window.gestures.sources.set_snapping(False)
+    parts(s.window).sources.set_snapping(False)
     (vertex,) = seen_vertices(s, 1)
     shift_click(s, vertex)
     place = ids(s)[2]
@@ -296,17 +297,17 @@ def test_a_session_brings_pins_and_their_dock_back(loaded, screen, tmp_path):
     dock.rename(s.document[Pins].pins[0].point, "nose")
     dock.distances.choose_distance(Spec.of("geodesic", method="dijkstra"))
     dock.list_otherwise(shares=True)
-    s.window.session_file.save(str(tmp_path / "all.json"))
+    parts(s.window).session_file.save(str(tmp_path / "all.json"))
     other = screen()
-    other.window.files.open(str(tmp_path / "all.json"))
+    parts(other.window).files.open(str(tmp_path / "all.json"))
     other.until(lambda: other.session.is_complete)
     other.settle(0.1)
     assert ids(other) == [12, 40]
     assert [pin.name for pin in other.document[Pins].pins] == ["nose", ""]
-    rows = other.window.docks._docks["pins"].content.table.rows.rows
+    rows = parts(other.window).docks._docks["pins"].content.table.rows.rows
     assert [row.name for row in rows] == ["nose", ""]
     assert [row.values for row in rows] == [row.values for row in dock.table.rows.rows]
-    listed = other.window.docks._docks["pins"].content
+    listed = parts(other.window).docks._docks["pins"].content
     assert listed.distances.spec == Spec.of("geodesic", method="dijkstra")
     assert listed.ways.choice() == "share"
 

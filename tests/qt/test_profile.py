@@ -16,6 +16,7 @@ from bihdist_core import Laplacian, ParameterError
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 with_pointer = pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed")
@@ -50,13 +51,13 @@ def pinned(s, count=2):
 
 
 def dock_of(s):
-    return s.window.docks._docks["profile"].content
+    return parts(s.window).docks._docks["profile"].content
 
 
 def profiled(s, count=2):
     """The dock with the path through pins, once that is found."""
     pinned(s, count)
-    s.window.docks.toggle("profile")
+    parts(s.window).docks.toggle("profile")
     dock = dock_of(s)
     s.until(lambda: dock.path is not None)
     return dock
@@ -198,7 +199,7 @@ def test_the_path_is_dark_on_white_where_it_is_seen(loaded):
     well = np.flatnonzero(is_seen)[10:-10:20]
     dark = [picture.pixelColor(*(pixels[k] / ratio).astype(int).tolist()).value() for k in well]
     assert np.mean(np.array(dark) < 110) > 0.8
-    s.window.docks.close("profile")
+    parts(s.window).docks.close("profile")
     s.settle()
     assert not len(view.over.path.pixels)
 
@@ -266,7 +267,7 @@ def test_what_is_saved_is_what_is_shown(loaded, tmp_path):
             save_profile_figure(dock.files.figure(), tmp_path / f"{name}.{kind}")
         assert (tmp_path / f"one.{kind}").read_bytes() == (tmp_path / f"two.{kind}").read_bytes()
     dock.files.save_figure(str(tmp_path / "saved.svg"))
-    s.until(lambda: not s.window.exports.running)
+    s.until(lambda: not parts(s.window).exports.running)
     assert (tmp_path / "saved.svg").read_bytes() == (tmp_path / "one.svg").read_bytes()
     drawn = (tmp_path / "one.svg").read_text()
     assert ">Biharmonic</text>" in drawn
@@ -279,10 +280,10 @@ def test_it_comes_back_with_its_session_and_leaves_with_its_mesh(loaded, screen,
     dock.choices.choose_way("edges")
     s.until(lambda: dock.path.label == "shortest path along edges")
     path = str(tmp_path / "it.json")
-    s.window.session_file.save(path)
+    parts(s.window).session_file.save(path)
     again = screen(TWO)
-    again.window.session_file.open(path)
-    again.until(lambda: again.session.is_complete and "profile" in again.window.docks._docks)
+    parts(again.window).session_file.open(path)
+    again.until(lambda: again.session.is_complete and "profile" in parts(again.window).docks._docks)
     other = dock_of(again)
     again.until(lambda: other.path is not None)
     assert again.document[Profile] == s.document[Profile]
@@ -297,20 +298,20 @@ def test_panels_come_and_go_while_the_chart_is_pointed_at(loaded):
     s = loaded
     dock = profiled(s)
     dock._point((dock.path.length / 3, 0.5))
-    s.window.choices.add_panel()
+    parts(s.window).choices.add_panel()
     s.until(lambda: s.session.is_complete and len(dock.curves) == 3)
     assert {curve.colour for curve in dock.curves.values()} == {panel.head._dot for panel in s.panels}
-    s.window.choices.edit_panel(s.document.panels[0].id, "Remove it")
+    parts(s.window).choices.edit_panel(s.document.panels[0].id, "Remove it")
     s.until(lambda: s.session.is_complete and len(dock.chart.curves) == 2)
     s.settle()
     assert all(panel.view.over.pointed is not None for panel in s.panels[:1])
-    s.window.docks.close("profile")
+    parts(s.window).docks.close("profile")
     assert not any(panel.head._dot or len(panel.view.over.path.points) for panel in s.panels)
 
 
 def test_without_two_points_it_says_what_to_do(loaded):
     s = loaded
-    s.window.docks.toggle("profile")
+    parts(s.window).docks.toggle("profile")
     assert "pin two points" in dock_of(s).chart.sentence
     pinned(s, 1)
     assert points_along(s.document) == ("source", "pin")

@@ -8,6 +8,7 @@ from app.document.pins import Pins
 from app.document.regions import DividedPanels
 from bihdist_core import farthest_points, read_surface, region_boundaries, region_mesh, voronoi_regions
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 SHOWN = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
@@ -44,11 +45,11 @@ def press(button, x=None):
 
 
 def dock(s, word):
-    return s.window.docks._docks[word].content
+    return parts(s.window).docks._docks[word].content
 
 
 def known(s):
-    s.until(lambda: s.window.docks.findings.is_complete)
+    s.until(lambda: parts(s.window).findings.is_complete)
     s.settle(0.1)  # what is known is on its way to the dock
 
 
@@ -60,7 +61,7 @@ def test_quality_opens_by_its_key_and_follows_the_source(loaded):
     assert "…" not in table
     assert table.splitlines()[0].split("\t")[1:] == ["Biharmonic", "Geodesic", "Diffusion"]
     assert table.splitlines()[1].split("\t")[1:3] == ["0", "0"]
-    extrema = s.window.docks.findings.found(0).extrema
+    extrema = parts(s.window).findings.found(0).extrema
     marks = s.panels[0].view.over.extrema
     assert marks.positions.tolist() == s.session.surface.vertices[extrema.maxima].tolist()
     assert marks.is_maximum.all()
@@ -69,17 +70,17 @@ def test_quality_opens_by_its_key_and_follows_the_source(loaded):
     s.until(lambda: s.session.is_complete)
     known(s)
     assert dock(s, "quality").text() != table
-    assert s.window.docks.findings.found(0).whole.source == 200
+    assert parts(s.window).findings.found(0).whole.source == 200
     press(dock(s, "quality").copy_button)
     from qtpy.QtWidgets import QApplication
 
     copied = QApplication.clipboard().text()
     assert copied == dock(s, "quality").text()
-    whole = s.window.docks.findings.found(0).whole
+    whole = parts(s.window).findings.found(0).whole
     said = {line.split("\t")[0]: line.split("\t")[1] for line in copied.splitlines()[1:]}
     assert (float(said["Isotropy"]), float(said["Largest kink"])) == (whole.isotropy, whole.kink)
     key(s, "q")
-    assert not s.window.docks._docks["quality"].isVisible()
+    assert not parts(s.window).docks._docks["quality"].isVisible()
     assert not len(marks.positions)
 
 
@@ -95,7 +96,7 @@ def test_a_difference_has_extrema_and_kinks_and_no_more(loaded):
     minima, maxima, isotropy, kink, length, triangles = (
         line.split("\t")[3] for line in dock(s, "quality").text().splitlines()[1:]
     )
-    extrema = s.window.docks.findings.found(2).extrema
+    extrema = parts(s.window).findings.found(2).extrema
     assert (minima, maxima) == (str(len(extrema.minima)), str(len(extrema.maxima))) != ("0", "0")
     assert (isotropy, triangles) == ("–", "–")
     assert float(kink) > 0 <= float(length)
@@ -118,7 +119,7 @@ def test_extrema_are_kept_on_the_surfaces_if_that_is_wanted(loaded, tmp_path):
     s.session.show(move_source(s.document, 0, 200))
     s.until(lambda: s.session.is_complete)
     known(s)
-    found = s.window.docks.findings.found(0)
+    found = parts(s.window).findings.found(0)
     assert marks.positions.tolist() == s.session.surface.vertices[found.extrema.maxima].tolist()
     assert found.whole is None
     s.session.undo()
@@ -145,7 +146,7 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     known(s)
     columns = distance.from_sources(wanted)
     found = voronoi_regions(s.session.surface, columns)
-    assert s.window.docks.findings.divided(0).regions.areas == pytest.approx(found.areas, rel=1e-9)
+    assert parts(s.window).findings.divided(0).regions.areas == pytest.approx(found.areas, rel=1e-9)
     after = s.pictures()
     assert (before[0] != after[0]).any()
     assert (before[1] == after[1]).all()
@@ -193,7 +194,7 @@ def test_regions_follow_a_pin_that_is_moved(loaded):
     known(s)
     distance = s.session.loaded().distances("voronoi").get(SHOWN[0])
     wanted = voronoi_regions(s.session.surface, distance.from_sources([7, 90, 150]))
-    assert s.window.docks.findings.divided(0).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
+    assert parts(s.window).findings.divided(0).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
 
 
 def test_too_many_points_are_refused_in_the_dock(loaded):
@@ -221,9 +222,9 @@ def test_the_docks_come_back_with_a_session(loaded, tmp_path):
     known(s)
     areas = dock(s, "regions").text()
     path = str(tmp_path / "session.json")
-    s.window.session_file.save(path)
+    parts(s.window).session_file.save(path)
     key(s, "q")
-    s.window.session_file.open(path)
+    parts(s.window).session_file.open(path)
     s.until(lambda: s.session.is_complete and "quality" in s.document.docks)
     known(s)
     assert dock(s, "regions").text() == areas

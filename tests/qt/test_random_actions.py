@@ -13,6 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.qt.parts import parts
+
 ROOT = Path(__file__).parents[2]
 ACTIONS, SEED = int(os.environ.get("BIHDIST_ACTIONS", 300)), int(os.environ.get("BIHDIST_SEED", 1))
 FIRST = 50
@@ -52,8 +54,8 @@ def test_dialogs_that_are_closed_are_gone(screen):
 
     s = screen()
     for kind, open_it in (
-        (Palette, s.window.guide.show_commands),
-        (QtWidgets.QDialog, s.window.choices.ask_preferences),
+        (Palette, parts(s.window).guide.show_commands),
+        (QtWidgets.QDialog, parts(s.window).choices.ask_preferences),
     ):
         open_it()
         s.settle(0.05)

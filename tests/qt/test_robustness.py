@@ -19,6 +19,7 @@ pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
 from tests.qt.changing import change_of, check, complete, dock_of, open_it, press, seen, type_in
+from tests.qt.parts import parts
 
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
 KINDS = (BiharmonicDistance, GeodesicDistance)
@@ -138,7 +139,7 @@ def test_the_changed_mesh_is_saved(loaded, tmp_path, monkeypatch):
     s, dock = loaded, dock_of(loaded)
     type_in(s, dock.noise.box, "0.3")
     path = str(tmp_path / "changed.off")
-    monkeypatch.setattr("app.qt.docks.saving.ask_path", lambda *_: path)
+    monkeypatch.setattr("app.qt.files.saving.ask_path", lambda *_: path)
     press(s, dock.save_button)
     there = read_surface(path)
     assert np.array_equal(there.vertices, s.session.loaded("B").surface.vertices)
@@ -152,10 +153,10 @@ def test_a_session_of_it_is_opened_again_and_drawn(loaded, tmp_path, mesh_file):
     complete(s)
     type_in(s, dock.noise.box, "0.1")
     path, fields = tmp_path / "session.json", [answer.field for answer in s.answers]
-    s.window.session_file.save(str(path))
+    parts(s.window).session_file.save(str(path))
     press(s, dock.remove_button)
     assert change_of(s) is None
-    s.window.session_file.open(str(path))
+    parts(s.window).session_file.open(str(path))
     complete(s)
     assert "robustness" in s.document.docks
     assert change_of(s).noise == 0.1
@@ -190,12 +191,12 @@ def test_closing_the_dock_brings_the_old_panels_back(loaded):
 def test_other_distances_are_shown_in_the_whole_row(loaded):
     s, dock = loaded, dock_of(loaded)
     type_in(s, dock.noise.box, "0.3")
-    s.window.gestures.choose(s.document.panels[1].id, quantity("commute-time", "source after"))
+    parts(s.window).choices.choose(s.document.panels[1].id, quantity("commute-time", "source after"))
     complete(s)
     words = [str(panel.shows) for panel in s.document.panels]
     assert words[:3] == ["commute-time", "commute-time", "change of commute-time"]
     assert words[3] == "geodesic(method=exact)"
-    s.window.choices.add_panel()
+    parts(s.window).choices.add_panel()
     complete(s)
     assert len(s.document.panels) == 9
     assert [name for name, _ in dock.table.rows][:2] == ["Commute-time", "Geodesic"]

@@ -13,6 +13,7 @@ from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
 from app.document.selections import Selections
 from tests.qt.changing import change_of, check, complete, dock_of, open_it, press, seen
+from tests.qt.parts import parts
 
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
 KINDS = (BiharmonicDistance, GeodesicDistance)
@@ -42,8 +43,8 @@ def stroke(s, panel, start, stop):
 def test_faces_are_cut_out_by_brush_and_come_back(loaded, monkeypatch):
     s, dock = loaded, dock_of(loaded)
     press(s, dock.cut.button)
-    assert s.window.docks.brushing.cuts
-    s.until(lambda: s.window.docks.brushing._brush is not None)
+    assert parts(s.window).brushing.cuts
+    s.until(lambda: parts(s.window).brushing._brush is not None)
     _, middle = seen(s)
     stroke(s, 0, middle, middle + QtCore.QPoint(40, 0))
     cut = change_of(s).cut
@@ -61,7 +62,7 @@ def test_faces_are_cut_out_by_brush_and_come_back(loaded, monkeypatch):
     monkeypatch.undo()
     assert not s.document[Selections].selections
     s.window.actions_by_word["stop"].trigger()  # Esc
-    assert not s.window.docks.brushing.cuts
+    assert not parts(s.window).brushing.cuts
     press(s, dock.cut.cross)
     assert change_of(s) is None
 
@@ -80,7 +81,7 @@ def test_two_places_are_picked_for_a_handle_and_a_weld(loaded):
             for p in map(s.panels[0].view.place_of, s.session.surface.vertices[vertices])
         ]
         for at in places:
-            assert s.window.docks.picking.is_on
+            assert parts(s.window).picking.word
             QtTest.QTest.mouseClick(view, LEFT, pos=at)
             s.settle(0.05)
         complete(s)
@@ -93,7 +94,7 @@ def test_two_places_are_picked_for_a_handle_and_a_weld(loaded):
         assert change_of(s) is None
     press(s, dock.weld.button)
     s.window.actions_by_word["stop"].trigger()  # Esc
-    assert not s.window.docks.picking.is_on
+    assert not parts(s.window).picking.word
     assert not dock.weld.button.isChecked()
 
 

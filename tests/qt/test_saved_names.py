@@ -5,6 +5,7 @@ import pytest
 pytest.importorskip("qtpy")
 from qtpy import QtWidgets
 
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 
@@ -18,11 +19,11 @@ def suggested(monkeypatch):
 
 
 def test_every_dialog_suggests_the_mesh_what_is_saved_and_of_which_distance(screen, mesh_file, suggested):
-    from app.qt.docks.isoline_files import save_isolines
+    from app.qt.files.isoline_files import save_isolines
 
     s = screen()
     s.open(mesh_file(bumpy(300)), source=12)
-    window, docks = s.window, s.window.docks
+    window, docks = s.window, parts(s.window).docks
 
     def content(word):
         return docks._docks[word].content
@@ -31,11 +32,11 @@ def test_every_dialog_suggests_the_mesh_what_is_saved_and_of_which_distance(scre
     for word in ("statistics", "scatter", "pins", "profile", "anchors"):
         docks.toggle(word)
     s.settle()
-    window.session_file.choose_and_save()
-    window.files.choose_screenshot()
-    window.field_files.save(panel)
-    window.field_files.save_all()
-    save_isolines(window, panel)
+    parts(window).session_file.choose_and_save()
+    parts(window).files.choose_screenshot()
+    parts(window).field_files.save(panel)
+    parts(window).field_files.save_all()
+    save_isolines(window.context, panel)
     content("statistics").save_numbers()
     content("scatter").save_figure()
     content("pins").files.choose_and_save()

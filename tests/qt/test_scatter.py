@@ -12,6 +12,7 @@ from app.document.selections import Selections, vertices_of
 from app.tools.scatter.part import Scatter
 from bihdist_core import field_agreement
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -24,7 +25,7 @@ def loaded(screen, mesh_file):
     s.window.resize(1200, 900)
     s.open(mesh_file(bumpy(2000)), 5)
     s.window.actions_by_word["dock scatter"].trigger()
-    s.dock = s.window.docks._docks["scatter"].content
+    s.dock = parts(s.window).docks._docks["scatter"].content
     s.until(lambda: len(s.dock.facts.facts) > 3)
     s.settle(0.3)
     return s
@@ -136,10 +137,10 @@ def test_the_key_for_the_brush_is_heard_wherever_the_focus_is_but_in_text(loaded
 
     s, key = loaded, QtCore.Qt.Key.Key_B
     pointers = [panel.view.pointer for panel in s.panels]
-    s.window.docks.toggle("anchors")
-    dock = s.window.docks._docks["anchors"]
+    parts(s.window).docks.toggle("anchors")
+    dock = parts(s.window).docks._docks["anchors"]
     spin = dock.content.findChild(QtWidgets.QSpinBox)
-    for keys in (s.panels[0].view, s.window.tools["open"], s.panels[1].head.name, spin):
+    for keys in (s.panels[0].view, s.window.tool_bar.buttons["open"], s.panels[1].head.name, spin):
         keys.setFocus()
         assert s.window.focusWidget() is keys
         QTest.keyPress(s.window.windowHandle(), key)
@@ -148,7 +149,7 @@ def test_the_key_for_the_brush_is_heard_wherever_the_focus_is_but_in_text(loaded
         assert all(pointer.brush is not None for pointer in pointers)
         QTest.keyRelease(s.window.windowHandle(), key)
         assert all(pointer.brush is None for pointer in pointers)
-    s.window.source_box.setFocus()
+    parts(s.window).typed_source.box.setFocus()
     QTest.keyPress(s.window.windowHandle(), key)
     assert pointers[0].brush is None
     QTest.keyRelease(s.window.windowHandle(), key)
@@ -234,7 +235,7 @@ def test_a_session_has_its_selections_and_its_dock_again(loaded, screen, tmp_pat
     other.until(lambda: other.session.is_complete)
     other.settle(0.3)
     assert other.document[Selections].selections == s.document[Selections].selections
-    dock = other.window.docks._docks["scatter"].content
+    dock = parts(other.window).docks._docks["scatter"].content
     assert dock.isVisible()
     assert dock.list.topLevelItemCount() == 1
     green = np.array([0x1F, 0x7A, 0x3D])

@@ -22,6 +22,7 @@ from app.scene.picking import Hit
 from app.session.array_store import comparison_of_arrays
 from app.session.recipe_file import recipe_written
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
@@ -49,9 +50,9 @@ def test_a_session_opened_again_is_the_same_document_and_the_same_pictures(scree
     one, other = screen(), screen()
     arranged(one, mesh_file(bumpy(400)))
     path = tmp_path / "s.json"
-    one.window.session_file.save(str(path))
+    parts(one.window).session_file.save(str(path))
     other.open(mesh_file(grid(4, 4), "other.off"))
-    other.window.session_file.open(str(path))
+    parts(other.window).session_file.open(str(path))
     other.until(lambda: other.session.is_complete and other.session.surface.name == "mesh.off")
     other.settle()
     assert other.document == one.document
@@ -68,7 +69,7 @@ def test_a_session_is_drawn_by_the_command_line_and_may_move_with_its_mesh(scree
     s = screen()
     mesh = mesh_file(bumpy(300))
     arranged(s, mesh)
-    s.window.session_file.save(str(tmp_path / "s.json"))
+    parts(s.window).session_file.save(str(tmp_path / "s.json"))
     assert json.loads((tmp_path / "s.json").read_text())["document"]["surfaces"][0]["path"] == "mesh.off"
     (tmp_path / "moved").mkdir()
     for name in ("s.json", "mesh.off"):
@@ -87,15 +88,15 @@ def test_a_recipe_opened_and_exported_again_has_the_same_bytes(screen, mesh_file
 
     assert main(["figure", "--recipe", str(tmp_path / "a.json"), "-o", str(tmp_path / "f.png")]) == 0
     s = screen()
-    s.window.session_file.open(str(tmp_path / "f.json"))
+    parts(s.window).session_file.open(str(tmp_path / "f.json"))
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert len(s.panels) == 4
     assert [p.shows.point for p in s.document.panels] == ["source", "source", "source 2", "source 2"]
-    dialog = export_figure(s.window)
+    dialog = export_figure(s.window.context)
     ended = []
-    s.window.exports.saved.connect(ended.append)
-    s.window.exports.failed.connect(ended.append)
+    parts(s.window).exports.saved.connect(ended.append)
+    parts(s.window).exports.failed.connect(ended.append)
     dialog.export(str(tmp_path / "g.png"))
     s.until(lambda: ended)
     assert (tmp_path / "g.json").read_bytes() == (tmp_path / "f.json").read_bytes()
@@ -108,15 +109,15 @@ def test_a_mesh_that_is_gone_or_has_changed_is_said_and_another_can_be_pointed_a
     s = screen()
     mesh = mesh_file(bumpy(300))
     arranged(s, mesh)
-    s.window.session_file.save(str(tmp_path / "s.json"))
+    parts(s.window).session_file.save(str(tmp_path / "s.json"))
     before = s.document
     os.rename(mesh, tmp_path / "elsewhere.off")
-    s.window.session_file.open(str(tmp_path / "s.json"))
+    parts(s.window).session_file.open(str(tmp_path / "s.json"))
     assert "is not there" in s.refusals[-1]
     assert s.document == before
     elsewhere = str(tmp_path / "elsewhere.off")
     monkeypatch.setattr("app.qt.files.session_actions._mesh_instead", lambda window, message, path: elsewhere)
-    s.window.session_file.open(str(tmp_path / "s.json"))
+    parts(s.window).session_file.open(str(tmp_path / "s.json"))
     s.until(lambda: s.session.is_complete and s.session.surface.name == "elsewhere.off")
     assert (s.source, len(s.panels)) == (9, 4)
 
@@ -125,11 +126,11 @@ def test_recent_files_are_listed_the_last_first(screen, mesh_file, tmp_path):
     from app.qt import remembered
 
     s = screen()
-    s.window.remembers = True
+    s.window.context.remembers = True
     meshes = [mesh_file(bumpy(100), f"m{k}.off") for k in range(12)]
     for mesh in meshes:
         s.open(mesh)
-    s.window.session_file.save(str(tmp_path / "s.json"))
+    parts(s.window).session_file.save(str(tmp_path / "s.json"))
     assert remembered.recent() == [str(tmp_path / "s.json"), *meshes[:2:-1]]
     os.unlink(meshes[-1])
     assert meshes[-1] not in remembered.recent()
@@ -182,12 +183,12 @@ def test_what_of_a_recipe_the_window_does_not_show_is_said_and_kept(screen, mesh
     recipe = Recipe(document, Page(style="lines", views=("home", "back")))
     (tmp_path / "r.json").write_text(recipe_text(recipe, "0"))
     s = screen()
-    s.window.session_file.open(str(tmp_path / "r.json"))
+    parts(s.window).session_file.open(str(tmp_path / "r.json"))
     s.until(lambda: s.session.is_complete)
     chip = s.window.status.notes
     assert chip.sentences[-1] == "in figures only: views but the first of 2, outlines"
     assert (chip.isVisible(), chip.words) == (True, f"{len(chip.sentences)} fact{'s' * (len(chip.sentences) > 1)}")
-    assert s.window.page == recipe.page
+    assert s.window.context.page == recipe.page
 
 
 def corner(surface, vertex):
@@ -201,6 +202,7 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
     from qtpy.QtTest import QTest
 
     from app.document.edits import PANEL_EDITS, possible_edits
+    from app.qt.panels.events import MarkDrag, MarkRelease
 
     s = screen()
     meshes = [mesh_file(bumpy(250)), mesh_file(grid(7, 7), "grid.off")]
@@ -228,9 +230,9 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
         if action == 0:
             s.session.show(move_source(s.document, panel, int(random.integers(40))))
         elif action == 1:
-            s.window.gestures.choose(panel, shows[random.integers(len(shows))])
+            parts(s.window).choices.choose(panel, shows[random.integers(len(shows))])
         elif action == 2:
-            s.window.choices.isolines(int(random.integers(5, 40)))
+            parts(s.window).choices.isolines(int(random.integers(5, 40)))
         elif action == 3:
             possible = sorted(possible_edits(s.document, panel, 4))
             if possible:
@@ -239,11 +241,11 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
             s.open(meshes[number // 20 % 2], 3)
         else:
             for vertex in random.integers(40, size=2):
-                s.panels[0].view.dragged.emit(0, corner(s.session.surface, int(vertex)))
-            s.panels[0].view.released.emit()
+                s.panels[0].view.happened.emit(MarkDrag("", 0, corner(s.session.surface, int(vertex))))
+            s.panels[0].view.happened.emit(MarkRelease(""))
     last, document = pictures(), s.document
     s.activate()
-    s.window.typed_source.ask()
+    parts(s.window).typed_source.ask()
     s.settle()
 
     def press(modifiers, is_there):
@@ -267,7 +269,7 @@ def test_the_menu_offers_only_steps_that_there_are(screen, mesh_file):
     s = screen()
 
     def offered():
-        actions, tools = s.window.actions_by_word, s.window.tools
+        actions, tools = s.window.actions_by_word, s.window.tool_bar.buttons
         found = [actions[word].isEnabled() for word in ("undo", "redo")]
         assert found == [tools[word].isEnabled() for word in ("undo", "redo")]
         return tuple(found)

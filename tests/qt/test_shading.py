@@ -10,6 +10,7 @@ import app.scene.stand_in
 from app.document.looks import AS_IT_IS, Shading
 from bihdist_core.distances.kinds import Spec
 from tests.app.test_shading import box
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 GEODESIC = Spec.of("geodesic", method="heat")
@@ -68,9 +69,9 @@ def test_the_key_w_shows_the_edges_in_new_panels_and_other_colours_too(loaded):
     s.settle(0.1)
     assert s.document.shading.wireframe
     assert min(differ(s.pictures(), without)) > 0.5
-    s.window.choices.add_panel()
+    parts(s.window).choices.add_panel()
     s.until(lambda: s.session.is_complete)
-    s.window.choices.colour_map("uniform")
+    parts(s.window).choices.colour_map("uniform")
     s.settle(0.1)
     wired = s.pictures()
     s.window.actions_by_word["wireframe"].trigger()
@@ -98,11 +99,11 @@ def test_a_flat_surface_raised_is_shaded_as_well(loaded):
     s.session.show(replace(s.document, height=0.4))
     s.settle(0.1)
     before = s.pictures()
-    s.window.choices.shading("flat")
+    parts(s.window).choices.shading("flat")
     s.settle(0.1)
     flat = s.pictures()
     assert min(differ(flat, before)) > 0.1
-    s.window.choices.shading("auto")
+    parts(s.window).choices.shading("auto")
     s.settle(0.1)
     assert max(differ(s.pictures(), before)) == 0
 
@@ -111,8 +112,8 @@ def test_large_surfaces_are_split_on_a_thread_of_its_own(loaded, monkeypatch):
     s = loaded(bumpy(2000))
     smooth = s.pictures()
     monkeypatch.setattr(app.qt.panels.shades, "LARGE", 10)
-    s.window.choices.shading("flat")  # needs no other mesh
-    s.window.choices.shading("creased")
+    parts(s.window).choices.shading("flat")  # needs no other mesh
+    parts(s.window).choices.shading("creased")
     crease = Shading("creased", 8.0)
     from dataclasses import replace
 
@@ -192,7 +193,7 @@ def test_screenshots_and_picks_are_of_the_surface_itself(large, tmp_path):
     assert any(standing(s))
     again = view.pick(place)
     assert (again.face, again.vertex) == (hit.face, hit.vertex)
-    s.window.files.save_screenshot(str(tmp_path / "window.png"))
+    parts(s.window).files.save_screenshot(str(tmp_path / "window.png"))
     assert not any(standing(s))
     view.turn_by(1, 0)
     assert view.shot().any()
@@ -211,7 +212,7 @@ def test_quick_drawing_needs_no_stand_in_and_standard_views_neither(large):
 def test_a_change_of_the_shading_while_moving_is_seen_at_rest(large):
     s, view = large, large.panels[0].view
     view.turn_by(1, 0)
-    s.window.choices.shading("creased")
+    parts(s.window).choices.shading("creased")
     s.until(lambda: not any(standing(s)), 5)
     s.settle(0.3)
     before = s.pictures()

@@ -26,6 +26,7 @@ from tests.shapes import bumpy, grid, torus, two_pieces
 
 pytest.importorskip("qtpy")
 
+from tests.qt.parts import parts
 from tests.qt.test_head import choose
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -158,7 +159,7 @@ def test_waiting_ends_where_the_user_stops_it(shown, mesh_file, end):
 
 def test_numbers_of_numpy_are_numbers(shown, tmp_path):
     viewer = shown(SURFACE, ["biharmonic"], source=HEIGHT.argmax())
-    viewer._window.session_file.save(str(tmp_path / "s.json"))
+    parts(viewer._window).session_file.save(str(tmp_path / "s.json"))
     assert read_recipe(tmp_path / "s.json").document.sources == (int(HEIGHT.argmax()),)
     drawn = app.figure(
         SURFACE, ["biharmonic"], np.int64(5), anchors={np.int64(7): np.float32(0.1)}, zooms=[np.int32(3)]
@@ -189,7 +190,7 @@ def test_where_a_difference_is_nothing_no_line_is_drawn(shown):
     viewer.panels  # noqa: B018
     window, views = viewer._window, {}
     for count in (0, 2):  # of so few only that at 0 is there
-        window.choices.isolines(count)
+        parts(window).choices.isolines(count)
         viewer.panels  # noqa: B018
         views[count] = [panel.view.shot() for panel in window.grid.panels]
     lines = [(some != others).any(axis=2).mean() for some, others in zip(*views.values(), strict=True)]
@@ -287,11 +288,13 @@ def test_a_pick_tells_where_and_what_was_there_before_the_source_came(shown):
 
 
 def test_where_nothing_is_defined_a_pick_has_no_value(shown):
+    from app.qt.panels.events import Click
+
     picks = []
     surface = two_pieces()
     viewer = shown(surface, ["biharmonic"], source=int(surface.faces[-1, 0]), on_pick=picks.append)
     field = viewer.panels[0].field
-    viewer._window.gestures._click(0, _met(surface, int(np.flatnonzero(np.isnan(field))[0])))
+    viewer._window.grid.events.emit(0, Click(_met(surface, int(np.flatnonzero(np.isnan(field))[0]))))
     told(picks)
     assert np.isnan(picks[0].values[0])
 
@@ -347,11 +350,11 @@ def test_the_session_of_such_a_window_is_saved_opened_and_drawn(shown, screen, t
 
     viewer = shown(SURFACE, ["biharmonic", "biharmonic - height"], {"height": HEIGHT - HEIGHT.min()}, 7)
     fields = [panel.field for panel in viewer.panels]
-    viewer._window.session_file.save(str(tmp_path / "s.json"))
+    parts(viewer._window).session_file.save(str(tmp_path / "s.json"))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["s.json", "s.npz"]
     assert read_recipe(tmp_path / "s.json").document == viewer.document
     s = screen()
-    s.window.session_file.open(str(tmp_path / "s.json"))
+    parts(s.window).session_file.open(str(tmp_path / "s.json"))
     s.until(lambda: s.session.is_complete)
     assert s.document == viewer.document
     for answer, field in zip(s.answers, fields, strict=True):

@@ -11,6 +11,7 @@ from tests.shapes import bumpy, grid
 pytest.importorskip("qtpy")
 
 from app.document.pins import Pins
+from tests.qt.parts import parts
 from tests.qt.sourcing import check_fields, click, ctrl_click, drag, open_file, typed, where
 
 
@@ -34,13 +35,13 @@ def test_all_words_of_sources_can_be_typed(sheet, tmp_path, words, capsys):
         path.write_text(json.dumps({"points": [[3, 0.25, 0.25], [120, 0.5, 0.25]]}))
         words = str(path)
     typed(s, words)
-    assert not s.window.source_box.wrong.isVisible()
+    assert not parts(s.window).typed_source.box.wrong.isVisible()
     check_fields(s, words, tmp_path)
-    shown = s.window.source_box.text()
+    shown = parts(s.window).typed_source.box.text()
     assert shown == (words if not words.endswith(".json") else "a curve of 2 points")
     s.session.undo()
     assert s.source == 84
-    assert s.window.source_box.text() == "84"
+    assert parts(s.window).typed_source.box.text() == "84"
 
 
 @pytest.mark.parametrize(
@@ -57,13 +58,13 @@ def test_all_words_of_sources_can_be_typed(sheet, tmp_path, words, capsys):
 def test_words_of_no_source_are_refused_under_the_box(sheet, words, said):
     s = sheet
     typed(s, words)
-    assert s.window.source_box.wrong.isVisible()
-    assert said in s.window.source_box.wrong.text()
+    assert parts(s.window).typed_source.box.wrong.isVisible()
+    assert said in parts(s.window).typed_source.box.wrong.text()
     assert s.source == 84
 
 
 def test_a_short_sentence_after_a_long_one_has_a_low_box(sheet):
-    box = sheet.window.source_box
+    box = parts(sheet.window).typed_source.box
     typed(sheet, "9999")
     low = box.wrong.height()
     typed(sheet, "banana")
@@ -85,7 +86,7 @@ def test_without_snapping_a_click_puts_the_source_into_the_face(loaded, tmp_path
     assert isinstance(at, SurfacePoint)
     assert at.face == hit.face
     assert np.abs(np.array(at.weights) - hit.weights).max() <= 1e-4
-    check_fields(s, s.window.source_box.text(), tmp_path)
+    check_fields(s, parts(s.window).typed_source.box.text(), tmp_path)
     corners = s.session.surface.faces[at.face]
     position = np.array(at.weights) @ s.session.surface.vertices[corners]
     for panel in s.panels:
@@ -116,7 +117,7 @@ def test_without_snapping_the_mark_is_dragged_through_faces_and_is_exact_at_the_
     seen = view.place_of(view.source) - (start + QtCore.QPoint(116, 29))
     assert abs(seen.x()) < 1.5
     assert abs(seen.y()) < 1.5
-    check_fields(s, s.window.source_box.text(), tmp_path)
+    check_fields(s, parts(s.window).typed_source.box.text(), tmp_path)
     s.session.undo()
     assert s.source == before, "the drag is one step"
 
@@ -133,8 +134,8 @@ def test_ctrl_click_makes_a_set_and_takes_from_it_and_undo_goes_back(loaded, tmp
     for other in others:
         ctrl_click(s, where(s, other))
     assert s.source == SourceSet((first, *others))
-    assert s.window.source_box.text() == "+".join(map(str, (first, *others)))
-    check_fields(s, s.window.source_box.text(), tmp_path)
+    assert parts(s.window).typed_source.box.text() == "+".join(map(str, (first, *others)))
+    check_fields(s, parts(s.window).typed_source.box.text(), tmp_path)
     assert len(view.handles) == 3
     ctrl_click(s, where(s, first))
     assert s.source == SourceSet(tuple(others))
@@ -191,7 +192,7 @@ def test_undo_redo_and_the_walk_go_through_all_kinds(sheet, tmp_path):
     for words in ("12+40", "f31:0.25,0.5", "loop:0", str(path), f"7+{path}"):
         typed(s, words)
         passed.append(s.source)
-        texts.append(s.window.source_box.text())
+        texts.append(parts(s.window).typed_source.box.text())
     assert len(set(passed)) == 6
     for back, on in (("undo", "redo"), ("source before", "source after")):
         for word, order in ((back, range(4, -1, -1)), (on, range(1, 6))):
@@ -199,7 +200,7 @@ def test_undo_redo_and_the_walk_go_through_all_kinds(sheet, tmp_path):
                 do[word].trigger()
                 s.until(lambda: s.session.is_complete)
                 assert s.source == passed[k]
-                assert s.window.source_box.text() == texts[k]
+                assert parts(s.window).typed_source.box.text() == texts[k]
     assert s.refusals == []
 
 
@@ -211,7 +212,7 @@ def test_snapping_is_remembered_and_kept_with_a_session(application, screen, mes
 
     monkeypatch.setattr(remembered, "folder", lambda: tmp_path)
     s = screen()
-    s.window.remembers = True
+    s.window.context.remembers = True
     s.open(mesh_file(bumpy(400)), 5)
     s.activate()
     s.settle()
@@ -221,18 +222,18 @@ def test_snapping_is_remembered_and_kept_with_a_session(application, screen, mes
     assert not preferences.load().snap
     assert not s.session.can_undo, "it is no step"
     path = str(tmp_path / "s.json")
-    s.window.session_file.save(path)
+    parts(s.window).session_file.save(path)
     QtTest.QTest.keyClicks(s.panels[0].view, "v")
     assert snaps.isChecked()
     assert preferences.load().snap
     typed(s, "7")
     s.session.undo()
     assert snaps.isChecked(), "undo leaves it as it is"
-    s.window.files.open(path)
+    parts(s.window).files.open(path)
     s.until(lambda: s.session.is_complete and not snaps.isChecked())
     click(s, s.panels[0].view.rect().center())
     assert isinstance(s.source, SurfacePoint)
-    s.window.remembers = False
+    s.window.context.remembers = False
     new = start.as_preferred(comparison(""), preferences.Preferences(snap=False))
     assert not new.snap
 
@@ -245,12 +246,12 @@ def test_all_kinds_come_back_with_a_session(sheet, tmp_path):
     for number, words in enumerate(kinds):
         typed(s, words)
         path = str(tmp_path / f"{number}-session.json")
-        s.window.session_file.save(path)
+        parts(s.window).session_file.save(path)
         before, fields = s.source, [answer.field for answer in s.answers]
-        text = s.window.source_box.text()
+        text = parts(s.window).typed_source.box.text()
         typed(s, "3")
-        s.window.files.open(path)
+        parts(s.window).files.open(path)
         s.until(lambda before=before: s.session.is_complete and s.source == before)
-        assert s.window.source_box.text() == text
+        assert parts(s.window).typed_source.box.text() == text
         for field, answer in zip(fields, s.answers, strict=True):
             assert np.array_equal(field, answer.field)

@@ -280,7 +280,7 @@ def test_the_first_dialog_begins_at_the_folder_of_the_mesh_on_the_command_line(s
     for shown in (comparison(mesh_path("figure")), comparison(""), "gone.off"):
         assert beginning_at(before, shown) == before
     s, began = screen(), []
-    s.window.preferences = beginning_at(before, mesh)
+    s.window.context.preferences = beginning_at(before, mesh)
     monkeypatch.setattr(
         QtWidgets.QFileDialog, "getOpenFileName", lambda parent, title, folder, files: began.append(folder) or ("", "")
     )

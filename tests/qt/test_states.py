@@ -8,6 +8,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from app.qt.look.look import LOOK
 from app.qt.look.theme import DARK, LIGHT
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 
@@ -39,7 +40,7 @@ def test_the_active_panel_s_line_has_the_accent_of_each_theme(window):
 
 
 def test_a_button_whose_menu_closes_elsewhere_loses_the_colour_of_the_pointer(window):
-    for button in (window.window.tools["open"], window.panels[0].head.more):
+    for button in (window.window.tool_bar.buttons["open"], window.panels[0].head.more):
         inside, menu = button.rect().center(), button.menu()
         edge = QtCore.QPoint(button.width() // 2, 4)
 
@@ -57,7 +58,7 @@ def test_a_button_whose_menu_closes_elsewhere_loses_the_colour_of_the_pointer(wi
 
 
 def test_keys_of_what_is_hidden_or_disabled_go_to_the_panels_and_not_to_the_tool_bar(window):
-    docks, grid = window.window.docks, window.window.grid
+    docks, grid = parts(window.window).docks, window.window.grid
     docks.toggle("pins")
     window.settle(0.1)
     box = docks._docks["pins"].content.box
@@ -66,13 +67,13 @@ def test_keys_of_what_is_hidden_or_disabled_go_to_the_panels_and_not_to_the_tool
     docks.close("pins")
     window.settle(0.1)
     assert QtWidgets.QApplication.focusWidget() is grid.panel(grid.active).view
-    window.window.source_box.ask()
-    window.window.source_box.setEnabled(False)
+    parts(window.window).typed_source.box.ask()
+    parts(window.window).typed_source.box.setEnabled(False)
     assert QtWidgets.QApplication.focusWidget() is grid.panel(grid.active).view
 
 
 def test_a_window_that_becomes_active_shows_no_ring_on_its_first_button(window):
-    button = window.window.tools["open"]
+    button = window.window.tool_bar.buttons["open"]
     button.setFocus(QtCore.Qt.FocusReason.ActiveWindowFocusReason)
     assert button.hasFocus()
     assert not button.has_keys

@@ -10,6 +10,7 @@ from bihdist_core import band, field_statistics, rank_correlation, read_surface
 from bihdist_core.analysis.truncation import truncation_loss
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import checked_source
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -21,7 +22,7 @@ def loaded(screen, mesh_file):
     s.window.resize(1200, 900)
     s.open(mesh_file(bumpy(1000)), 5)
     s.window.actions_by_word["dock statistics"].trigger()
-    s.dock = s.window.docks._docks["statistics"].content
+    s.dock = parts(s.window).docks._docks["statistics"].content
     s.until(lambda: s.dock.facts.facts)
     return s
 
@@ -149,16 +150,17 @@ def test_truncation_follows_sources_of_other_kinds(loaded):
 
 def test_isolines_are_saved_from_the_menu_of_a_place_too(loaded, tmp_path):
     s = loaded
-    from app.qt.docks.isoline_files import save_isolines
+    from app.qt.files.isoline_files import save_isolines
+    from app.qt.panels.events import MenuWanted
 
-    save_isolines(s.window, s.document.panels[1].id, str(tmp_path / "lines.csv"))
+    save_isolines(s.window.context, s.document.panels[1].id, str(tmp_path / "lines.csv"))
     s.until((tmp_path / "lines.csv").exists)
     rows = np.genfromtxt(tmp_path / "lines.csv", delimiter=",", names=True)
     assert np.allclose(np.unique(rows["value"]), s.panels[1].view.scene.isolines)
     from qtpy.QtWidgets import QMenu
 
     middle = s.panels[1].view.rect().center()
-    s.window.gestures._open_menu(s.document.panels[1].id, s.panels[1].view.pick(middle), middle)
+    s.panels[1].view.happened.emit(MenuWanted(s.panels[1].view.pick(middle), middle))
     (menu,) = [each for each in s.application.topLevelWidgets() if isinstance(each, QMenu) and each.isVisible()]
     assert "Save isolines…" in [action.text() for action in menu.actions()]
     menu.hide()

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -16,10 +17,9 @@ def window(application):
 
     window = QtWidgets.QMainWindow()
     window.resize(900, 600)
-    window.tool_bar = window.addToolBar("Tools")
-    export = QtWidgets.QToolButton(text="Export")
-    window.tool_bar.addWidget(export)
-    window.tools = {"export": export}
+    bar = window.addToolBar("Tools")
+    bar.setObjectName("tools")
+    bar.addWidget(QtWidgets.QToolButton(text="Export", objectName="export"))
     middle = QtWidgets.QWidget()
     row, panels = QtWidgets.QHBoxLayout(middle), []
     for _ in range(3):
@@ -47,7 +47,7 @@ def window(application):
 def tour(window):
     from app.qt.pages.tour import Tour, steps
 
-    return Tour(window, steps(window))
+    return Tour(window, steps(window, lambda: window.grid.panels))
 
 
 def target_of(tour):
@@ -101,8 +101,8 @@ def touring(s, mesh):
     """A window of a mesh with the tour, and the keys."""
     s.open(mesh, 5)
     s.activate()
-    s.window.guide.start_tour()
-    return s.window.guide.tour
+    parts(s.window).guide.start_tour()
+    return parts(s.window).guide.tour
 
 
 @pytest.mark.parametrize("where", ["card", "view", "box"])
@@ -112,7 +112,7 @@ def test_escape_ends_the_tour_wherever_the_keys_are(screen, mesh_file, capfd, wh
 
     s = screen()
     tour = touring(s, mesh_file(bumpy(100)))
-    keys = {"card": tour.card.next, "view": s.panels[1].view, "box": s.window.source_box}[where]
+    keys = {"card": tour.card.next, "view": s.panels[1].view, "box": parts(s.window).typed_source.box}[where]
     keys.setFocus()
     QTest.keyClick(keys, Qt.Key.Key_Escape)
     assert not tour.is_on
@@ -178,6 +178,8 @@ def test_the_card_follows_its_part_when_the_window_or_the_parts_change(tour, app
 
 
 def test_without_its_part_a_step_has_no_outline_and_without_any_the_card_is_in_the_middle(tour, window, application):
+    from qtpy import QtWidgets
+
     from app.qt.pages.tour import room_of, steps
 
     tour.start()
@@ -187,11 +189,14 @@ def test_without_its_part_a_step_has_no_outline_and_without_any_the_card_is_in_t
     assert not tour.outline.isVisible()
     tour.go(3)
     assert tour.outline.isVisible()
-    window.tool_bar.hide()
+    bar = window.findChild(QtWidgets.QToolBar, "tools")
+    bar.hide()
     tour.place()
     assert not tour.outline.isVisible()
-    window.grid, window.tools, window.tool_bar = None, None, None
-    assert [step.where() for step in steps(window)] == [None] * 5
+    window.removeToolBar(bar)
+    bar.setParent(None)
+    window.grid.panels.clear()
+    assert [step.where() for step in steps(window, lambda: window.grid.panels)] == [None] * 5
     for k in range(5):
         tour.go(k)
         offset = tour.card.geometry().center() - room_of(window).center()

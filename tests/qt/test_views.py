@@ -15,6 +15,7 @@ from app.scene.camera import frame
 from bihdist_core import read_surface
 from bihdist_core.analysis.upright import axis_of
 from bihdist_core.distances.kinds import Spec
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytestmark = pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed")
@@ -55,7 +56,7 @@ def test_a_scan_stands_and_its_source_is_its_highest_vertex(hare):
     assert s.source == heights[s.session.surface.component_of_vertex == 0].argmax() or heights[s.source] > 0.9 * max(
         heights
     )
-    assert s.window.tools["up"].accessibleDescription() == "z"
+    assert s.window.tool_bar.buttons["up"].accessibleDescription() == "z"
 
 
 def test_a_key_turns_another_axis_up_and_it_can_be_undone(hare):
@@ -67,7 +68,7 @@ def test_a_key_turns_another_axis_up_and_it_can_be_undone(hare):
     press(s, "shift+u")
     assert s.document.up == "-y"
     assert seen_up(s) @ axis_of("-y") > 0.9
-    assert s.window.tools["up"].accessibleDescription() == "−y"
+    assert s.window.tool_bar.buttons["up"].accessibleDescription() == "−y"
     s.panels[0].view.turn_by(1, 1)
     s.session.undo()
     # All of it was one step, and what was seen under another sky is not seen askew.
@@ -82,9 +83,9 @@ def test_what_was_chosen_for_a_mesh_is_kept_for_it(screen, home, mesh_file):
 
     path, other = mesh_file(bumpy(150), "one.off"), mesh_file(bumpy(160), "two.off")
     s = screen(ONE)
-    s.window.remembers = True
+    s.window.context.remembers = True
     s.open(path)
-    s.window.views.stand("-x")
+    parts(s.window).views.stand("-x")
     sha256 = s.document.surfaces[0].sha256
     assert remembered.up_of(sha256) == "-x"
     s.open(other)
@@ -114,14 +115,14 @@ def test_the_ups_chosen_longest_ago_are_forgotten(home, application, monkeypatch
 def test_the_view_from_the_source_is_from_outside(hare):
     s = hare
     vertex = 3000
-    s.window.typed_source.choose(vertex)
+    parts(s.window).typed_source.choose(vertex)
     s.until(lambda: s.session.is_complete)
     press(s, "7")
     view, camera = s.panels[0].view, s.document.camera
     assert isinstance(camera, Camera)
     assert view.sees(s.session.surface.vertices[vertex])
     # Another source is no reason to look from elsewhere.
-    s.window.typed_source.choose(4000)
+    parts(s.window).typed_source.choose(4000)
     s.until(lambda: s.session.is_complete)
     assert s.document.camera == camera
 
@@ -130,7 +131,7 @@ def test_a_document_that_is_seen_from_its_source_follows_it(hare):
     s = hare
     s.session.show(replace(s.document, camera="source"))
     before = s.window.grid.eye.seen
-    s.window.typed_source.choose(3000)
+    parts(s.window).typed_source.choose(3000)
     s.until(lambda: s.session.is_complete)
     assert s.document.camera == "source"
     assert s.window.grid.eye.seen != before
@@ -194,7 +195,7 @@ def test_a_drag_on_the_turntable_keeps_what_is_up_upright(hare):
     s.window.move(20, 40)
     s.settle(0.3)
     s.window.actions_by_word["turntable"].trigger()
-    assert s.window.preferences.turntable
+    assert s.window.context.preferences.turntable
 
     def drag(dx, dy):
         start = view.mapToGlobal(QPoint(view.width() // 2, 30))

@@ -17,6 +17,8 @@ pytest.importorskip("qtpy")
 from qtpy import QtCore, QtWidgets
 from qtpy.QtTest import QTest
 
+from tests.qt.parts import parts
+
 LEFT = QtCore.Qt.MouseButton.LeftButton
 ONE = (Spec.of("biharmonic"),)
 
@@ -315,7 +317,7 @@ def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows
 def test_quick_answers_change_no_panel_s_words(screen, mesh_file, monkeypatch):
     monkeypatch.setattr(LatestRequestWorker.progress, "__defaults__", (60.0,))
     s = screen()
-    s.window.progress_display._late_soon.setInterval(60_000)  # quick on any machine
+    parts(s.window).progress_display._late_soon.setInterval(60_000)  # quick on any machine
     s.open(mesh_file(bumpy(800)))
     told = []
     for panel in s.panels:

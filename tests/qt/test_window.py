@@ -19,6 +19,7 @@ from qtpy.QtTest import QTest
 
 from app.qt.acts import ALL
 from app.qt.look.numbers import number, share
+from tests.qt.parts import parts
 
 ROOT = Path(__file__).parents[2]
 LEFT = QtCore.Qt.MouseButton.LeftButton
@@ -99,9 +100,9 @@ def test_isolines_can_be_changed_and_left_out(screen, mesh_file):
     for word in ("None", "About 20"):
         entry(s.window.menus.isolines, word).trigger()
         counts.append(white())
-    s.window.choices.isolines(60)
+    parts(s.window).choices.isolines(60)
     assert counts[0] < counts[1] < white()
-    assert s.window.tools["isolines"].accessibleDescription() == "60"
+    assert s.window.tool_bar.buttons["isolines"].accessibleDescription() == "60"
 
 
 def test_a_panel_that_fails_says_so_in_its_own_place(screen, mesh_file):
@@ -141,8 +142,8 @@ def test_a_click_selects_the_vertex_under_the_pointer(screen, mesh_file):
     target, before = highest(s), s.pictures()
     QTest.mouseClick(s.panels[1].view, LEFT, pos=s.point_of(s.panels[1], target))
     s.until(lambda: s.session.is_complete and s.source == target)
-    assert s.window.source_box.value() == target
-    assert s.window.source_box.text() == str(target)
+    assert parts(s.window).typed_source.box.value() == target
+    assert parts(s.window).typed_source.box.text() == str(target)
     assert differ(before, s.pictures(), 0.01)
 
 
@@ -159,7 +160,7 @@ def test_pointing_shows_the_values_of_the_same_vertex_everywhere_and_draws_no_su
     s.open(mesh_file(bumpy(800)), 5)
     target, before, drawn = highest(s), seen(s), s.window.grid.offscreen.pictures
     QTest.mouseMove(s.panels[2].view, s.point_of(s.panels[2], target))
-    s.until(lambda: s.window.gestures.hovered == target)
+    s.until(lambda: parts(s.window).gestures.hovered == target)
     s.settle()
     assert s.window.status.vertex.text == f"vertex {target}"
     assert s.window.status.place.text == "  ".join(number(x) for x in s.session.surface.vertices[target])
@@ -178,7 +179,7 @@ def test_pointing_shows_the_values_of_the_same_vertex_everywhere_and_draws_no_su
 def test_a_typed_vertex_that_cannot_be_a_source_is_refused(screen, mesh_file):
     s = screen()
     s.open(mesh_file(two_pieces()), 3)
-    box = s.window.source_box
+    box = parts(s.window).typed_source.box
     box.setFocus()
     box.selectAll()
     QTest.keyClicks(box, "60\r")
@@ -191,7 +192,7 @@ def test_a_typed_vertex_that_cannot_be_a_source_is_refused(screen, mesh_file):
 def test_a_typed_vertex_id_is_taken_as_it_was_typed_and_the_keys_go_back_to_the_panels(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(800)), 3)
-    box, view = s.window.source_box, s.panels[0].view
+    box, view = parts(s.window).typed_source.box, s.panels[0].view
     s.until(lambda: s.window.focusWidget() is view)
     box.setFocus()
     box.selectAll()
@@ -265,7 +266,7 @@ def test_a_dropped_file_is_opened(screen, mesh_file):
         LEFT,
         QtCore.Qt.KeyboardModifier.NoModifier,
     )
-    s.window.files.eventFilter(s.window, drop)
+    parts(s.window).files.eventFilter(s.window, drop)
     s.until(lambda: s.session.is_complete)
     s.until(lambda: s.window.windowTitle() == "dropped.off[*] - Biharmonic distance")
 
@@ -290,7 +291,7 @@ def test_the_screenshot_holds_the_panels(screen, mesh_file, tmp_path):
     s = screen()
     s.open(mesh_file(bumpy(800)))
     path = tmp_path / "window.png"
-    s.window.files.save_screenshot(str(path))
+    parts(s.window).files.save_screenshot(str(path))
     picture = np.asarray(Image.open(path).convert("RGB"))
     ratio = s.window.devicePixelRatioF()
     assert picture.shape[:2] == (round(s.window.height() * ratio), round(s.window.width() * ratio))
@@ -304,9 +305,9 @@ def test_a_failed_screenshot_leaves_the_old_file(screen, mesh_file, tmp_path):
     s = screen()
     s.open(mesh_file(bumpy(800)))
     with pytest.raises(OutputError, match="no folder"):
-        s.window.files.save_screenshot(str(tmp_path / "missing" / "x.png"))
+        parts(s.window).files.save_screenshot(str(tmp_path / "missing" / "x.png"))
     with pytest.raises(OutputError, match=r"\.jpg"):
-        s.window.files.save_screenshot(str(tmp_path / "x.jpg"))
+        parts(s.window).files.save_screenshot(str(tmp_path / "x.jpg"))
 
 
 # ---------------------------------------------------------------------- the camera and the window's shape
@@ -360,7 +361,7 @@ def test_long_words_do_not_make_the_window_wider(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(200)))
     width = s.window.width()
-    s.window.say("repaired " * 200)
+    s.window.context.tell("repaired " * 200)
     s.settle()
     assert s.window.width() == width
     assert s.window.status.message.toolTip() == s.window.status.message.text
@@ -386,7 +387,7 @@ from app.qt.main_window import MainWindow
 app = application()
 for _ in range(2):
     window = MainWindow()
-    window.quiet, window.remembers = True, False
+    window.context.quiet, window.context.remembers = True, False
     window.show()
     window.build_panels()
     app.processEvents()

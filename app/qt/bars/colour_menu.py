@@ -8,6 +8,8 @@ from qtpy import QtCore, QtGui, QtWidgets
 from ...document.looks import Colours, Stops
 from ...scene.colour_maps import MAPS, backwards, colours_at
 from ...scene.style import map_of, style_of
+from ..choices import Choices
+from ..context import Context
 from ..look.canvas import map_word, offered_styles, style_name
 from ..look.look import LOOK
 
@@ -22,10 +24,10 @@ FAINT = 0.35
 
 
 class ColourMenu(QtWidgets.QMenu):
-    """Entries have words as data: a style's, or ("map", a map's), with None for a file's.  `window` is the main one."""
+    """Entries have words as data: a style's, or ("map", a map's), with None for a file's."""
 
-    def __init__(self, window) -> None:
-        super().__init__("Co&lours", window)
+    def __init__(self, context: Context) -> None:
+        super().__init__("Co&lours", context.widget)
         self.setToolTipsVisible(True)
         # Room for the strips, which are painted where no icon could stand beside a tick.
         self.setStyleSheet(f"QMenu::item {{ padding-right: {WIDTH + 2 * MARGIN + 8}px; }}")
@@ -34,20 +36,20 @@ class ColourMenu(QtWidgets.QMenu):
         self._styles = QtWidgets.QActionGroup(self)
         for word in offered_styles(""):
             action = self._entry(self._styles, style_name(word), word)
-            action.triggered.connect(lambda *_, word=word: window.choices.style(word))
+            action.triggered.connect(lambda *_, word=word: context[Choices].style(word))
         self.addSeparator()
         self._head("Colour map")
         self._maps = QtWidgets.QActionGroup(self)
         for word, each in MAPS.items():
             action = self._entry(self._maps, each.name, ("map", word))
             action.setToolTip(each.hint)
-            action.triggered.connect(lambda *_, word=word: window.choices.colour_map(word))
+            action.triggered.connect(lambda *_, word=word: context[Choices].colour_map(word))
         self._own = self._entry(self._maps, "", ("map", None))
-        self._file = self.addAction("From a file…", window.choices.ask_colours)
+        self._file = self.addAction("From a file…", context[Choices].ask_colours)
         self._file.setToolTip("Rows of red, green and blue, or ParaView's .json")
         self.addSeparator()
-        self.reversed = self._tick("Reversed", "From the other end", window.choices.reverse_colours)
-        self.bands = self._tick("Bands", "One colour from each isoline to the next", window.choices.band_colours)
+        self.reversed = self._tick("Reversed", "From the other end", context[Choices].reverse_colours)
+        self.bands = self._tick("Bands", "One colour from each isoline to the next", context[Choices].band_colours)
 
     def show_choice(self, style: str, colours: Colours) -> None:
         """Tick what is chosen, in its colours."""

@@ -1,21 +1,21 @@
-"""The menu of isolines: where they are, and how they look.  `window` is the main window."""
+"""The menu of isolines: where they are, and how they look."""
 
 from qtpy import QtWidgets
 
 from ...document.looks import Isolines
-from ..acts import ISOLINES
+from ..context import Context
+from ..isoline_choices import IsolineChoices
 from ..look.numbers import tick
 
-BOLD = 5
-"""Every so many are bolder, once some are."""
+ISOLINES = (0, 10, 20, 30, 50)
 
 
 class IsolineMenu(QtWidgets.QMenu):
     """Entries for numbers of lines have them, as words, as data."""
 
-    def __init__(self, window) -> None:
-        super().__init__("&Isolines", window)
-        choices = window.choices.isoline
+    def __init__(self, context: Context) -> None:
+        super().__init__("&Isolines", context.widget)
+        choices = context[IsolineChoices]
         self.setToolTipsVisible(True)
         self._where = QtWidgets.QActionGroup(self)
         for count in ISOLINES:

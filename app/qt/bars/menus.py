@@ -1,4 +1,4 @@
-"""The window's menus, made of its actions.  `window` is the main window."""
+"""The window's menus, made of its actions."""
 
 from collections.abc import Callable, Sequence
 
@@ -6,17 +6,25 @@ from qtpy import QtGui, QtWidgets
 
 from bihdist_core.analysis.upright import DIRECTIONS
 
+from ...document.tools import docked_tools
 from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from .. import remembered
-from ..acts import INSTRUMENTS, TURNS, VIEWS
+from ..choices import Choices
+from ..context import Context
+from ..files.files import Files
 from ..look.numbers import MINUS
+from ..views import Views
 from .colour_menu import ColourMenu
 from .isoline_menu import IsolineMenu
 
 THUMBNAIL = 56
 
-RANGE_NAMES = {"own": "Own", "shared": "One for all", "shares": "Fraction", "typed": "Typed"}
-"""For the button: how the entries of the menu begin."""
+VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
+TURNS = (
+    *(f"{way} {side}" for way in ("turn", "move") for side in ("left", "right", "up", "down")),
+    *("nearer", "farther", "remove anchor", "accept pair"),
+)
+"""By the words of their acts."""
 
 
 class LargeIcons(QtWidgets.QProxyStyle):
@@ -40,22 +48,22 @@ class NoUnderlines(QtWidgets.QProxyStyle):
 class Menus:
     """Those that the tool bar shows, too, by name: open, isolines, colours, range, views, up, tools."""
 
-    def __init__(self, window) -> None:
-        self._window = window
-        bar = window.menuBar()
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        bar = context.widget.menuBar()
         no_underlines = NoUnderlines()
         # Gone before the bar it would take the process with it.
         no_underlines.setParent(bar)
         bar.setStyle(no_underlines)
-        self.open = QtWidgets.QMenu("&Open", window)
+        self.open = QtWidgets.QMenu("&Open", context.widget)
         self.samples = self._samples()
-        self.recent = QtWidgets.QMenu("&Recent", window)
+        self.recent = QtWidgets.QMenu("&Recent", context.widget)
         self.recent.aboutToShow.connect(self._fill_recent)
-        self.isolines = IsolineMenu(window)
-        self.colours = ColourMenu(window)
+        self.isolines = IsolineMenu(context)
+        self.colours = ColourMenu(context)
         self.range = self._choices(
             "Ran&ge",
-            window.choices.range,
+            context[Choices].range,
             [
                 ("own", "Own maximum: each panel ends at its own"),
                 ("shared", "One for all panels: equal colours, equal values"),
@@ -66,11 +74,11 @@ class Menus:
         typed = self.range.addAction("This panel ends at…")
         typed.setData("typed")
         typed.setCheckable(True)  # while one does
-        typed.triggered.connect(window.choices.ask_end)
-        self.range.addAction("As in a session or recipe…", window.choices.ask_ends)
+        typed.triggered.connect(context[Choices].ask_end)
+        self.range.addAction("As in a session or recipe…", context[Choices].ask_ends)
         self.shading = self._choices(
             "S&hading",
-            window.choices.shading,
+            context[Choices].shading,
             [
                 ("auto", "Automatic: creased where there are sharp edges"),
                 ("smooth", "Smooth"),
@@ -80,18 +88,20 @@ class Menus:
         )
         self._fill(self.shading, [None, "crease", None, "wireframe"])
         self.theme = self._choices(
-            "&Theme", window.choices.theme, [("desktop", "As the desktop"), ("light", "Light"), ("dark", "Dark")]
+            "&Theme", context[Choices].theme, [("desktop", "As the desktop"), ("light", "Light"), ("dark", "Dark")]
         )
-        self.views, self.tools = QtWidgets.QMenu("&Views", window), QtWidgets.QMenu("&Tools", window)
-        keys, standard = (QtWidgets.QMenu(title, window) for title in ("Turn and move by &keys", "&Standard views"))
+        self.views, self.tools = QtWidgets.QMenu("&Views", context.widget), QtWidgets.QMenu("&Tools", context.widget)
+        keys, standard = (
+            QtWidgets.QMenu(title, context.widget) for title in ("Turn and move by &keys", "&Standard views")
+        )
         named, at_pointer = [f"view {name}" for name in VIEWS], ["centre", "zoom to"]
         cameras, walked = ["orthographic", "axes", "turntable", "link"], ["view before", "view after"]
-        self._fill(keys, [act.word for act in TURNS])
+        self._fill(keys, TURNS)
         self._fill(standard, named)
         self._fill(self.open, ["open", "open beside", None, self.recent, self.samples])
         self._fill(self.views, ["reset", *named, None, *cameras, None, *at_pointer, None, *walked])
         self.up = self._choices(
-            "&Up", lambda word: window.views.stand(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
+            "&Up", lambda word: context[Views].stand(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
         )
         self._fill(self.up, [None, "next up", "other end up"])
         steps = ("step left", "step right", "step up", "step down")
@@ -112,7 +122,7 @@ class Menus:
         edits = ("Duplicate this panel", "Move it back", "Move it on", "Regions of the pins", "Remove it")
         self._fill(panels, ["add panel", None, *(f"panel {word}" for word in edits), None, "save field", None])
         self._fill(panels, ["next panel", "previous panel", "panels and bars"])
-        self._fill(tools, [*(act.word for act in INSTRUMENTS), None, *self.tools.actions()])
+        self._fill(tools, [*(f"dock {word}" for word in docked_tools()), None, *self.tools.actions()])
         self._fill(about, ["keys", "tour", None, "about"])
 
     def allow(self, has_mesh: bool) -> None:
@@ -128,7 +138,7 @@ class Menus:
             elif isinstance(entry, QtWidgets.QMenu):
                 menu.addMenu(entry)
             else:
-                menu.addAction(self._window.actions_by_word[entry] if isinstance(entry, str) else entry)
+                menu.addAction(self._context.actions[entry] if isinstance(entry, str) else entry)
 
     def show_choice(self, menu: QtWidgets.QMenu, word: object) -> None:
         """Tick one of a menu's choices."""
@@ -138,7 +148,7 @@ class Menus:
     def _choices(
         self, title: str, choose: Callable[[str], object], words: Sequence[tuple[str, str]]
     ) -> QtWidgets.QMenu:
-        menu = QtWidgets.QMenu(title, self._window)
+        menu = QtWidgets.QMenu(title, self._context.widget)
         group = QtWidgets.QActionGroup(menu)
         for word, text in words:
             action = menu.addAction(text)
@@ -149,13 +159,13 @@ class Menus:
         return menu
 
     def _samples(self) -> QtWidgets.QMenu:
-        menu = QtWidgets.QMenu("Sam&ples", self._window)
+        menu = QtWidgets.QMenu("Sam&ples", self._context.widget)
         large_icons = LargeIcons()
         large_icons.setParent(menu)
         menu.setStyle(large_icons)
         for name in sample_names():
             action = menu.addAction(QtGui.QIcon(str(thumbnail(name))), sample_title(name))
-            action.triggered.connect(lambda *_, name=name: self._window.open(mesh_path(name)))
+            action.triggered.connect(lambda *_, name=name: self._context.open(mesh_path(name)))
         return menu
 
     def _fill_recent(self) -> None:
@@ -163,7 +173,7 @@ class Menus:
         for path in remembered.recent():
             action = self.recent.addAction(_shortened(path))
             action.setToolTip(path)
-            action.triggered.connect(lambda *_, path=path: self._window.files.open(path))
+            action.triggered.connect(lambda *_, path=path: self._context[Files].open(path))
         if self.recent.isEmpty():
             self.recent.addAction("Nothing yet").setEnabled(False)
 

@@ -6,10 +6,10 @@ Where it is narrow words go first, and then what has no room at all goes into th
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.tools import tools
-from ..actions import Actions
+from ..context import Context
 from ..look.look import LOOK
+from ..typed_source import TypedSource
 from .menus import Menus
-from .source_box import SourceBox
 from .tool_button import FULL, ICONS, VALUES, ToolButton
 
 HEIGHT = 44
@@ -26,10 +26,10 @@ LAST_IN_WORDS = ("export", "open", "live", "add panel", "isolines", "colours", "
 
 
 class ToolBar(QtWidgets.QToolBar):
-    """buttons: by name.  `window` is the main window."""
+    """buttons: by name."""
 
-    def __init__(self, window, actions: Actions, menus: Menus) -> None:
-        super().__init__("Tools", window)
+    def __init__(self, context: Context, menus: Menus) -> None:
+        super().__init__("Tools", context.widget)
         self.setObjectName("tools")  # the places of docks are kept with it
         self.setMovable(False)
         self.setFloatable(False)
@@ -41,20 +41,20 @@ class ToolBar(QtWidgets.QToolBar):
         self._left_out: tuple[str, ...] = ()
         self._menu("open", "open", "Open", menus.open, "Open a mesh, a recent file or a sample (Ctrl+O)")
         self._line()
-        self._button("undo", "undo", "", actions["undo"])
-        self._button("redo", "redo", "", actions["redo"])
+        self._button("undo", "undo", "", context.actions["undo"])
+        self._button("redo", "redo", "", context.actions["redo"])
         self._line()
         self._menu("tools", "source", "", menus.tools, "The source: type it, step along edges, live")
         for word, icon in DOCKS.items():
-            self._button(word, icon, "", actions[word])
-        self.source_box = SourceBox(self)
+            self._button(word, icon, "", context.actions[word])
+        self.source_box = context[TypedSource].box
         label = QtWidgets.QLabel("Source")
         label.setProperty("quiet", True)
         label.setBuddy(self.source_box)
         label.setContentsMargins(6, 0, 2, 0)
         self._shown_as["source label"] = self.addWidget(label)
         self.addWidget(self.source_box)
-        self._button("live", "live", "Live", actions["live"])
+        self._button("live", "live", "Live", context.actions["live"])
         self._line()
         self._menu("isolines", "isolines", "Isolines", menus.isolines, "How many isolines there are, and where")
         self._menu("colours", "colours", "Colours", menus.colours, "The colours of the fields")
@@ -62,12 +62,12 @@ class ToolBar(QtWidgets.QToolBar):
         self._menu("views", "views", "View", menus.views, "Standard views (1 to 7, R), views before and after")
         self._menu("up", "up-axis", "Up", menus.up, "Which axis points up (U, Shift+U)")
         self._line()
-        self._button("add panel", "add-panel", "Panel", actions["add panel"])
+        self._button("add panel", "add-panel", "Panel", context.actions["add panel"])
         gap = QtWidgets.QWidget()
         gap.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Preferred)
         self.addWidget(gap)
-        self._button("export", "export-figure", "Export", actions["figure"], is_meant=True)
-        self._button("preferences", "settings", "", actions["preferences"])
+        self._button("export", "export-figure", "Export", context.actions["figure"], is_meant=True)
+        self._button("preferences", "settings", "", context.actions["preferences"])
         self._rest = QtWidgets.QMenu(self)
         self._menu("more", "more", "", self._rest, "More: what there is no room for")
         LOOK.changed.connect(self.fit)
@@ -175,4 +175,5 @@ class ToolBar(QtWidgets.QToolBar):
 
     def _put(self, name: str, button: ToolButton) -> None:
         self.buttons[name] = button
+        button.setObjectName(name)
         self._shown_as[name] = self.addWidget(button)

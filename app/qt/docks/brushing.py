@@ -1,7 +1,7 @@
-"""Selections on all panels, and the brush that paints them on the surface.  `window` is the main window."""
+"""Selections on all panels, and the brush that paints them on the surface."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
@@ -10,12 +10,12 @@ from bihdist_core import Surface
 from bihdist_core.analysis.selecting import Brush
 from bihdist_core.progress import Progress
 
-from ...document.document import Document, free_names
+from ...document.document import free_names
 from ...document.selections import Selections, select, vertices_of
-from ...marks.primitives import AreaMark
-from ...scene.selected import selected_colours
 from ...scene.style import PINS
-from .background import Background
+from ..context import Context
+from ..held_keys import HeldKeys
+from ..panels.events import BrushLift, BrushTouch
 
 if TYPE_CHECKING:
     from ...scene.picking import Hit
@@ -44,9 +44,9 @@ class Brushing(QtCore.QObject):
     cut = QtCore.Signal(object, bool)
     cut_switched = QtCore.Signal(bool)
 
-    def __init__(self, window: Any) -> None:
-        super().__init__(window)
-        self._window, self._grid = window, window.grid
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context, self._grid = context, context.grid
         self.current = ""
         self.radius = RADIUS
         self.is_on = self.cuts = self._is_held = False
@@ -57,28 +57,16 @@ class Brushing(QtCore.QObject):
         self._stroke: np.ndarray | None = None  # (n,) bool
         self._is_erasing = False
         self._faces: set[int] = set()  # that the pointer itself has been in
-        self._making = Background("brush", _made, window)
+        self._making = context.background("brush", _made)
         self._making.answered.connect(self._ready)
-        self._grid.brushed.connect(self._touch)
-        self._grid.brush_lifted.connect(self._lift)
-        window.held_keys.brush_held.connect(self._hold)
-
-    # ------------------------------------------------------------------ what is shown
-    def show(self, document: Document) -> None:
-        """The selections of the document on all panels."""
-        colours = {}
-        for mesh in document.surfaces:
-            loaded = self._window.session.loaded(mesh.name)
-            if loaded is not None:
-                here = [each for each in document[Selections].selections if each.surface == mesh.name]
-                chosen = [AreaMark(vertices_of(each.runs), PINS[each.colour]) for each in here]
-                colours[mesh.name] = selected_colours(chosen, len(loaded.surface.vertices))
-        self._grid.marks.show_selected(colours)
+        self._grid.events.on(BrushTouch, lambda panel, touch: self._touch(touch.hit, touch.pixel))
+        self._grid.events.on(BrushLift, lambda *_: self._lift())
+        context[HeldKeys].brush_held.connect(self._hold)
 
     @property
     def colour(self) -> int:
         """The number of the colour that the brush paints in."""
-        document = self._window.session.document
+        document = self._context.document
         for each in document[Selections].selections:
             if each.name == self.current:
                 return each.colour
@@ -91,7 +79,7 @@ class Brushing(QtCore.QObject):
 
     def select(self, vertices: np.ndarray, way: str = "new") -> None:
         """A new selection of vertices (k,), or these "added" to or "removed" from the current one."""
-        session = self._window.session
+        session = self._context.session
         document = session.document
         known = {each.name: each for each in document[Selections].selections}
         if way == "new" or self.current not in known:
@@ -132,7 +120,7 @@ class Brushing(QtCore.QObject):
     def _take(self) -> None:
         """Take the brush into the hand, or lay it down."""
         is_wanted = self.is_on or self._is_held
-        surface = self._window.session.surface
+        surface = self._context.session.surface
         self._grid.marks.set_brush(_cursor(self.radius, self._grid.devicePixelRatioF()) if is_wanted else None)
         if is_wanted and surface is not None and surface is not self._surface:
             self._surface, self._brush = surface, None
@@ -147,7 +135,7 @@ class Brushing(QtCore.QObject):
             self._lift()
 
     def _touch(self, hit: "Hit", pixel: float) -> None:
-        surface = self._window.session.surface
+        surface = self._context.session.surface
         if surface is None:
             return
         self._is_lifted = False
@@ -160,7 +148,7 @@ class Brushing(QtCore.QObject):
         if self._stroke is None or len(self._stroke) != len(surface.vertices):
             self._stroke = np.zeros(len(surface.vertices), bool)
             keys = QtWidgets.QApplication.keyboardModifiers()
-            known = [each.name for each in self._window.session.document[Selections].selections]
+            known = [each.name for each in self._context.document[Selections].selections]
             has_ctrl = bool(keys & QtCore.Qt.KeyboardModifier.ControlModifier)
             self._is_erasing = has_ctrl and (self.cuts or self.current in known)
         self._faces.add(hit.face)
@@ -187,7 +175,7 @@ class Brushing(QtCore.QObject):
         touched, self._faces = self._faces, set()
         for panel in self._grid.panels:
             panel.marks.show_dabs(None)
-        surface = self._window.session.surface
+        surface = self._context.session.surface
         if self.cuts and stroke is not None and surface is self._surface:
             within = np.flatnonzero(stroke[surface.faces].all(axis=1))
             self.cut.emit(np.union1d(within, np.array(sorted(touched), np.int64)), self._is_erasing)

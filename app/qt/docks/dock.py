@@ -76,8 +76,8 @@ class Dock(QtWidgets.QDockWidget):
 
     wants_closed = QtCore.Signal(str)
 
-    def __init__(self, word: str, title: str, content: QtWidgets.QWidget, window: QtWidgets.QMainWindow) -> None:
-        super().__init__(title, window)
+    def __init__(self, word: str, title: str, content: QtWidgets.QWidget, parent: QtWidgets.QMainWindow) -> None:
+        super().__init__(title, parent)
         self.word, self.content = word, content
         self.setObjectName(f"dock {word}")
         self.head = DockHead(title, self)

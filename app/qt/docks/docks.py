@@ -1,17 +1,15 @@
-"""The docks of the window: made when first opened, shown as the document says.  `window` is the main window."""
+"""The docks of the window: made when first opened, shown as the document says."""
 
 from qtpy import QtCore, QtWidgets
 
 from ...document.docks import DockPlaces
 from ...document.document import Document
 from ...document.tools import docked_tools
-from .brushing import Brushing
-from .candidate_errors import CandidateErrors
+from ..context import Context
+from ..files.session_actions import SessionFile
+from ..held_keys import HeldKeys
 from .dock import Dock
-from .findings import Findings
 from .instrument import Instrument
-from .picking import Picking
-from .writing import Writing
 
 NARROW = 1_100
 """Logical pixels of the window's width under which the docks at the right are tabs of one."""
@@ -36,23 +34,28 @@ STACKED = 2
 class Docks:
     """Keeps the instruments, tells them what changes, and lets menus say which are open."""
 
-    def __init__(self, window) -> None:
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        self._context, self._main = context, context.widget
         self._docks: dict[str, Dock] = {}
         self._shown: Document | None = None
-        self.findings, self.candidates = Findings(window), CandidateErrors(window)
-        self.brushing, self.picking, self.writing = Brushing(window), Picking(window), Writing(window)
-        window.setDockNestingEnabled(True)
-        window.setTabPosition(QtCore.Qt.DockWidgetArea.RightDockWidgetArea, QtWidgets.QTabWidget.TabPosition.North)
+        self._main.setDockNestingEnabled(True)
+        self._main.setTabPosition(QtCore.Qt.DockWidgetArea.RightDockWidgetArea, QtWidgets.QTabWidget.TabPosition.North)
         for corner, area in (
             (QtCore.Qt.Corner.BottomRightCorner, AREAS["right"]),
             (QtCore.Qt.Corner.TopRightCorner, AREAS["right"]),
         ):
-            window.setCorner(corner, area)
+            self._main.setCorner(corner, area)
+        session_file = context[SessionFile]
+        session_file.dock_places = self.places
+        session_file.docks_placed.connect(self.restore)
+        context.document_changed.connect(self.document_changed)
+        context.answer_changed.connect(self.answer_changed)
+        context.panels_cleared.connect(self.show_again)
+        context.pointed.connect(self.pointed)
 
     # ------------------------------------------------------------------ open and close
     def toggle(self, word: str) -> None:
-        document = self._window.session.document
+        document = self._context.document
         if word in document.docks:
             self.close(word)
         else:
@@ -63,8 +66,8 @@ class Docks:
 
     def close(self, word: str) -> None:
         """By the user, to whom what it is about is no longer of interest."""
-        was_open = word in self._window.session.document.docks
-        self._keep(tuple(each for each in self._window.session.document.docks if each != word))
+        was_open = word in self._context.document.docks
+        self._keep(tuple(each for each in self._context.document.docks if each != word))
         if was_open and word in self._docks:
             self._instrument(word).leave()
 
@@ -73,47 +76,22 @@ class Docks:
         for instrument in self._open():
             instrument.show_stopped()
 
-    def put_down(self) -> bool:
-        """Let the pointer mean what it usually does; whether it has meant something else."""
-        if self.picking.is_on:
-            self.picking.stop()
-        elif self.brushing.cuts:
-            self.brushing.switch(False)
-        else:
-            return False
-        return True
-
-    def choose_anchor(self, point: str) -> None:
-        """Let the anchor at a point stand out, in the list, too."""
-        self._window.grid.marks.choose_anchor(point)
-        if "anchors" in self._window.session.document.docks:
-            self._instrument("anchors").choose(point)
-
-    def choose_pair(self, point: str) -> None:
-        """The same of the pair of a point, "" for none."""
-        self._window.grid.marks.choose_pair(point)
-        if "pairs" in self._window.session.document.docks:
-            self._instrument("pairs").choose(point)
-
     def close_all(self) -> None:
         """The window closes."""
-        self.findings.close()
-        self.candidates.close()
         for dock in self._docks.values():
             dock.content.end()
             dock.hide()
 
     def _keep(self, docks: tuple[str, ...]) -> None:
-        self._window.session.keep_open(docks)
-        self.document_changed()
+        before = self._context.document
+        self._context.session.keep_open(docks)
+        self._context.document_changed.emit(before)
 
     # ------------------------------------------------------------------ what is told
-    def document_changed(self) -> None:
+    def document_changed(self, _: object = None) -> None:
         """Show what the document says, in the docks that it says."""
-        document, known = self._window.session.document, docked_tools()
-        self.findings.document_changed()
-        self.candidates.document_changed()
-        wanted = [word for word in document.docks if word in known and self._window.session.surface is not None]
+        document, known = self._context.document, docked_tools()
+        wanted = [word for word in document.docks if word in known and self._context.session.surface is not None]
         for word in wanted:
             dock = self._docks.get(word) or self._new(word)
             was_open = not dock.isHidden()
@@ -126,18 +104,14 @@ class Docks:
                 self._instrument(word).show_closed()
         self._shown = document
         for word in known:
-            self._window.actions_by_word[f"dock {word}"].setChecked(word in wanted)
+            self._context.actions[f"dock {word}"].setChecked(word in wanted)
 
     def answer_changed(self, panel: int) -> None:
-        self.findings.answer_changed()
-        self.candidates.answer_changed()
         for instrument in self._open():
             instrument.show_answer(panel)
 
     def show_again(self) -> None:
         """The panels have forgotten what was drawn on them."""
-        self.findings.show_again()
-        self.candidates.show_again()
         for instrument in self._open():
             instrument.show_again()
 
@@ -155,24 +129,24 @@ class Docks:
     # ------------------------------------------------------------------ where they are
     def places(self) -> DockPlaces | None:
         """Of those that are open; None if none are."""
-        window = self._window
+        main = self._main
         if not self._open():
             return None
-        return DockPlaces(window.width(), window.height(), bytes(window.saveState().toBase64()).decode())
+        return DockPlaces(main.width(), main.height(), bytes(main.saveState().toBase64()).decode())
 
     def restore(self, places: DockPlaces | None) -> None:
         """Put those that are open where they were, unless they were tabs of one and now need not be, or the reverse."""
-        window = self._window
-        if places is None or (places.width < NARROW) != (window.width() < NARROW):
+        main = self._main
+        if places is None or (places.width < NARROW) != (main.width() < NARROW):
             return
-        window.restoreState(QtCore.QByteArray.fromBase64(places.state.encode()))
+        main.restoreState(QtCore.QByteArray.fromBase64(places.state.encode()))
         for word, dock in self._docks.items():
-            dock.setVisible(word in window.session.document.docks)
+            dock.setVisible(word in self._context.document.docks)
 
     def _new(self, word: str) -> Dock:
         tool = docked_tools()[word]
-        instrument = tool.load(tool.dock)(self._window)
-        dock = Dock(word, tool.title, instrument, self._window)
+        instrument = tool.load(tool.dock)(self._context)
+        dock = Dock(word, tool.title, instrument, self._main)
         for widget in reversed(instrument.title_widgets()):
             dock.head.add(widget, after_title=True)
         for widget in instrument.head_widgets():
@@ -182,40 +156,40 @@ class Docks:
             # Its outline is for keys.
             button.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
         dock.wants_closed.connect(self.close)
-        dock.topLevelChanged.connect(lambda floats: floats and self._window.held_keys.watch(dock))
+        dock.topLevelChanged.connect(lambda floats: floats and self._context[HeldKeys].watch(dock))
         dock.hide()
         self._docks[word] = dock
         return dock
 
     def _place(self, dock: Dock) -> None:
         """Where it was, or at first at the end of its area; a tab where there are enough beside each other."""
-        window, area = self._window, AREAS[dock.content.area]
+        main, area = self._main, AREAS[dock.content.area]
         above: Dock | None = None
-        is_new = window.dockWidgetArea(dock) == QtCore.Qt.DockWidgetArea.NoDockWidgetArea
+        is_new = main.dockWidgetArea(dock) == QtCore.Qt.DockWidgetArea.NoDockWidgetArea
         if is_new:
-            window.addDockWidget(area, dock)
+            main.addDockWidget(area, dock)
         others = [
             other
             for other in self._docks.values()
             if other is not dock and not (other.isHidden() or other.isFloating())
-            if window.dockWidgetArea(other) == window.dockWidgetArea(dock)
+            if main.dockWidgetArea(other) == main.dockWidgetArea(dock)
         ]
-        is_right = window.dockWidgetArea(dock) != AREAS["below"]
-        most = STACKED if is_right and window.width() >= NARROW else 1
+        is_right = main.dockWidgetArea(dock) != AREAS["below"]
+        most = STACKED if is_right and main.width() >= NARROW else 1
         if not dock.isFloating() and self._apart(others) >= most and not self._is_tab(dock, others):
-            window.tabifyDockWidget(others[-1], dock)
+            main.tabifyDockWidget(others[-1], dock)
         elif is_new and is_right and others:
             above = others[-1]
         if is_new:
             way = QtCore.Qt.Orientation.Horizontal if is_right else QtCore.Qt.Orientation.Vertical
-            window.resizeDocks([dock], [(WIDER if window.width() >= WIDE else WIDTH) if is_right else HEIGHT], way)
+            main.resizeDocks([dock], [(WIDER if main.width() >= WIDE else WIDTH) if is_right else HEIGHT], way)
         room = 0 if above is None else above.height()
         dock.show()
         dock.raise_()
         if above is not None:
             # As much as the new one wants, but each has a good part of it.
             wanted = min(max(dock.sizeHint().height(), round(LEAST_SHARE * room)), round((1 - LEAST_SHARE) * room))
-            window.resizeDocks([above, dock], [room - wanted, wanted], QtCore.Qt.Orientation.Vertical)
+            main.resizeDocks([above, dock], [room - wanted, wanted], QtCore.Qt.Orientation.Vertical)
 
     def _apart(self, docks: list[Dock]) -> int:
         """How many places they take: tabs of each other take one."""
@@ -224,5 +198,5 @@ class Docks:
 
     def _is_tab(self, dock: Dock, others: list[Dock]) -> bool:
         """Whether it shares its place with one of the others."""
-        beside = self._window.tabifiedDockWidgets(dock)
+        beside = self._main.tabifiedDockWidgets(dock)
         return any(other in beside for other in others)

@@ -1,6 +1,6 @@
 """What is found out in the background about what the panels show, and drawn on them: extrema while the dock of quality
 is open or the document says so, those of interpolants beside the dock of anchors, and regions of the pins where the
-document says so.  `window` is the main window."""
+document says so."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -11,6 +11,7 @@ from ...document.document import Panel
 from ...session.quality import Found, Quality
 from ...session.questions import Question, are_about_the_same, questions
 from ...session.regions import Divided, Dividing, regions_questions
+from ..context import Context
 
 REST_MS = 150
 """Fields that follow each other faster, as in a drag, are not judged."""
@@ -23,19 +24,23 @@ class Findings(QtCore.QObject):
     regions_changed = QtCore.Signal(int)
     _posted = QtCore.Signal(object)
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self._quality: Quality | None = None  # once the dock has been opened
         self._dividing = Dividing(self.post, self._show_regions)
         self._is_closed = False
         self._posted.connect(self._run)
         self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
         self._rest.timeout.connect(self._ask_quality)
+        context.document_changed.connect(self.document_changed)
+        context.answer_changed.connect(self.answer_changed)
+        context.panels_cleared.connect(self.show_again)
+        context.closed.connect(self.close)
 
     # ------------------------------------------------------------------ what is told
-    def document_changed(self) -> None:
-        session = self._window.session
+    def document_changed(self, _: object = None) -> None:
+        session = self._context.session
         if session.surface is None or self._is_closed:
             return
         asked = {}
@@ -46,12 +51,12 @@ class Findings(QtCore.QObject):
         self._dividing.ask(asked)
         self._quality_wanted()
 
-    def answer_changed(self) -> None:
+    def answer_changed(self, _: int) -> None:
         self._quality_wanted()
 
     def show_again(self) -> None:
         """The panels have forgotten what was drawn on them."""
-        for panel in self._window.grid.panels:
+        for panel in self._context.grid.panels:
             self._show_regions(panel.id)
         self._show_extrema()
 
@@ -82,7 +87,7 @@ class Findings(QtCore.QObject):
         """Whether there is nothing more to be found out."""
         if self._rest.isActive() or not self._dividing.is_complete:
             return False
-        panels = self._window.session.document.panels
+        panels = self._context.document.panels
         judged = [panel.id for panel in panels if self._is_marked(panel) and self._judged_question(panel.id)]
         if self._is_judging:
             return all(self.found(id).is_complete for id in judged)
@@ -90,25 +95,25 @@ class Findings(QtCore.QObject):
 
     @property
     def _is_judging(self) -> bool:
-        return "quality" in self._window.session.document.docks and self._is_there
+        return "quality" in self._context.document.docks and self._is_there
 
     @property
     def _is_marking(self) -> bool:
-        return any(self._is_marked(panel) for panel in self._window.session.document.panels)
+        return any(self._is_marked(panel) for panel in self._context.document.panels)
 
     def _is_marked(self, panel: Panel) -> bool:
         """Whether the extrema of what a panel shows are drawn there."""
-        document = self._window.session.document
+        document = self._context.document
         has_anchors = "anchors" in document.docks and panel.shows.interpolates
         return self._is_judging or ((document.extrema or has_anchors) and self._is_there)
 
     @property
     def _is_there(self) -> bool:
-        return self._window.session.surface is not None and not self._is_closed
+        return self._context.session.surface is not None and not self._is_closed
 
     def _judged_question(self, panel: int) -> Question | None:
         """That which a panel shows the answer to."""
-        session = self._window.session
+        session = self._context.session
         shown = session.shown.get(panel)
         if shown is None or not session.is_answered(panel) or shown.answer.field is None:
             return None
@@ -128,7 +133,7 @@ class Findings(QtCore.QObject):
             return
         if self._quality is None:
             self._quality = Quality(self.post, self._judged)
-        session, asked, on_its_way = self._window.session, {}, {}
+        session, asked, on_its_way = self._context.session, {}, {}
         now = questions(session.document)
         for panel in session.document.panels:
             question, loaded = self._judged_question(panel.id), session.loaded(panel.surface)
@@ -146,8 +151,8 @@ class Findings(QtCore.QObject):
         self.quality_changed.emit()
 
     def _show_extrema(self) -> None:
-        marked = {panel.id for panel in self._window.session.document.panels if self._is_marked(panel)}
-        for panel in self._window.grid.panels:
+        marked = {panel.id for panel in self._context.document.panels if self._is_marked(panel)}
+        for panel in self._context.grid.panels:
             extrema = self.found(panel.id).extrema if panel.id in marked else None
             if extrema is None:
                 panel.marks.mark_extrema()
@@ -157,8 +162,8 @@ class Findings(QtCore.QObject):
     # ------------------------------------------------------------------ regions
     def _show_regions(self, panel: int) -> None:
         divided = self._dividing.divided(panel)
-        if any(shown.id == panel for shown in self._window.grid.panels):
-            self._window.grid.panel(panel).marks.show_regions(() if divided is None else divided.boundaries)
+        if any(shown.id == panel for shown in self._context.grid.panels):
+            self._context.grid.panel(panel).marks.show_regions(() if divided is None else divided.boundaries)
         self.regions_changed.emit(panel)
 
     # ------------------------------------------------------------------ threads

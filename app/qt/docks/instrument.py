@@ -3,11 +3,12 @@
 An instrument decides nothing: what is done in it becomes an edit of the document, which comes back by `show_document`.
 """
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from qtpy import QtCore, QtWidgets
 
 from ...document.document import Document
+from ..context import Context
 
 NO_FIELD = "The panel shows no field now."
 """Of one that shows colours, or a surface as it is."""
@@ -26,9 +27,9 @@ class Instrument(QtWidgets.QWidget):
 
     said = QtCore.Signal(str)  # a note beside the title
 
-    def __init__(self, window: Any) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
-        self.window_ = window
+        self.context = context
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
@@ -66,7 +67,7 @@ class Instrument(QtWidgets.QWidget):
     @property
     def pointed_surface(self) -> str:
         """The name of the surface that it is about."""
-        return self.window_.session.document.surfaces[0].name
+        return self.context.document.surfaces[0].name
 
     def show_pointed(self, vertex: int | None) -> None:
         """The pointer is at a vertex of that surface in some panel, or at none."""

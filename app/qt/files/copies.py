@@ -1,4 +1,4 @@
-"""Copies of what the window shows: as a picture, and as a line that makes it.  `window` is the main window."""
+"""Copies of what the window shows: as a picture, and as a line that makes it."""
 
 import hashlib
 from dataclasses import replace
@@ -21,6 +21,9 @@ from ...session.questions import vertex_at
 from ...session.recipe_file import recipe_written
 from ...version import version
 from .. import remembered
+from ..context import Context
+from .curve_files import CurveFiles
+from .exports import Exports
 from .preview import image_of
 
 MOST = 8000
@@ -32,37 +35,37 @@ SHOWN = 70
 INCH = 0.0254
 
 
-def copy_line(window: Any, recipe: Recipe, surfaces: Surfaces, is_python: bool) -> str:
+def copy_line(context: Context, recipe: Recipe, surfaces: Surfaces, is_python: bool) -> str:
     """Put the line that makes a figure on the clipboard, and say so; the line."""
     recipe = _at_vertices(recipe, surfaces)
     output = f"{_file_name(recipe)}.{recipe.page.format or 'png'}"
     reason = one_line.why_not(recipe)
     if not reason:
-        files = {curve: window.curve_files.path_of(curve) for curve in curves_in(recipe.document)}
+        files = {curve: context[CurveFiles].path_of(curve) for curve in curves_in(recipe.document)}
         line = (one_line.python_line if is_python else one_line.command_line)(recipe, output, files)
     else:
-        path = str(_kept(recipe, window.session.given))
+        path = str(_kept(recipe, context.session.given))
         line = (one_line.recipe_python_line if is_python else one_line.recipe_command_line)(path, output)
     QtWidgets.QApplication.clipboard().setText(line)
-    window.say(f"{reason} The copied line names a recipe of it." if reason else f"Copied: {_short(line)}")
+    context.tell(f"{reason} The copied line names a recipe of it." if reason else f"Copied: {_short(line)}")
     return line
 
 
-def copy_picture(window: Any, recipe: Recipe, surfaces: Surfaces, answers: list) -> None:
+def copy_picture(context: Context, recipe: Recipe, surfaces: Surfaces, answers: list) -> None:
     """Put the figure itself on the clipboard once it is drawn, which the window does not wait for."""
-    draughtsman = window.exports.previews
-    _Waiting(draughtsman, window).number = draughtsman.ask(
+    draughtsman = context[Exports].previews
+    _Waiting(draughtsman, context).number = draughtsman.ask(
         "copy", whole_picture, figure_of(recipe, surfaces, answers), MOST
     )
-    window.say("Drawing the picture…")
+    context.tell("Drawing the picture…")
 
 
 class _Waiting(QtCore.QObject):
     """For one picture."""
 
-    def __init__(self, draughtsman: QtCore.QObject, window: Any) -> None:
+    def __init__(self, draughtsman: QtCore.QObject, context: Context) -> None:
         super().__init__(draughtsman)
-        self._window, self.number = window, 0
+        self._context, self.number = context, 0
         draughtsman.answered.connect(self._take)
         draughtsman.refused.connect(self._refuse)
         draughtsman.dropped.connect(self._drop)
@@ -75,7 +78,7 @@ class _Waiting(QtCore.QObject):
             image.setDotsPerMeterX(round(per_inch / INCH))
             image.setDotsPerMeterY(round(per_inch / INCH))
             QtWidgets.QApplication.clipboard().setImage(image)
-            self._window.say(f"Copied the picture, {image.width()} × {image.height()} pixels")
+            self._context.tell(f"Copied the picture, {image.width()} × {image.height()} pixels")
 
     def _drop(self, number: int) -> None:
         if number == self.number:
@@ -84,7 +87,7 @@ class _Waiting(QtCore.QObject):
     def _refuse(self, number: int, sentence: str) -> None:
         if number == self.number:
             self.deleteLater()
-            self._window.failed(sentence)
+            self._context.fail(sentence)
 
 
 def _at_vertices(recipe: Recipe, surfaces: Surfaces) -> Recipe:

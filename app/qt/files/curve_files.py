@@ -1,9 +1,11 @@
-"""Curves that fields start from, and the files they are saved in.  `window` is the main window."""
+"""Curves that fields start from, and the files they are saved in."""
 
 import hashlib
 import json
 import os
 from pathlib import Path
+
+from qtpy import QtCore
 
 from bihdist_core import BihdistError, Curve, OutputError, ParameterError
 from bihdist_core.sources.words import curve_text, read_curve
@@ -12,55 +14,60 @@ from bihdist_core.whole_file import whole_file
 from ...document.file_names import file_name
 from ...document.source_edits import members_of
 from .. import remembered
-from ..docks.saving import ask_path
+from ..context import Context
+from .saving import ask_path
 
 
-class CurveFiles:
-    """See the module.
+class CurveFiles(QtCore.QObject):
+    """Curves that are read, and saved.
 
-    paths: where curves were read from, or saved by the user; a file may have changed since.
+    paths: where they were read from, or saved by the user; a file may have changed since.
     """
 
-    def __init__(self, window) -> None:
-        self._window = window
+    taken = QtCore.Signal(object, object)  # a curve for distances to start from, and its path by the curve
+    saved = QtCore.Signal()
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self.paths: dict[Curve, str] = {}
 
     def take(self, path: str) -> None:
         """Let distances start from the curve in a file, or say why they cannot."""
-        window = self._window
+        context = self._context
         name = os.path.basename(path)
         try:
             curve = read_curve(path)
         except ParameterError as error:
-            window.failed(str(error))
+            context.fail(error)
             return
-        if window.session.surface is None:
-            window.failed(f"{name} is a curve for distances to start from; open its mesh first.")
+        if context.session.surface is None:
+            context.fail(f"{name} is a curve for distances to start from; open its mesh first.")
             return
-        window.typed_source.choose(curve, {curve: os.path.abspath(path)})
+        self.taken.emit(curve, {curve: os.path.abspath(path)})
 
     def save_source(self, panel: int) -> bool:
         """Ask where to save the curve that a panel's field starts from; whether it was saved."""
-        document = self._window.session.document
+        document = self._context.document
         points = [document.point(name) for each in document.panels if each.id == panel for name in each.shows.points]
         curves = [each for point in points for each in members_of(point.at) if isinstance(each, Curve)]
         if len(curves) == 1:
             return self.choose_and_save(curves[0])
         where = "right click the one that is to be saved" if curves else "draw one on the surface (D)"
-        self._window.say(f"The source has {len(curves) or 'no'} curve{'s' * bool(curves)}; {where}")
+        self._context.tell(f"The source has {len(curves) or 'no'} curve{'s' * bool(curves)}; {where}")
         return False
 
     def choose_and_save(self, curve: Curve) -> bool:
         """Ask for a file; whether the curve was saved."""
-        surface = self._window.session.surface
+        surface = self._context.session.surface
         name = file_name([] if surface is None else [surface.name], "curve")
-        path = ask_path(self._window, "Save the curve", name, (".json",))
+        path = ask_path(self._context, "Save the curve", name, (".json",))
         if not path:
             return False
         try:
             self.save(curve, path)
         except BihdistError as error:
-            self._window.failed(str(error))
+            self._context.fail(error)
             return False
         return True
 
@@ -69,8 +76,8 @@ class CurveFiles:
         with whole_file(path) as temporary:
             Path(temporary).write_text(curve_text(curve), encoding="utf-8")
         self.paths[curve] = os.path.abspath(path)
-        self._window.session_file.show_title()
-        self._window.say(f"Saved {os.path.basename(path)}")
+        self.saved.emit()
+        self._context.tell(f"Saved {os.path.basename(path)}")
 
     def path_of(self, curve: Curve) -> str:
         """A file that holds a curve: the user's, or one among the program's data; OutputError if there can be none."""

@@ -13,10 +13,11 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import BihdistError, ParameterError
 
 from ...document.beside_edits import MOST_SHOWN
+from ...document.docks import DockPlaces
 from ...document.document import Document, MeshFile, content
 from ...document.file import checksum, read_recipe, with_paths
 from ...document.file_names import file_name
-from ...document.page import Recipe
+from ...document.page import Page, Recipe
 from ...document.work import work_in
 from ...samples import mesh_path
 from ...scene.style import style_of
@@ -24,7 +25,9 @@ from ...session.array_store import ArrayStore
 from ...session.recipe_file import recipe_written
 from ...version import version
 from .. import remembered
-from ..docks.saving import MESH_FILES, ask_path
+from ..context import Context
+from .curve_files import CurveFiles
+from .saving import MESH_FILES, ask_path
 
 FILES = (
     "Meshes, sessions and recipes (*.off *.obj *.ply *.stl *.vtk *.vtp *.json);;"
@@ -37,24 +40,32 @@ IN_NO_FILE = Recipe(Document())
 """As what a recovered session was saved: nothing of it was."""
 
 
-class SessionFile:
-    """The file that a window's session is saved in, if any, and whether it is as it was saved."""
+class SessionFile(QtCore.QObject):
+    """The file that a window's session is saved in, if any, and whether it is as it was saved.
 
-    def __init__(self, window) -> None:
-        self._window = window
+    dock_places: says where the open docks are.
+    """
+
+    docks_placed = QtCore.Signal(object)  # where docks are to be, a `DockPlaces` or None
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
+        self.dock_places: Callable[[], DockPlaces | None] = lambda: None
         self.path: str | None = None
         self._saved: Recipe | None = None
         self._given = work_in(Document())  # what came from the command line or from Python
-        self._keep_soon = QtCore.QTimer(window, singleShot=True, interval=KEEP_MS)
+        self._keep_soon = QtCore.QTimer(self, singleShot=True, interval=KEEP_MS)
         self._keep_soon.timeout.connect(self.keep)
+        context[CurveFiles].saved.connect(self.show_title)
 
     # ------------------------------------------------------------------ saving
     def recipe(self) -> Recipe:
         """What the window shows, on the page of the recipe that was opened last."""
-        window, document = self._window, self._window.session.document
-        if window.docks is not None:
-            document = replace(document, dock_places=window.docks.places())
-        return Recipe(document, window.page)
+        context, document = self._context, self._context.document
+        if context.is_built:
+            document = replace(document, dock_places=self.dock_places())
+        return Recipe(document, context.page)
 
     @property
     def is_changed(self) -> bool:
@@ -64,23 +75,23 @@ class SessionFile:
         """
         if self._saved is None:
             return bool(self._unsaved_work)
-        window = self._window
+        context = self._context
         seen, saved = (
             replace(document, camera="home", beside=content(document).beside, dock_places=None)
-            for document in (window.session.document, self._saved.document)
+            for document in (context.document, self._saved.document)
         )
-        return (seen, window.page) != (saved, self._saved.page)
+        return (seen, context.page) != (saved, self._saved.page)
 
     @property
     def _unsaved_work(self) -> list[str]:
         """What is in no file, by what it is called: of a session that was never saved."""
         kept = {**self._given}
-        kept["drawn sources"] |= self._window.curve_files.paths.keys()
-        return [word for word, work in work_in(self._window.session.document).items() if work - kept[word]]
+        kept["drawn sources"] |= self._context[CurveFiles].paths.keys()
+        return [word for word, work in work_in(self._context.document).items() if work - kept[word]]
 
     def take_as_given(self) -> None:
         """What is shown comes from somewhere, and can be had from there again."""
-        self._given = work_in(self._window.session.document)
+        self._given = work_in(self._context.document)
         self.show_title()
 
     def _belongs_to(self, path: str | None, saved: Recipe) -> None:
@@ -90,40 +101,40 @@ class SessionFile:
 
     def show_title(self) -> None:
         """The session's file, if any, the meshes once they are seen, and whether closing would lose something."""
-        self._window.setWindowModified(self.is_changed)
-        if self._window.grid is not None:
-            self._window.grid.once_painted(self._write_title)
+        self._context.widget.setWindowModified(self.is_changed)
+        if self._context.is_built:
+            self._context.grid.once_painted(self._write_title)
 
     def _write_title(self) -> None:
-        session = self._window.session
+        session = self._context.session
         loaded = [session.loaded(mesh.name) for mesh in session.document.surfaces]
         meshes = ", ".join(dict.fromkeys(each.surface.name for each in loaded if each is not None))
         parts = [part for part in (os.path.basename(self.path or ""), meshes, "Biharmonic distance") if part]
         # Doubled, Qt's word for the sign of change is a part of the name.
         first, *others = (part.replace("[*]", "[*][*]") for part in parts)
-        self._window.setWindowTitle(" - ".join([f"{first}[*]", *others]))
+        self._context.widget.setWindowTitle(" - ".join([f"{first}[*]", *others]))
 
     def save(self, path: str | None = None) -> None:
         """Into a file, the one it was saved in or opened from if none is given; OutputError if that cannot be."""
         path = path or self.path
         assert path is not None
-        if self._window.session.surface is None:
+        if self._context.session.surface is None:
             raise ParameterError("There is nothing to save before a mesh is open.")
         recipe = self.recipe()
         self._write(recipe, path)
         self._belongs_to(path, recipe)
         self._remember(path)
-        self._window.say(f"Saved {os.path.basename(path)}")
+        self._context.tell(f"Saved {os.path.basename(path)}")
 
     def _write(self, recipe: Recipe, path: str | os.PathLike[str], stays: bool = False) -> None:
-        with recipe_written(recipe, self._window.session.given, path, version(), stays):
+        with recipe_written(recipe, self._context.session.given, path, version(), stays):
             pass
 
     def choose_and_save(self) -> bool:
         """Ask for a file; whether it was saved."""
-        surface = self._window.session.surface
+        surface = self._context.session.surface
         name = file_name([] if surface is None else [surface.name], "session")
-        path = ask_path(self._window, "Save the session", name, (".json",))
+        path = ask_path(self._context, "Save the session", name, (".json",))
         return bool(path) and self.save_or_say(path)
 
     def save_or_say(self, path: str | None = None) -> bool:
@@ -133,7 +144,7 @@ class SessionFile:
         try:
             self.save(path)
         except BihdistError as error:
-            self._window.failed(str(error))
+            self._context.fail(error)
             return False
         return True
 
@@ -184,16 +195,36 @@ class SessionFile:
             if count > MOST_SHOWN:
                 raise ParameterError(f"The window shows up to {MOST_SHOWN} meshes, and {path} has {count}.")
             style_of(recipe.page.style, recipe.document.colours)
-            self._window.session.given.update(ArrayStore.read(recipe))
+            self._context.session.given.update(ArrayStore.read(recipe))
             recipe = self._with_meshes(recipe)
         except BihdistError as error:
-            self._window.failed(str(error))
+            self._context.fail(error)
             return
         if recipe is None:
             return
 
         # Nothing changes before the mesh is there: it may not open.
-        self._window.show_document(recipe.document, recipe.page, arrived)
+        self.show_document(recipe.document, recipe.page, arrived)
+
+    def show_document(
+        self, document: Document, page: Page | None = None, arrived: Callable[[], None] = lambda: None
+    ) -> None:
+        """Show a document from elsewhere, also before there are panels.
+
+        page: in whose style, the present one's if None; arrived: called when it is there.
+        """
+        context = self._context
+
+        def arriving() -> None:
+            if page is not None:
+                context.take_page(page)
+
+        def restoring() -> None:
+            context.once_built(lambda: self.docks_placed.emit(document.dock_places))
+            self.take_as_given()
+            arrived()
+
+        context.session.show_instead(document, arriving, restoring)
 
     def _with_meshes(self, recipe: Recipe) -> Recipe | None:
         """The recipe of meshes that are there: those it names, or those the user points at; None if neither."""
@@ -223,23 +254,23 @@ class SessionFile:
             message, path = f"The mesh {mesh.path} is not what it was when this was written.", mesh.path
         else:
             return mesh
-        chosen = _mesh_instead(self._window, message, path)
+        chosen = _mesh_instead(self._context, message, path)
         return replace(mesh, path=chosen, sha256="") if chosen else None
 
     def _remember(self, path: str) -> None:
-        if self._window.remembers:
+        if self._context.remembers:
             remembered.remember(path)
 
     # ------------------------------------------------------------------ crashes
     def document_changed(self) -> None:
         """Keep it, soon; a window that a script looks at leaves nothing behind."""
         self.show_title()
-        if self._window.remembers:
+        if self._context.remembers:
             self._keep_soon.start()
 
     def keep(self) -> bool:
         """Keep what is shown now, in case of a crash; whether that was possible."""
-        if self._window.session.surface is None:
+        if self._context.session.surface is None:
             return False
         recipe = self.recipe()
         meshes = tuple(with_paths(mesh, _absolute) for mesh in recipe.document.surfaces)
@@ -252,12 +283,14 @@ class SessionFile:
         remembered.forget_state()
 
 
-def _mesh_instead(window, message: str, path: str) -> str:
+def _mesh_instead(context: Context, message: str, path: str) -> str:
     """Ask for the mesh of a session whose own is gone, or has changed and is still at `path`; empty if none."""
-    window.refused.emit(message)
-    if window.quiet:
+    context.refused.emit(message)
+    if context.quiet:
         return path
-    box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=window)
+    box = QtWidgets.QMessageBox(
+        QtWidgets.QMessageBox.Icon.Warning, "Biharmonic distance", message, parent=context.widget
+    )
     choose = box.addButton("Choose the mesh…", QtWidgets.QMessageBox.ButtonRole.ActionRole)
     as_it_is = box.addButton("Show it as it is", QtWidgets.QMessageBox.ButtonRole.AcceptRole) if path else None
     box.addButton(QtWidgets.QMessageBox.StandardButton.Cancel)
@@ -265,7 +298,7 @@ def _mesh_instead(window, message: str, path: str) -> str:
     if as_it_is is not None and box.clickedButton() is as_it_is:
         return path
     if box.clickedButton() is choose:
-        return QtWidgets.QFileDialog.getOpenFileName(window, "The mesh of this session", "", MESH_FILES)[0]
+        return QtWidgets.QFileDialog.getOpenFileName(context.widget, "The mesh of this session", "", MESH_FILES)[0]
     return ""
 
 
@@ -273,7 +306,7 @@ def _absolute(path: str) -> str:
     return os.path.abspath(path) if path and os.path.exists(path) else path
 
 
-def offer_lost_state(window) -> None:
+def offer_lost_state(context: Context) -> None:
     """After a crash: ask whether what was shown then should be shown again; of several windows, one at each start."""
     lost = remembered.lost_states()
     if not lost:
@@ -283,12 +316,12 @@ def offer_lost_state(window) -> None:
         "Biharmonic distance",
         "The program did not end as it should the last time. Show what was shown then?",
         QtWidgets.QMessageBox.StandardButton.Yes | QtWidgets.QMessageBox.StandardButton.No,
-        window,
+        context.widget,
     )
 
     def answered(button: object) -> None:
         if box.standardButton(button) == QtWidgets.QMessageBox.StandardButton.Yes:
-            window.session_file.recover(lost[0])
+            context[SessionFile].recover(lost[0])
         else:
             remembered.remove_state(lost[0])
 

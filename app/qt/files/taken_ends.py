@@ -1,5 +1,4 @@
-"""Colour bars that end as in a session or recipe, whose fields are computed in the background.  `window` is the main
-window."""
+"""Colour bars that end as in a session or recipe, whose fields are computed in the background."""
 
 import os
 from typing import TYPE_CHECKING
@@ -10,6 +9,7 @@ from bihdist_core import BihdistError
 from bihdist_core.distances.answers import failure_in_words
 
 from ...session.latest_request_worker import LatestRequestWorker
+from ..context import Context
 
 if TYPE_CHECKING:
     from ...figures.ends import End
@@ -26,16 +26,16 @@ class TakenEnds(QtCore.QObject):
     _failed = QtCore.Signal(object, object)
     _progress = QtCore.Signal(object, str)
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self._worker: LatestRequestWorker[list[str]] | None = None
         self._wanted: list[str] | None = None  # one path, as an object of its own
         self._waiting: QtWidgets.QProgressDialog | None = None
         self._found.connect(self._take)
         self._failed.connect(self._refuse)
         self._progress.connect(self._show_progress)
-        window.closed.connect(self._close)
+        context.closed.connect(self._close)
 
     def take(self, path: str) -> None:
         """Let the colour bars end as there, as a step that can be undone, or say why not."""
@@ -43,7 +43,9 @@ class TakenEnds(QtCore.QObject):
             self._worker = LatestRequestWorker("ends", self._compute, self._progress.emit, self._failed.emit)
         self._end_waiting()
         self._wanted = [path]
-        waiting = QtWidgets.QProgressDialog(f"The fields of {os.path.basename(path)}…", "Cancel", 0, 100, self._window)
+        waiting = QtWidgets.QProgressDialog(
+            f"The fields of {os.path.basename(path)}…", "Cancel", 0, 100, self._context.widget
+        )
         waiting.setCancelButton(QtWidgets.QPushButton("Cancel", autoDefault=False))
         waiting.setWindowTitle("Ranges")
         waiting.setMinimumDuration(PATIENCE_MS)
@@ -77,21 +79,21 @@ class TakenEnds(QtCore.QObject):
             return
         self._wanted = None
         self._end_waiting()
-        window = self._window
+        context = self._context
         try:
-            document, said = ended_as(window.session.document, ends, os.path.basename(request[0]))
+            document, said = ended_as(context.document, ends, os.path.basename(request[0]))
         except BihdistError as error:
-            window.failed(str(error))
+            context.fail(error)
             return
-        window.session.show(document)
-        window.say(said)
+        context.edit(document)
+        context.tell(said)
         self.taken.emit(said)
 
     def _refuse(self, request: list[str], error: Exception) -> None:
         if request is self._wanted:
             self._wanted = None
             self._end_waiting()
-            self._window.failed(failure_in_words(error))
+            self._context.fail(failure_in_words(error))
 
     def _end_waiting(self) -> None:
         waiting, self._waiting = self._waiting, None

@@ -20,8 +20,8 @@ COMMAND = QtCore.Qt.ItemDataRole.UserRole
 class Palette(PopUp):
     """recent: titles of what has been run, the last first; what is run comes to its front."""
 
-    def __init__(self, commands: Sequence[Command], recent: list[str], window: QtWidgets.QWidget) -> None:
-        super().__init__(window)
+    def __init__(self, commands: Sequence[Command], recent: list[str], parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
         self._recent, self._most = recent, MOST_ROWS
         self._commands = sorted(commands, key=lambda command: self._age(command.title))

@@ -5,6 +5,7 @@ It stays in its place, so that whoever clicks twice does not click what lies und
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -30,16 +31,19 @@ class Step:
     where: Callable[[], QtWidgets.QWidget | None]
 
 
-def steps(window: QtWidgets.QWidget) -> list[Step]:
-    """The five of this window; parts that it does not have, or not yet, are None."""
+def steps(window: QtWidgets.QWidget, panels: Callable[[], Sequence[Any]]) -> list[Step]:
+    """The five of this window; parts that it does not have, or not yet, are None.  panels: asks for those there are."""
 
     def part_of_panel(name: str) -> QtWidgets.QWidget | None:
-        panels = getattr(getattr(window, "grid", None), "panels", None)
-        return getattr(panels[0], name, None) if panels else None
+        there = panels()
+        return getattr(there[0], name) if there else None
+
+    def bar() -> QtWidgets.QWidget | None:
+        return window.findChild(QtWidgets.QToolBar, "tools")
 
     def export() -> QtWidgets.QWidget | None:
-        tools = getattr(window, "tools", None)
-        return tools.get("export") if isinstance(tools, dict) else None
+        there = bar()
+        return None if there is None else there.findChild(QtWidgets.QWidget, "export")
 
     return [
         Step(
@@ -62,7 +66,7 @@ def steps(window: QtWidgets.QWidget) -> list[Step]:
         Step(
             "Change the look",
             "Isolines, colours, range and view are here, for all panels at once. Undo takes back any step.",
-            lambda: getattr(window, "tool_bar", None),
+            bar,
         ),
         Step(
             "Export a figure",
@@ -212,8 +216,8 @@ def _into(room: QtCore.QRect, corner: QtCore.QPoint, card: QtCore.QSize) -> QtCo
 class Card(QtWidgets.QWidget):
     """One step: its title and text, the way on, back and out."""
 
-    def __init__(self, window: QtWidgets.QWidget, steps: Sequence[Step]) -> None:
-        super().__init__(window, visible=False)
+    def __init__(self, parent: QtWidgets.QWidget, steps: Sequence[Step]) -> None:
+        super().__init__(parent, visible=False)
         self._steps = steps
         self.title, self.text, self.count = QtWidgets.QLabel(), QtWidgets.QLabel(wordWrap=True), QtWidgets.QLabel()
         self.text.setProperty("quiet", True)
@@ -281,8 +285,8 @@ class Card(QtWidgets.QWidget):
 class Outline(QtWidgets.QWidget):
     """Round what a step is about; the mouse does not notice it."""
 
-    def __init__(self, window: QtWidgets.QWidget) -> None:
-        super().__init__(window, visible=False)
+    def __init__(self, parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent, visible=False)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
         LOOK.changed.connect(self.update)

@@ -18,6 +18,7 @@ from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
 from ...session.session import Session
 from ..look.look import LOOK
+from .events import BarEnded, Cancelled, EditChosen, Events, QuantityChosen, Retried, SaveWanted
 from .eye import Eye
 from .grid_marks import GridMarks
 from .line_labels import LineLabels
@@ -40,36 +41,15 @@ LINE = 1
 
 
 class PanelGrid(QtWidgets.QWidget):
-    """A panel for each of the document's, by its id; gestures come out as signals that name the panel."""
+    """A panel for each of the document's, by its id.  events: what happens in each."""
 
-    clicked = QtCore.Signal(int, object)  # panel, where the surface is met
-    pinned = QtCore.Signal(int, object)  # the same with Shift
-    pin_clicked = QtCore.Signal(int, int, bool)  # panel, a pin by its number, whether with Ctrl
-    pin_dragged = QtCore.Signal(int, int, object)  # panel, a pin by its number, the `Hit` where its tip is
-    pin_released = QtCore.Signal()  # or that of a pair
-    pair_clicked = QtCore.Signal(int, int)  # panel, a pair by its number
-    pair_dragged = QtCore.Signal(int, int, object)  # panel, a pair by its number, the `Hit` where its tip is
-    added = QtCore.Signal(int, object)  # the same with Ctrl
-    dragged = QtCore.Signal(int, int, object)  # panel, a mark of its source by its number, the `Hit` it is over
-    released = QtCore.Signal()
-    stroked = QtCore.Signal(int, object)  # panel, a `Hit` or None, while the surface is drawn on
-    stroke_ended = QtCore.Signal(int, bool)  # panel, whether with Ctrl
-    chosen = QtCore.Signal(int, object)  # panel, quantity
-    asked = QtCore.Signal(int, str)  # panel, a word of PANEL_EDITS
-    hovered = QtCore.Signal(int, object)  # panel, a `Hit` or None beside the surface
     looked = QtCore.Signal(Camera, str)  # where the user has turned or moved the camera of a surface to
-    menu_wanted = QtCore.Signal(int, object, object)  # panel, a `Hit` or None, where on the screen
-    save_wanted = QtCore.Signal(int)  # the panel's field
-    ended = QtCore.Signal(int, object)  # panel, where its colour bar is to end
-    cancelled = QtCore.Signal(int)  # what is computed for a panel
-    retried = QtCore.Signal(int)  # it, once more
-    activated = QtCore.Signal(int)
-    brushed = QtCore.Signal(object, float)  # a `Hit`, and how long a pixel is there
-    brush_lifted = QtCore.Signal()
+    activated = QtCore.Signal(int)  # a panel
 
     def __init__(self, session: Session, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
+        self.events = Events()
         self.offscreen = OffscreenRenderer()
         self.moving = Moving(lambda: [panel.view for panel in self.panels], self)
         self.labels = LineLabels(lambda: self.panels, self)
@@ -178,36 +158,23 @@ class PanelGrid(QtWidgets.QWidget):
         panel = DistancePanel(self.offscreen, self)
         view = panel.view
         view.pressed.connect(lambda: self.activate(panel.id))
-        view.clicked.connect(lambda hit: self.clicked.emit(panel.id, hit))
-        view.pinned.connect(lambda hit: self.pinned.emit(panel.id, hit))
-        view.added.connect(lambda hit: self.added.emit(panel.id, hit))
-        view.pin_clicked.connect(lambda number, is_more: self.pin_clicked.emit(panel.id, number, is_more))
-        view.pin_dragged.connect(lambda number, hit: self.pin_dragged.emit(panel.id, number, hit))
-        view.pin_released.connect(self.pin_released)
-        view.pair_clicked.connect(lambda number: self.pair_clicked.emit(panel.id, number))
-        view.pair_dragged.connect(lambda number, hit: self.pair_dragged.emit(panel.id, number, hit))
-        view.dragged.connect(lambda mark, hit: self.dragged.emit(panel.id, mark, hit))
-        view.released.connect(self.released)
-        view.stroked.connect(lambda hit: self.stroked.emit(panel.id, hit))
-        view.stroke_ended.connect(lambda has_ctrl: self.stroke_ended.emit(panel.id, has_ctrl))
-        view.hovered.connect(lambda hit: self.hovered.emit(panel.id, hit))
+        view.happened.connect(lambda event: self.events.emit(panel.id, event))
         view.moved.connect(lambda: self._looked(panel))
         view.let_go.connect(self.moving.rest)
         view.resized.connect(self._look_again)
-        view.menu_wanted.connect(lambda hit, where: self.menu_wanted.emit(panel.id, hit, where))
-        view.centred.connect(lambda hit: view.centre(hit.position))
-        view.brushed.connect(self.brushed)
-        view.brush_lifted.connect(self.brush_lifted)
         view.drawn.connect(self._drawn)
         view.installEventFilter(self)
         self.labels.watch(panel)
         panel.head.clicked.connect(lambda: self.activate(panel.id))
-        panel.head.changed.connect(lambda chosen: self.chosen.emit(panel.id, chosen))
-        panel.head.asked.connect(lambda word: self.asked.emit(panel.id, word))
-        panel.head.save_wanted.connect(lambda: self.save_wanted.emit(panel.id))
-        panel.ended.connect(lambda end: self.ended.emit(panel.id, end))
-        panel.cancelled.connect(lambda: self.cancelled.emit(panel.id))
-        panel.retried.connect(lambda: self.retried.emit(panel.id))
+        for signal, kind in (
+            (panel.head.changed, QuantityChosen),
+            (panel.head.asked, EditChosen),
+            (panel.head.save_wanted, SaveWanted),
+            (panel.ended, BarEnded),
+            (panel.cancelled, Cancelled),
+            (panel.retried, Retried),
+        ):
+            signal.connect(lambda *what, kind=kind: self.events.emit(panel.id, kind(*what)))
         panel.show_style(self._style)
         return panel
 

@@ -1,5 +1,5 @@
 """What the mouse does in a view: it turns, holds a mark of the source, a pin or a pair, draws or paints;
-each becomes a signal."""
+each becomes an event."""
 
 from typing import TYPE_CHECKING
 
@@ -7,6 +7,7 @@ import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...scene import moves
+from .events import BrushLift, BrushTouch, Click, Hover, MarkClick, MarkDrag, MarkRelease, MenuWanted, Stroke, StrokeEnd
 
 if TYPE_CHECKING:
     from .view import View
@@ -24,7 +25,7 @@ _NONE = QtCore.Qt.MouseButton.NoButton
 
 
 class Pointer:
-    """view: the one whose signals it emits.  One button counts: the first that went down."""
+    """view: the one whose events it emits.  One button counts: the first that went down."""
 
     def __init__(self, view: "View") -> None:
         self._view = view
@@ -73,7 +74,7 @@ class Pointer:
         hit = view.pick(event.pos()) if is_left and self.is_drawn_on else None
         self._is_stroke = hit is not None
         if self._is_stroke:
-            view.stroked.emit(hit)
+            view.happened.emit(Stroke(hit))
         may_hold = is_left and not self._is_stroke and (is_plain or event.modifiers() == _CTRL)
         self._drop = view.over.drop_at(event.pos()) if may_hold else None
         self._grip = view.over.tip_of_drop(*self._drop) - event.pos() if self._drop else QtCore.QPoint()
@@ -85,7 +86,7 @@ class Pointer:
         view = self._view
         if event.buttons() == _NONE:
             self._button = _NONE
-            view.hovered.emit(view.pick(event.pos()))
+            view.happened.emit(Hover(view.pick(event.pos())))
             self._show_cursor(event.pos())
             return
         if self._is_brushing:
@@ -96,7 +97,7 @@ class Pointer:
             if (event.pos() - self._press).manhattanLength() < QtWidgets.QApplication.startDragDistance():
                 return
             self._is_dragging = True
-            view.hovered.emit(None)
+            view.happened.emit(Hover(None))
         if self._is_stroke:
             self._draw_to(event.pos())
             return
@@ -104,12 +105,11 @@ class Pointer:
         if self._drop:
             hit = view.pick(event.pos() + self._grip)
             if hit is not None:
-                kind, number = self._drop
-                (view.pin_dragged if kind == "pin" else view.pair_dragged).emit(number, hit)
+                view.happened.emit(MarkDrag(*self._drop, hit))
         elif self._held >= 0:
             hit = view.pick(event.pos())
             if hit is not None:
-                view.dragged.emit(self._held, hit)
+                view.happened.emit(MarkDrag("", self._held, hit))
         elif not view.is_empty:
             self._drag(step, event.modifiers())
 
@@ -121,7 +121,7 @@ class Pointer:
         press, self._press = self._press, None
         if self._is_brushing:
             self._is_brushing = False
-            view.brush_lifted.emit()
+            view.happened.emit(BrushLift())
             view.point_again()
             return
         held, self._held = self._held >= 0, -1
@@ -132,36 +132,30 @@ class Pointer:
             view.unsetCursor()
         if is_stroke:
             if self._is_dragging and event.pos() != self._last:
-                view.stroked.emit(view.pick(event.pos()))
-            view.stroke_ended.emit(has_ctrl)
+                view.happened.emit(Stroke(view.pick(event.pos())))
+            view.happened.emit(StrokeEnd(has_ctrl))
         elif self._is_dragging:
-            if drop:
-                view.pin_released.emit()
-            elif held:
-                view.released.emit()
+            if drop or held:
+                view.happened.emit(MarkRelease(drop[0] if drop else ""))
             else:
                 view.let_go.emit()
             view.point_again()
         elif drop:
-            kind, number = drop
-            if kind == "pin":
-                view.pin_clicked.emit(number, has_ctrl)
-            else:
-                view.pair_clicked.emit(number)
+            view.happened.emit(MarkClick(*drop, has_ctrl))
         elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
-            view.menu_wanted.emit(view.pick(press), view.mapToGlobal(press))
+            view.happened.emit(MenuWanted(view.pick(press), view.mapToGlobal(press)))
         elif press is not None and event.button() == QtCore.Qt.MouseButton.LeftButton and not held:
             hit = view.pick(press)
             has_shift = bool(event.modifiers() & QtCore.Qt.KeyboardModifier.ShiftModifier)
             if hit is not None:
-                (view.pinned if has_shift else view.added if has_ctrl else view.clicked).emit(hit)
+                view.happened.emit(Click(hit, has_shift, has_ctrl))
 
     def double_click(self, event: QtGui.QMouseEvent) -> None:
         """The first click has moved the source there, or has chosen a pin."""
         if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._view.over.drop_at(event.pos()):
             hit = self._view.pick(event.pos())
             if hit is not None:
-                self._view.centred.emit(hit)
+                self._view.centre(hit.position)
         self._press = None
 
     # ------------------------------------------------------------------ what it does
@@ -181,7 +175,7 @@ class Pointer:
         way, start = position - self._last, self._last
         steps = min(way.manhattanLength() // STROKE_STEP, MOST_DRAWN)
         for step in range(1, steps + 1):
-            self._view.stroked.emit(self._view.pick(start + way * step / steps))
+            self._view.happened.emit(Stroke(self._view.pick(start + way * step / steps)))
             self._last = position
 
     def _brush_to(self, position: QtCore.QPoint) -> None:
@@ -193,7 +187,7 @@ class Pointer:
         for step in range(1, steps + 1):
             hit = view.pick(start + way * step / steps)
             if hit is not None:
-                view.brushed.emit(hit, view.pixel_size(hit.position))
+                view.happened.emit(BrushTouch(hit, view.pixel_size(hit.position)))
 
     def _drag(self, step: QtCore.QPoint, modifiers: QtCore.Qt.KeyboardModifiers) -> None:
         view, button = self._view, QtCore.Qt.MouseButton

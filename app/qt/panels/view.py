@@ -1,4 +1,4 @@
-"""The picture of a panel.  Gestures become signals; it decides nothing.
+"""The picture of a panel.  Gestures become events; it decides nothing.
 
 The surface is drawn off the screen, once for each change; what lies over it is painted by Qt, and costs no drawing.
 """
@@ -13,6 +13,7 @@ from ...scene.picking import Hit, Picker, pixel_of
 from ...scene.proportion import proportion
 from ...scene.style import Style
 from ..look.look import LOOK
+from .events import Hover, MenuWanted
 from .marks_over import MarksOver
 from .pointer import Pointer
 
@@ -36,26 +37,10 @@ class View(QtWidgets.QWidget):
     """A scene on the screen."""
 
     pressed = QtCore.Signal()  # any button
-    clicked = QtCore.Signal(object)  # a `Hit`, clicked without dragging
-    pinned = QtCore.Signal(object)  # the same with Shift
-    added = QtCore.Signal(object)  # the same with Ctrl
-    pin_clicked = QtCore.Signal(int, bool)  # its drop, by its number; whether with Ctrl
-    pin_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Hit`
-    pin_released = QtCore.Signal()  # or that of a pair
-    pair_clicked = QtCore.Signal(int)  # its drop, or its candidate, by its number
-    pair_dragged = QtCore.Signal(int, object)  # the tip of a drop, over a `Hit`
-    dragged = QtCore.Signal(int, object)  # a mark of the source by its number, over a `Hit`
-    released = QtCore.Signal()  # the mark
-    stroked = QtCore.Signal(object)  # over a `Hit`, or None beside the surface, while that is drawn on
-    stroke_ended = QtCore.Signal(bool)  # the button is up; whether with Ctrl
+    happened = QtCore.Signal(object)  # one of `events`
     let_go = QtCore.Signal()  # the button that has moved the camera
-    hovered = QtCore.Signal(object)  # a `Hit`, or None beside the surface
     moved = QtCore.Signal()  # the camera
     resized = QtCore.Signal()
-    menu_wanted = QtCore.Signal(object, object)  # a `Hit` or None, and where on the screen
-    centred = QtCore.Signal(object)  # double click on a `Hit`
-    brushed = QtCore.Signal(object, float)  # a `Hit`, and how long a pixel is there
-    brush_lifted = QtCore.Signal()
     drawn = QtCore.Signal()  # another picture
     shot_wanted = QtCore.Signal()  # what is written on the picture is needed now
 
@@ -271,7 +256,7 @@ class View(QtWidgets.QWidget):
         """By the keyboard; that of the mouse comes when its button is let go."""
         if event.reason() == QtGui.QContextMenuEvent.Reason.Keyboard and not self._is_empty:
             middle = self.rect().center()
-            self.menu_wanted.emit(self.pick(middle), self.mapToGlobal(middle))
+            self.happened.emit(MenuWanted(self.pick(middle), self.mapToGlobal(middle)))
 
     def wheelEvent(self, event: QtGui.QWheelEvent) -> None:
         if not self._is_empty and event.angleDelta().y():
@@ -280,13 +265,13 @@ class View(QtWidgets.QWidget):
         event.accept()
 
     def leaveEvent(self, event: QtCore.QEvent) -> None:
-        self.hovered.emit(None)
+        self.happened.emit(Hover(None))
 
     def point_again(self) -> None:
         """What is under the pointer now, after the camera or the surface has moved."""
         position = self.mapFromGlobal(QtGui.QCursor.pos())
         if self.pointer.is_up and self.underMouse() and self.rect().contains(position):
-            self.hovered.emit(self.pick(position))
+            self.happened.emit(Hover(self.pick(position)))
 
     # ------------------------------------------------------------------ the camera
     def zoom(self, factor: float, position: QtCore.QPoint | None = None) -> None:

@@ -12,6 +12,7 @@ TOOL = Tool(
     icon="pairs",
     in_bar=True,
     synonyms="match map landmarks shape second",
+    gesture="gestures:PairGestures",
     dock="dock:PairsDock",
     commands={"correspond": "command", "evaluate": "evaluate_command"},
     quantities=("quantity:Prediction", "quantity:MapColours"),

@@ -13,15 +13,18 @@ from ...document.maps import shows_maps
 from ...document.pairs import Pair, Pairs, add_pairs, half_pair, number_of, remove_pairs
 from ...document.prediction import predict, predicts, show_distances
 from ...document.quantities import kind_name
+from ...qt.context import Context
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.plain import fill
-from ...qt.docks.saving import save
+from ...qt.files.files import Files
+from ...qt.files.saving import save
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS, WAITING
 from ...session.pair_locations import vertex_pairs
 from ...session.questions import vertex_at
+from .gestures import PairGestures
 from .map_errors import MapErrors
 from .row import PairRow, column_ends
 
@@ -37,8 +40,8 @@ class PairsDock(Instrument):
 
     word, title = "pairs", "Pairs"
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self.rows: dict[str, PairRow] = {}
         self.hint = QtWidgets.QLabel(HINT, wordWrap=True)
         self.hint.setProperty("quiet", True)
@@ -52,9 +55,11 @@ class PairsDock(Instrument):
         self.or_click = QtWidgets.QLabel(wordWrap=True)
         self.or_click.setProperty("quiet", True)
         self._head = _Columns()
-        self.errors = MapErrors(window)
+        self._gestures = context[PairGestures]
+        self._gestures.chosen.connect(self.choose)
+        self.errors = MapErrors(context)
         self._lay_out()
-        window.grid.activated.connect(lambda *_: self._show_rows(self._document))
+        context.grid.activated.connect(lambda *_: self._show_rows(self._document))
 
     def _lay_out(self) -> None:
         self._list = QtWidgets.QVBoxLayout()
@@ -120,11 +125,11 @@ class PairsDock(Instrument):
 
     def show_closed(self) -> None:
         self.errors.show_closed()
-        self.window_.grid.marks.choose_pair("")
+        self.context.grid.marks.choose_pair("")
 
     def _show_rows(self, document: Document) -> None:
         half = half_pair(document)
-        found = self.window_.gestures.pairs.candidate(may_be_late=True) if half is not None else None
+        found = self._gestures.candidate(may_be_late=True) if half is not None else None
         wanted = {pair.points[0]: pair for pair in document[Pairs].pairs}
         for point in [point for point in self.rows if point not in wanted]:
             gone = self.rows.pop(point)
@@ -143,7 +148,7 @@ class PairsDock(Instrument):
             row.show_pair(
                 number, colour, self._place(pair.first) or guess, self._place(pair.second) or guess, pair.is_half
             )
-            row.show_chosen(self.window_.grid.marks.chosen_pair in pair.points)
+            row.show_chosen(self.context.grid.marks.chosen_pair in pair.points)
         is_alone, is_on = len(document.surfaces) < 2, predicts(document)
         other = "" if half is None else "B" if half.first else "A"
         self._head.setVisible(bool(document[Pairs].pairs))
@@ -165,7 +170,7 @@ class PairsDock(Instrument):
         if not name:
             return ""
         point = self._document.point(name)
-        loaded = self.window_.session.loaded(point.surface)
+        loaded = self.context.session.loaded(point.surface)
         return "" if loaded is None else str(vertex_at(point.at, loaded.surface))
 
     def _new_row(self, point: str) -> PairRow:
@@ -178,35 +183,37 @@ class PairsDock(Instrument):
 
     def choose(self, point: str) -> None:
         """Let the row of this point's pair stand out."""
+        if self.word not in self._document.docks:
+            return
         for row in self.rows.values():
             row.show_chosen(bool(point) and point in self._pair(row.point).points)
 
     # ------------------------------------------------------------------ edits
     @property
     def _document(self) -> Document:
-        return self.window_.session.document
+        return self.context.document
 
     def _pair(self, point: str) -> Pair:
         return next(pair for pair in self._document[Pairs].pairs if point in pair.points)
 
     def begin(self) -> None:
         """The first surface in one panel, the second in one for each distance, which predicts."""
-        self.window_.session.show(predict(self._document))
+        self.context.edit(predict(self._document))
 
     def end_tool(self) -> None:
-        self.window_.session.show(show_distances(self._document))
+        self.context.edit(show_distances(self._document))
 
     def _open_beside(self) -> None:
-        self.window_.files.choose_beside()
+        self.context[Files].choose_beside()
 
     def _choose(self, point: str) -> None:
-        self.window_.docks.choose_pair(point)
+        self._gestures.choose(point)
 
     def _accept(self) -> None:
-        self.window_.gestures.pairs.accept()
+        self._gestures.accept()
 
     def _drop(self) -> None:
-        self.window_.gestures.pairs.drop()
+        self._gestures.put_down()
 
     def _remove(self, point: str) -> None:
         """The next row, or the last, has the keys then."""
@@ -214,7 +221,7 @@ class PairsDock(Instrument):
         left = [name for name in rows if name != point]
         number = min(rows.index(point), len(left) - 1)
         had_keys = self.rows[point].hasFocus()
-        self.window_.session.show(remove_pairs(self._document, [self._pair(point)]))
+        self.context.edit(remove_pairs(self._document, [self._pair(point)]))
         if left and had_keys:
             self._choose(left[number])
             self.rows[left[number]].setFocus()
@@ -230,33 +237,33 @@ class PairsDock(Instrument):
             self._choose(rows[number])
 
     def remove_all(self) -> None:
-        self.window_.session.show(remove_pairs(self._document, self._document[Pairs].pairs))
+        self.context.edit(remove_pairs(self._document, self._document[Pairs].pairs))
 
     # ------------------------------------------------------------------ files
     def choose_and_read(self) -> None:
-        folder = self.window_.preferences.last_folder
+        folder = self.context.folder
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Read pairs", folder, READ)
         if path:
             self.read(path)
 
     def read(self, path: str) -> None:
         """Pairs of a file besides those that there are, or why not."""
-        session, document = self.window_.session, self._document
+        session, document = self.context.session, self._document
         loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
         try:
             surfaces = [each.surface for each in loaded if each is not None]
             found = read_pairs(path, *surfaces) if len(surfaces) == 2 else read_pairs(path)
             changed = add_pairs(document, [(int(i), int(j)) for i, j in found])
         except BihdistError as error:
-            self.window_.failed(str(error))
+            self.context.fail(error)
             return
         session.show(changed)
         new = len(changed[Pairs].pairs) - len(document[Pairs].pairs)
         known = f", {len(found) - new} of them known already" if new < len(found) else ""
-        self.window_.say(f"Read {len(found):,} pairs from {Path(path).name}{known}")
+        self.context.tell(f"Read {len(found):,} pairs from {Path(path).name}{known}")
 
     def choose_and_save(self) -> None:
-        session, document = self.window_.session, self._document
+        session, document = self.context.session, self._document
         loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
         name = file_name([each.surface.name for each in loaded if each is not None], "pairs")
 
@@ -265,9 +272,9 @@ class PairsDock(Instrument):
             write_pairs(path, vertex_pairs(document, first, second))
 
         if len(loaded) < 2:
-            self.window_.failed(ALONE)
+            self.context.fail(ALONE)
         else:
-            save(self.window_, "Save pairs", name, PAIR_FORMATS, write)
+            save(self.context, "Save pairs", name, PAIR_FORMATS, write)
 
 
 class _Columns(QtWidgets.QWidget):

@@ -1,5 +1,4 @@
-"""The section "Error" of the dock of pairs: how far maps are from the truth, and the full map.  `window` is the main
-window."""
+"""The section "Error" of the dock of pairs: how far maps are from the truth, and the full map."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -17,10 +16,10 @@ from ...document.maps import MapColours, MapFile, Maps, show_maps, shows_maps
 from ...document.pairs import whole_pairs
 from ...document.prediction import predict
 from ...document.quantities import kind_name
-from ...qt.docks.background import Background
+from ...qt.context import Context
 from ...qt.docks.dock import PAD
 from ...qt.docks.panel_dots import curve_colour
-from ...qt.docks.saving import save
+from ...qt.files.saving import save
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
 from ...session.judging import Asked, Judgement, Judging, Map, asked_of, maps_of
@@ -34,9 +33,9 @@ NO_MAP = "Errors come with the first pair."
 class MapErrors(QtWidgets.QWidget):
     """See the module.  judgement: what is shown, None for nothing."""
 
-    def __init__(self, window: Any) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
-        self.window_ = window
+        self.context = context
         self.judgement: Judgement | None = None
         self.asked: Asked | None = None
         self._answered: tuple = ()  # what the judgement is about
@@ -57,7 +56,7 @@ class MapErrors(QtWidgets.QWidget):
         self.mirror.setToolTip("The symmetric partner of the right place is as good; where it is, a map's file says")
         self.mirror.clicked.connect(self._count_mirror)
         self._lay_out()
-        self._background = Background("map errors", self._judge, window)
+        self._background = context.background("map errors", self._judge)
         self._judging = Judging()
         self._background.answered.connect(self._take)
         self._background.failed.connect(self._refuse)
@@ -93,7 +92,7 @@ class MapErrors(QtWidgets.QWidget):
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document) -> None:
         """The document is another: are its maps, or is what is right?"""
-        loaded = [self.window_.session.loaded(mesh.name) for mesh in document.surfaces[:2]]
+        loaded = [self.context.session.loaded(mesh.name) for mesh in document.surfaces[:2]]
         is_there = len(loaded) == 2 and None not in loaded
         self.setVisible(is_there)
         if not is_there:
@@ -143,7 +142,7 @@ class MapErrors(QtWidgets.QWidget):
     # ------------------------------------------------------------------ what is seen
     @property
     def _document(self) -> Document:
-        return self.window_.session.document
+        return self.context.document
 
     def _show(self) -> None:
         asked, document = self.asked, self._document
@@ -213,7 +212,7 @@ class MapErrors(QtWidgets.QWidget):
         return found
 
     def _put_dots(self, colours: dict[int, str]) -> None:
-        panels = list(self.window_.grid.panels)
+        panels = list(self.context.grid.panels)
         for panel in panels:
             if panel.id in colours or panel in self._dotted:
                 panel.head.show_dot(colours.get(panel.id, ""))
@@ -231,11 +230,11 @@ class MapErrors(QtWidgets.QWidget):
     def show_or_leave_maps(self) -> None:
         """The full map by each distance, or predictions again."""
         document = self._document
-        self.window_.session.show(predict(document) if shows_maps(document) else show_maps(document))
+        self.context.edit(predict(document) if shows_maps(document) else show_maps(document))
 
     def _full_maps(self) -> dict[Spec, Any]:
         """Those that are there, (n,) each."""
-        session = self.window_.session
+        session = self.context.session
         found = {}
         for panel in self._document.panels:
             shown = session.shown.get(panel.id)
@@ -256,7 +255,7 @@ class MapErrors(QtWidgets.QWidget):
         asked = self.asked
         meshes = [] if asked is None else [each.surface.name for each in (asked.one, asked.two)]
         name = file_name(meshes, "map", str(spec))
-        save(self.window_, "Save the map", name, MAP_FORMATS, lambda path: write_map(path, found))
+        save(self.context, "Save the map", name, MAP_FORMATS, lambda path: write_map(path, found))
 
 
 def _is_judged_alike(one: Asked, other: Asked) -> bool:

@@ -13,8 +13,8 @@ from bihdist_core.formats.vertex_maps import MAP_FORMATS
 
 from ...document.file_names import file_name
 from ...document.maps import MapFile, Maps, with_map, with_truth
-from ...qt.docks.chart_files import paper_theme, save_figure
-from ...qt.docks.saving import save
+from ...qt.files.chart_files import paper_theme, save_figure
+from ...qt.files.saving import save
 from ...qt.panels.flat_button import FlatButton
 from ...session.judging import is_same_ids
 from ...session.map_answers import map_file
@@ -27,7 +27,7 @@ class MapTruth:
     """button: says what is right, and has the menu."""
 
     def __init__(self, section: Any) -> None:
-        self._section, self._window = section, section.window_
+        self._section, self._context = section, section.context
         self.button = FlatButton(section, quiet=True)
         self.button.setAccessibleName("Truth")
         self.button.setToolTip("What is right, and over how many vertices errors are found")
@@ -37,21 +37,21 @@ class MapTruth:
 
     def show(self) -> None:
         """Say what is right now."""
-        truth, word = self._window.session.document[Maps].truth, self.word
+        truth, word = self._context.document[Maps].truth, self.word
         named = truth.file.name if truth.file is not None else "same ids" if word == "identity" else "not known"
         self.button.setText(f"truth: {named}")
 
     @property
     def word(self) -> str:
         """One of TRUTHS, but for "auto", which means one of the others."""
-        truth, asked = self._window.session.document[Maps].truth, self._section.asked
+        truth, asked = self._context.document[Maps].truth, self._section.asked
         if truth.word != "auto" or asked is None:
             return truth.word
         return "identity" if is_same_ids(asked.one.surface, asked.two.surface) else "none"
 
     def _fill(self) -> None:
         self._menu.clear()
-        asked, truth, word = self._section.asked, self._window.session.document[Maps].truth, self.word
+        asked, truth, word = self._section.asked, self._context.document[Maps].truth, self.word
         if asked is None:
             return
         has_ids = len(asked.one.surface.vertices) == len(asked.two.surface.vertices)
@@ -77,7 +77,7 @@ class MapTruth:
         action.triggered.connect(lambda *_: do())
 
     def _choose(self, **changes: Any) -> None:
-        session = self._window.session
+        session = self._context.session
         session.show(with_truth(session.document, replace(session.document[Maps].truth, **changes)))
 
     # ------------------------------------------------------------------ by a dialog
@@ -91,7 +91,7 @@ class MapTruth:
         self._ask("A map from A to B", self.take_map)
 
     def _ask(self, title: str, take: Callable[[str], None]) -> None:
-        folder = self._window.preferences.last_folder
+        folder = self._context.folder
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self._section, title, folder, READ)
         if path:
             take(path)
@@ -111,16 +111,16 @@ class MapTruth:
 
     def take_map(self, path: str) -> None:
         """Show where the map of a file leads, and judge it beside the others; or why it cannot be."""
-        file, session = self._read(path), self._window.session
+        file, session = self._read(path), self._context.session
         if file is not None:
             try:
                 session.show(with_map(session.document, file))
             except BihdistError as error:
-                self._window.failed(str(error))
+                self._context.fail(error)
 
     def count_mirror(self, counts: bool) -> None:
         """Whether symmetric partners count; what they are is asked for where it is not known."""
-        if counts and self._window.session.document[Maps].truth.partners is None:
+        if counts and self._context.document[Maps].truth.partners is None:
             self.choose_partners()
         else:
             self._choose(mirror=counts)
@@ -133,7 +133,7 @@ class MapTruth:
         try:
             return map_file(path, two if is_on_second else one, two)
         except BihdistError as error:
-            self._window.failed(str(error))
+            self._context.fail(error)
             return None
 
     # ------------------------------------------------------------------ the curves
@@ -147,18 +147,18 @@ class MapTruth:
         from ...figures.error_figure import ErrorFigure, save_error_figure
         from ...scene.style import style_of
 
-        window = self._window
-        page, colours = window.page, paper_theme(window).curves
+        context = self._context
+        page, colours = context.page, paper_theme(context).curves
 
         def figure() -> ErrorFigure:
-            style = style_of(page.style, window.session.document.colours)
+            style = style_of(page.style, context.document.colours)
             return ErrorFigure(self._section.named_curves(), colours, ChartLook(style))
 
-        save_figure(window, "Save the curves as a figure", self._file_name(), save_error_figure, figure, path)
+        save_figure(context, "Save the curves as a figure", self._file_name(), save_error_figure, figure, path)
 
     def save_numbers(self) -> None:
         from ...figures.error_figure import ErrorFigure, save_error_figure
 
         curves = self._section.named_curves()
         name = self._file_name()
-        save(self._window, "Save the curves", name, (".csv",), lambda p: save_error_figure(ErrorFigure(curves), p))
+        save(self._context, "Save the curves", name, (".csv",), lambda p: save_error_figure(ErrorFigure(curves), p))

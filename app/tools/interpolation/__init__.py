@@ -12,6 +12,7 @@ TOOL = Tool(
     icon="anchor",
     in_bar=True,
     synonyms="interpolate values blend weights",
+    gesture="gestures:AnchorGestures",
     dock="dock:AnchorsDock",
     commands={"interpolate": "command"},
     quantities=("quantity:Interpolant",),

@@ -1,13 +1,11 @@
-"""How long panels take to follow a value, and what had to be solved for it, in the status bar.
-
-`window` is the main window.
-"""
+"""How long panels take to follow a value, and what had to be solved for it, in the status bar."""
 
 import time
 
 from qtpy import QtCore
 
 from ...document.anchors import Anchor, Anchors
+from ...qt.context import Context
 from ...session.loaded_mesh import LoadedMesh
 from .answers import InterpolantMemory
 
@@ -15,22 +13,22 @@ from .answers import InterpolantMemory
 class AnchorClock:
     """See the module."""
 
-    def __init__(self, window) -> None:
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        self._context = context
         self._begun: float | None = None
         self._columns = 0
         self._anchors: tuple[Anchor, ...] = ()
 
     def begin(self, anchors: tuple[Anchor, ...]) -> None:
         """The values become these."""
-        session = self._window.session
+        session = self._context.session
         loaded = session.loaded()
         if loaded is not None and anchors != session.document[Anchors].anchors:
             self._begun, self._columns, self._anchors = time.perf_counter(), _columns(loaded), anchors
 
     def note(self) -> None:
         """A panel shows another field; once all do it is said, after they have been painted."""
-        session = self._window.session
+        session = self._context.session
         if session.document[Anchors].anchors != self._anchors:
             self._begun = None  # something else has been done meanwhile
         if self._begun is not None and all(session.is_answered(panel.id) for panel in session.document.panels):
@@ -38,12 +36,12 @@ class AnchorClock:
 
     def _say(self) -> None:
         begun, self._begun = self._begun, None
-        loaded = self._window.session.loaded()
+        loaded = self._context.session.loaded()
         if begun is None or loaded is None:
             return
         count = _columns(loaded) - self._columns
         solved = "no solve" if not count else f"{count} {'column' if count == 1 else 'columns'} solved for"
-        self._window.say(f"repainted in {1000 * (time.perf_counter() - begun):.0f} ms, {solved}")
+        self._context.tell(f"repainted in {1000 * (time.perf_counter() - begun):.0f} ms, {solved}")
 
 
 def _columns(loaded: LoadedMesh) -> int:

@@ -13,10 +13,11 @@ from ...document.anchors import Anchor, Anchors, add_anchor, change_anchor, remo
 from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.pins import Pins
+from ...qt.context import Context
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.plain import fill
-from ...qt.docks.saving import save
+from ...qt.files.saving import save
 from ...qt.look.look import LOOK
 from ...qt.look.segments import Segments
 from ...qt.look.text_box import TextBox, mark_wrong
@@ -24,6 +25,7 @@ from ...qt.panels.flat_button import FlatButton
 from ...session.questions import vertex_at
 from .clock import AnchorClock
 from .extrema import AnchorExtrema
+from .gestures import AnchorGestures
 from .quantity import Interpolant, interpolate, interpolated, show_distances
 from .row import BOX, AnchorRow
 from .samples import AnchorSamples
@@ -38,8 +40,8 @@ class AnchorsDock(Instrument):
 
     word, title = "anchors", "Anchors"
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self.rows: dict[str, AnchorRow] = {}
         self.hint = QtWidgets.QLabel(HINT, wordWrap=True)
         self.hint.setProperty("quiet", True)
@@ -56,12 +58,14 @@ class AnchorsDock(Instrument):
             box.editingFinished.connect(self._weigh)
         self.shows = Segments({"Interpolant": "interpolant", "Weights": "total"}, "What panels show")
         self.shows.chosen.connect(self._show_total)
-        self.extrema = AnchorExtrema(window)
-        self.samples = AnchorSamples(window)
+        self.extrema = AnchorExtrema(context)
+        self.samples = AnchorSamples(context)
         self.save_field = QtWidgets.QPushButton("Save field…", autoDefault=False)
         self.save_field.setToolTip("What panels show of interpolants, a column for each")
         self.save_field.clicked.connect(self.save_fields)
-        self._clock = AnchorClock(window)
+        self._clock = AnchorClock(context)
+        self._gestures = context[AnchorGestures]
+        self._gestures.chosen.connect(self.choose)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -152,7 +156,7 @@ class AnchorsDock(Instrument):
 
     def show_closed(self) -> None:
         self.extrema.leave()
-        self.window_.grid.marks.choose_anchor("")
+        self.context.grid.marks.choose_anchor("")
 
     def _anchors(self, document: Document) -> list[Anchor]:
         surface = document.surfaces[0].name
@@ -176,7 +180,7 @@ class AnchorsDock(Instrument):
                 self._list.removeWidget(row)
                 self._list.insertWidget(number, row)
             row.show_anchor(anchor.name or anchor.point, anchor.value or 0.0, anchor.left_out, ends)
-            row.show_chosen(anchor.point == self.window_.grid.marks.chosen_anchor)
+            row.show_chosen(anchor.point == self.context.grid.marks.chosen_anchor)
 
     def _new_row(self, point: str) -> AnchorRow:
         row = AnchorRow(point)
@@ -190,19 +194,21 @@ class AnchorsDock(Instrument):
 
     def choose(self, point: str) -> None:
         """Let the row of this point stand out."""
+        if self.word not in self._document.docks:
+            return
         for row in self.rows.values():
             row.show_chosen(row.point == point)
 
     def _choose(self, point: str) -> None:
-        self.window_.docks.choose_anchor(point)
+        self._gestures.choose(point)
 
     # ------------------------------------------------------------------ edits
     def _show(self, document: Document, key: str = "", live: bool = False) -> None:
-        self.window_.session.show(document, key, live)
+        self.context.edit(document, key, live)
 
     @property
     def _document(self) -> Document:
-        return self.window_.session.document
+        return self.context.document
 
     def _anchor(self, point: str) -> Anchor:
         return next(anchor for anchor in self._document[Anchors].anchors if anchor.point == point)
@@ -227,7 +233,7 @@ class AnchorsDock(Instrument):
             try:
                 self._show(change_anchor(self._document, replace(anchor, name=name)))
             except ParameterError as error:
-                self.window_.failed(str(error))
+                self.context.fail(error)
 
     def _leave_out(self, point: str, is_out: bool) -> None:
         self._show(change_anchor(self._document, replace(self._anchor(point), left_out=is_out)))
@@ -288,28 +294,28 @@ class AnchorsDock(Instrument):
 
     # ------------------------------------------------------------------ files
     def choose_and_read(self) -> None:
-        folder = self.window_.preferences.last_folder
+        folder = self.context.folder
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Read anchors", folder, READ)
         if path:
             self.read(path)
 
     def read(self, path: str) -> None:
         """Anchors of a file besides those that there are, or why not; how far they were moved to vertices is said."""
-        session, document = self.window_.session, self._document
+        session, document = self.context.session, self._document
         try:
             found = read_anchors(path, session.surface)
             for vertex, value, name in zip(found.vertices.tolist(), found.values.tolist(), found.names, strict=True):
                 document, _ = add_anchor(document, vertex, value, document.surfaces[0].name, name)
         except BihdistError as error:
-            self.window_.failed(str(error))
+            self.context.fail(error)
             return
         self._show(document)
         far = float(found.moved.max())
         moved = f", moved to vertices by up to {far:.3g}" if far > 0 else ""
-        self.window_.say(f"Read {len(found):,} anchors from {Path(path).name}{moved}")
+        self.context.tell(f"Read {len(found):,} anchors from {Path(path).name}{moved}")
 
     def choose_and_save(self) -> None:
-        document, surface = self._document, self.window_.session.surface
+        document, surface = self._document, self.context.session.surface
         anchors = self._anchors(document)
         vertices = [vertex_at(document.point(anchor.point).at, surface) for anchor in anchors]
         values = [anchor.value for anchor in anchors]
@@ -318,11 +324,11 @@ class AnchorsDock(Instrument):
         def write(path: str) -> None:
             write_anchors(path, surface, vertices, values, names)
 
-        save(self.window_, "Save anchors", file_name([surface.name], "anchors"), ANCHOR_FORMATS, write)
+        save(self.context, "Save anchors", file_name([surface.name], "anchors"), ANCHOR_FORMATS, write)
 
     def save_fields(self) -> None:
         """What the panels show of interpolants."""
-        session = self.window_.session
+        session = self.context.session
         fields = {}
         for panel in session.document.panels_of():
             shown = session.shown.get(panel.id)
@@ -330,7 +336,7 @@ class AnchorsDock(Instrument):
             if is_meant and shown is not None and shown.answer.field is not None:
                 fields[str(panel.shows)] = shown.answer.field
         name = file_name([session.surface.name], "interpolants")
-        save(self.window_, "Save interpolants", name, FIELD_FORMATS, lambda p: write_fields(p, session.surface, fields))
+        save(self.context, "Save interpolants", name, FIELD_FORMATS, lambda p: write_fields(p, session.surface, fields))
 
 
 def _line() -> QtWidgets.QFrame:

@@ -1,7 +1,4 @@
-"""The extrema that interpolants have besides their anchors: a table in the dock, and a line in each panel.
-
-`window` is the main window.
-"""
+"""The extrema that interpolants have besides their anchors: a table in the dock, and a line in each panel."""
 
 import numpy as np
 from qtpy import QtWidgets
@@ -10,26 +7,27 @@ from bihdist_core.applications.tips import at_tips, tips
 
 from ...document.document import Document
 from ...document.quantities import kind_name
-from ...qt.docks.background import Background
+from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
+from ...qt.docks.findings import Findings
 from .quantity import interpolated
 
 
 class AnchorExtrema(FactTable):
     """Those at tips of the shape, where any monotone field must have one, are counted apart."""
 
-    def __init__(self, window, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, context: Context, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self._window = window
+        self._context = context
         self._ends: np.ndarray | None = None  # the tips of the surface; None until they are found
         self._about: tuple | None = None
-        self._tips = Background("tips", _found_tips, window)
+        self._tips = context.background("tips", _found_tips)
         self._tips.answered.connect(self._take_tips)
         self._tips.failed.connect(self._no_tips)
-        window.docks.findings.quality_changed.connect(self.show_counts)
+        context[Findings].quality_changed.connect(self.show_counts)
 
     def show_document(self, document: Document) -> None:
-        loaded = self._window.session.loaded()
+        loaded = self._context.session.loaded()
         about = (loaded, document.areas)
         if loaded is not None and about != self._about:
             self._about, self._ends = about, None
@@ -45,7 +43,7 @@ class AnchorExtrema(FactTable):
         self.show_counts()
 
     def show_counts(self) -> None:
-        session, grid = self._window.session, self._window.grid
+        session, grid = self._context.session, self._context.grid
         if session.surface is None or "anchors" not in session.document.docks:
             return
         facts: list[tuple[str, ...]] = []
@@ -61,15 +59,15 @@ class AnchorExtrema(FactTable):
         self.show_facts([("Panel", "at tips", "elsewhere"), *facts] if facts else [])
 
     def _counts(self, panel: int) -> tuple[int, int] | None:
-        found = self._window.docks.findings.found(panel).extrema
+        found = self._context[Findings].found(panel).extrema
         if found is None or self._ends is None:
             return None
-        near = int(at_tips(self._window.session.surface, found.vertices, self._ends).sum())
+        near = int(at_tips(self._context.session.surface, found.vertices, self._ends).sum())
         return near, len(found.vertices) - near
 
     def leave(self) -> None:
         """Say nothing in panels any more."""
-        for panel in self._window.grid.panels:
+        for panel in self._context.grid.panels:
             panel.view.over.write(())
 
 

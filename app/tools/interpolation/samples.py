@@ -1,4 +1,4 @@
-"""Farthest points that become anchors.  `window` is the main window."""
+"""Farthest points that become anchors."""
 
 import numpy as np
 from qtpy import QtWidgets
@@ -8,6 +8,8 @@ from bihdist_core.sources.source import SourceSet
 
 from ...document.anchors import Anchors, add_anchor
 from ...document.document import Document, Panel
+from ...qt.context import Context
+from ...qt.docks.findings import Findings
 from ...session.questions import first_source, vertex_at
 from ...session.sampling import Sampled, SamplesQuestion, Sampling
 from .quantity import Interpolant
@@ -22,10 +24,10 @@ class AnchorSamples(QtWidgets.QWidget):
     What is there keeps its value: where a field is known, each gets what the field has there.
     """
 
-    def __init__(self, window) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
-        self._window = window
-        self._sampling = Sampling(window.docks.findings.post, self._sampled, self._show_going)
+        self._context = context
+        self._sampling = Sampling(context[Findings].post, self._sampled, self._show_going)
         self._asked: tuple[Document, np.ndarray, int] | None = None  # of whose anchors, by which panel
         self.add = QtWidgets.QPushButton("Add samples", autoDefault=False)
         self.add.setToolTip("Anchors at points that are farthest from each other, by the active panel's distance")
@@ -40,10 +42,10 @@ class AnchorSamples(QtWidgets.QWidget):
         row.addWidget(self.add)
         row.addWidget(self.count)
         row.addStretch(1)
-        window.closed.connect(self._sampling.close)
+        context.closed.connect(self._sampling.close)
 
     def add_them(self) -> None:
-        session, panel = self._window.session, self._panel
+        session, panel = self._context.session, self._panel
         loaded = None if panel is None else session.loaded(panel.surface)
         if panel is None or loaded is None:
             return
@@ -58,10 +60,10 @@ class AnchorSamples(QtWidgets.QWidget):
         self._sampling.ask(SamplesQuestion(document.mesh(panel.surface), document.areas, part.spec, at, more), loaded)
 
     def _sampled(self, sampled: Sampled) -> None:
-        self._window.status.show_progress("")
-        asked, session = self._asked, self._window.session
+        self._context.status.show_progress("")
+        asked, session = self._asked, self._context.session
         if asked is None or sampled.vertices is None:
-            self._window.failed(sampled.failure)
+            self._context.fail(sampled.failure)
             return
         document, there, panel = asked
         if (document[Anchors].anchors, document.points) != (session.document[Anchors].anchors, session.document.points):
@@ -76,17 +78,17 @@ class AnchorSamples(QtWidgets.QWidget):
                 value = share if field is None else float(field[vertex])
                 document, _ = add_anchor(document, vertex, float(f"{value:.3g}"), surface)
         except BihdistError as error:  # too many
-            self._window.failed(str(error))
+            self._context.fail(error)
             return
         session.show(document)
 
     def _show_going(self, fraction: float | None, text: str) -> None:
         is_going = fraction is not None and self._sampling.is_going
-        self._window.status.show_progress(f"{text}, {fraction:.0%}".replace("%", " %") if is_going else "")
+        self._context.status.show_progress(f"{text}, {fraction:.0%}".replace("%", " %") if is_going else "")
 
     @property
     def _panel(self) -> Panel | None:
         """The active one, or the first of those that show an interpolant."""
-        document, active = self._window.session.document, self._window.grid.active
+        document, active = self._context.document, self._context.grid.active
         panels = sorted(document.panels, key=lambda panel: panel.id != active)
         return next((p for p in panels if isinstance(p.shows, Interpolant)), None)

@@ -13,6 +13,7 @@ TOOL = Tool(
     in_bar=True,
     synonyms="measure distance between points markers landmarks matrix table",
     dock="dock:PinsDock",
+    gesture="gestures:PinGestures",
     parts=("..document.pins:Pins",),
     options="options:ROWS",
     marks="marks:marks",

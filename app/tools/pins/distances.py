@@ -13,6 +13,7 @@ from bihdist_core.sources.source import Source
 from ...document.document import Document
 from ...document.pins import Pins
 from ...document.quantities import kind_name
+from ...qt.context import Context
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number
 from ...qt.panels.flat_button import FlatButton
@@ -30,12 +31,12 @@ MOST_COMPARED = 40
 class PinDistances(QtWidgets.QWidget):
     """Computed in the background; hidden where there are not two pins."""
 
-    def __init__(self, window) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
-        self.window_ = window
+        self.context = context
         self._places: tuple[LocatedPin, ...] = ()
         self.spec: Spec | None = None
-        self._among = PairwiseDistances(window._posted.emit, self._show_among)
+        self._among = PairwiseDistances(context.post, self._show_among)
         heading = QtWidgets.QLabel("Distances among pins")
         heading.setProperty("heading", True)
         self.distance = FlatButton(self, quiet=True)
@@ -102,7 +103,7 @@ class PinDistances(QtWidgets.QWidget):
     def _fill_menu(self) -> None:
         menu = self.distance.menu()
         menu.clear()
-        shown = self._specs(self.window_.session.document)
+        shown = self._specs(self.context.document)
         words = {spec.word for spec in shown}
         for spec in (*shown, None, *(Spec.of(kind.word) for kind in offered_kinds() if kind.word not in words)):
             if spec is None:
@@ -115,7 +116,7 @@ class PinDistances(QtWidgets.QWidget):
 
     def choose_distance(self, spec: Spec) -> None:
         """Whose distances among pins are shown."""
-        session = self.window_.session
+        session = self.context.session
         document = session.document
         session.show(
             document.with_part(replace(document[Pins], pin_list=replace(document[Pins].pin_list, distance=spec)))
@@ -124,17 +125,17 @@ class PinDistances(QtWidgets.QWidget):
     @property
     def _compared(self) -> list[Spec]:
         """The one that is shown, and those of the panels."""
-        others = self._specs(self.window_.session.document) if len(self._at) <= MOST_COMPARED else []
+        others = self._specs(self.context.document) if len(self._at) <= MOST_COMPARED else []
         return list(dict.fromkeys([self.spec, *others]))
 
     def _ask(self) -> None:
-        session = self.window_.session
+        session = self.context.session
         self._among.ask(session.loaded(), session.document.areas, self._compared, self._at)
         self._show_among()
 
     def _show_among(self) -> None:
         matrix = self.known(self.spec)
-        document = self.window_.session.document
+        document = self.context.document
         self.distance.setText(spec_name(self.spec, self._specs(document)))
         self.distance.updateGeometry()
         pins = [(place.number, PINS[place.pin.colour]) for place in self._places]
@@ -144,7 +145,7 @@ class PinDistances(QtWidgets.QWidget):
 
     def known(self, spec: Spec) -> np.ndarray | None:
         """(k, k) the distances among the pins; None as long as they are not known."""
-        session = self.window_.session
+        session = self.context.session
         loaded = session.loaded()
         if loaded is None:
             return None
@@ -152,7 +153,7 @@ class PinDistances(QtWidgets.QWidget):
 
     def _say_pair(self, i: int, j: int) -> None:
         """Under the matrix: the pair under the pointer in all distances that are known; otherwise the unit."""
-        session = self.window_.session
+        session = self.context.session
         loaded, areas = session.loaded(), session.document.areas
         places = self._places
         if loaded is None or self.spec is None:

@@ -14,10 +14,12 @@ from bihdist_core.sources.words import short_words_of, source_from_words
 from ...document.document import Document
 from ...document.pins import Pins, add_pins, change_pin, move_pin, remove_pins
 from ...document.quantities import quantity_name
+from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
 from ...qt.look.numbers import number, percent, share
 from ...qt.look.segments import Segments
 from ...qt.look.text_box import TextBox, mark_wrong
+from ...qt.panels.events import MarkClick
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS
 from ...session.pin_locations import LocatedPin, located_pins
@@ -58,24 +60,24 @@ class PinsDock(Instrument):
 
     word, title = "pins", "Pins"
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self.places: tuple[LocatedPin, ...] = ()
         self._is_split = False
-        self.files = PinFiles(window, lambda: self.places)
+        self.files = PinFiles(context, lambda: self.places)
         self.menu = PinMenu(self)
         self.box = IdBox(placeholderText="Add ids, e.g. 12, 40")
         self.box.setAccessibleName("Add pins at vertex ids")
         self.box.returnPressed.connect(self._add)
         self.box.textEdited.connect(self._forgive)
-        self.box.left.connect(window.leave_boxes)
+        self.box.left.connect(context.focus_panels)
         self.ways = Segments({"Value": "value", "% of max": "share"}, "Values")
         self.ways.chosen.connect(self._choose_way)
         self.wrong = QtWidgets.QLabel(visible=False, wordWrap=True)
         self.wrong.setProperty("error", True)
         self.table = PinTable(self)
-        self.table.chosen.connect(window.grid.marks.light_pins)
-        window.grid.pin_clicked.connect(self._choose)
+        self.table.chosen.connect(context.grid.marks.light_pins)
+        context.grid.events.on(MarkClick, self._choose)
         self.table.rows.named.connect(self.rename)
         self.table.moved.connect(self.move_to)
         self.table.removed.connect(self.remove)
@@ -84,7 +86,7 @@ class PinsDock(Instrument):
         self.empty.setProperty("quiet", True)
         self.empty.setContentsMargins(PAD, 4, PAD, 4)
         self.empty.setAlignment(QtCore.Qt.AlignmentFlag.AlignTop)
-        self.distances = PinDistances(window)
+        self.distances = PinDistances(context)
         self._soon = QtCore.QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self._show_rows)
         self._lay_out()
@@ -143,7 +145,7 @@ class PinsDock(Instrument):
 
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document, before: Document | None) -> None:
-        loaded = self.window_.session.loaded()
+        loaded = self.context.session.loaded()
         if loaded is None:
             return
         self.places = located_pins(document, document.surfaces[0].name, loaded.surface)
@@ -158,12 +160,11 @@ class PinsDock(Instrument):
     def show_answer(self, panel: int) -> None:
         self._soon.start()
 
-    def _choose(self, panel: int, number: int, is_more: bool) -> None:
-        """A drop has been clicked: its row is selected, or only it is no longer; is_more: besides the others."""
-        point = self.window_.session.document[Pins].pins[number - 1].point
-        if "pins" in self.window_.session.document.docks:
-            chosen = set(self.table.points)
-            self.table.select(tuple(chosen ^ {point}) if is_more else () if chosen == {point} else (point,))
+    def _choose(self, panel: int, mark: MarkClick) -> None:
+        """A pin marker has been clicked: its row is selected, or only it is no longer; with Ctrl besides the others."""
+        if mark.kind == "pin" and self.word in self.context.document.docks:
+            point, chosen = self.context.document[Pins].pins[mark.number - 1].point, set(self.table.points)
+            self.table.select(tuple(chosen ^ {point}) if mark.has_ctrl else () if chosen == {point} else (point,))
 
     def end(self) -> None:
         self.distances.end()
@@ -174,7 +175,7 @@ class PinsDock(Instrument):
     # ------------------------------------------------------------------ the list
     def answers(self) -> list[tuple[str, Answer, bool]]:
         """Of each panel: the head of its column, what it shows, and whether that is still to change."""
-        session = self.window_.session
+        session = self.context.session
         document, name = session.document, session.document.surfaces[0].name
         panels = [panel for panel in document.panels if panel.surface == name]
         names = [quantity_name(panel.shows) for panel in panels]
@@ -187,11 +188,11 @@ class PinsDock(Instrument):
         return found
 
     def _show_rows(self) -> None:
-        surface = self.window_.session.surface
+        surface = self.context.session.surface
         if surface is None:
             return
         answers = self.answers()
-        listed = self.window_.session.document[Pins].pin_list
+        listed = self.context.document[Pins].pin_list
         rows = []
         for place in self.places:
             at = place.position(surface.vertices)
@@ -230,7 +231,7 @@ class PinsDock(Instrument):
     @property
     def has_positions(self) -> bool:
         """Whether the list has columns of places."""
-        return self.window_.session.document[Pins].pin_list.positions
+        return self.context.document[Pins].pin_list.positions
 
     def show_positions(self, is_on: bool) -> None:
         self.list_otherwise(positions=is_on)
@@ -256,15 +257,15 @@ class PinsDock(Instrument):
     # ------------------------------------------------------------------ edits
     def _show(self, make, key: str = "") -> None:
         """Show what an edit makes of the document, or say why it cannot be."""
-        session = self.window_.session
+        session = self.context.session
         try:
             session.show(make(session.document), key)
         except ParameterError as error:
-            self.window_.failed(str(error))
+            self.context.fail(error)
 
     def _add(self) -> None:
         """Pins at the vertices, or the places in faces, that are typed."""
-        surface = self.window_.session.surface
+        surface = self.context.session.surface
         words = WORD.findall(self.box.text())
         if not words:
             return
@@ -275,7 +276,7 @@ class PinsDock(Instrument):
                 return
         try:
             places = [source_at(source_from_words(word), surface) for word in words]
-            document = self.window_.session.document
+            document = self.context.document
             pinned = add_pins(document, places, document.surfaces[0].name)
         except (VertexError, ParameterError) as error:
             self._refuse(str(error))
@@ -284,7 +285,7 @@ class PinsDock(Instrument):
             one = f"Vertex {places[0]}" if isinstance(places[0], int) else "This place"
             self._refuse(f"{one} has a pin already." if len(set(places)) == 1 else "These have pins already.")
             return
-        self.window_.session.show(pinned)
+        self.context.edit(pinned)
         self.box.clear()
 
     def _refuse(self, sentence: str) -> None:

@@ -1,4 +1,4 @@
-"""Pins to and from files, and to the clipboard.  `window` is the main window."""
+"""Pins to and from files, and to the clipboard."""
 
 from pathlib import Path
 
@@ -10,7 +10,8 @@ from bihdist_core.counts import counted
 from bihdist_core.formats.pins import PIN_FORMATS, Pins, read_pins, write_pins
 
 from ...document.file_names import file_name
-from ...qt.docks.saving import ask_path
+from ...qt.context import Context
+from ...qt.files.saving import ask_path
 from ...qt.look.numbers import number, share
 from ...session.pin_locations import matrix_text, pins_text, pins_to_write, with_pins
 
@@ -20,55 +21,55 @@ READ = f"Pins ({' '.join(f'*{extension}' for extension in PIN_FORMATS)});;All fi
 class PinFiles:
     """What the menu of pins offers; `pins()` gives the places that there are now."""
 
-    def __init__(self, window, pins) -> None:
-        self._window, self._pins = window, pins
+    def __init__(self, context: Context, pins) -> None:
+        self._context, self._pins = context, pins
 
     @property
     def _folder(self) -> Path:
-        return Path(self._window.preferences.last_folder)
+        return Path(self._context.folder)
 
     # ------------------------------------------------------------------ files
     def choose_and_save(self) -> None:
-        surface = self._window.session.surface
-        path = ask_path(self._window, "Save pins", file_name([surface.name], "pins"), PIN_FORMATS)
+        surface = self._context.session.surface
+        path = ask_path(self._context, "Save pins", file_name([surface.name], "pins"), PIN_FORMATS)
         if path:
             self.save(path)
 
     def save(self, path: str) -> None:
         """Write the pins, or say why not; how far those in faces are from the vertices that are written is said."""
-        surface = self._window.session.surface
+        surface = self._context.session.surface
         try:
             written = pins_to_write(self._pins(), surface)
             write_pins(path, surface, written)
         except BihdistError as error:
-            self._window.failed(str(error))
+            self._context.fail(error)
             return
         size = float(np.ptp(surface.vertices, axis=0).max())
         said = snapped(written, size)
-        self._window.say(f"Saved {counted(len(written), 'pin')} in {Path(path).name}{f': {said}' if said else ''}")
+        self._context.tell(f"Saved {counted(len(written), 'pin')} in {Path(path).name}{f': {said}' if said else ''}")
 
     def choose_and_read(self) -> None:
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(self._window, "Read pins", str(self._folder), READ)
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(self._context.widget, "Read pins", str(self._folder), READ)
         if path:
             self.read(path)
 
     def read(self, path: str) -> None:
         """Pins of a file besides those that there are; how far they were from vertices is said."""
-        session = self._window.session
+        session = self._context.session
         document, surface = session.document, session.surface
         try:
             found = read_pins(path, surface)
             session.show(with_pins(document, found, document.surfaces[0].name))
         except BihdistError as error:
-            self._window.failed(str(error))
+            self._context.fail(error)
             return
         size = float(np.ptp(surface.vertices, axis=0).max())
-        self._window.say(snapped(found, size) or f"Read {counted(len(found), 'pin')} from {Path(path).name}")
+        self._context.tell(snapped(found, size) or f"Read {counted(len(found), 'pin')} from {Path(path).name}")
 
     # ------------------------------------------------------------------ the clipboard
     def copy_list(self, answers: list) -> None:
         """The list with all digits, with a tab between columns."""
-        self._copy(pins_text(self._pins(), self._window.session.surface, answers), "The list of pins")
+        self._copy(pins_text(self._pins(), self._context.session.surface, answers), "The list of pins")
 
     def copy_matrix(self, matrix: np.ndarray) -> None:
         """The same of the distances among them."""
@@ -76,7 +77,7 @@ class PinFiles:
 
     def _copy(self, text: str, what: str) -> None:
         QtWidgets.QApplication.clipboard().setText(text)
-        self._window.say(f"{what} {'are' if what.startswith('The distances') else 'is'} on the clipboard")
+        self._context.tell(f"{what} {'are' if what.startswith('The distances') else 'is'} on the clipboard")
 
 
 def snapped(pins: Pins, size: float) -> str:

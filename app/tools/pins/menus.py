@@ -64,9 +64,9 @@ class PinMenu:
     def _move_source(self) -> None:
         """To the pin whose row is selected, in the active panel."""
         dock = self._dock
-        window, point = dock.window_, dock.table.points[0]
+        context, point = dock.context, dock.table.points[0]
         at = next(place.at for place in dock.places if place.point == point)
-        window.session.show(move_source(window.session.document, window.grid.active, at))
+        context.edit(move_source(context.document, context.grid.active, at))
 
 
 def _disc(colour: str) -> QtGui.QIcon:

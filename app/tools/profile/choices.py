@@ -29,7 +29,7 @@ class ProfileChoices:
         self._dock = dock
 
     def show(self, document: Document, **profile: object) -> None:
-        self._dock.window_.session.show(document.with_part(replace(document[Profile], **profile)))
+        self._dock.context.edit(document.with_part(replace(document[Profile], **profile)))
 
     def choose_way(self, way: str) -> None:
         """A section keeps its plane whatever part of it is taken; another one's is turned to the view."""
@@ -53,7 +53,7 @@ class ProfileChoices:
             other = through[-k] if len(through) > 1 else ""
         known = {point.name for point in document.points}
         if other not in known or other == name:
-            self._dock.window_.failed("A profile needs two points; choose the other end first.")
+            self._dock.context.fail("A profile needs two points; choose the other end first.")
             return
         self.show(document, points=(name, other) if k == 0 else (other, name))
 
@@ -66,7 +66,7 @@ class ProfileChoices:
             document, name = pinned_at(self._dock.document, surface.check_vertex(int(text)), self._dock.surface)
             self.choose_end(k, name, document)
         except BihdistError as error:
-            self._dock.window_.failed(str(error))
+            self._dock.context.fail(error)
 
     def fill_ends(self, k: int) -> None:
         menu, document = self._dock.ends[k].menu(), self._dock.document

@@ -12,6 +12,7 @@ from bihdist_core.analysis.surface_paths import SurfacePath
 
 from ...document.document import Document
 from ...document.profile import Profile, points_along
+from ...qt.context import Context
 from ...qt.docks.badges import BadgeButton, BadgeRow, badge_of
 from ...qt.docks.instrument import Instrument
 from ...qt.look.look import LOOK
@@ -37,8 +38,8 @@ class ProfileDock(Instrument):
 
     _posted = QtCore.Signal(object)
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self.chart = ProfileCharts(self)
         self.path: SurfacePath | None = None
         self.curves: dict[int, ProfileCurve] = {}
@@ -137,7 +138,7 @@ class ProfileDock(Instrument):
         self._worker.ask(None)
         self._wanted = self.path = None
         self._put_path(None)
-        for panel in self.window_.grid.panels:
+        for panel in self.context.grid.panels:
             panel.head.show_dot("")
 
     def end(self) -> None:
@@ -147,26 +148,26 @@ class ProfileDock(Instrument):
     @property
     def document(self) -> Document:
         """As it is now: where the camera moves, instruments are told nothing."""
-        return self.window_.session.document
+        return self.context.document
 
     @property
     def _has_path(self) -> bool:
         """Whether there is one on the surface that is shown now."""
-        loaded = self.window_.session.loaded(self.surface)
+        loaded = self.context.session.loaded(self.surface)
         return self.path is not None and loaded is not None and loaded.surface is self._path_surface
 
     @property
     def _panels(self) -> list:
         """Those of the path's surface."""
-        panels = self.window_.session.document.panels
-        return [self.window_.grid.panel(panel.id) for panel in panels if panel.surface == self.surface]
+        panels = self.context.document.panels
+        return [self.context.grid.panel(panel.id) for panel in panels if panel.surface == self.surface]
 
     def surface_of(self, name: str) -> Surface:
-        return self.window_.session.loaded(name).surface
+        return self.context.session.loaded(name).surface
 
     def seen(self) -> tuple[float, float, float]:
         """(3,) the direction in which the panels are looked at."""
-        seen = self.window_.grid.eye_of(self.surface).seen
+        seen = self.context.grid.eye_of(self.surface).seen
         way = np.subtract(seen.focal_point, seen.position)
         x, y, z = (way / np.linalg.norm(way)).tolist()
         return x, y, z
@@ -206,7 +207,7 @@ class ProfileDock(Instrument):
 
     def _put_path(self, places: Places | None) -> None:
         """Over the panels of its surface."""
-        for panel in self.window_.grid.panels:
+        for panel in self.context.grid.panels:
             panel.marks.show_path(places if panel in self._panels else None)
 
     def _show_way(self) -> None:
@@ -222,12 +223,12 @@ class ProfileDock(Instrument):
             colours = LOOK.theme.curves
             for place, panel in enumerate(self.document.panels):
                 self._read(panel.id)
-                self.window_.grid.panel(panel.id).head.show_dot(colours[place % len(colours)])
+                self.context.grid.panel(panel.id).head.show_dot(colours[place % len(colours)])
             self._show_curves()
 
     def _read(self, id: int) -> None:
         """The field of a panel along the path."""
-        shown, document = self.window_.session.shown.get(id), self.document
+        shown, document = self.context.session.shown.get(id), self.document
         panel = next((panel for panel in document.panels if panel.id == id), None)
         self.curves.pop(id, None)
         if shown is None or panel is None or panel.surface != self.surface or shown.answer.field is None:
@@ -242,7 +243,7 @@ class ProfileDock(Instrument):
     # ------------------------------------------------------------------ the pointer
     def _point(self, at: tuple[float, float] | None) -> None:
         """In the chart: the place on all panels, and its values on their bars."""
-        status = self.window_.status
+        status = self.context.status
         if at is None or not self._has_path:
             if self._echoed is not None:
                 self._echoed = None
@@ -267,7 +268,7 @@ class ProfileDock(Instrument):
             panel.echo(self.path.at([arc]))
 
     def _unpoint(self) -> None:
-        grid = self.window_.grid
+        grid = self.context.grid
         for panel in grid.panels:
             grid.pointing.show(panel.id, None)
 

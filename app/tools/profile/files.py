@@ -14,7 +14,8 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.whole_file import check_output
 
 from ...document.file_names import file_name
-from ...qt.docks.saving import ask_path
+from ...qt.files.exports import Exports
+from ...qt.files.saving import ask_path
 
 if TYPE_CHECKING:
     from .figure import ProfileFigure
@@ -49,13 +50,13 @@ class ProfileFiles:
         self._choose("Save the profile as a figure", FIGURE_FORMATS, self.save_figure)
 
     def _choose(self, title: str, formats: tuple[str, ...], save: Callable[[str], None]) -> None:
-        window = self._dock.window_
-        path = ask_path(window, title, file_name([window.session.surface.name], "profile"), formats)
+        context = self._dock.context
+        path = ask_path(context, title, file_name([context.session.surface.name], "profile"), formats)
         if path:
             try:
                 save(path)
             except BihdistError as error:
-                window.failed(str(error))
+                context.fail(error)
 
     # ------------------------------------------------------------------ what is written
     def save_numbers(self, path: str) -> None:
@@ -63,21 +64,21 @@ class ProfileFiles:
         if os.path.splitext(path)[1].lower() not in PROFILE_FORMATS:
             raise ParameterError(f"{path} has to end with one of {', '.join(PROFILE_FORMATS)}.")
         write_profile(path, self._there(), self._fields())
-        self._dock.window_.say(f"Saved {os.path.basename(path)}")
+        self._dock.context.tell(f"Saved {os.path.basename(path)}")
 
     def save_figure(self, path: str) -> None:
         """In the background, as all figures."""
         from .figure import save_profile_figure
 
         check_output(path, FIGURE_FORMATS)
-        self._dock.window_.exports.start(partial(save_profile_figure, self.figure(), path), path, "Figure")
+        self._dock.context[Exports].start(partial(save_profile_figure, self.figure(), path), path, "Figure")
 
     def figure(self) -> "ProfileFigure":
         """What the chart shows, in the style of the page and the colours that go with its ground."""
         from .figure_curves import profile_figure
 
-        window = self._dock.window_
-        return profile_figure(window.session.document, window.page, self._there(), self._answers)
+        context = self._dock.context
+        return profile_figure(context.document, context.page, self._there(), self._answers)
 
     def copy(self) -> None:
         """A table with tabs, as spreadsheets read it."""
@@ -88,7 +89,7 @@ class ProfileFiles:
         for k, arc in enumerate(self._dock.path.arcs):
             rows.append("\t".join(repr(float(x)) for x in (arc, *(column[k] for column in fields.values()))))
         QtWidgets.QApplication.clipboard().setText("\n".join(rows) + "\n")
-        self._dock.window_.say(f"{len(rows) - 1:,} points of the profile are on the clipboard")
+        self._dock.context.tell(f"{len(rows) - 1:,} points of the profile are on the clipboard")
 
     def _there(self):
         if self._dock.path is None:
@@ -98,9 +99,9 @@ class ProfileFiles:
     @property
     def _answers(self) -> dict[int, Answer]:
         """Of the panels that have a curve."""
-        return {id: self._dock.window_.session.shown[id].answer for id in self._dock.curves}
+        return {id: self._dock.context.session.shown[id].answer for id in self._dock.curves}
 
     def _fields(self) -> dict[str, np.ndarray]:
         from .figure_curves import profile_fields
 
-        return profile_fields(self._dock.window_.session.document, self._answers)
+        return profile_fields(self._dock.context.document, self._answers)

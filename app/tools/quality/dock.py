@@ -7,7 +7,9 @@ from bihdist_core.analysis.quality import TRIANGLE_POINTS
 from ...document.document import Document
 from ...document.edits import mark_extrema
 from ...document.quantities import quantity_name
+from ...qt.context import Context
 from ...qt.docks.dock import PAD
+from ...qt.docks.findings import Findings
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.panel_dots import curve_colour
 from ...qt.docks.plain import fill, lie_on_dock
@@ -33,8 +35,8 @@ class QualityDock(Instrument):
 
     word, title = "quality", "Quality"
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self.table = QtWidgets.QTableWidget(len(MEASURES), 0)
         self.table.setAccessibleName("Quality of the panels' distances")
         self.table.setVerticalHeaderLabels([measure.name for measure in MEASURES])
@@ -87,7 +89,7 @@ class QualityDock(Instrument):
         self.copy_button.setToolTip("Copy the table as text")
         self.copy_button.setAccessibleName("Copy the table as text")
         self.copy_button.loaded.connect(self.copy)
-        window.docks.findings.quality_changed.connect(self._fill)
+        context[Findings].quality_changed.connect(self._fill)
         LOOK.follow(self, self._restyle)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
@@ -144,12 +146,12 @@ class QualityDock(Instrument):
         self._measure()
 
     def _fill(self) -> None:
-        document = self.window_.session.document
+        document = self.context.document
         if self._columns != [panel.id for panel in document.panels]:
             return  # the document's change is on its way
         progress_display, sampled = False, dict[int, int]()
         for k, panel in enumerate(document.panels):
-            found = self.window_.docks.findings.found(panel.id)
+            found = self.context[Findings].found(panel.id)
             failed = self._failed(panel.id)
             old = self._before.get(panel.id, Found())
             if found.whole is not None:
@@ -173,13 +175,13 @@ class QualityDock(Instrument):
 
     def _failed(self, panel: int) -> bool:
         """Whether there is no field that could be measured."""
-        shown = self.window_.session.shown.get(panel)
+        shown = self.context.session.shown.get(panel)
         return shown is not None and shown.answer.field is None
 
     def text(self) -> str:
         """The table, with tabulators and all digits."""
-        panels = self.window_.session.document.panels
-        found = [self.window_.docks.findings.found(panel.id) for panel in panels]
+        panels = self.context.document.panels
+        found = [self.context[Findings].found(panel.id) for panel in panels]
         lines = [["", *(quantity_name(panel.shows) for panel in panels)]]
         lines += [
             [
@@ -195,19 +197,19 @@ class QualityDock(Instrument):
 
     def copy(self) -> None:
         QtWidgets.QApplication.clipboard().setText(self.text())
-        self.window_.say("The table is in the clipboard")
+        self.context.tell("The table is in the clipboard")
 
     def _keep_marks(self, is_on: bool) -> None:
-        session = self.window_.session
+        session = self.context.session
         session.show(mark_extrema(session.document, is_on))
 
     def _go_to(self, row: int, column: int) -> None:
         """To the place that a number is about."""
-        panel = self.window_.session.document.panels[column]
-        found = self.window_.docks.findings.found(panel.id)
+        panel = self.context.document.panels[column]
+        found = self.context[Findings].found(panel.id)
         vertex = _place(MEASURES[row].name, found)
         if vertex is not None:
-            widget = self.window_.grid.panel(panel.id)
+            widget = self.context.grid.panel(panel.id)
             widget.view.centre(widget.positions[vertex])
 
     # ------------------------------------------------------------------ how it looks

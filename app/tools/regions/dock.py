@@ -14,12 +14,14 @@ from ...document.file_names import file_name
 from ...document.pins import Pins
 from ...document.quantities import quantity_name
 from ...document.regions import DividedPanels, can_divide, show_regions
+from ...qt.context import Context
 from ...qt.docks.badges import BADGE, Badge, paint_badge
 from ...qt.docks.dock import PAD
+from ...qt.docks.findings import Findings
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.panel_dots import SIDE, curve_colour, dot
 from ...qt.docks.plain import fill, lie_on_dock
-from ...qt.docks.saving import save, written
+from ...qt.files.saving import save, written
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, share
 from ...qt.look.segments import Segments
@@ -53,10 +55,10 @@ class RegionsDock(Instrument):
 
     word, title = "regions", "Regions"
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
-        self._findings = window.docks.findings
-        self.sampler = Sampler(window, self._findings.post)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._findings = context[Findings]
+        self.sampler = Sampler(context, self._findings.post)
         self.ticks: dict[int, QtWidgets.QCheckBox] = {}
         self._ticks = QtWidgets.QVBoxLayout()
         self._ticks.setSpacing(4)
@@ -146,14 +148,14 @@ class RegionsDock(Instrument):
             tick.setToolTip("Draw the boundaries on this panel, and list the areas")
 
     def _tick(self, panel: int, is_on: bool) -> None:
-        session = self.window_.session
+        session = self.context.session
         session.show(show_regions(session.document, panel, is_on))
 
     # ------------------------------------------------------------------ the table
     @property
     def _shown(self) -> list[tuple[int, Panel]]:
         """The panels with regions, with their places among all."""
-        document = self.window_.session.document
+        document = self.context.document
         return [(k, panel) for k, panel in enumerate(document.panels) if panel.id in document[DividedPanels].regions]
 
     def _make_table(self, document: Document) -> None:
@@ -178,7 +180,7 @@ class RegionsDock(Instrument):
         self._measure()
 
     def _fill(self) -> None:
-        document, shown = self.window_.session.document, self._shown
+        document, shown = self.context.document, self._shown
         if (len(document[Pins].pins), len(shown)) != (self.table.rowCount(), self.table.columnCount()):
             return  # the document's change is on its way
         failure = ""
@@ -190,7 +192,7 @@ class RegionsDock(Instrument):
                 k for k, pin in enumerate(document[Pins].pins) if document.point(pin.point).surface == panel.surface
             ]
             known = regions is not None and len(regions.areas) == len(rows)
-            total = float(self.window_.session.loaded(panel.surface).surface.face_areas.sum())
+            total = float(self.context.session.loaded(panel.surface).surface.face_areas.sum())
             for row in range(self.table.rowCount()):
                 area = float(regions.areas[rows.index(row)]) if known and row in rows else None
                 text = "…" if area is None else number(area) if self.unit.choice() == "area" else share(area / total)
@@ -215,7 +217,7 @@ class RegionsDock(Instrument):
 
     def copy(self) -> None:
         QtWidgets.QApplication.clipboard().setText(self.text())
-        self.window_.say("The areas are in the clipboard")
+        self.context.tell("The areas are in the clipboard")
 
     # ------------------------------------------------------------------ files
     def _fill_menu(self) -> None:
@@ -232,22 +234,22 @@ class RegionsDock(Instrument):
             menu.addAction("No panel shows regions").setEnabled(False)
 
     def _save(self, panel: int, way: str) -> None:
-        shows = self.window_.session.document.panel(panel).shows
-        name = file_name([self.window_.session.surface.name], "regions", way, str(shows))
+        shows = self.context.document.panel(panel).shows
+        name = file_name([self.context.session.surface.name], "regions", way, str(shows))
         title = f"{TITLES[way].removesuffix('…')}, by {quantity_name(shows)}"
-        save(self.window_, title, name, FORMATS[way], partial(self.write, panel, way))
+        save(self.context, title, name, FORMATS[way], partial(self.write, panel, way))
 
     def save_to(self, panel: int, way: str, path: str) -> bool:
         """Write the regions of a panel, one of WAYS; whether that could be done."""
-        return written(self.window_, path, partial(self.write, panel, way))
+        return written(self.context, path, partial(self.write, panel, way))
 
     def write(self, panel: int, way: str, path: str) -> None:
         """The same; labels are the pins' numbers."""
-        document, divided = self.window_.session.document, self._findings.divided(panel)
+        document, divided = self.context.document, self._findings.divided(panel)
         if divided is None or divided.regions is None:
             return
         name = document.panel(panel).surface
-        surface = self.window_.session.loaded(name).surface
+        surface = self.context.session.loaded(name).surface
         numbers = [k for k, pin in enumerate(document[Pins].pins, 1) if document.point(pin.point).surface == name]
         if way == "labels":
             write_labels(path, surface, divided.regions, numbers)
@@ -264,7 +266,7 @@ class RegionsDock(Instrument):
         self.table.setFixedHeight(height)
 
     def _restyle(self) -> None:
-        document = self.window_.session.document
+        document = self.context.document
         self._show_ticks(document)
         self._make_table(document)
         self._fill()

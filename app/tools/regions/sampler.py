@@ -1,5 +1,4 @@
-"""Farthest points: how many, by the active panel's distance from its source; pinned, or saved.  `window` is the main
-window."""
+"""Farthest points: how many, by the active panel's distance from its source; pinned, or saved."""
 
 from collections.abc import Callable
 
@@ -13,7 +12,8 @@ from ...document.document import Panel
 from ...document.file_names import file_name
 from ...document.pins import add_pins
 from ...document.quantities import quantity_name
-from ...qt.docks.saving import save, written
+from ...qt.context import Context
+from ...qt.files.saving import save, written
 from ...session.sampling import Sampled, SamplesQuestion, Sampling
 
 USUAL, MOST = 10, 10_000
@@ -23,9 +23,9 @@ USUAL, MOST = 10, 10_000
 class Sampler(QtWidgets.QWidget):
     """`post` runs a function on the window's thread."""
 
-    def __init__(self, window, post: Callable[[Callable[[], None]], None]) -> None:
+    def __init__(self, context: Context, post: Callable[[Callable[[], None]], None]) -> None:
         super().__init__()
-        self._window = window
+        self._context = context
         self._then: Callable[[np.ndarray], None] = lambda vertices: None
         self._sampling = Sampling(post, self._sampled, self._show_going)
         self.count = QtWidgets.QSpinBox()
@@ -57,7 +57,7 @@ class Sampler(QtWidgets.QWidget):
         column.addWidget(heading)
         column.addLayout(row)
         column.addWidget(self.words)
-        window.grid.activated.connect(lambda *_: self.show_state())
+        context.grid.activated.connect(lambda *_: self.show_state())
 
     # ------------------------------------------------------------------ what is told
     def show_state(self) -> None:
@@ -85,7 +85,7 @@ class Sampler(QtWidgets.QWidget):
         surface = self._surface
 
         def write(vertices: np.ndarray) -> None:
-            written(self._window, path, lambda path: write_samples(path, surface, vertices))
+            written(self._context, path, lambda path: write_samples(path, surface, vertices))
 
         self._ask(write)
 
@@ -94,7 +94,7 @@ class Sampler(QtWidgets.QWidget):
 
         def ask(vertices: np.ndarray) -> None:
             save(
-                self._window,
+                self._context,
                 "Save farthest points",
                 file_name([surface.name], "samples", str(self._panel.shows)),
                 SAMPLE_FORMATS,
@@ -104,14 +104,14 @@ class Sampler(QtWidgets.QWidget):
         self._ask(ask)
 
     def _pin(self, vertices: np.ndarray) -> None:
-        session = self._window.session
+        session = self._context.session
         try:
             session.show(add_pins(session.document, vertices.tolist(), self._name))
         except BihdistError as error:
             self._say(str(error), is_error=True)
 
     def _ask(self, then: Callable[[np.ndarray], None]) -> None:
-        session, panel = self._window.session, self._panel
+        session, panel = self._context.session, self._panel
         loaded = session.loaded(panel.surface) if panel is not None else None
         if panel is None or loaded is None:
             return
@@ -127,7 +127,7 @@ class Sampler(QtWidgets.QWidget):
         self.show_state()
         if sampled.vertices is None:
             self._say(sampled.failure, is_error=True)
-        elif self._name and self._window.session.document.mesh(self._name) == sampled.question.mesh:
+        elif self._name and self._context.document.mesh(self._name) == sampled.question.mesh:
             self._then(sampled.vertices)
 
     def _show_going(self, fraction: float | None, text: str) -> None:
@@ -141,12 +141,14 @@ class Sampler(QtWidgets.QWidget):
 
     @property
     def _surface(self) -> Surface | None:
-        return self._window.session.surface if self._panel is None else self._window.session.surface_in(self._panel.id)
+        return (
+            self._context.session.surface if self._panel is None else self._context.session.surface_in(self._panel.id)
+        )
 
     @property
     def _panel(self) -> Panel | None:
         """The active one, or the first of those that show a distance."""
-        document, active = self._window.session.document, self._window.grid.active
+        document, active = self._context.document, self._context.grid.active
         panels = sorted(document.panels, key=lambda panel: panel.id != active)
         return panels[0] if panels and panels[0].shows.is_distance else None
 

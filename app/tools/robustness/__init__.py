@@ -12,6 +12,7 @@ TOOL = Tool(
     icon="robustness",
     in_bar=True,
     synonyms="compare noise holes decimate perturb remesh difference",
+    gesture="gestures:ChangeGestures",
     dock="dock:RobustnessDock",
     commands={"perturb": "command"},
     quantities=("quantity:ChangeOf",),

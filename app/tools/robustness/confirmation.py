@@ -1,13 +1,13 @@
-"""The change to the mesh that is wanted now, asked of the session one after another.  `window` is the main window."""
+"""The change to the mesh that is wanted now, asked of the session one after another."""
 
 import time
-from typing import Any
 
 from qtpy import QtCore
 
 from bihdist_core.applications.changes import Perturbation
 
 from ...document.perturbation_edits import change_as
+from ...qt.context import Context
 
 SOON_MS = 60
 """Between two changes that are asked for while a slider moves."""
@@ -21,26 +21,26 @@ class ChangeAsking(QtCore.QObject):
 
     lost = QtCore.Signal()
 
-    def __init__(self, window: Any) -> None:
-        super().__init__(window)
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self.wanted: Perturbation | None = None
         self._key = ""
         self._mesh = ""
         self._asked, self._asked_at = Perturbation(), 0.0
         self._soon = QtCore.QTimer(self, singleShot=True, interval=SOON_MS)
         self._soon.timeout.connect(self._ask)
-        window.refused.connect(self._refused)
+        context.refused.connect(self._refused)
 
     @property
     def latest(self) -> Perturbation:
         """What is wanted, or what the document says."""
-        return change_as(self._window.session.document) if self.wanted is None else self.wanted
+        return change_as(self._context.document) if self.wanted is None else self.wanted
 
     def want(self, change: Perturbation, key: str = "", is_live: bool = False) -> None:
         """key: of the step of the history; is_live: more is on its way."""
         self.wanted, self._key = change, key
-        self._mesh = self._window.session.document.surfaces[0].sha256
+        self._mesh = self._context.document.surfaces[0].sha256
         if not is_live:
             self._soon.stop()
             self._ask(at_once=True)
@@ -52,7 +52,7 @@ class ChangeAsking(QtCore.QObject):
         self._soon.stop()
 
     def _ask(self, at_once: bool = False) -> None:
-        session = self._window.session
+        session = self._context.session
         if self.wanted is None or session.document.surfaces[0].sha256 != self._mesh:
             self.forget()  # another mesh has been opened
             return

@@ -15,14 +15,16 @@ from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.perturbation import changed_mesh
 from ...document.perturbation_edits import cut_by, refuse_change
-from ...qt.docks.brushing import RADII
+from ...qt.context import Context
+from ...qt.docks.brushing import RADII, Brushing
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.plain import fill
-from ...qt.docks.saving import MESH_FILES, save
+from ...qt.files.saving import MESH_FILES, save
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
 from .confirmation import ChangeAsking
+from .gestures import ChangeGestures
 from .rows import AmountRow, ChosenRow, Scale, label, quiet
 from .table import ChangeTable
 
@@ -44,12 +46,12 @@ class RobustnessDock(Instrument):
 
     word, title = "robustness", "Robustness"
 
-    def __init__(self, window) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self.settings = Perturbation()
-        self.asking = ChangeAsking(window)
+        self.asking = ChangeAsking(context)
         self.asking.lost.connect(self._show_again)
-        self._brushing, self._picking = window.docks.brushing, window.docks.picking
+        self._brushing, self._picking = context[Brushing], context[ChangeGestures]
         self.noise = AmountRow(
             "Amount", "Noise, in mean edge lengths", "edges", NOISE, lambda v: v >= 0, "A number from 0"
         )
@@ -79,7 +81,7 @@ class RobustnessDock(Instrument):
         self.weld = ChosenRow("Weld", "Pick two", "Let the surface grow together at two places", is_check=True)
         self.handle = ChosenRow("Handle", "Pick two", "A thin tube from one place to another", is_check=True)
         self.pose = ChosenRow("Pose", "Open…", "Another pose from a file with the same vertices and faces")
-        self.table = ChangeTable(window)
+        self.table = ChangeTable(context)
         self.save_button = QtWidgets.QPushButton("Save changed mesh…", autoDefault=False)
         self.remove_button = QtWidgets.QPushButton("Remove change", autoDefault=False)
         self._lay_out()
@@ -197,12 +199,12 @@ class RobustnessDock(Instrument):
         self._controls.setEnabled(not reason)
         for widget in (self._line, self._results):
             widget.setVisible(mesh is not None)
-        self.said.emit("" if mesh is None else _size_of(self.window_.session.loaded(mesh.name)))
+        self.said.emit("" if mesh is None else _size_of(self.context.session.loaded(mesh.name)))
         self.table.show_document(document)
         self._show_ends()
 
     def show_answer(self, panel: int) -> None:
-        self.table.show_document(self.window_.session.document)
+        self.table.show_document(self.context.document)
 
     def show_again(self) -> None:
         self._show_ends()
@@ -221,12 +223,12 @@ class RobustnessDock(Instrument):
     def show_closed(self) -> None:
         self.asking.forget()
         self._stop()
-        for panel in self.window_.grid.panels:
+        for panel in self.context.grid.panels:
             panel.marks.mark_ends()
 
     def leave(self) -> None:
-        if changed_mesh(self.window_.session.document) is not None:
-            self.window_.session.change_mesh(Perturbation())
+        if changed_mesh(self.context.document) is not None:
+            self.context.session.change_mesh(Perturbation())
 
     def _stop(self) -> None:
         """Let the pointer mean what it usually does."""
@@ -236,12 +238,12 @@ class RobustnessDock(Instrument):
 
     def _show_again(self) -> None:
         """A change could not be made: what is set is what is shown."""
-        session = self.window_.session
+        session = self.context.session
         if self.word in session.document.docks and session.surface is not None:
             self.show_document(session.document, None)
 
     def _show_settings(self) -> None:
-        change, surface = self.settings, self.window_.session.surface
+        change, surface = self.settings, self.context.session.surface
         count = int((surface.component_of_vertex >= 0).sum())
         self.noise.show_value(change.noise)
         self.along.choose(change.along)
@@ -268,14 +270,14 @@ class RobustnessDock(Instrument):
     def _show_picked(self) -> None:
         for word, row in self._joins.items():
             row.button.setChecked(self._picking.word == word)
-        if self.word in self.window_.session.document.docks:
+        if self.word in self.context.document.docks:
             self._show_ends()
 
     def _show_ends(self) -> None:
         """Of what is welded, of handles, and of what is picked, on the surface before."""
-        document = self.window_.session.document
+        document = self.context.document
         joined = [vertex for pair in (self.settings.weld, self.settings.handle) for vertex in pair or ()]
-        for panel in self.window_.grid.panels:
+        for panel in self.context.grid.panels:
             is_first = panel.surface == document.surfaces[0].name
             panel.marks.mark_ends([*joined, *self._picking.picked] if is_first else ())
 
@@ -299,7 +301,7 @@ class RobustnessDock(Instrument):
         self.seed.setValue((self.seed.value() + 1) % (MOST_SEEDS + 1))
 
     def _simplify(self, count: float, is_live: bool) -> None:
-        surface = self.window_.session.surface
+        surface = self.context.session.surface
         whole = int((surface.component_of_vertex >= 0).sum())
         self._set("simplify", is_live, simplify=None if count >= whole else int(count))
 
@@ -325,10 +327,10 @@ class RobustnessDock(Instrument):
             return
         if self._brushing.cuts:
             self._brushing.switch(False)
-        self._picking.begin(word, lambda pair: self._set(**{word: pair}))
+        self._picking.pick(word, lambda pair: self._set(**{word: pair}))
 
     def choose_pose(self) -> None:
-        folder = self.window_.preferences.last_folder
+        folder = self.context.folder
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Another pose", folder, MESH_FILES)
         if path:
             self.take_pose(path)
@@ -348,17 +350,17 @@ class RobustnessDock(Instrument):
     # ------------------------------------------------------------------ what is written
     def copy(self) -> None:
         QtWidgets.QApplication.clipboard().setText(self.table.text())
-        self.window_.say("The numbers are in the clipboard")
+        self.context.tell("The numbers are in the clipboard")
 
     def choose_and_save(self) -> None:
-        session = self.window_.session
+        session = self.context.session
         mesh = changed_mesh(session.document)
         loaded = None if mesh is None else session.loaded(mesh.name)
         if loaded is None:
-            self.window_.failed("There is no change yet that a mesh could be saved with.")
+            self.context.fail("There is no change yet that a mesh could be saved with.")
             return
         name = file_name([loaded.surface.name], "changed")
-        save(self.window_, "Save the changed mesh", name, MESH_FORMATS, lambda path: write_mesh(path, loaded.surface))
+        save(self.context, "Save the changed mesh", name, MESH_FORMATS, lambda path: write_mesh(path, loaded.surface))
 
 
 def _size_of(loaded) -> str:

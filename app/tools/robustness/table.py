@@ -1,11 +1,7 @@
-"""How far distances change, in numbers: for each distance the mean and the largest, as shares and in its unit.
-
-`window` is the main window.
-"""
+"""How far distances change, in numbers: for each distance the mean and the largest, as shares and in its unit."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -14,7 +10,7 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document
 from ...document.quantities import kind_name
-from ...qt.docks.background import Background
+from ...qt.context import Context
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, number_width, paint_number, share
 from ...session.loaded_mesh import LoadedMesh
@@ -44,22 +40,22 @@ class ChangeTable(QtWidgets.QWidget):
     rows: the names and the four numbers, as they are written; numbers: the same as they were found, by the name.
     """
 
-    def __init__(self, window: Any) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
-        self._window = window
+        self._context = context
         self.rows: list[tuple[str, tuple[str, ...]]] = []
         self.numbers: dict[str, ChangeNumbers] = {}
         self._of: tuple[ChangeQuestion, ...] = ()
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
         self.setAccessibleName("Changes of the distances")
-        self._background = Background("changes", _found, window)
+        self._background = context.background("changes", _found)
         self._background.answered.connect(self._take)
         LOOK.follow(self, self._fit)
 
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document) -> None:
         """What is asked of the changed mesh, once the panels show it."""
-        session = self._window.session
+        session = self._context.session
         asked = []
         for panel, question in zip(document.panels, questions(document).values(), strict=True):
             loaded = session.loaded(panel.surface)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
@@ -18,12 +18,13 @@ from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.quantities import quantity_name
 from ...document.selections import Selections, vertices_of
-from ...qt.docks.background import Background
+from ...qt.context import Context
+from ...qt.docks.brushing import Brushing
 from ...qt.docks.chart import Axis
-from ...qt.docks.chart_files import save_figure
 from ...qt.docks.fact_table import FactTable
 from ...qt.docks.instrument import NO_FIELD, Instrument
-from ...qt.docks.saving import save, written
+from ...qt.files.chart_files import save_figure
+from ...qt.files.saving import save, written
 from ...qt.look.icons import put_icon
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, share
@@ -65,13 +66,13 @@ def _compared(request: _Request, progress: Progress) -> Iterator[FieldScatter | 
 class ScatterDock(Instrument):
     word, title, area = "scatter", "Scatter", "below"
 
-    def __init__(self, window: Any) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self.chart = ScatterChart()
         self.chart.lassoed.connect(self._select)
         self.chart.pointed.connect(self._point)
         self.facts = FactTable()
-        self.list = SelectionList(window)
+        self.list = SelectionList(context)
         self.list.chosen.connect(self._choose)
         self._new = FlatButton(self, "add-panel")
         self._new.setToolTip("Begin a new selection: the brush adds to none that is there")
@@ -125,18 +126,18 @@ class ScatterDock(Instrument):
         self.brush.setToolTip("Brush: drag on a surface to select (or hold B; Ctrl takes away)")
         self.brush.setAccessibleName("Brush")
         self.brush.setIconSize(QtCore.QSize(20, 20))
-        self.brush.clicked.connect(window.docks.brushing.switch)
+        self.brush.clicked.connect(context[Brushing].switch)
         self.radius = QtWidgets.QSlider(QtCore.Qt.Orientation.Horizontal)
         self.radius.setRange(4, 28)
-        self.radius.setValue(window.docks.brushing.radius)
+        self.radius.setValue(context[Brushing].radius)
         self.radius.setFixedWidth(64)
         self.radius.hide()
         self.radius.setToolTip("Size of the brush")
         self.radius.setAccessibleName("Size of the brush")
-        self.radius.valueChanged.connect(window.docks.brushing.enlarge)
-        window.docks.brushing.switched.connect(self.brush.setChecked)
-        window.docks.brushing.switched.connect(self.radius.setVisible)
-        window.docks.brushing.stroked.connect(self._show_stroke)
+        self.radius.valueChanged.connect(context[Brushing].enlarge)
+        context[Brushing].switched.connect(self.brush.setChecked)
+        context[Brushing].switched.connect(self.radius.setVisible)
+        context[Brushing].stroked.connect(self._show_stroke)
         self._save = FlatButton(self, "save")
         self._save.setToolTip("Save the scatter as a figure, or its numbers")
         self._save.setAccessibleName("What to do with the scatter")
@@ -148,7 +149,7 @@ class ScatterDock(Instrument):
         self._found: Agreement | None = None
         self._asked: tuple = ()
         self._request: _Request | None = None
-        self._background = Background("scatter", _compared, window)
+        self._background = context.background("scatter", _compared)
         self._background.answered.connect(self._take)
         self._background.failed.connect(self._refuse)
         LOOK.follow(self, self._apply_theme)
@@ -167,19 +168,19 @@ class ScatterDock(Instrument):
             self.chart.show_selections(
                 [(vertices_of(each.runs), each.colour) for each in document[Selections].selections]
             )
-        self.list.show_selections(document[Selections].selections, self.window_.docks.brushing.current)
+        self.list.show_selections(document[Selections].selections, self.context[Brushing].current)
         self._below.setCurrentWidget(self.list if document[Selections].selections else self._hint)
         self._compare()
 
     def show_answer(self, panel: int) -> None:
-        if panel in self._pair(self.window_.session.document):
+        if panel in self._pair(self.context.document):
             self._compare()
 
     def show_pointed(self, vertex: int | None) -> None:
         self.chart.mark(vertex)
 
     def show_closed(self) -> None:
-        self.window_.docks.brushing.switch(False)  # its button is gone
+        self.context[Brushing].switch(False)  # its button is gone
 
     def _apply_theme(self) -> None:
         self._asked = ()
@@ -206,7 +207,7 @@ class ScatterDock(Instrument):
 
     def _compare(self) -> None:
         """Ask for what is to be shown, if it is not shown yet."""
-        session = self.window_.session
+        session = self.context.session
         document, shown = session.document, session.shown
         across, up = self._pair(document)
         if session.surface is None or across not in shown or up not in shown:
@@ -237,7 +238,7 @@ class ScatterDock(Instrument):
             self._show_agreement(request, answer)
 
     def _show_scatter(self, request: _Request, scatter: FieldScatter) -> None:
-        document = self.window_.session.document
+        document = self.context.document
         ids = [panel.id for panel in document.panels]
         curves = LOOK.theme.curves
         names = tuple((self._name(document, id), curves[ids.index(id) % len(curves)]) for id in self._pair(document))
@@ -270,13 +271,13 @@ class ScatterDock(Instrument):
         self.chart.mark_largest(found.largest_at if request.has_common_unit else None)
 
     def _show_stroke(self, vertices: np.ndarray) -> None:
-        brushing = self.window_.docks.brushing
+        brushing = self.context[Brushing]
         self.chart.show_stroke(vertices, brushing.colour)
 
     # ------------------------------------------------------------------ what the user does
     def _fill(self, menu: QtWidgets.QMenu, side: str) -> None:
         menu.clear()
-        document = self.window_.session.document
+        document = self.context.document
         chosen = self._pair(document)[0 if side == "across" else 1]
         for panel in document.panels_of():
             action = menu.addAction(self._name(document, panel.id))
@@ -286,7 +287,7 @@ class ScatterDock(Instrument):
 
     def choose_panel(self, side: str, id: int) -> None:
         """side: "across" or "up"; the other panel takes the place of this one where they would be the same."""
-        session = self.window_.session
+        session = self.context.session
         across, up = self._pair(session.document)
         pair = {"across": across, "up": up}
         other = "up" if side == "across" else "across"
@@ -296,21 +297,21 @@ class ScatterDock(Instrument):
         session.show(session.document.with_part(replace(session.document[Scatter], **pair)))
 
     def _choose_shares(self, word: str) -> None:
-        session = self.window_.session
+        session = self.context.session
         scatter = replace(session.document[Scatter], shares=word == "shares")
         session.show(session.document.with_part(scatter))
 
     def _select(self, corners: np.ndarray, keys: QtCore.Qt.KeyboardModifiers) -> None:
         modifier = QtCore.Qt.KeyboardModifier
         way = "added" if keys & modifier.ShiftModifier else "removed" if keys & modifier.ControlModifier else "new"
-        self.window_.docks.brushing.select(self.chart.scatter.inside(corners), way)
+        self.context[Brushing].select(self.chart.scatter.inside(corners), way)
 
     def _choose(self, name: str) -> None:
-        self.window_.docks.brushing.choose(name)
+        self.context[Brushing].choose(name)
 
     def _begin(self) -> None:
-        self.window_.docks.brushing.choose("")
-        self.list.show_selections(self.window_.session.document[Selections].selections, "")
+        self.context[Brushing].choose("")
+        self.list.show_selections(self.context.document[Selections].selections, "")
 
     def _open_menu(self) -> None:
         if self.list.current:
@@ -320,13 +321,13 @@ class ScatterDock(Instrument):
         """What is under the pointer in the chart is marked on all panels."""
         vertex = None if at is None else self.chart.vertex_at(*at)
         self.chart.mark(vertex)
-        window = self.window_
-        panel = next((panel.id for panel in window.session.document.panels_of()), None)
+        context = self.context
+        panel = next((panel.id for panel in context.document.panels_of()), None)
         if panel is None:
             return
-        window.grid.pointing.show(panel, vertex)
-        surface = window.session.surface
-        window.status.show_place(vertex, None if vertex is None or surface is None else surface.vertices[vertex])
+        context.grid.pointing.show(panel, vertex)
+        surface = context.session.surface
+        context.status.show_place(vertex, None if vertex is None or surface is None else surface.vertices[vertex])
 
     # ------------------------------------------------------------------ what is saved
     def figure(self) -> "ScatterFigure":
@@ -334,8 +335,8 @@ class ScatterDock(Instrument):
         from ...figures.chart_page import ChartLook
         from ...figures.scatter_figure import INCHES, ScatterAxis, ScatterFigure
 
-        window, request, found = self.window_, self._request, self._found
-        document, page = window.session.document, window.page
+        context, request, found = self.context, self._request, self._found
+        document, page = context.document, context.page
         axes = []
         for id, axis in zip(self._pair(document), (self.chart.across, self.chart.up), strict=True):
             unit = "% of the maximum" if document[Scatter].shares else axis.unit
@@ -354,7 +355,7 @@ class ScatterDock(Instrument):
         )
 
     def _file_name(self) -> str:
-        session = self.window_.session
+        session = self.context.session
         panels = [session.document.panel(id) for id in self._pair(session.document)]
         return file_name([session.surface.name], "scatter", *(str(panel.shows) for panel in panels))
 
@@ -363,15 +364,15 @@ class ScatterDock(Instrument):
         from ...figures.scatter_figure import save_scatter_figure
 
         save_figure(
-            self.window_, "Save the scatter as a figure", self._file_name(), save_scatter_figure, self.figure, path
+            self.context, "Save the scatter as a figure", self._file_name(), save_scatter_figure, self.figure, path
         )
 
     def save_numbers(self, *_: object, path: str = "") -> None:
         """The vertices, both fields there, and a column for each selection, 1 at its vertices."""
-        window, scatter = self.window_, self.chart.scatter
+        context, scatter = self.context, self.chart.scatter
         if scatter is None:
             return
-        document = window.session.document
+        document = context.document
         header = ["vertex", *(self._name(document, id) for id in self._pair(document))]
         chosen = [np.isin(scatter.ids, vertices_of(each.runs)) for each in document[Selections].selections]
         table = np.column_stack([scatter.ids, scatter.x, scatter.y, *chosen])
@@ -381,6 +382,6 @@ class ScatterDock(Instrument):
             write_array(path, table, header)
 
         if path:
-            written(window, path, write)
+            written(context, path, write)
         else:
-            save(window, "Save the scatter's numbers", self._file_name(), (".csv",), write)
+            save(context, "Save the scatter's numbers", self._file_name(), (".csv",), write)

@@ -1,7 +1,5 @@
 """The list of a document's selections: renamed, coloured, saved and deleted in it."""
 
-from typing import Any
-
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -11,7 +9,9 @@ from bihdist_core.analysis.selecting import SELECTION_WAYS, write_selection
 from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.selections import Selection, Selections, change_selection, select, vertices_of
-from ...qt.docks.saving import save
+from ...qt.context import Context
+from ...qt.docks.brushing import Brushing
+from ...qt.files.saving import save
 from ...qt.look.look import LOOK
 from ...scene.style import PINS
 
@@ -35,9 +35,9 @@ class SelectionList(QtWidgets.QTreeWidget):
 
     chosen = QtCore.Signal(str)
 
-    def __init__(self, window: Any) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
-        self._window = window
+        self._context = context
         self._shown: tuple[Selection, ...] = ()
         self._is_filling = False
         self.setColumnCount(2)
@@ -95,7 +95,7 @@ class SelectionList(QtWidgets.QTreeWidget):
         try:
             document = change_selection(self._document, old, new_name=new)
         except BihdistError as error:
-            self._window.failed(str(error))
+            self._context.fail(error)
             document = self._document
         self._shown = ()  # what was typed is not what is shown
         # The editor is still closing.
@@ -103,8 +103,8 @@ class SelectionList(QtWidgets.QTreeWidget):
 
     def _show_renamed(self, document: Document, name: str) -> None:
         is_current = name in [each.name for each in document[Selections].selections]
-        self._window.docks.brushing.choose(name if is_current else "")
-        self._window.session.show(document)
+        self._context[Brushing].choose(name if is_current else "")
+        self._context.edit(document)
 
     def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
         if event.key() in (QtCore.Qt.Key.Key_Delete, QtCore.Qt.Key.Key_Backspace) and self.current:
@@ -115,16 +115,16 @@ class SelectionList(QtWidgets.QTreeWidget):
     def delete(self) -> None:
         """The one that is chosen."""
         if self.current:
-            self._window.session.show(select(self._document, self.current, np.empty(0, np.int64)))
+            self._context.edit(select(self._document, self.current, np.empty(0, np.int64)))
 
     def recolour(self, colour: int) -> None:
         if self.current:
-            self._window.session.show(change_selection(self._document, self.current, colour=colour))
+            self._context.edit(change_selection(self._document, self.current, colour=colour))
 
     def save(self, way: str, path: str | None = None) -> None:
         """The one that is chosen, as one of SELECTION_WAYS; asks where if no path is given."""
         found = [each for each in self._document[Selections].selections if each.name == self.current]
-        surface = self._window.session.surface
+        surface = self._context.session.surface
         if not found or surface is None:
             return
         (selection,) = found
@@ -137,11 +137,11 @@ class SelectionList(QtWidgets.QTreeWidget):
         else:
             title = WAYS[way].removesuffix("…")
             name = file_name([surface.name], "selection", selection.name)
-            save(self._window, title, name, SELECTION_WAYS[way], write)
+            save(self._context, title, name, SELECTION_WAYS[way], write)
 
     @property
     def _document(self) -> Document:
-        return self._window.session.document
+        return self._context.document
 
     def menu(self) -> QtWidgets.QMenu:
         """What can be done with the one that is chosen."""

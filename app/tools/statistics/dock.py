@@ -17,12 +17,12 @@ from ...document.document import Document
 from ...document.field_names import field_names
 from ...document.file_names import file_name
 from ...document.quantities import quantity_name
-from ...qt.docks.background import Background
-from ...qt.docks.chart_files import save_figure
+from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
 from ...qt.docks.instrument import NO_FIELD, Instrument
-from ...qt.docks.isoline_files import levels_of
-from ...qt.docks.saving import save, written
+from ...qt.files.chart_files import save_figure
+from ...qt.files.isoline_files import levels_of
+from ...qt.files.saving import save, written
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, percent, share
 from ...qt.panels.flat_button import FlatButton
@@ -65,8 +65,8 @@ def _numbers(request: _Request, progress: Progress) -> Iterator[FieldStatistics 
 class StatisticsDock(Instrument):
     word, title, area = "statistics", "Statistics", "right"
 
-    def __init__(self, window: Any) -> None:
-        super().__init__(window)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self._panel = -1
         self._asked: tuple[Any, ...] = ()
         self._request: _Request | None = None
@@ -79,7 +79,7 @@ class StatisticsDock(Instrument):
         self.histogram = Histogram()
         self.histogram.pointed.connect(self._say_bin)
         self.facts, self.quantiles = FactTable(), FactTable()
-        self.truncation, self.levels = TruncationBox(window), LevelBox(window)
+        self.truncation, self.levels = TruncationBox(context), LevelBox(context)
         self.sentence = QtWidgets.QLabel(wordWrap=True)
         self.sentence.setProperty("quiet", True)
         sheet = QtWidgets.QWidget()
@@ -121,10 +121,10 @@ class StatisticsDock(Instrument):
         menu.addAction("Save the histogram's numbers…", self.save_numbers)
         menu.addAction("Copy the statistics", self.copy)
         self._save.setMenu(menu)
-        self._background = Background("statistics", _numbers, window)
+        self._background = context.background("statistics", _numbers)
         self._background.answered.connect(self._take)
         self._background.failed.connect(self._refuse)
-        window.grid.activated.connect(self._follow)
+        context.grid.activated.connect(self._follow)
         LOOK.follow(self, self._show)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
@@ -144,8 +144,8 @@ class StatisticsDock(Instrument):
 
     def _ask(self) -> None:
         """For the numbers of the active panel, if they are not there."""
-        window = self.window_
-        session, id = window.session, window.grid.active
+        context = self.context
+        session, id = context.session, context.grid.active
         shown, loaded = session.shown.get(id), session.opened_in(id)
         self._panel = id
         if loaded is None or shown is None:
@@ -154,7 +154,7 @@ class StatisticsDock(Instrument):
         self.name.setText(names.get(id, ""))
         question: Question = shown.asked
         self.truncation.expect(loaded, question)
-        scene = window.grid.panel(id).view.scene
+        scene = context.grid.panel(id).view.scene
         key = (id, shown.answer.field is not None and shown.answer.field.ctypes.data, shown.answer, loaded.surface)
         lines = (scene.maximum, scene.isolines.tobytes(), scene.style)
         if (key[:2], key[3], lines) == self._asked:
@@ -171,7 +171,7 @@ class StatisticsDock(Instrument):
         else:
             self._show()
         self._asked = (key[:2], key[3], lines)
-        self.levels.show_levels(levels_of(window, id))
+        self.levels.show_levels(levels_of(context, id))
 
     def _refuse(self, request: object, sentence: str) -> None:
         self.statistics = None
@@ -195,7 +195,7 @@ class StatisticsDock(Instrument):
         if found is None or self._request is None or self._panel not in self._ids():
             return
         answer = self._request.answer
-        scene = self.window_.grid.panel(self._panel).view.scene
+        scene = self.context.grid.panel(self._panel).view.scene
         top, signed = scene.maximum, answer.is_signed
         colours = scene.style.bin_colours(found.bins, top, signed)
         self.histogram.show_bins(found.bins, found.areas, colours, answer.unit, signed)
@@ -204,7 +204,7 @@ class StatisticsDock(Instrument):
         self.quantiles.show_facts(self._quantiles(found, answer))
 
     def _ids(self) -> list[int]:
-        return [panel.id for panel in self.window_.grid.panels]
+        return [panel.id for panel in self.context.grid.panels]
 
     def _quantiles(self, found: FieldStatistics, answer: Answer, exact: bool = False) -> list[tuple[str, ...]]:
         return [
@@ -251,10 +251,10 @@ class StatisticsDock(Instrument):
         from ...figures.chart_page import ChartLook
         from ...figures.histogram_figure import HistogramFigure
 
-        found, answer, window = self.statistics, self._request.answer, self.window_
-        page, document = window.page, window.session.document
+        found, answer, context = self.statistics, self._request.answer, self.context
+        page, document = context.page, context.document
         style = style_of(page.style, document.colours)
-        top = window.grid.panel(self._panel).view.scene.maximum
+        top = context.grid.panel(self._panel).view.scene.maximum
         return HistogramFigure(
             found.bins,
             found.areas / found.areas.sum(),
@@ -266,7 +266,7 @@ class StatisticsDock(Instrument):
         )
 
     def _file_name(self) -> str:
-        session = self.window_.session
+        session = self.context.session
         words = field_names(session.document, [session.document.panel(self._panel)])
         return file_name([session.surface_in(self._panel).name], "histogram", *words)
 
@@ -274,24 +274,24 @@ class StatisticsDock(Instrument):
         """path: asks for one if it is empty."""
         from ...figures.histogram_figure import save_histogram_figure
 
-        save_figure(self.window_, "Save the histogram", self._file_name(), save_histogram_figure, self.figure, path)
+        save_figure(self.context, "Save the histogram", self._file_name(), save_histogram_figure, self.figure, path)
 
     def save_numbers(self, *_: object, path: str = "") -> None:
         """The ends of each bin, and its area."""
-        window, found = self.window_, self.statistics
+        context, found = self.context, self.statistics
         table = np.column_stack([found.bins[:-1], found.bins[1:], found.areas])
 
         def write(path: str) -> None:
             write_array(path, table, ["from", "to", "area"])
 
         if path:
-            written(window, path, write)
+            written(context, path, write)
         else:
-            save(window, "Save the histogram's numbers", self._file_name(), (".csv", ".npy"), write)
+            save(context, "Save the histogram's numbers", self._file_name(), (".csv", ".npy"), write)
 
     def copy(self) -> None:
         """What the dock says, with tabs and all digits, as spreadsheets read it."""
         found, answer = self.statistics, self._request.answer
         facts = [(self.name.text(),), *self._facts(found, answer, True), *self._quantiles(found, answer, True)]
         QtWidgets.QApplication.clipboard().setText("".join("\t".join(fact) + "\n" for fact in facts))
-        self.window_.say("The statistics are on the clipboard")
+        self.context.tell("The statistics are on the clipboard")

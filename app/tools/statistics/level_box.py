@@ -15,8 +15,10 @@ from bihdist_core.formats.field_output import write_fields
 from bihdist_core.progress import Progress
 
 from ...document.file_names import file_name
-from ...qt.docks.background import Background
-from ...qt.docks.isoline_files import Levels, save_isolines
+from ...qt.context import Context
+from ...qt.docks.brushing import Brushing
+from ...qt.files.isoline_files import Levels, save_isolines
+from ...qt.files.writing import Writing
 from ...qt.look.numbers import share
 from ...qt.look.text_box import TextBox, mark_wrong
 from ...qt.panels.flat_button import FlatButton
@@ -40,9 +42,9 @@ def _done(request: tuple[Callable[[], object]], progress: Progress) -> Iterator[
 
 
 class LevelBox(QtWidgets.QWidget):
-    def __init__(self, window: Any) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
-        self._window = window
+        self._context = context
         self._levels: Levels | None = None
         self._asked: tuple[Any, ...] | None = None
         self.band: Band | None = None
@@ -79,7 +81,7 @@ class LevelBox(QtWidgets.QWidget):
         column.addWidget(self.said)
         self._soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
         self._soon.timeout.connect(self._look)
-        self._background = Background("region", _done, window)
+        self._background = context.background("region", _done)
         self._background.answered.connect(self._take)
         self._background.failed.connect(self._refuse)
 
@@ -132,11 +134,11 @@ class LevelBox(QtWidgets.QWidget):
     # ------------------------------------------------------------------ what becomes of it
     def select(self) -> None:
         if self.band is not None:
-            self._window.docks.brushing.select(self.band.vertices)
+            self._context[Brushing].select(self.band.vertices)
 
     def save_isolines(self, *_: object, path: str = "") -> None:
         """path: asks for one if it is empty."""
-        save_isolines(self._window, self._window.grid.active, path)
+        save_isolines(self._context, self._context.grid.active, path)
 
     def save_ids(self, path: str = "") -> None:
         self._save_region("ids", path)
@@ -153,4 +155,4 @@ class LevelBox(QtWidgets.QWidget):
             write_region(path, levels, found, way)
 
         name = file_name([levels.surface.name], "region", levels.name)
-        self._window.docks.writing.save("Save a region", name, REGION_FORMATS[way], write, path)
+        self._context[Writing].save("Save a region", name, REGION_FORMATS[way], write, path)

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
@@ -11,7 +10,7 @@ from bihdist_core.analysis.truncation import TruncationLoss, truncation_loss
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
-from ...qt.docks.background import Background
+from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import share
@@ -45,7 +44,7 @@ def _lost(request: _Request, progress: Progress) -> Iterator[TruncationLoss]:
 class TruncationBox(QtWidgets.QWidget):
     """Computes once it is asked to, and from then on with every source."""
 
-    def __init__(self, window: Any) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
         self._request: _Request | None = None
         self._wanted: _Request | None = None
@@ -68,7 +67,7 @@ class TruncationBox(QtWidgets.QWidget):
         column.setSpacing(6)
         for widget in (self.hint, self.button, self.slider, self.curves, self.facts):
             column.addWidget(widget)
-        self._background = Background("truncation", _lost, window)
+        self._background = context.background("truncation", _lost)
         self._background.answered.connect(self._take)
         self._background.failed.connect(self._refuse)
         self._background.progressed.connect(self._report)

@@ -8,9 +8,9 @@ from bihdist_core import ParameterError
 from bihdist_core.sources.source import Curve, Source
 from bihdist_core.sources.words import source_from_words, words_of
 
-from ...document.source_edits import members_of
-from ..look.look import LOOK
-from ..look.text_box import TextBox, mark_wrong
+from ..document.source_edits import members_of
+from .look.look import LOOK
+from .look.text_box import TextBox, mark_wrong
 
 WIDTH, WIDER = 76, 164
 """Of a vertex, and of all other words."""

@@ -11,11 +11,11 @@ from bihdist_core import Surface
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.distances.answers import Answer
 
-from ...document.page import Recipe
-from ...scene.style import Style
-from ..look.icons import pixmap
-from ..look.look import LOOK
-from ..look.numbers import number, number_width, paint_number
+from ..document.page import Recipe
+from ..scene.style import Style
+from .look.icons import pixmap
+from .look.look import LOOK
+from .look.numbers import number, number_width, paint_number
 
 HEIGHT = 28
 SAID_MS = 8000
@@ -27,9 +27,7 @@ WIDEST_PLACE = "−0.00000"
 
 
 class StatusBar(QtWidgets.QStatusBar):
-    """exports: what is being drawn in the background, if anything."""
-
-    def __init__(self, parent: QtWidgets.QWidget | None = None, exports: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.setSizeGripEnabled(False)
         self.counts = Words("quiet")
@@ -45,7 +43,7 @@ class StatusBar(QtWidgets.QStatusBar):
         for widget in (self.counts, self.notes, self.accuracy):
             layout.addWidget(widget)
         layout.addWidget(self.message, 1)
-        for widget in (self.progress, *(() if exports is None else (exports,)), self.vertex, self.place):
+        for widget in (self.progress, self.vertex, self.place):
             layout.addWidget(widget)
         row.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.addPermanentWidget(row, 1)
@@ -56,6 +54,11 @@ class StatusBar(QtWidgets.QStatusBar):
         LOOK.changed.connect(self._fit)
         self.show_surface(None)
         self._fit()
+
+    def insert(self, widget: QtWidgets.QWidget) -> None:
+        """Something of its own, left of what the pointer is at."""
+        layout = self._row.layout()
+        layout.insertWidget(layout.indexOf(self.vertex), widget)
 
     # ------------------------------------------------------------------ what is said
     def show_surface(self, surface: Surface | None, more: Sequence[str] = (), beside: Sequence[Surface] = ()) -> None:

@@ -1,15 +1,19 @@
-"""Two vertices picked one after the other, by clicks on a surface.  `window` is the main window."""
+"""What clicks and drags mean while a change to the mesh is told by them: two places picked, faces cut out."""
 
 from collections.abc import Callable
-from typing import Any
 
 from qtpy import QtCore
+
+from ...qt.context import Context
+from ...qt.docks.brushing import Brushing
+from ...qt.gesture import Gesture
+from ...qt.panels.events import Click
 
 FIRST, SECOND = "Click the first of two places", "Click the second place"
 NEW = "That part of the surface is new; click one that was there before"
 
 
-class Picking(QtCore.QObject):
+class ChangeGestures(Gesture):
     """While it is on, clicks on a surface, or on one that is made from it, pick its vertices and do nothing else.
 
     picked: those so far, of the first surface of the document; word: what they are for.  `changed` is emitted whenever
@@ -17,43 +21,51 @@ class Picking(QtCore.QObject):
     """
 
     changed = QtCore.Signal()
+    comes_first = True
 
-    def __init__(self, window: Any) -> None:
-        super().__init__(window)
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self._done: Callable[[tuple[int, int]], None] = _nothing
         self.word = ""
         self.picked: tuple[int, ...] = ()
 
-    @property
-    def is_on(self) -> bool:
-        return bool(self.word)
+    def takes(self, panel: int, click: Click) -> bool:
+        return click.is_plain and bool(self.word)
 
-    def begin(self, word: str, done: Callable[[tuple[int, int]], None]) -> None:
+    def pick(self, word: str, done: Callable[[tuple[int, int]], None]) -> None:
         """done: called with both vertices."""
         self.word, self._done, self.picked = word, done, ()
-        self._window.say(FIRST)
+        self.context.tell(FIRST)
         self.changed.emit()
 
     def stop(self) -> None:
-        if self.is_on:
+        if self.word:
             self.word, self._done, self.picked = "", _nothing, ()
-            self._window.say("")
+            self.context.tell("")
             self.changed.emit()
 
-    def take(self, panel: int, vertex: int) -> None:
-        """A vertex of a panel's surface has been clicked."""
-        loaded = self._window.session.opened_in(panel)
+    def put_down(self) -> bool:
+        is_picking, brushing = bool(self.word), self.context[Brushing]
+        if is_picking:
+            self.stop()
+        elif brushing.cuts:
+            brushing.switch(False)
+            return True
+        return is_picking
+
+    def click(self, panel: int, click: Click) -> None:
+        vertex = click.hit.vertex
+        loaded = self.context.session.opened_in(panel)
         if loaded is None:
             return
         if loaded.origin is not None:
             vertex = int(loaded.ids[vertex])
         if vertex < 0:
-            self._window.say(NEW)
+            self.context.tell(NEW)
             return
         if not self.picked:
             self.picked = (vertex,)
-            self._window.say(SECOND)
+            self.context.tell(SECOND)
             self.changed.emit()
         elif vertex != self.picked[0]:
             done, pair = self._done, (self.picked[0], vertex)

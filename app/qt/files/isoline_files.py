@@ -1,7 +1,6 @@
-"""The isolines that a panel shows, saved as coordinates.  `window` is the main window."""
+"""The isolines that a panel shows, saved as coordinates."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,9 @@ from bihdist_core.errors import ParameterError
 
 from ...document.field_names import field_names
 from ...document.file_names import file_name
+from ..context import Context
 from ..look.numbers import percent
+from .writing import Writing
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,14 +31,14 @@ class Levels:
     values: np.ndarray
 
 
-def levels_of(window: Any, panel: int) -> Levels | None:
+def levels_of(context: Context, panel: int) -> Levels | None:
     """Those of a panel by its id; None where it has no field."""
-    shown, loaded = window.session.shown.get(panel), window.session.opened_in(panel)
+    shown, loaded = context.session.shown.get(panel), context.session.opened_in(panel)
     if shown is None or loaded is None or shown.answer.field is None:
         return None
-    answer, document = shown.answer, window.session.document
+    answer, document = shown.answer, context.document
     (name,) = field_names(document, [document.panel(panel)])
-    values = np.array(window.grid.panel(panel).view.scene.isolines)
+    values = np.array(context.grid.panel(panel).view.scene.isolines)
     return Levels(
         loaded.surface, answer.field, name, answer.label, 100.0 if percent(answer.unit) else answer.maximum, values
     )
@@ -50,15 +51,15 @@ def write_levels(path: str, levels: Levels) -> None:
     write_isolines(path, isolines(levels.surface, levels.field, levels.values))
 
 
-def save_isolines(window: Any, panel: int, path: str = "") -> None:
+def save_isolines(context: Context, panel: int, path: str = "") -> None:
     """Those of a panel by its id; path: asks for one if it is empty."""
-    levels = levels_of(window, panel)
+    levels = levels_of(context, panel)
     if levels is None:
-        window.failed("This panel has no field yet.")
+        context.fail("This panel has no field yet.")
         return
 
     def write(path: str) -> None:
         write_levels(path, levels)
 
     name = file_name([levels.surface.name], "isolines", levels.name)
-    window.docks.writing.save("Save isolines", name, ISOLINE_FORMATS, write, path)
+    context[Writing].save("Save isolines", name, ISOLINE_FORMATS, write, path)

@@ -1,14 +1,14 @@
-"""Asking where a file goes, and writing it; what fails is said in the window.  `window` is the main window."""
+"""Asking where a file goes, and writing it; what fails is said in the window."""
 
 import os
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from typing import Any
 
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError
+
+from ..context import Context
 
 MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
 """What can be opened."""
@@ -30,19 +30,19 @@ NAMES = {
 }
 
 
-def save(window: Any, title: str, name: str, formats: Sequence[str], write: Callable[[str], object]) -> None:
+def save(context: Context, title: str, name: str, formats: Sequence[str], write: Callable[[str], object]) -> None:
     """Ask for a path (`ask_path`), and write what there is to it."""
-    path = ask_path(window, title, name, formats)
+    path = ask_path(context, title, name, formats)
     if path:
-        written(window, path, write)
+        written(context, path, write)
 
 
-def ask_path(window: Any, title: str, name: str, formats: Sequence[str]) -> str:
+def ask_path(context: Context, title: str, name: str, formats: Sequence[str]) -> str:
     """A path that ends in one of the formats, the first if none is typed; empty if the user has none.
 
     name: a `file_name`.
     """
-    dialog = QtWidgets.QFileDialog(window, title, window.preferences.last_folder)
+    dialog = QtWidgets.QFileDialog(context.widget, title, context.folder)
     dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
     dialog.setNameFilters([f"{NAMES[extension]} (*{extension})" for extension in formats])
     dialog.setDefaultSuffix(formats[0].removeprefix("."))
@@ -60,18 +60,18 @@ def ask_path(window: Any, title: str, name: str, formats: Sequence[str]) -> str:
     if not dialog.exec():
         return ""
     (path,) = dialog.selectedFiles()
-    window.preferences = replace(window.preferences, last_folder=os.path.dirname(path))
+    context.folder = os.path.dirname(path)
     return path
 
 
-def written(window: Any, path: str, write: Callable[[str], object]) -> bool:
+def written(context: Context, path: str, write: Callable[[str], object]) -> bool:
     """Write a file, and say so or why not."""
     try:
         write(path)
     except BihdistError as error:
-        window.failed(str(error))
+        context.fail(error)
         return False
-    window.say(saved_words(path))
+    context.tell(saved_words(path))
     return True
 
 

@@ -1,14 +1,14 @@
-"""What is done to pairs on panels that predict: put, accepted, chosen, dragged, removed.  `window`: the main window."""
+"""What is done to pairs on panels that predict: put, accepted, chosen, dragged, removed."""
 
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from qtpy import QtWidgets
+from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.document import Document
-from ..document.pairs import (
+from ...document.document import Document
+from ...document.pairs import (
     Pair,
     Pairs,
     drop_half,
@@ -19,39 +19,49 @@ from ..document.pairs import (
     waiting_point,
     whole_pairs,
 )
-from ..document.prediction import predicts_in
-from ..session.pair_locations import Candidate, candidate_in
+from ...document.prediction import predicts_in
+from ...qt.context import Context
+from ...qt.dragging import Dragging
+from ...qt.gesture import Gesture
+from ...qt.panels.events import Click
+from ...session.pair_locations import Candidate, candidate_in
+from .candidate_errors import CandidateErrors
 
 if TYPE_CHECKING:
-    from ..scene.picking import Hit
+    from ...scene.picking import Hit
 
 
-class PairGestures:
-    """See the module."""
+class PairGestures(Gesture):
+    """See `Gesture`; beside them how far candidates are from the truth is found."""
 
-    def __init__(self, window) -> None:
-        self._window, self._grid = window, window.grid
-        self._grid.pair_clicked.connect(self._click)
-        self._grid.pair_dragged.connect(self._drag)
-        self._grid.pin_released.connect(self._arrive)
+    kind, follows = "pair", True
+    chosen = QtCore.Signal(str)  # a point of the pair that stands out from now on, "" for none
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._grid = context.grid
+        self.errors = CandidateErrors(context)
         self._grid.activated.connect(self.show_meant)
+        context.answer_changed.connect(self.show_meant)
         self._is_dragging = False
 
     @property
     def _document(self) -> Document:
-        return self._window.session.document
+        return self.context.document
 
-    def are_meant(self, panel: int) -> bool:
+    def is_on(self, panel: int) -> bool:
         """Whether a panel predicts, so that what is done there is done to pairs."""
         return predicts_in(self._document.panel(panel)) and len(self._document.surfaces) > 1
 
     # ------------------------------------------------------------------ points
-    def put(self, panel: int, hit: "Hit") -> None:
-        """A point that waits for its partner, or the partner of the one that waits."""
-        self.put_at(panel, hit.vertex)
+    def click(self, panel: int, click: Click) -> None:
+        self.put(panel, click.hit.vertex)
 
-    def put_at(self, panel: int, vertex: int) -> None:
-        """The same at a vertex; where a pair has its point already, that pair is chosen."""
+    def put(self, panel: int, vertex: int) -> None:
+        """A point that waits for its partner, or the partner of the one that waits.
+
+        Where a pair has its point already, that pair is chosen.
+        """
         document, surface = self._document, self._document.panel(panel).surface
         waiting = waiting_point(document)
         there = self._pair_at(surface, vertex)
@@ -61,9 +71,9 @@ class PairGestures:
         try:
             changed = place_point(document, surface, vertex)
         except ParameterError as error:
-            self._window.failed(str(error))
+            self.context.fail(error)
             return
-        self._window.session.show(changed)
+        self.context.edit(changed)
         self.choose("")
 
     def follow(self, panel: int, hit: "Hit") -> None:
@@ -72,7 +82,7 @@ class PairGestures:
         waiting = waiting_point(document)
         if (waiting is None or waiting.surface == surface) and self._pair_at(surface, hit.vertex) is None:
             with suppress(ParameterError):  # there are too many, which a click says
-                self._window.session.show(place_point(document, surface, hit.vertex), key="live", live=True)
+                self.context.edit(place_point(document, surface, hit.vertex), key="live", live=True)
 
     def _pair_at(self, surface: str, vertex: int) -> Pair | None:
         document = self._document
@@ -87,7 +97,7 @@ class PairGestures:
 
         may_be_late: of where the point was, while it is dragged.
         """
-        session, active = self._window.session, self._grid.active
+        session, active = self.context.session, self._grid.active
         panels = sorted(self._document.panels, key=lambda panel: panel.id != active)
         for panel in panels:
             shown = session.shown.get(panel.id)
@@ -106,21 +116,20 @@ class PairGestures:
         """The best candidate is the partner."""
         found = self.candidate()
         if found is not None:
-            self.put_at(found[0], found[1].vertex)
+            self.put(found[0], found[1].vertex)
 
-    def drop(self) -> bool:
+    def put_down(self) -> bool:
         """Without the point that waits; whether there was one, on panels that predict."""
         document = self._document
         if half_pair(document) is None or not any(map(predicts_in, document.panels)):
             return False
-        self._window.session.show(drop_half(document))
+        self.context.edit(drop_half(document))
         return True
 
     def remove(self, pairs: list[Pair]) -> None:
-        self._window.session.show(remove_pairs(self._document, pairs))
+        self.context.edit(remove_pairs(self._document, pairs))
 
     def remove_chosen(self) -> bool:
-        """The pair that stands out; whether there is one."""
         name = self._grid.marks.chosen_pair
         found = [pair for pair in self._document[Pairs].pairs if name and name in pair.points]
         if found:
@@ -130,7 +139,8 @@ class PairGestures:
 
     def choose(self, point: str) -> None:
         """Let the pair of a point stand out, in the list, too."""
-        self._window.docks.choose_pair(point)
+        self._grid.marks.choose_pair(point)
+        self.chosen.emit(point)
 
     def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
         """In a menu: what can be done with the place."""
@@ -145,22 +155,22 @@ class PairGestures:
         words = (
             f"The partner of point {len(document[Pairs].pairs)} is here" if is_partner else "A point of a pair is here"
         )
-        menu.addAction(f"{words}\tClick", lambda: self.put(panel, hit))
+        menu.addAction(f"{words}\tClick", lambda: self.put(panel, hit.vertex))
         if half is not None and self.candidate() is not None:
             menu.addAction("Accept the candidate\tEnter", self.accept)
         if half is not None:
-            menu.addAction(f"Give point {len(document[Pairs].pairs)} up\tEsc", self.drop)
+            menu.addAction(f"Give point {len(document[Pairs].pairs)} up\tEsc", self.put_down)
 
     # ------------------------------------------------------------------ drops
-    def _click(self, panel: int, number: int) -> None:
+    def click_mark(self, panel: int, number: int, has_ctrl: bool) -> None:
         """A candidate is accepted, another drop stands out, or no longer."""
         document = self._document
         pair, surface = document[Pairs].pairs[number - 1], document.panel(panel).surface
         if not self._has_point(pair, surface):
-            shown = self._window.session.shown.get(panel)
+            shown = self.context.session.shown.get(panel)
             found = candidate_in(document, document.panel(panel), None if shown is None else shown.answer)
             if found is not None:
-                self.put_at(panel, found.vertex)
+                self.put(panel, found.vertex)
             return
         name = pair.points[0]
         self.choose("" if self._grid.marks.chosen_pair in pair.points else name)
@@ -168,21 +178,19 @@ class PairGestures:
     def _has_point(self, pair: Pair, surface: str) -> bool:
         return any(self._document.point(name).surface == surface for name in pair.points)
 
-    def _drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """All the way is one step; a place that another pair has is passed."""
-        session, document = self._window.session, self._document
+        session, document = self.context.session, self._document
         surface, pair = document.panel(panel).surface, document[Pairs].pairs[number - 1]
         names = [name for name in pair.points if document.point(name).surface == surface]
         if not names or document.point(names[0]).at == hit.vertex or self._pair_at(surface, hit.vertex) is not None:
             return
         if not self._is_dragging:
-            self._is_dragging = self._window.gestures.is_dragging = True
-            self._window.gestures.sources.set_off()
+            self._is_dragging = self.context[Dragging].is_on = True
+            self.context[Dragging].set_off()
         session.show(move_pair_point(document, names[0], hit.vertex), key=f"drag of {names[0]}", live=True)
 
-    def _arrive(self) -> None:
-        """Now all is answered, and the next drag is a step of its own."""
+    def release(self) -> None:
         if self._is_dragging:
-            self._is_dragging = self._window.gestures.is_dragging = False
-            self._window.gestures.sources.rest()
-            self._window.session.show(self._document)
+            self._is_dragging = self.context[Dragging].is_on = False
+            self.context[Dragging].rest()

@@ -8,11 +8,11 @@ from qtpy import QtCore
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress
 
-from ...session.latest_request_worker import LatestRequestWorker
+from ..session.latest_request_worker import LatestRequestWorker
 
 
 class Background(QtCore.QObject):
-    """`compute(request, progress)` runs for the latest request and yields one answer or more.
+    """See `Context.background`: `compute(request, progress)` runs for the latest request and yields one answer or more.
 
     They come as `answered(request, answer)` on the thread of the window, unless something else has been asked for
     meanwhile; what goes wrong comes as `failed(request, sentence)`.  A request is compared by identity.
@@ -23,13 +23,12 @@ class Background(QtCore.QObject):
     progressed = QtCore.Signal(object)  # (share done, words), or None when nothing goes on
     _posted = QtCore.Signal(object)
 
-    def __init__(self, name: str, compute: Callable[[Any, Progress], Iterator[Any]], window: QtCore.QObject) -> None:
-        super().__init__(window)
+    def __init__(self, name: str, compute: Callable[[Any, Progress], Iterator[Any]], parent: QtCore.QObject) -> None:
+        super().__init__(parent)
         self._compute = compute
         self._latest: Any = None
         self._posted.connect(self._run)
         self._worker: LatestRequestWorker[Any] = LatestRequestWorker(name, self._work, self._report, self._fail)
-        window.closed.connect(self.close)
 
     def ask(self, request: Any) -> None:
         """None stops what goes on."""

@@ -1,46 +1,53 @@
-"""What is done to anchors on panels that show an interpolant: put, dragged, removed.  `window` is the main window."""
+"""What is done to anchors on panels that show an interpolant: put, dragged, removed."""
 
 from typing import TYPE_CHECKING
 
-from qtpy import QtWidgets
+from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.anchors import Anchors, add_anchor, remove_anchors
-from ..document.document import Document
-from ..document.edits import put_point
+from ...document.anchors import Anchors, add_anchor, remove_anchors
+from ...document.document import Document
+from ...document.edits import put_point
+from ...qt.context import Context
+from ...qt.dragging import Dragging
+from ...qt.gesture import Gesture
+from ...qt.panels.events import Click
 
 if TYPE_CHECKING:
-    from ..scene.picking import Hit
+    from ...scene.picking import Hit
 
 
-class AnchorGestures:
-    """See the module."""
+class AnchorGestures(Gesture):
+    chosen = QtCore.Signal(str)  # the point of the anchor that stands out from now on, "" for none
 
-    def __init__(self, window) -> None:
-        self._window, self._grid = window, window.grid
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
         self._moved = ""  # the name of the point that is dragged
 
-    def are_meant(self, panel: int) -> bool:
+    def is_on(self, panel: int) -> bool:
         """Whether a panel shows an interpolant, so that what is done there is done to anchors."""
-        shows = self._window.session.document.panel(panel).shows
+        shows = self.context.document.panel(panel).shows
         return any(part.has_anchors for part in shows.parts)
+
+    def click(self, panel: int, click: Click) -> None:
+        self.put(panel, click.hit)
 
     def put(self, panel: int, hit: "Hit") -> None:
         """An anchor at a vertex, with the value that the panel has there."""
-        session = self._window.session
+        session = self.context.session
         document, surface = session.document, session.document.panel(panel).surface
         try:
             changed, name = add_anchor(document, hit.vertex, self._value(panel, hit.vertex), surface)
         except ParameterError as error:  # there are too many
-            self._window.failed(str(error))
+            self.context.fail(error)
             return
         session.show(changed)
-        self._window.docks.choose_anchor(name)
+        self.choose(name)
 
     def _value(self, panel: int, vertex: int) -> float:
         """What is there, so that nothing changes yet; 0 for the first anchor and 1 for the second."""
-        session = self._window.session
+        session = self.context.session
         known = [a for a in session.document[Anchors].anchors if a.value is not None and not a.left_out]
         shown = session.shown.get(panel)
         field = None if shown is None else shown.answer.field
@@ -56,37 +63,42 @@ class AnchorGestures:
         else:
             menu.addAction("Anchor here\tClick", lambda: self.put(panel, hit))
 
+    def choose(self, point: str) -> None:
+        """Let the anchor at a point stand out, in the list, too."""
+        self.context.grid.marks.choose_anchor(point)
+        self.chosen.emit(point)
+
     def remove(self, points: list[str]) -> None:
-        session = self._window.session
+        session = self.context.session
         session.show(remove_anchors(session.document, points))
 
-    def remove_chosen(self) -> None:
-        """The anchor that stands out, if there is one."""
-        name = self._grid.marks.chosen_anchor
-        if any(anchor.point == name for anchor in self._window.session.document[Anchors].anchors):
+    def remove_chosen(self) -> bool:
+        name = self.context.grid.marks.chosen_anchor
+        is_there = any(anchor.point == name for anchor in self.context.document[Anchors].anchors)
+        if is_there:
             self.remove([name])
+        return is_there
 
-    def drag(self, panel: int, mark: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """One of the anchors is over a place; one that another has is passed."""
-        session = self._window.session
+        session = self.context.session
         document, surface = session.document, session.document.panel(panel).surface
         if not self._moved:
             names = anchor_points(document, surface)
-            if mark >= len(names):
+            if number >= len(names):
                 return
-            self._moved = names[mark]
-            self._window.docks.choose_anchor(self._moved)
-            self._window.gestures.sources.set_off()
+            self._moved = names[number]
+            self.choose(self._moved)
+            self.context[Dragging].set_off()
         if not self._name_at(panel, hit.vertex):
             moved = put_point(document, self._moved, hit.vertex, surface)
             session.show(moved, key=f"drag of {self._moved}", live=True)
 
-    def rest(self) -> None:
-        """It has arrived."""
+    def release(self) -> None:
         self._moved = ""
 
     def _name_at(self, panel: int, vertex: int) -> str:
-        document = self._window.session.document
+        document = self.context.document
         names = anchor_points(document, document.panel(panel).surface)
         return next((name for name in names if document.point(name).at == vertex), "")
 

@@ -1,4 +1,4 @@
-"""What is done to pins on the panels: put, chosen, dragged, removed.  `window` is the main window."""
+"""What is done to pins on the panels: put, chosen, dragged, removed."""
 
 from typing import TYPE_CHECKING
 
@@ -7,35 +7,41 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError
 from bihdist_core.sources.source import Source
 
-from ..document.edits import move_source, put_point
-from ..document.pins import Pin, Pins, add_pins, remove_pins
+from ...document.edits import move_source, put_point
+from ...document.pins import Pin, Pins, add_pins, remove_pins
+from ...qt.context import Context
+from ...qt.gesture import Gesture
+from ...qt.panels.events import Click
+from ...qt.source_gestures import SourceGestures
 
 if TYPE_CHECKING:
-    from ..scene.picking import Hit
-    from .source_gestures import SourceGestures
+    from ...scene.picking import Hit
 
 
-class PinGestures:
-    """sources: which say where on the surface a place is."""
+class PinGestures(Gesture):
+    kind = "pin"
 
-    def __init__(self, window, sources: "SourceGestures") -> None:
-        self._window, self._grid, self._sources = window, window.grid, sources
-        self._grid.pinned.connect(self.put)
-        self._grid.pin_clicked.connect(self._choose)
-        self._grid.pin_dragged.connect(self._drag)
-        self._grid.pin_released.connect(self._arrive)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._grid, self._sources = context.grid, context[SourceGestures]
+
+    def takes(self, panel: int, click: Click) -> bool:
+        return click.has_shift
+
+    def click(self, panel: int, click: Click) -> None:
+        self.put(panel, click.hit)
 
     def put(self, panel: int, hit: "Hit") -> None:
         """A pin there; one that is there already stays."""
-        session = self._window.session
+        session = self.context.session
         surface = session.document.panel(panel).surface
         try:
             session.show(add_pins(session.document, [self._sources.at(panel, hit)], surface))
         except ParameterError as error:  # there are too many
-            self._window.failed(str(error))
+            self.context.fail(error)
 
-    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
-        """In the menu that is opened there: what can be done with the drop under the pointer, or with the place."""
+    def offer_always(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
+        """What can be done with the drop under the pointer, or with the place."""
         view = self._grid.panel(panel).view
         number = view.over.pin_at(view.mapFromGlobal(where))
         if not number and hit is not None:
@@ -49,45 +55,41 @@ class PinGestures:
 
     # ------------------------------------------------------------------ what it does
     def _pin(self, number: int) -> Pin:
-        return self._window.session.document[Pins].pins[number - 1]
+        return self.context.document[Pins].pins[number - 1]
 
     def _number_at(self, panel: int, at: Source) -> int:
         """Of the pin at a place, 0 for none."""
-        document = self._window.session.document
+        document = self.context.document
         surface = document.panel(panel).surface
         points = [document.point(pin.point) for pin in document[Pins].pins]
         return next((k for k, point in enumerate(points, 1) if (point.at, point.surface) == (at, surface)), 0)
 
-    def _choose(self, panel: int, number: int, is_more: bool) -> None:
+    def click_mark(self, panel: int, number: int, has_ctrl: bool) -> None:
         """Where the list of pins is closed, it stands out, until it is clicked again, and is named."""
-        if "pins" in self._window.session.document.docks:
+        if "pins" in self.context.document.docks:
             return  # the list does it
         pin, lit = self._pin(number), set(self._grid.marks.lit)
-        chosen = lit ^ {pin.point} if is_more else {pin.point} - lit
+        chosen = lit ^ {pin.point} if has_ctrl else {pin.point} - lit
         self._grid.marks.light_pins(tuple(chosen))
         if pin.point in chosen:
-            where = self._window.session.document.point(pin.point).at
-            self._window.say(f"{_name(pin, number).capitalize()}: {_place(where)}")
+            where = self.context.document.point(pin.point).at
+            self.context.tell(f"{_name(pin, number).capitalize()}: {_place(where)}")
 
-    def _drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """All the way is one step; a place that another pin has is passed."""
-        session = self._window.session
+        session = self.context.session
         document, at = session.document, self._sources.at(panel, hit)
         pin = self._pin(number)
         point = document.point(pin.point)
         if at != point.at and not self._number_at(panel, at):
             session.show(put_point(document, point.name, at, point.surface), key=f"drag of {point.name}", live=True)
 
-    def _arrive(self) -> None:
-        """The next drag is a step of its own."""
-        self._window.session.show(self._window.session.document)
-
     def _remove(self, point: str) -> None:
-        session = self._window.session
+        session = self.context.session
         session.show(remove_pins(session.document, [point]))
 
     def _move_source(self, panel: int, point: str) -> None:
-        session = self._window.session
+        session = self.context.session
         document = session.document
         if document.point(point).surface == document.panel(panel).surface:
             session.show(move_source(document, panel, document.point(point).at))

@@ -1,29 +1,28 @@
-"""Files that are written in the background.  `window` is the main window."""
+"""Files that are written in the background."""
 
 import sys
 from collections.abc import Callable, Iterator
-from typing import Any
 
 from qtpy import QtCore
 
 from bihdist_core import BihdistError
 from bihdist_core.progress import Progress
 
-from .background import Background
+from ..context import Context
 from .saving import ask_path, saved_words
 
 
 class Writing(QtCore.QObject):
     """Asks where things go, and writes them in the background, one after the other."""
 
-    def __init__(self, window: Any) -> None:
-        super().__init__(window)
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self._waiting: list[Callable[[], str]] = []  # the first of them is being written
-        self._background = Background("writing", _done, window)
+        self._background = context.background("writing", _done)
         self._background.answered.connect(self._say)
         self._background.failed.connect(self._refuse)
-        window.closed.connect(self._finish)
+        context.closed.connect(self._finish)
 
     def save(
         self,
@@ -35,7 +34,7 @@ class Writing(QtCore.QObject):
         said: str = "",
     ) -> None:
         """path: asks for one if it is empty.  said: besides that it is written."""
-        path = path or ask_path(self._window, title, name, formats)
+        path = path or ask_path(self._context, title, name, formats)
 
         def work() -> str:
             write(path)
@@ -59,11 +58,11 @@ class Writing(QtCore.QObject):
         self._waiting.clear()
 
     def _say(self, request: object, words: str) -> None:
-        self._window.say(words)
+        self._context.tell(words)
         self._ended()
 
     def _refuse(self, request: object, sentence: str) -> None:
-        self._window.failed(sentence)
+        self._context.fail(sentence)
         self._ended()
 
     def _ended(self) -> None:

@@ -4,28 +4,34 @@
 """
 
 from collections.abc import Iterator
-from typing import Any
+
+from qtpy import QtCore
 
 from bihdist_core.progress import Progress
 
 from ...document.prediction import predicts_in
+from ...qt.background import Background
+from ...qt.context import Context
 from ...session.candidate_errors import CandidatesAsked, CandidatesJudged, CandidatesJudging, candidates_asked
 from ...session.pair_locations import candidate_in
-from .background import Background
 
 
-class CandidateErrors:
+class CandidateErrors(QtCore.QObject):
     """judged: what is shown, None for nothing."""
 
-    def __init__(self, window: Any) -> None:
-        self._window = window
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
         self.judged: CandidatesJudged | None = None
         self._asked: CandidatesAsked | None = None
         self._judging = CandidatesJudging()
         self._background: Background | None = None  # once something predicts
+        context.document_changed.connect(self.document_changed)
+        context.answer_changed.connect(self.answer_changed)
+        context.panels_cleared.connect(self.show_again)
 
     # ------------------------------------------------------------------ what is told
-    def document_changed(self) -> None:
+    def document_changed(self, _: object = None) -> None:
         asked, before = self._wanted(), self._asked
         if asked is None and before is None:
             return
@@ -40,21 +46,16 @@ class CandidateErrors:
         self._ask(asked)
         self._show()
 
-    def answer_changed(self) -> None:
+    def answer_changed(self, _: int) -> None:
         self.document_changed()
 
     def show_again(self) -> None:
         """The panels have forgotten what was drawn on them."""
         self._show()
 
-    def close(self) -> None:
-        """Nothing more is found."""
-        if self._background is not None:
-            self._background.close()
-
     # ------------------------------------------------------------------ asking
     def _wanted(self) -> CandidatesAsked | None:
-        session = self._window.session
+        session = self._context.session
         document = session.document
         if not any(map(predicts_in, document.panels)):
             return None
@@ -71,7 +72,7 @@ class CandidateErrors:
 
     def _ask(self, asked: CandidatesAsked | None) -> None:
         if self._background is None:
-            self._background = Background("candidate errors", self._judge, self._window)
+            self._background = self._context.background("candidate errors", self._judge)
             self._background.answered.connect(self._take)
         self._background.ask(asked)
 
@@ -85,17 +86,17 @@ class CandidateErrors:
             self._show()
 
     def _show(self) -> None:
-        document, judged = self._window.session.document, self.judged
+        document, judged = self._context.document, self.judged
         places, errors = ((), {}) if judged is None else (judged.places, judged.errors)
         there = {panel.id: panel for panel in document.panels}
-        for panel in self._window.grid.panels:
+        for panel in self._context.grid.panels:
             shown = there.get(panel.id)
             is_here = shown is not None and shown.surface == self._surface_name() and predicts_in(shown)
             panel.marks.show_truth(places if is_here else (), errors.get(panel.id) if is_here else None)
 
     def _surface_name(self) -> str:
         """Of the candidates."""
-        document, asked = self._window.session.document, self._asked
+        document, asked = self._context.document, self._asked
         if asked is None or len(document.surfaces) < 2:
             return ""
         return document.surfaces[1 if asked.is_on_first else 0].name

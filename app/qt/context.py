@@ -1,0 +1,161 @@
+"""What docks, gestures, dialogs and file actions are handed of the window: what is shown, and whom to tell."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+from qtpy import QtCore, QtWidgets
+
+from bihdist_core.progress import Progress
+
+from ..document.document import Document
+from ..document.page import Page
+from ..session.session import Session
+from .background import Background
+from .preferences import Preferences, save
+from .status_bar import StatusBar
+
+if TYPE_CHECKING:
+    from ..scene.picking import Hit
+    from .panels.grid import PanelGrid
+    from .panels.panel import DistancePanel
+
+Kind = TypeVar("Kind")
+
+
+class Context(QtCore.QObject):
+    """One for each window; `context[Brushing]` is the one `Brushing` of the window, made when it is first asked for.
+
+    widget: the window, which dialogs stand over and docks are put in.  page: of the recipe that was opened last, for
+    the figures that are exported.  actions: by the words of their acts.  quiet: no questions and no messages.
+    remembers: recent files, preferences and, in case of a crash, what is shown.  hit: what is under the pointer, in the
+    panel hit_in.
+    """
+
+    document_changed = QtCore.Signal(object)  # from the document before
+    answer_changed = QtCore.Signal(int)  # of a panel
+    pointed = QtCore.Signal(object, str)  # a vertex or None, and the name of its surface
+    panels_cleared = QtCore.Signal()  # they have forgotten what was drawn on them
+    page_changed = QtCore.Signal()
+    style_changed = QtCore.Signal()  # of the page or the theme: what is shown looks otherwise at once
+    choice_changed = QtCore.Signal()  # or may have: menus and buttons have to say what it is
+    picked = QtCore.Signal(int, object)  # a panel, and the `Hit` that was clicked in it, before anything is done
+    refused = QtCore.Signal(str)  # a message the user was shown
+    failed = QtCore.Signal(str)  # a message that the user is to be shown
+    opening = QtCore.Signal()  # another mesh
+    complete = QtCore.Signal()  # every panel has been painted with its final answer
+    closed = QtCore.Signal()
+    _posted = QtCore.Signal(object)
+
+    session: Session
+
+    def __init__(self, widget: QtWidgets.QMainWindow, preferences: Preferences, status: StatusBar) -> None:
+        super().__init__(widget)
+        self.widget, self.preferences, self.status = widget, preferences, status
+        self.page = Page()
+        self.actions: dict[str, QtWidgets.QAction] = {}
+        self.quiet, self.remembers = False, True
+        self.hit: Hit | None = None
+        self.hit_in = -1
+        self._grid: PanelGrid | None = None
+        self._waiting: list[Callable[[], None]] = []
+        self._made: dict[type, Any] = {}
+        self._posted.connect(lambda function: function())
+
+    def __getitem__(self, kind: type[Kind]) -> Kind:
+        if kind not in self._made:
+            self._made[kind] = cast("Callable[[Context], Kind]", kind)(self)
+        return cast("Kind", self._made[kind])
+
+    # ------------------------------------------------------------------ what is shown
+    @property
+    def document(self) -> Document:
+        return self.session.document
+
+    def edit(self, document: Document, key: str = "", live: bool = False) -> None:
+        """Show another document: a step of the history, see `Session.show`."""
+        self.session.show(document, key, live=live)
+
+    def take_page(self, page: Page) -> None:
+        """Look as figures on this page do, from the next change of the document on."""
+        if page != self.page:
+            self.page = page
+            self.page_changed.emit()
+
+    def open(self, path: str, source: int | None = None) -> None:
+        """Open a mesh in the place of the one that is shown, also before there are panels."""
+        self.opening.emit()
+        self.session.open(path, source)
+
+    # ------------------------------------------------------------------ the panels
+    @property
+    def is_built(self) -> bool:
+        """Whether there are panels: the window is shown before what draws has been imported."""
+        return self._grid is not None
+
+    @property
+    def grid(self) -> "PanelGrid":
+        if self._grid is None:
+            raise RuntimeError("There are no panels yet; see once_built.")
+        return self._grid
+
+    def build(self, grid: "PanelGrid", kinds: Iterable[type]) -> None:
+        """These are the panels, and nothing is waited for any more; kinds: what else is there from now on."""
+        self._grid = grid
+        for kind in kinds:
+            self[kind]
+        waiting, self._waiting = self._waiting, []
+        for function in waiting:
+            function()
+
+    def once_built(self, function: Callable[[], None]) -> None:
+        """Call a function when there are panels."""
+        if self.is_built:
+            function()
+        else:
+            self._waiting.append(function)
+
+    @property
+    def active(self) -> "DistancePanel | None":
+        """The panel that the keys go to."""
+        grid = self._grid
+        return None if grid is None or self.session.surface is None or grid.active < 0 else grid.panel(grid.active)
+
+    def focus_panels(self) -> None:
+        """Give them the keys."""
+        if self._grid is not None:
+            self._grid.focus()
+
+    # ------------------------------------------------------------------ the user
+    def tell(self, text: str, holds: Callable[[], bool] | None = None) -> None:
+        """In the status bar, for a while; holds: whether it is true, asked as the document changes."""
+        self.status.say(text, holds)
+
+    def fail(self, error: Exception | str) -> None:
+        """Say why something cannot be done."""
+        self.failed.emit(str(error))
+
+    def prefer(self, **changes: object) -> None:
+        """Other values of some preferences, also at the next start."""
+        self.preferences = replace(self.preferences, **cast("dict[str, Any]", changes))
+        if self.remembers:
+            save(self.preferences)
+
+    @property
+    def folder(self) -> str:
+        """Where a file was opened or saved last."""
+        return self.preferences.last_folder
+
+    @folder.setter
+    def folder(self, folder: str) -> None:
+        self.preferences = replace(self.preferences, last_folder=folder)
+
+    def background(self, name: str, compute: Callable[[Any, Progress], Iterator[Any]]) -> Background:
+        """What computes beside the window's thread, until the window is closed."""
+        made = Background(name, compute, self)
+        self.closed.connect(made.close)
+        return made
+
+    def post(self, function: Callable[[], None]) -> None:
+        """Run a function on the window's thread, from any other."""
+        self._posted.emit(function)

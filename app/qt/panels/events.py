@@ -1,0 +1,136 @@
+"""What happens in a panel by the mouse, and in its head and its bar: typed events, with who wants to hear of them."""
+
+from collections import defaultdict
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from qtpy import QtCore
+
+from ...document.quantities import Quantity
+from ...scene.picking import Hit
+
+Event = TypeVar("Event")
+
+
+class Events:
+    """`on(Click, handler)`: the handler is called with a panel's id and each `Click` in it, after those before it."""
+
+    def __init__(self) -> None:
+        self._handlers: defaultdict[type, list[Callable[[int, Any], object]]] = defaultdict(list)
+
+    def on(self, kind: type[Event], handler: Callable[[int, Event], object]) -> None:
+        self._handlers[kind].append(handler)
+
+    def emit(self, panel: int, event: object) -> None:
+        for handler in tuple(self._handlers[type(event)]):
+            handler(panel, event)
+
+
+@dataclass(frozen=True, eq=False)
+class Click:
+    """Of the left button on the surface, without a move."""
+
+    hit: Hit
+    has_shift: bool = False
+    has_ctrl: bool = False
+
+    @property
+    def is_plain(self) -> bool:
+        return not (self.has_shift or self.has_ctrl)
+
+
+@dataclass(frozen=True, eq=False)
+class MarkClick:
+    """On a pin marker.  kind: of marker, "pin" or "pair"; number: from 1."""
+
+    kind: str
+    number: int
+    has_ctrl: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class MarkDrag:
+    """The tip of a pin marker, or with the kind "" a mark of the source by its number from 0, is over a place."""
+
+    kind: str
+    number: int
+    hit: Hit
+
+
+@dataclass(frozen=True, eq=False)
+class MarkRelease:
+    """The button is up that has dragged a mark."""
+
+    kind: str
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """The surface is drawn on.  hit: None beside it."""
+
+    hit: Hit | None
+
+
+@dataclass(frozen=True, eq=False)
+class StrokeEnd:
+    has_ctrl: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Hover:
+    """hit: what is under the pointer, None beside the surface."""
+
+    hit: Hit | None
+
+
+@dataclass(frozen=True, eq=False)
+class BrushTouch:
+    """pixel: how long a pixel is there."""
+
+    hit: Hit
+    pixel: float
+
+
+class BrushLift:
+    """The button is up that has painted."""
+
+
+@dataclass(frozen=True, eq=False)
+class MenuWanted:
+    """hit: None beside the surface; where: on the screen."""
+
+    hit: Hit | None
+    where: QtCore.QPoint
+
+
+# ---------------------------------------------------------------------- of the head and the bar
+@dataclass(frozen=True, eq=False)
+class QuantityChosen:
+    shows: Quantity
+
+
+@dataclass(frozen=True, eq=False)
+class EditChosen:
+    """word: one of PANEL_EDITS."""
+
+    word: str
+
+
+@dataclass(frozen=True, eq=False)
+class BarEnded:
+    """end: where the colour bar is to end, None for the field's own maximum."""
+
+    end: float | None
+
+
+class SaveWanted:
+    """Of the panel's field."""
+
+
+class Cancelled:
+    """What is computed for the panel."""
+
+
+class Retried:
+    """What was cancelled, once more."""
