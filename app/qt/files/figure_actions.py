@@ -1,4 +1,4 @@
-"""The window's figures: exported, as movies, and copied.  `window` is the main window, which has the `exports`."""
+"""The window's figures: exported, as movies, and copied."""
 
 import os
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Sessions: saving and opening them, what is asked on closing, and after a crash.  `window` is the main window.
+"""Sessions: saving and opening them, what is asked on closing, and after a crash.
 
 A session is a recipe of what the window shows, so that `bihdist figure --recipe` draws it.
 """

@@ -1,6 +1,6 @@
 """Crosses where the point that waits for its partner belongs, and at the candidates how far they are from there.
 
-`window` is the main window.  Found beside its thread, wherever panels predict and it is known what is right.
+Found beside the window's thread, wherever panels predict and it is known what is right.
 """
 
 from collections.abc import Iterator
