@@ -5,7 +5,8 @@ only once they are.  The table of the program's own tools is `app/tools/__init__
 point group `bihdist.tools`.
 """
 
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
@@ -63,7 +64,16 @@ def tools() -> tuple[Tool, ...]:
     """All tools: the program's own in the order of the tool bar, then those of installed packages."""
     package = f"{__name__.rpartition('.document.')[0]}.tools"
     own = (import_module(f"{package}.{name}").TOOL for name in import_module(package).TOOLS)
-    return (*own, *(entry.load() for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)))
+    return (*own, *_tools_of_others())
+
+
+def _tools_of_others() -> Iterator[Tool]:
+    """A warning for each that cannot be loaded: the program is there without it."""
+    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+        try:
+            yield entry.load()
+        except Exception as error:  # it is somebody else's
+            warnings.warn(f"The tool {entry.name!r} of {entry.value} cannot be loaded: {error}.", stacklevel=1)
 
 
 def docked_tools() -> dict[str, Tool]:
