@@ -5,13 +5,14 @@ ARGS ?=
 PICTURE = bihdist-comparison.png
 PYTHON_HERE = $(if $(filter Windows_NT,$(OS)),.venv/Scripts/python,.venv/bin/python)
 
-.PHONY: help run test check bench
+.PHONY: help run test check quick bench
 .NOTPARALLEL:
 
 help:
 	@echo 'make run     install what is missing, then open the viewer (without a display: draw a picture)'
 	@echo 'make test    the checks and all tests, the window included'
 	@echo 'make check   ruff, mypy, codespell and the import rules'
+	@echo 'make quick   the checks, and the tests that say most in the least time'
 	@echo 'make bench   the speed of the solver beside potpourri3d'
 
 NO_DISPLAY = $(if $(filter Linux,$(shell uname -s)),$(if $(DISPLAY)$(WAYLAND_DISPLAY),,yes))
@@ -37,6 +38,13 @@ check:
 	@.ci/set-up dev
 	$(checks)
 	$(PYTHON_HERE) -m pytest tests/packaging/test_import_rules.py
+
+QUICK = tests/packaging/test_import_rules.py tests/packaging/test_words.py tests/app/test_document.py \
+    tests/app/test_history.py tests/app/test_one_line.py tests/core/test_solver.py
+quick:
+	@.ci/set-up dev
+	$(checks)
+	$(PYTHON_HERE) -m pytest $(QUICK)
 
 # The tests get screens of their own, so that they neither need nor disturb the user's; then all of them run in several
 # processes (see tests/conftest.py), where on one screen they would take the pointer from each other.

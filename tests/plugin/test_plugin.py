@@ -29,7 +29,9 @@ def test_its_option_part_and_marks_are_in_figures(tmp_path):
     assert again.returncode == 0, again.stderr
     pictures = [(tmp_path / f"{name}.png").read_bytes() for name in ("plain", "circle", "again")]
     assert pictures[0] != pictures[1] == pictures[2]
-    by_python = f"import bihdist; bihdist.figure('hand', ['geodesic'], 12, circle=2665, size='300x300').save('python.png')"
+    by_python = (
+        "import bihdist; bihdist.figure('hand', ['geodesic'], 12, circle=2665, size='300x300').save('python.png')"
+    )
     assert run("-c", by_python, folder=tmp_path).returncode == 0
     assert (tmp_path / "python.png").read_bytes() == pictures[1]
 
@@ -45,7 +47,9 @@ def test_without_it_what_it_made_is_refused_in_a_sentence(tmp_path):
 def test_one_that_cannot_be_loaded_leaves_the_program_as_it_is(tmp_path):
     broken = tmp_path / "broken"
     shutil.copytree(PLUGIN / "geodesic_circle-1.0.dist-info", broken / "geodesic_circle-1.0.dist-info")
-    code = f"import sys; sys.path.insert(0, {str(broken)!r}); import bihdist; print(bihdist.figure('hand', ['geodesic']))"
+    code = (
+        f"import sys; sys.path.insert(0, {str(broken)!r}); import bihdist; print(bihdist.figure('hand', ['geodesic']))"
+    )
     told = run("-c", code, folder=tmp_path, has_tool=False)
     assert told.returncode == 0, told.stderr
     assert "Picture(geodesic" in told.stdout

@@ -1,7 +1,6 @@
 """What is to be seen of the circle."""
 
 import numpy as np
-
 from bihdist.marks.glyphs import RING
 from bihdist.marks.line_looks import PATH
 from bihdist.marks.marked_panel import MarkedPanel

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-
 from bihdist.document.document import Document, Panel
+
 from bihdist_core import Surface
 from bihdist_core.analysis.bands import band
 from bihdist_core.analysis.isoline_tracing import Isoline, isolines
