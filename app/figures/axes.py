@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bihdist_core.arrays import AnyArray
+
 from ..scene.axes import ARM, LETTER, arms, middle
 from .boxes import Box
 from .shots import Shot
@@ -21,7 +23,7 @@ LINE = 1.1
 
 def draw_axes(axes: Axes, page: Composition, order: int) -> None:
     """Of the panels that want them, in letters as large as those at the colour bar."""
-    seen: list[np.ndarray] = []
+    seen: list[AnyArray] = []
     for shot in page.shots:
         is_new = not any(np.allclose(shot.frame, frame, atol=1e-6) for frame in seen)
         if page.figure.panels[shot.panel].axes and shot.source is None and is_new:

@@ -46,7 +46,7 @@ class Box:
 
     def pixels(self, scale: float) -> tuple[int, int, int, int]:
         """Left, top, width and height of a snapped box in pixels."""
-        return tuple(round(side * scale) for side in (self.x, self.y, self.width, self.height))
+        return round(self.x * scale), round(self.y * scale), round(self.width * scale), round(self.height * scale)
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bihdist_core.arrays import ByteArray
+
 from ..scene.field_actor import CASING
 from ..scene.levels import BOLD, width_of
-from ..scene.style import RIM, Colour
+from ..scene.line_labels import Line
+from ..scene.style import RGBA, RIM, Colour
 from .axes import draw_axes
 from .description import Figure
 from .fonts import families, has_cff_outlines
@@ -24,13 +27,14 @@ from .isoline_labels import draw_labels
 from .layout import Layout
 from .legend import draw_legend
 from .marks import draw_frames, draw_marks
-from .shots import Line, Shot
+from .shots import Shot
 from .simplified import simplified
 from .words_and_bars import draw_words, write
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Canvas
+    from matplotlib.patches import PathPatch
     from matplotlib.path import Path
 
 
@@ -129,14 +133,14 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
             continue
         colour, width = style.line(signed, line.value / top if top > 0 else 0.0), style.isoline_width * stroke
         wider = width_of(page.figure.panels[shot.panel].isolines, line.is_bold, signed and line.value == 0)
-        strokes = [(colour, width * wider)]
+        strokes: list[tuple[Colour | RGBA, float]] = [(colour, width * wider)]
         rim = style.rim(signed, line.value)
         if rim is not None:
             strokes.insert(0, (rim, width * wider + 2 * RIM * stroke))
         if line.is_through:
             strokes = [(style.mark_edge, BOLD * width + 2 * CASING * stroke), (style.source, BOLD * width)]
-        for colour, width in strokes:
-            curve = _curve(line.parts, colour, width, "butt", order + 2, f"isoline-{number}-{k}")
+        for paint, across in strokes:
+            curve = _curve(line.parts, paint, across, "butt", order + 2, f"isoline-{number}-{k}")
             axes.add_artist(curve)
             # The stroke is cut where the shape ends, which its middle line does already.
             curve.set_clip_path(shape)
@@ -147,8 +151,8 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
         axes.add_artist(curve)
         curve.set_clip_path(frame)
     for look, lines in shot.lines.items():
-        for parts, strokes in ((lines.course, look.hidden), (lines.seen, look.strokes)):
-            for each in strokes if parts else ():
+        for parts, looks in ((lines.course, look.hidden), (lines.seen, look.strokes)):
+            for each in looks if parts else ():
                 width = each.width * stroke
                 curve = _curve(parts, style.named(each.colour), width, "round", order + 3, f"{look.name}-{number}")
                 if each.dots:
@@ -193,9 +197,9 @@ def _clip_path() -> type:
     from matplotlib.transforms import TransformedPath
 
     class ClipPath(TransformedPath):
-        _kept: tuple = (None, None)
+        _kept: tuple[Any, Any] = (None, None)
 
-        def get_transformed_path_and_affine(self):
+        def get_transformed_path_and_affine(self) -> tuple[Any, Any]:
             found = super().get_transformed_path_and_affine()
             if found[0] is not self._kept[0]:
                 self._kept = found
@@ -210,12 +214,12 @@ def _pixels_artist() -> type:
     from matplotlib.artist import Artist
 
     class Pixels(Artist):
-        def __init__(self, pixels: np.ndarray, left: int, top: int, order: int) -> None:
+        def __init__(self, pixels: ByteArray, left: int, top: int, order: int) -> None:
             super().__init__()
             self.set_zorder(order)
             self._pixels, self._left, self._top = pixels, left, top
 
-        def draw(self, renderer) -> None:
+        def draw(self, renderer: Any) -> None:
             # matplotlib counts rows from below.
             low = int(renderer.height) - self._top - len(self._pixels)
             renderer.draw_image(renderer.new_gc(), self._left, low, self._pixels[::-1])
@@ -223,7 +227,7 @@ def _pixels_artist() -> type:
     return Pixels
 
 
-def _on(background: Colour | None, image: np.ndarray) -> np.ndarray:
+def _on(background: Colour | None, image: ByteArray) -> ByteArray:
     """Pixels (h, w, 4) whose colours are multiplied by alpha: the same on a background, or straight.
 
     On a background without transparency: some readers blend the edge of the shape with what lies unseen beside it.
@@ -242,7 +246,7 @@ def _on(background: Colour | None, image: np.ndarray) -> np.ndarray:
     return result
 
 
-def _curve(lines: list[Line], colour: Colour, width: float, cap: str, order: int, name: str):
+def _curve(lines: list[Line], colour: Colour | RGBA, width: float, cap: str, order: int, name: str) -> PathPatch:
     """Parts of one curve as one path."""
     from matplotlib.patches import PathPatch
 
@@ -279,5 +283,5 @@ def _silhouette(shot: Shot, scale: float, wider: int = 0) -> Path | None:
         for axis in (0, 1):
             one, other = (np.roll(alpha, step, axis) for step in (1, -1))
             alpha = np.maximum(np.maximum(one, other), alpha)
-    loops = contour_generator(at[0] + shot.box.x, at[1] + shot.box.y, alpha).lines(0.5 if wider else 127.5)
+    loops: Any = contour_generator(at[0] + shot.box.x, at[1] + shot.box.y, alpha).lines(0.5 if wider else 127.5)
     return _path([(simplified(loop, EDGE_FINENESS), True) for loop in loops if len(loop) > 3])

@@ -108,7 +108,8 @@ def _write(path: Path, extension: str, look: ChartLook, high: float, draw: Calla
 
 def _keep_on_page(figure: Figure) -> None:
     """Words at an axis that are longer than it is move along it where they would leave the page."""
-    figure.get_layout_engine().execute(figure)
+    if (engine := figure.get_layout_engine()) is not None:
+        engine.execute(figure)
     rim = RIM / 72 * figure.dpi
     for axes in figure.axes:
         room = axes.get_window_extent()

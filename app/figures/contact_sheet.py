@@ -61,7 +61,7 @@ def contact_sheet(cells: Sequence[Cell], words: Sequence[str] = ()) -> Image.Ima
         else:
             picture = (
                 cell.picture.resize(
-                    tuple(max(1, round(side * small)) for side in cell.picture.size), Image.Resampling.LANCZOS
+                    [max(1, round(side * small)) for side in cell.picture.size], Image.Resampling.LANCZOS
                 )
                 if small < 1
                 else cell.picture

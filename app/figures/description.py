@@ -5,13 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.analysis.first_view import is_flat
+from bihdist_core.arrays import AnyArray, FloatArray
 
 from ..document.camera import View, checked_view
 from ..document.document import Zoom
 from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
 from ..document.page import TITLES
 from ..marks.primitives import AreaMark, LineMark, PointMark
-from ..scene.camera import is_flat
 from ..scene.style import PAPER, Style
 from .fonts import check_font
 from .size import Size
@@ -33,7 +34,7 @@ class FigurePanel:
     """
 
     surface: Surface
-    field: np.ndarray | None = None
+    field: AnyArray | None = None
     heading: str = ""
     hint: str = ""
     label: str = ""
@@ -54,7 +55,7 @@ class FigurePanel:
     axes: bool = False
     lines: tuple[LineMark, ...] = ()
     areas: tuple[AreaMark, ...] = ()
-    colours: np.ndarray | None = None
+    colours: FloatArray | None = None
     largest: str = ""
 
     def __post_init__(self) -> None:
@@ -77,7 +78,7 @@ class FigurePanel:
             raise ParameterError(
                 f"The height of a height field is a fraction of the surface's extent, not {self.height:g}."
             )
-        self.surface.check_vertices([m.vertex for m in (*self.marks, *self.zooms)])
+        self.surface.check_vertices([*(mark.vertex for mark in self.marks), *(zoom.vertex for zoom in self.zooms)])
 
     @property
     def top(self) -> float:

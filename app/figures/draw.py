@@ -6,9 +6,8 @@ A `Figure` says everything that can be seen; `draw_figure` and `save_figure` are
 import os
 from dataclasses import replace
 
-import numpy as np
-
 from bihdist_core import OutputError
+from bihdist_core.arrays import ByteArray
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
@@ -38,7 +37,7 @@ def draw_figure(
     render_cache: RenderCache | None = None,
     words: KeptWords | None = None,
     share: float = 1.0,
-) -> np.ndarray:
+) -> ByteArray:
     """(height, width, 3) uint8 picture, or (height, width, 4) with alpha if it is transparent.
 
     stage, words: kept from one figure to the next.  share: of its own resolution.

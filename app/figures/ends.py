@@ -3,6 +3,7 @@
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from bihdist_core import ParameterError
 from bihdist_core.progress import Progress
@@ -62,7 +63,7 @@ def ranged(
                 "that is there."
             )
         return ended_as(document, ends_in(range, progress), os.fspath(range))
-    ends = list(range) if isinstance(range, Sequence) else [range]
+    ends: list[Any] = list(range) if isinstance(range, Sequence) else [range]
     count = len(document.panels)
     if len(ends) not in (1, count):
         raise ParameterError(f"There are {len(ends)} ends of colour bars for {count} panels; give one, or one each.")

@@ -60,7 +60,8 @@ def open_document(recipe: Recipe, given: ArrayStore) -> tuple[Document, Surfaces
 
     Raises ParameterError if one is missing or has changed since the document was written.
     """
-    surfaces, document = {}, recipe.document
+    surfaces: Surfaces = {}
+    document = recipe.document
     remedy = "Name the mesh that is to be drawn with --mesh." if recipe.made_with else ""
     for mesh in document.surfaces:
         surfaces[mesh.name] = loaded = open_mesh(mesh, given, remedy, list(surfaces.values()))

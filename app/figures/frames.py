@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bihdist_core import BihdistError
+from bihdist_core.arrays import ByteArray
 from bihdist_core.progress import Progress
 
 from ..scene.style import Style
@@ -72,7 +73,7 @@ class _Drawing:
         return _with_256_colours(picture, figure.style)
 
 
-def _with_256_colours(picture: np.ndarray, style: Style) -> Image:
+def _with_256_colours(picture: ByteArray, style: Style) -> Image:
     """An image with a palette of what there is most of, and of the ground and the marks, though these be small."""
     from PIL import Image as images
 

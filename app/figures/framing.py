@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.arrays import FloatArray
 
 from ..document.camera import Camera, View
 from ..scene.camera import Margins, Projection, outwards_at, standard_camera
@@ -86,13 +87,14 @@ def height_for(width: float, view: View, panel: FigurePanel, surface: Surface) -
     return float(width * max(np.abs(flat[:, 1]).max(), up) / across) + 2 * FREE * width
 
 
-def places(surface: Surface) -> np.ndarray:
+def places(surface: Surface) -> FloatArray:
     """(k, 3) places all over a surface: middles of faces, or of every so many."""
     faces = surface.faces[:: max(len(surface.faces) // MOST_PLACES, 1)]
-    return surface.vertices[faces].mean(axis=1)
+    middles: FloatArray = surface.vertices[faces].mean(axis=1)
+    return middles
 
 
-def _used(surface: Surface) -> np.ndarray:
+def _used(surface: Surface) -> FloatArray:
     return surface.vertices[surface.component_of_vertex >= 0]
 
 
@@ -118,7 +120,7 @@ class Framed:
             camera_of(view, panel, surface, 1.0), 1.0, surface.vertices, 0.0, panel.is_parallel
         )
 
-    def places(self, points: np.ndarray) -> np.ndarray:
+    def places(self, points: FloatArray) -> FloatArray:
         """(k, 2) where points (k, 3) stand on the page; NaN behind the camera."""
         flat = self.projection(points)
         x = self.whole.x + (flat[:, 0] + 1) / 2 * self.whole.width

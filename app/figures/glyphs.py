@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..marks.glyphs import Glyph, Layer, Subpath
 from ..marks.primitives import PointMark
@@ -36,7 +36,8 @@ def draw_glyph(
     if glyph.rise and mark.number is not None:
         text, (x, y) = str(mark.number), at
         size = NUMERAL[min(len(text), 3) - 1] * reach
-        look = {"ha": "center", "va": "baseline", "weight": "bold", "size": size * POINT, "zorder": order}
+        look: dict[str, Any] = {"ha": "center", "va": "baseline", "weight": "bold"}
+        look |= {"size": size * POINT, "zorder": order}
         colour = _colour(page, mark, glyph.numeral)
         parts.append(axes.text(x, y - glyph.rise * reach + 0.36 * size, text, color=colour, **look))
     return parts
@@ -50,7 +51,7 @@ def _layer(
 
     rim = max(glyph.rim * reach, glyph.least_rim)
     path = _path(glyph.outline).transformed(Affine2D().scale(reach - layer.inset * rim).translate(*at))
-    look: dict = {"fill": False}
+    look: dict[str, Any] = {"fill": False}
     if layer.fill:
         opacity = 1.0 if page.is_opaque else layer.opacity
         look = {"facecolor": (*_colour(page, mark, layer.fill), opacity)}

@@ -42,12 +42,12 @@ def grid_of(figure: Figure) -> Grid:
     """The page that a figure's size says."""
     size = figure.size
     dpi = size.resolution
-    if size.width is None or (dpi is None and size.height is None):
-        columns = _columns(figure, None if size.width is None else size.width)
-    elif size.height is None:
-        columns = _columns(figure, size.pixels_of(size.width) * UNITS_PER_INCH / dpi)
-    else:
+    if size.width is not None and size.height is not None:
         columns = _fullest(figure, size.width / size.height)
+    elif size.width is None or dpi is None:
+        columns = _columns(figure, size.width)
+    else:
+        columns = _columns(figure, size.pixels_of(size.width) * UNITS_PER_INCH / dpi)
     rows = -(-len(figure.panels) // columns)
     usual = columns * view_width(figure) * most_views(figure), rows * PANEL[1]
     across, down, scale = size.pixels(usual)

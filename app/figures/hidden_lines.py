@@ -7,6 +7,7 @@ import numpy as np
 
 from bihdist_core import Surface
 from bihdist_core.analysis.isoline_tracing import isolines
+from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
 from ..scene.camera import Projection, SeenNow
 from ..scene.levels import Levels
@@ -30,12 +31,12 @@ class Curve:
     edges: also (k, 3), for points in faces.
     """
 
-    points: np.ndarray
-    edges: np.ndarray
+    points: FloatArray
+    edges: IntArray
     closed: bool = False
 
 
-Part = tuple[np.ndarray, bool]
+Part = tuple[FloatArray, bool]
 """Points (k, 2) in pixels, and whether the last joins the first."""
 
 
@@ -50,7 +51,7 @@ class HiddenLineRemoval:
         surface: Surface,
         projection: Projection | SeenNow,
         size: tuple[float, float],
-        outward: np.ndarray | None = None,
+        outward: IntArray | None = None,
     ) -> None:
         self.surface = surface
         self._projection = projection
@@ -61,18 +62,18 @@ class HiddenLineRemoval:
         self.occlusion = Occlusion(*self._before_the_eye())
         self._backs = None if outward is None else self._face_keys(outward[self._from_inside(outward)])
 
-    def pixels(self, points: np.ndarray) -> np.ndarray:
+    def pixels(self, points: FloatArray) -> FloatArray:
         """(n, 3): x and y in pixels, and the distance along the line of sight."""
         x, y, depth = self._projection(points).T
         width, height = self._size
         return np.column_stack([(x + 1) / 2 * width, (1 - y) / 2 * height, depth])
 
-    def sees(self, point: np.ndarray) -> bool:
+    def sees(self, point: FloatArray) -> bool:
         """Whether nothing stands before a point (3,) of the surface."""
         at = self.lifted(self.pixels(point[None]))[0]
         return bool(self.occlusion.nearest(at[None, :2])[0] <= at[2])
 
-    def covers(self, points: np.ndarray) -> np.ndarray:
+    def covers(self, points: FloatArray) -> BoolArray:
         """(k,) whether points (k, 2) of the picture are on the shape."""
         return np.isfinite(self.occlusion.nearest(points))
 
@@ -104,7 +105,7 @@ class HiddenLineRemoval:
         parts = [part for curve in curves for part in self._before_the_camera(curve)]
         return [(self.pixels(part.points)[:, :2], part.closed) for part in parts]
 
-    def _hidden(self, at: np.ndarray, segments: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, ...]:
+    def _hidden(self, at: FloatArray, segments: IntArray, on: IntArray) -> tuple[AnyArray, ...]:
         """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden.
 
         Segment s goes from place s to place s + 1 of places (n, 3) in pixels; on: as `Occlusion.intervals` has it.
@@ -125,35 +126,36 @@ class HiddenLineRemoval:
             hidden, start, stop = hidden[order], start[order], stop[order]
         return segments[hidden], start, stop
 
-    def _from_inside(self, outward: np.ndarray) -> np.ndarray:
+    def _from_inside(self, outward: IntArray) -> BoolArray:
         """(m,) whether faces show their inside; pixels have y down, which turns them round."""
         a, b, c = (self.at[outward[:, k], :2] for k in range(3))
         u, v = b - a, c - a
         return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0
 
-    def _face_keys(self, faces: np.ndarray) -> np.ndarray:
+    def _face_keys(self, faces: IntArray) -> AnyArray:
         """(m,) a number for each face, whatever the order of its vertices."""
         low, middle, high = np.sort(faces, axis=1).astype(np.uint64).T
         count = np.uint64(len(self.surface.vertices))
-        return (low * count + middle) * count + high  # of more than 2.6 million vertices some might share one
+        keys: AnyArray = (low * count + middle) * count + high  # of more than 2.6 million vertices some might share one
+        return keys
 
-    def lifted(self, at: np.ndarray) -> np.ndarray:
+    def lifted(self, at: FloatArray) -> FloatArray:
         """(k, 3) x, y and nearness of places (k, 3) in pixels, which come towards the eye by the tolerance."""
         return self._near(at - [0, 0, TOLERANCE * self.extent])
 
-    def depth(self, near: np.ndarray) -> np.ndarray:
+    def depth(self, near: FloatArray) -> FloatArray:
         """(k,) the distance along the line of sight from nearness (k,); inf where nothing is seen."""
         with np.errstate(divide="ignore"):
             return np.where(np.isneginf(near), np.inf, 1 / near if self._projection.matrix[3, 2] else -near)
 
-    def _near(self, at: np.ndarray) -> np.ndarray:
+    def _near(self, at: FloatArray) -> FloatArray:
         """(k, 3) x, y and nearness, of places with x, y and depth; NaN behind the camera."""
         depth = at[:, 2]
         # Seen in perspective, it is 1 / depth that is linear in the picture.
         near = 1 / np.where(depth > 0, depth, np.nan) if self._projection.matrix[3, 2] else -depth
         return np.column_stack([at[:, :2], near])
 
-    def _before_the_eye(self) -> tuple[np.ndarray, np.ndarray]:
+    def _before_the_eye(self) -> tuple[FloatArray, IntArray]:
         """(t, 3, 3) x, y and nearness of the faces' corners and (t, 3) their ids; faces that pass the eye are cut."""
         faces, depth = self.surface.faces, self.at[:, 2]
         least = NEAREST * max(float(depth.max(initial=0.0)), 1e-300)
@@ -187,7 +189,7 @@ class HiddenLineRemoval:
         return [Curve(curve.points[a:b], curve.edges[a:b]) for a, b in ends.reshape(-1, 2) if b - a >= 2]
 
 
-def contours_seen(sight: HiddenLineRemoval, field: np.ndarray, levels: Levels) -> list[Contour]:
+def contours_seen(sight: HiddenLineRemoval, field: FloatArray, levels: Levels) -> list[Contour]:
     """The visible parts of a field's isolines, in the order of their values; field: (n,) on the surface in sight."""
     lines = isolines(sight.surface, field, levels.values)
     parts = sight.visible(Curve(line.points, line.edges, line.closed) for line in lines)
@@ -199,7 +201,7 @@ def contours_seen(sight: HiddenLineRemoval, field: np.ndarray, levels: Levels) -
     ]
 
 
-def _parts(at: np.ndarray, length: np.ndarray, hidden: np.ndarray, closed: bool) -> list[Part]:
+def _parts(at: FloatArray, length: FloatArray, hidden: FloatArray, closed: bool) -> list[Part]:
     """The parts of one curve, points (k, 2) at lengths (k,), outside of hidden intervals (m, 2), in order."""
     seen = _outside(hidden, length[0], length[-1])
     if not len(seen):
@@ -212,7 +214,7 @@ def _parts(at: np.ndarray, length: np.ndarray, hidden: np.ndarray, closed: bool)
     return [(part, False) for part in parts]
 
 
-def _outside(hidden: np.ndarray, low: float, high: float) -> np.ndarray:
+def _outside(hidden: FloatArray, low: float, high: float) -> FloatArray:
     """(k, 2) what is left between low and high without intervals (m, 2), in order; specks join their neighbours."""
     if len(hidden):
         apart = hidden[1:, 0] - hidden[:-1, 1] >= SHORTEST
@@ -222,7 +224,7 @@ def _outside(hidden: np.ndarray, low: float, high: float) -> np.ndarray:
     return seen[seen[:, 1] - seen[:, 0] >= SHORTEST] if len(hidden) else seen
 
 
-def _cut(at: np.ndarray, length: np.ndarray, start: float, stop: float) -> np.ndarray:
+def _cut(at: FloatArray, length: FloatArray, start: float, stop: float) -> FloatArray:
     """(k, 2) the part of a line from one length to another."""
     inner = length[(length > start) & (length < stop)]
     lengths = np.concatenate([[start], inner, [stop]])

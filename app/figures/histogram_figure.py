@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
 from bihdist_core.progress import Progress
 
 from .chart_page import USUAL_LOOK, ChartLook, save_chart, style_axes
@@ -26,9 +27,9 @@ class HistogramFigure:
     name: of the field; unit: of its values.  mean: by area.
     """
 
-    ends: np.ndarray
-    shares: np.ndarray
-    colours: np.ndarray
+    ends: FloatArray
+    shares: FloatArray
+    colours: FloatArray
     name: str
     unit: str = ""
     mean: float | None = None

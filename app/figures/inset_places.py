@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.arrays import AnyArray, FloatArray
 
 from ..scene.corners import SIDE, chosen_corners, corner_boxes, cover, source_box
 from .boxes import Box
@@ -73,7 +74,7 @@ class _View:
         left, right, bottom, top = corner_boxes((area.width, area.height), side, GAP)[name]
         return Box(area.x + left, area.bottom - top, right - left, top - bottom)
 
-    def _turned(self, points: np.ndarray) -> np.ndarray:
+    def _turned(self, points: FloatArray) -> AnyArray:
         return np.column_stack([points[:, 0] - self._box.x, self._box.bottom - points[:, 1]])
 
 
@@ -101,6 +102,7 @@ def _beside(
             else:
                 found = [Box(area.x + start + k * step, area.bottom - side - 1, side, side) for k in range(count)]
             best = size, box, found
+    assert best is not None  # one of two
     _, box, found = best
     box = box.snapped(scale)
     if figure.is_moving:

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bihdist_core.arrays import BoolArray, FloatArray
+
 from ..scene.field_actor import CASING
 from ..scene.line_labels import Contour, Label, labelled as labelled_lines
 from ..scene.style import RIM
 from .description import Figure
+from .glyphs import POINT
 from .layout import Layout
-from .marks import POINT
 from .shots import Shot
 
 if TYPE_CHECKING:
@@ -36,13 +38,14 @@ def labelled(
     return labelled_lines(shot.isolines, box, size, width, partial(_is_covered, shot), marked, marks, written)
 
 
-def _is_covered(shot: Shot, places: np.ndarray) -> np.ndarray:
+def _is_covered(shot: Shot, places: FloatArray) -> BoolArray:
     """Which of places (k, 2) are wholly on the shape."""
     height, width = shot.image.shape[:2]
     x = ((places[:, 0] - shot.box.x) / shot.box.width * width).astype(int)
     y = ((places[:, 1] - shot.box.y) / shot.box.height * height).astype(int)
     is_inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
-    return is_inside & (shot.image[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1), 3] > 250)
+    is_covered: BoolArray = is_inside & (shot.image[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1), 3] > 250)
+    return is_covered
 
 
 def draw_labels(axes: Axes, figure: Figure, layout: Layout, shot: Shot, order: int) -> list[Contour]:

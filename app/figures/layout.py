@@ -161,7 +161,9 @@ def _shapes(figure: Figure, panel: int) -> list[tuple[float, float, Seen | None]
     parts = [seen(view, each, surface) for view in each.views]
     # Marks at the edges of two views meet between them; pages without a legend stay as they were.
     more = BETWEEN_VIEWS if figure.legend and len(parts) > 1 else 0.0
-    found = [(min(p.aspect, WIDEST) + more, min(WIDEST / p.aspect, 1.0), p) for p in parts]
+    found: list[tuple[float, float, Seen | None]] = [
+        (min(p.aspect, WIDEST) + more, min(WIDEST / p.aspect, 1.0), p) for p in parts
+    ]
     if any(zoom.corner == "auto" for zoom in each.zooms):
         wide, high, part = found[0]
         found[0] = (wide + SIDE * min(wide, high), high, part)  # an inset may need room beside the shape
@@ -200,7 +202,10 @@ class _Texts:
         self.heading, self.headings = lettering.fitted(
             heads, _heading_size(figure, factor, min(rooms)), room, most, True
         )
-        self.hint, self.hints = self._hints([p.hint for p in figure.panels], room) if level < 1 else (0.0, [()] * count)
+        self.hint = 0.0
+        self.hints: list[tuple[str, ...]] = [()] * count
+        if level < 1:
+            self.hint, self.hints = self._hints([p.hint for p in figure.panels], room)
         feet = [bars.bar_words(figure, k) if level < 3 else "" for k in range(count)]
         self.label, self.feet = lettering.fitted(feet, LABEL * factor, room, most + (figure.title == "caption"))
         lines = max(map(len, self.headings))
@@ -229,7 +234,8 @@ class _Strip:
     def __init__(self, figure: Figure, grid: Grid, texts: _Texts) -> None:
         self.panel = next((k for k, p in enumerate(figure.panels) if p.field is not None), 0)
         self.width = self.height = 0.0
-        self.label, self.lines = texts.label, ()
+        self.label = texts.label
+        self.lines: tuple[str, ...] = ()
         tops = figure.tops()
         self.is_there = figure.has_one_bar and tops[self.panel] > 0
         if not self.is_there:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from bihdist_core.arrays import BoolArray, FloatArray
 
 from ..marks.glyphs import TRIANGLE_DOWN, TRIANGLE_UP
 from ..marks.primitives import PointMark
@@ -16,6 +18,7 @@ from .shots import Shot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.patches import Patch
 
     from .canvas import Composition
 
@@ -27,7 +30,7 @@ GROUND = 0.8
 
 
 def draw_marks(
-    axes: Axes, page: Composition, shot: Shot, order: int, frame, write: Callable[[Words, int], None]
+    axes: Axes, page: Composition, shot: Shot, order: int, frame: Patch, write: Callable[[Words, int], None]
 ) -> None:
     """Those of one picture with the words beside them, and over all others those that stand above their places."""
     marks, across = page.figure.panels[shot.panel].marks, page.layout.mark
@@ -59,7 +62,7 @@ def _draw(
     at: tuple[float, float],
     is_hidden: bool,
     order: float,
-    frame,
+    frame: Patch,
 ) -> None:
     for part in draw_glyph(axes, page, mark, at, is_hidden, order):
         if shot.source is not None and not is_hidden:
@@ -132,8 +135,8 @@ def draw_frames(axes: Axes, page: Composition, shot: Shot, order: int, write: Ca
     colour = page.figure.style.quiet_text
     of_panel = [other for other in page.shots if other.panel == shot.panel]
     main, insets = of_panel[0], [other for other in of_panel if other.source is not None]
-    for box in (shot.source, shot.box):
-        look = {"fill": False, "edgecolor": colour, "linewidth": POINT, "zorder": order}
+    for box in _boxes(shot):
+        look: dict[str, Any] = {"fill": False, "edgecolor": colour, "linewidth": POINT, "zorder": order}
         axes.add_artist(Rectangle((box.x, box.y), box.width, box.height, **look))
     for line in _leaders(main, insets, shot):
         axes.add_artist(Line2D(line[:, 0], line[:, 1], color=colour, linewidth=0.6 * POINT, zorder=order))
@@ -145,11 +148,10 @@ def draw_frames(axes: Axes, page: Composition, shot: Shot, order: int, write: Ca
 
 def _numbers(page: Composition, main: Shot, insets: list[Shot], shot: Shot) -> tuple[Words, Words]:
     """The number of an inset, in its corner and beside what it enlarges, where nothing is hidden if may be."""
-    size, source = page.layout.label, shot.source
-    assert source is not None
+    size, (source, _) = page.layout.label, _boxes(shot)
     number, gap, (x, y) = (str(1 + insets.index(shot)),), 0.55 * size, source.middle
     places = np.array([(source.right + gap, y), (source.x - gap, y), (x, source.y - gap), (x, source.bottom + gap)])
-    is_there = np.array([main.box.holds(*place, -gap) for place in places])
+    is_there = np.array([main.box.holds(across, down, -gap) for across, down in places])
     free = is_there & ~_taken(main, insets, shot, places)
     # Where no side has room, a number stands in the frame.
     at = places[int((2 * free + is_there).argmax())] if is_there.any() else (source.x + gap, source.y + gap)
@@ -157,19 +159,27 @@ def _numbers(page: Composition, main: Shot, insets: list[Shot], shot: Shot) -> t
     return corner, Words(number, at[0], at[1] + 0.36 * size, size)
 
 
-def _leaders(main: Shot, insets: list[Shot], shot: Shot) -> list[np.ndarray]:
+def _leaders(main: Shot, insets: list[Shot], shot: Shot) -> list[FloatArray]:
     """Lines (2, 2) that join an inset to what it enlarges."""
 
-    def is_taken(points: np.ndarray) -> np.ndarray:
+    def is_taken(points: FloatArray) -> BoolArray:
         return _taken(main, insets, shot, points * (1, -1))
 
-    return [line * (1, -1) for line in joins(_upright(shot.source), _upright(shot.box), is_taken)]
+    source, box = _boxes(shot)
+    return [line * (1, -1) for line in joins(_upright(source), _upright(box), is_taken)]
 
 
-def _taken(main: Shot, insets: list[Shot], shot: Shot, points: np.ndarray) -> np.ndarray:
+def _taken(main: Shot, insets: list[Shot], shot: Shot, points: FloatArray) -> BoolArray:
     """Which of points (k, 2) of the page lie on the shape, on another inset, or on what that enlarges."""
-    others = [_upright(box) for other in insets if other is not shot for box in (other.box, other.source)]
-    return np.any([_on_shape(main, points), *(inside(points * (1, -1), box) for box in others)], axis=0)
+    others = [_upright(box) for other in insets if other is not shot for box in _boxes(other)]
+    is_taken: BoolArray = np.any([_on_shape(main, points), *(inside(points * (1, -1), box) for box in others)], axis=0)
+    return is_taken
+
+
+def _boxes(inset: Shot) -> tuple[Box, Box]:
+    """What an inset enlarges, and its own."""
+    assert inset.source is not None
+    return inset.source, inset.box
 
 
 def _upright(box: Box) -> Rectangle:
@@ -177,7 +187,7 @@ def _upright(box: Box) -> Rectangle:
     return box.x, box.right, -box.bottom, -box.y
 
 
-def _on_shape(shot: Shot, points: np.ndarray) -> np.ndarray:
+def _on_shape(shot: Shot, points: FloatArray) -> BoolArray:
     """Which of points (k, 2) of the page lie on the shape in a picture."""
     alpha = shot.image[..., 3]
     rows, columns = alpha.shape

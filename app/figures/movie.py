@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bihdist_core import BihdistError, OutputError, ParameterError, Surface
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.progress import Progress, part
@@ -109,7 +110,7 @@ def write_movie(
     return fields.examples
 
 
-def route(surface: Surface, stops: tuple[int, ...]) -> np.ndarray:
+def route(surface: Surface, stops: tuple[int, ...]) -> AnyArray:
     """(k,) vertices of the shortest way along edges through the stops; ParameterError where there is none."""
     edges = EdgeGeodesic(surface)
     legs = [edges.path(start, stop) for start, stop in pairwise(stops)]
@@ -216,7 +217,7 @@ def _sources_on(document: Document, surface: str) -> list[Source | None]:
 
 
 # ---------------------------------------------------------------------- files
-def _write_mp4(path: Path, frames: Iterator[np.ndarray], movie: Movie) -> None:
+def _write_mp4(path: Path, frames: Iterator[AnyArray], movie: Movie) -> None:
     import imageio_ffmpeg
 
     first = next(frames)
@@ -230,7 +231,7 @@ def _write_mp4(path: Path, frames: Iterator[np.ndarray], movie: Movie) -> None:
         writer.close()
 
 
-def _send(writer: Generator[None, np.ndarray | None, None], frame: np.ndarray | None) -> None:
+def _send(writer: Generator[None, np.ndarray | None, None], frame: FloatArray | None) -> None:
     try:
         writer.send(frame)
     except (OSError, StopIteration) as error:

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray, IntArray
+
 AT_ONCE = 1_000_000
 """Pairs of a segment and a triangle that are looked at together: what fits into the processor's memory is quick."""
 
@@ -28,7 +30,7 @@ class Occlusion:
     not finite are left out.  vertices: (t, 3) ids.
     """
 
-    def __init__(self, corners: np.ndarray, vertices: np.ndarray) -> None:
+    def __init__(self, corners: FloatArray, vertices: IntArray) -> None:
         xy = corners[..., :2]
         a, b, c = xy[:, 0], xy[:, 1], xy[:, 2]
         area = _cross(b - a, c - a)
@@ -51,7 +53,7 @@ class Occlusion:
             self._cell *= 2
         self._across, self._down = (np.floor(extent / self._cell).astype(int) + 1).tolist()
 
-    def intervals(self, ends: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def intervals(self, ends: FloatArray, on: IntArray) -> tuple[IntArray, FloatArray, FloatArray]:
         """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden; none touch.
 
         ends: (m, 2, 3) of x, y and nearness; on: (m, 4) or (m, 6) vertices that span the face or edge which a segment
@@ -83,7 +85,7 @@ class Occlusion:
             return np.empty(0, int), np.empty(0), np.empty(0)
         return _united(*map(np.concatenate, zip(*found, strict=True)))
 
-    def nearest(self, points: np.ndarray) -> np.ndarray:
+    def nearest(self, points: FloatArray) -> FloatArray:
         """(m,) the nearness of what is seen at points (m, 2) of the picture; -inf where nothing is."""
         seen = np.full(len(points), -np.inf)
         for i, j in self._pairs(points, points):
@@ -97,10 +99,10 @@ class Occlusion:
         return seen
 
     # ------------------------------------------------------------------ who may meet whom
-    def _cells(self, points: np.ndarray) -> np.ndarray:
+    def _cells(self, points: FloatArray) -> IntArray:
         return np.floor((points - self._start) / self._cell).astype(np.int64)
 
-    def _places(self, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _places(self, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
         """Which box (k,) touches which cell (k,) of the grid; finite ones only."""
         most = [self._across - 1, self._down - 1]
         finite = np.flatnonzero(np.isfinite(low).all(axis=1) & np.isfinite(high).all(axis=1))
@@ -116,7 +118,7 @@ class Occlusion:
         y, x = np.divmod(step, across[row])
         return index[row], (first[row, 1] + y) * self._across + first[row, 0] + x
 
-    def _pairs(self, low: np.ndarray, high: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    def _pairs(self, low: FloatArray, high: FloatArray) -> Iterator[tuple[IntArray, IntArray]]:
         """Boxes (k,) and triangles (k,) that share a cell, in parts; all that meet are among them, some twice."""
         box, where = self._places(low, high)
         if not len(box) or not len(self._vertices):
@@ -142,7 +144,7 @@ class Occlusion:
             yield box[rows], triangle[columns]
 
 
-def _keep(start: np.ndarray, stop: np.ndarray, f: np.ndarray, g: np.ndarray) -> None:
+def _keep(start: FloatArray, stop: FloatArray, f: FloatArray, g: FloatArray) -> None:
     """Shrink intervals, in place, to where functions that are f at 0 and g at 1 are positive."""
     with np.errstate(divide="ignore", invalid="ignore"):
         zero = f / (f - g)
@@ -152,7 +154,7 @@ def _keep(start: np.ndarray, stop: np.ndarray, f: np.ndarray, g: np.ndarray) -> 
     np.minimum(stop, zero, out=stop, where=falls)
 
 
-def _united(segment: np.ndarray, start: np.ndarray, stop: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _united(segment: IntArray, start: FloatArray, stop: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
     """Intervals of segments (k,) as few that do not touch."""
     if not len(segment):
         return segment, start, stop
@@ -165,5 +167,5 @@ def _united(segment: np.ndarray, start: np.ndarray, stop: np.ndarray) -> tuple[n
     return segment[first], start[first], ends[last] - 2.0 * segment[last]
 
 
-def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

@@ -188,8 +188,8 @@ def _zooms_of(recipe: Recipe) -> dict[str, Any]:
 
 def _with_zooms(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     found = (zoom if isinstance(zoom, tuple) else (zoom,) for zoom in values["zooms"])
-    zooms = tuple(Zoom(*each[:2], isolines=each[2] if len(each) > 2 else None) for each in found)
-    return with_attribute(recipe, "document.zooms", zooms)
+    zooms = tuple(replace(Zoom(*each[:2]), isolines=each[2] if len(each) > 2 else None) for each in found)
+    return replace(recipe, document=replace(recipe.document, zooms=zooms))
 
 
 def _zoom(text: str) -> tuple[Any, ...]:
@@ -242,7 +242,7 @@ def _with_colours(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
 
         colours = colours_named(chosen, colours)
     flags = {name: values[name] for name in ("reversed", "bands") if name in values}
-    return with_attribute(recipe, "document.colours", replace(colours, **flags))
+    return replace(recipe, document=replace(recipe.document, colours=replace(colours, **flags)))
 
 
 COLOURS = Row(

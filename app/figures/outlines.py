@@ -7,6 +7,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from bihdist_core.analysis.chains import chains
+from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
 from .hidden_lines import HiddenLineRemoval, Part
 
@@ -40,7 +41,7 @@ def outlines(sight: HiddenLineRemoval) -> list[Part]:
     return _lines(nodes, places[:, :2], drawn)
 
 
-def _folds(sight: HiddenLineRemoval) -> tuple[np.ndarray, np.ndarray]:
+def _folds(sight: HiddenLineRemoval) -> tuple[AnyArray, AnyArray]:
     """(k, 2) edges at which the surface turns away, ends, or meets more than one other face, and (k,) a vertex of a
     face at each, on the side where the surface is; -1 where that is both sides."""
     f, at = sight.surface.faces, sight.at[:, :2]
@@ -62,7 +63,7 @@ def _folds(sight: HiddenLineRemoval) -> tuple[np.ndarray, np.ndarray]:
     return edges[fold], inner[fold]
 
 
-def _outside(count: int, edge: np.ndarray, start: np.ndarray, stop: np.ndarray) -> tuple[np.ndarray, ...]:
+def _outside(count: int, edge: AnyArray, start: AnyArray, stop: AnyArray) -> tuple[AnyArray, ...]:
     """(k,) of `count` edges, and from where to where (k,) each is outside of intervals, which are in order."""
     edges = np.concatenate([np.arange(count), edge])
     lows, order = np.concatenate([np.zeros(count), stop]), np.argsort(edges, kind="stable")
@@ -73,7 +74,7 @@ def _outside(count: int, edge: np.ndarray, start: np.ndarray, stop: np.ndarray) 
     return edges[kept], lows[kept], highs[kept]
 
 
-def _is_outline(sight: HiddenLineRemoval, pieces: np.ndarray, inner: np.ndarray) -> np.ndarray:
+def _is_outline(sight: HiddenLineRemoval, pieces: FloatArray, inner: IntArray) -> BoolArray:
     """(k,) whether pieces (k, 2, 3) of folds stand well before what is seen beside them."""
     a, b = pieces[:, 0], pieces[:, 1]
     middle, way = (a + b) / 2, b[:, :2] - a[:, :2]
@@ -83,20 +84,22 @@ def _is_outline(sight: HiddenLineRemoval, pieces: np.ndarray, inner: np.ndarray)
     out *= -np.sign((out * arm).sum(axis=1))[:, None]
     beside = sight.occlusion.nearest(middle[:, :2] + BESIDE * out)
     behind = sight.depth(beside) - sight.depth(middle[:, 2])
-    return (inner < 0) | (np.abs(behind) > STEP * sight.extent)
+    is_outline: BoolArray = (inner < 0) | (np.abs(behind) > STEP * sight.extent)
+    return is_outline
 
 
-def _between(ends: np.ndarray, share: np.ndarray) -> np.ndarray:
-    return ends[:, 0] + share[:, None] * (ends[:, 1] - ends[:, 0])
+def _between(ends: FloatArray, share: FloatArray) -> FloatArray:
+    places: FloatArray = ends[:, 0] + share[:, None] * (ends[:, 1] - ends[:, 0])
+    return places
 
 
-def _lines(nodes: np.ndarray, places: np.ndarray, drawn: np.ndarray) -> list[Part]:
+def _lines(nodes: AnyArray, places: FloatArray, drawn: AnyArray) -> list[Part]:
     """Segments (k, 2) of nodes at places (n, 2) put end to end, without those that are not to be drawn (k,).
 
     Gaps are bridged, and ticks left out.
     """
     found = {frozenset(pair): bool(d) for pair, d in zip(nodes.tolist(), drawn.tolist(), strict=True)}
-    kept: list[np.ndarray] = []
+    kept: list[AnyArray] = []
     for chain, closed in chains(nodes):
         ring = np.append(chain, chain[0]) if closed else chain
         length = np.linalg.norm(np.diff(places[ring], axis=0), axis=1)
@@ -112,7 +115,7 @@ def _lines(nodes: np.ndarray, places: np.ndarray, drawn: np.ndarray) -> list[Par
     return [(places[chain], closed) for chain, closed in chains(segments)]
 
 
-def _bridged(drawn: np.ndarray, length: np.ndarray) -> np.ndarray:
+def _bridged(drawn: AnyArray, length: AnyArray) -> AnyArray:
     """Which segments (k,) of these lengths are drawn, with short gaps between others filled."""
     bounds = np.flatnonzero(np.diff(drawn)) + 1
     total = np.append(0.0, np.cumsum(length))
@@ -123,15 +126,16 @@ def _bridged(drawn: np.ndarray, length: np.ndarray) -> np.ndarray:
     return result
 
 
-def _long_enough(segments: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _long_enough(segments: IntArray, places: FloatArray) -> BoolArray:
     """(k,) whether the connected piece that a segment (k, 2) is part of is no tick."""
     ids, index = np.unique(segments, return_inverse=True)
     pair = index.reshape(-1, 2)
     graph = coo_array((np.ones(len(pair)), (pair[:, 0], pair[:, 1])), shape=(len(ids), len(ids)))
     _, part = connected_components(graph, directed=False)
     length = np.linalg.norm(places[segments[:, 1]] - places[segments[:, 0]], axis=1)
-    return np.bincount(part[pair[:, 0]], length)[part[pair[:, 0]]] >= TICK
+    is_long: BoolArray = np.bincount(part[pair[:, 0]], length)[part[pair[:, 0]]] >= TICK
+    return is_long
 
 
-def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def _cross(a: FloatArray, b: FloatArray) -> AnyArray:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

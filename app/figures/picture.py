@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bihdist_core import ParameterError
+from bihdist_core.arrays import ByteArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
@@ -52,7 +53,7 @@ class Picture:
         return Path(path)
 
     @property
-    def pixels(self) -> np.ndarray:
+    def pixels(self) -> ByteArray:
         """(height, width, 3) uint8, or (height, width, 4) if it is transparent."""
         return draw_figure(self._figure)
 

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-import numpy as np
+from bihdist_core.arrays import ByteArray
 
-from .canvas import POINT
 from .description import Figure
 from .draw import draw_figure
+from .glyphs import POINT
 from .layout import lay_out
 from .shots import RenderCache
 from .size import MM_PER_INCH, UNITS_PER_INCH
@@ -23,7 +23,7 @@ class Preview:
     in points or pixels.
     """
 
-    pixels: np.ndarray
+    pixels: ByteArray
     size: tuple[float, float]
     is_printed: bool
     smallest: float
@@ -49,7 +49,7 @@ def preview(figure: Figure, room: tuple[int, int]) -> Preview:
     return Preview(pixels, (size[0] * per, size[1] * per), is_printed, letters)
 
 
-def whole_picture(figure: Figure, most: int) -> tuple[np.ndarray, float]:
+def whole_picture(figure: Figure, most: int) -> tuple[ByteArray, float]:
     """(height, width, 3 or 4) uint8, as it would be exported, and its pixels per inch.
 
     A picture with more than `most` pixels along a side is drawn smaller.

@@ -7,6 +7,7 @@ import sys
 import numpy as np
 
 from bihdist_core import BihdistError
+from bihdist_core.arrays import ByteArray
 from bihdist_core.progress import Progress, silent
 
 from ..scene.camera import Projection
@@ -66,7 +67,7 @@ class RenderWindow:
         scale: float,
         part: Rectangle = WHOLE,
         progress: Progress | None = None,
-    ) -> np.ndarray:
+    ) -> ByteArray:
         """(height, width, 4) uint8 picture of what is shown, on nothing: the colours are multiplied by alpha.
 
         size: its width and height in pixels; scale: pixels per pixel of the style's line widths; part: of the view.
@@ -98,7 +99,7 @@ class RenderWindow:
         report(1.0, "drawing")
         return picture[:height, :width]
 
-    def _draw(self, projection: Projection, part: Rectangle) -> np.ndarray:
+    def _draw(self, projection: Projection, part: Rectangle) -> ByteArray:
         """One tile, upright, averaged down to the picture's pixels."""
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
@@ -109,7 +110,7 @@ class RenderWindow:
         enlarge[0, 0], enlarge[1, 1] = 2 / (right - left), 2 / (top - bottom)
         enlarge[0, 3], enlarge[1, 3] = -(right + left) / (right - left), -(top + bottom) / (top - bottom)
         matrix = vtkMatrix4x4()
-        matrix.DeepCopy((enlarge @ projection.matrix).ravel())
+        matrix.DeepCopy((enlarge @ projection.matrix).ravel().tolist())
         camera = self._renderer.GetActiveCamera()
         camera.SetPosition(*projection.position)
         camera.SetFocalPoint(*(projection.position - projection.view[2, :3]))
@@ -120,7 +121,7 @@ class RenderWindow:
         self._window.Render()
         width, height = self._window.GetSize()
         read = vtkUnsignedCharArray()
-        self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, read)
+        self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, read, 0)
         fine = vtk_to_numpy(read).reshape(height, width, 4)
         total = np.full((height // self._finer, width // self._finer, 4), self._finer**2 // 2, np.uint16)
         for row in range(self._finer):

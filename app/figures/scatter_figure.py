@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bihdist_core.analysis.field_scatter import FieldScatter
+from bihdist_core.arrays import AnyArray
 from bihdist_core.progress import Progress
 
 from ..scene.density import axis_ends, cell_size, density_picture
@@ -54,7 +55,7 @@ class ScatterFigure:
     up: ScatterAxis
     in_shares: bool = True
     is_common: bool = True
-    selections: tuple[tuple[str, np.ndarray, str], ...] = ()
+    selections: tuple[tuple[str, AnyArray, str], ...] = ()
     correlation: float | None = None
     largest: int | None = None
     look: ChartLook = COLUMN_LOOK
@@ -66,7 +67,7 @@ def axes_of(
     """Both axes, named by fields with such units."""
     ends = axis_ends(scatter, in_shares or units[0] == units[1])
     words = ("% of the maximum", "% of the maximum") if in_shares else units
-    across, up = (ScatterAxis(*each, *end) for *each, end in zip(names, words, ends, strict=True))
+    across, up = (ScatterAxis(name, unit, *end) for name, unit, end in zip(names, words, ends, strict=True))
     return across, up
 
 
@@ -92,8 +93,10 @@ def _draw(page: Figure, figure: ScatterFigure) -> None:
     cells = round(PLOT * look.inches * CELLS_PER_INCH / cell_size(len(figure.scatter.ids)))
     grid = cells, cells, (figure.across.low, figure.across.high), (figure.up.low, figure.up.high)
     chosen = [(vertices, _rgb(colour)) for _, vertices, colour in figure.selections]
-    ink, ground = ([round(255 * x) for x in colour] for colour in (look.style.text, look.style.background))
-    picture = density_picture(figure.scatter, grid, tuple(ink), chosen)
+    (red, green, blue), ground = (
+        [round(255 * x) for x in colour] for colour in (look.style.text, look.style.background)
+    )
+    picture = density_picture(figure.scatter, grid, (red, green, blue), chosen)
     opaque = picture[..., 3:] / 255  # EPS has no other
     picture = np.round(opaque * picture[..., :3] + (1 - opaque) * ground).astype(np.uint8)
     axes.imshow(

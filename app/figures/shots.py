@@ -11,6 +11,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.arrays import ByteArray, FloatArray
 from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
@@ -23,11 +24,12 @@ from ..scene.levels import levels, too_many
 from ..scene.line_labels import Contour, Line
 from ..scene.selected import selected_colours
 from ..scene.style import Style
+from .boxes import Box
 from .description import Figure
 from .framing import Framed, shown_surface
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
-from .layout import Box, Layout
+from .layout import Layout
 from .outlines import outlines
 from .raster import FINER, SAMPLES, Rectangle, RenderWindow
 
@@ -58,11 +60,11 @@ class Shot:
 
     panel: int
     box: Box
-    image: np.ndarray
+    image: ByteArray
     isolines: list[Contour]
     outlines: list[Line]
     marks: list[PlacedMark]
-    frame: np.ndarray
+    frame: FloatArray
     ghosts: list[PlacedMark] = field(default_factory=list)
     source: Box | None = None
     seen: frozenset[str] = frozenset()
@@ -227,14 +229,14 @@ class _Taker:
 
     # ------------------------------------------------------------------ what is seen
     @property
-    def _corner(self) -> np.ndarray:
+    def _corner(self) -> FloatArray:
         return np.array([self._box.x, self._box.y])
 
     def _part(self, source: Box) -> Rectangle:
         whole = self._box
-        x = [2 * (side - whole.x) / whole.width - 1 for side in (source.x, source.right)]
-        y = [1 - 2 * (side - whole.y) / whole.height for side in (source.bottom, source.y)]
-        return (*x, *y)
+        left, right = (2 * (side - whole.x) / whole.width - 1 for side in (source.x, source.right))
+        bottom, top = (1 - 2 * (side - whole.y) / whole.height for side in (source.bottom, source.y))
+        return left, right, bottom, top
 
     def _contours(self, wanted: Isolines) -> list[Contour]:
         """The visible parts of isolines; traced once for all pictures that have the same."""
@@ -264,7 +266,8 @@ class _Taker:
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Those that are seen, and those that the shape hides."""
-        seen, hidden = [], []
+        seen: list[PlacedMark] = []
+        hidden: list[PlacedMark] = []
         for k, mark in enumerate(self._panel.marks):
             point = mark.on(self._surface.vertices)
             x, y, depth = self._sight.pixels(point[None])[0]
@@ -278,12 +281,13 @@ class _Taker:
                 (seen if is_seen else hidden).append((k, float(x), float(y)))
         return seen, hidden
 
-    def _normal(self, mark: PointMark) -> np.ndarray:
+    def _normal(self, mark: PointMark) -> FloatArray:
         faces = self._surface.faces
         there = np.isin(faces, mark.corners).all(axis=1) if mark.corners else (faces == mark.vertex).any(axis=1)
         corners = self._surface.vertices[faces[there]]
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
-        return normal / max(float(np.linalg.norm(normal)), 1e-300)
+        unit: FloatArray = normal / max(float(np.linalg.norm(normal)), 1e-300)
+        return unit
 
 
 def _length(part: Line) -> float:
@@ -297,7 +301,7 @@ class _Move:
     def __init__(self, start: Box, stop: Box) -> None:
         self._from, self._to = start, stop
 
-    def __call__(self, points: np.ndarray) -> np.ndarray:
+    def __call__(self, points: FloatArray) -> FloatArray:
         a, b = self._from, self._to
         share = (points - [a.x, a.y]) / [a.width, a.height]
         return share * [b.width, b.height] + [b.x, b.y]

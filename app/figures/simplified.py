@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
 
-def simplified(points: np.ndarray, tolerance: float) -> np.ndarray:
+
+def simplified(points: FloatArray, tolerance: float) -> FloatArray:
     """Points (k, 2) of a line without those it passes anyway, within `tolerance` (Douglas and Peucker)."""
     keep = np.zeros(len(points), bool)
     keep[[0, -1]] = True

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from vtkmodules.vtkCommonCore import mutable
@@ -10,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 from bihdist_core import Surface
 from bihdist_core.analysis.first_view import is_flat
 from bihdist_core.analysis.view_directions import FIRST_VIEWS
+from bihdist_core.arrays import FloatArray
 
 from ..document.camera import Camera, View
 from ..document.looks import Shading
@@ -42,7 +44,7 @@ def start_and_axis(
     sources: Sequence[int],
     up: str = "y",
     projection: str = "perspective",
-) -> tuple[Camera, np.ndarray]:
+) -> tuple[Camera, FloatArray]:
     """The camera of the first frame, whose extent holds the shape while it turns, and the axis (3,) of the turn.
 
     height: of a height field.  sources: vertices of which, from home, where nobody has chosen, as many are seen as can
@@ -94,7 +96,7 @@ def fitted_size(figure: Figure, extent: tuple[float, float]) -> Size:
     return Size(float(round(width * scale)), float(round(height * scale)), "px", dpi)
 
 
-def _about(camera: Camera, axis: np.ndarray, points: np.ndarray) -> Camera:
+def _about(camera: Camera, axis: FloatArray, points: FloatArray) -> Camera:
     """The camera at the middle of the shape, far enough to see it from everywhere round an axis."""
     axis = axis / np.linalg.norm(axis)
     along = points @ axis
@@ -108,16 +110,16 @@ def _about(camera: Camera, axis: np.ndarray, points: np.ndarray) -> Camera:
     return replace(camera, position=(a, b, c), focal_point=(x, y, z))
 
 
-def _centre(points: np.ndarray) -> np.ndarray:
+def _centre(points: FloatArray) -> FloatArray:
     """(3,) about the middle of the smallest ball round points (n, 3): steps towards the farthest, ever smaller."""
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    middle: FloatArray = (points.min(axis=0) + points.max(axis=0)) / 2
     for k in range(2, 60):
         farthest = points[((points - middle) ** 2).sum(axis=1).argmax()]
         middle = middle + (farthest - middle) / k**1.5
     return middle
 
 
-def _swept(camera: Camera, axis: np.ndarray, points: np.ndarray, turn: float, is_parallel: bool) -> tuple[float, float]:
+def _swept(camera: Camera, axis: FloatArray, points: FloatArray, turn: float, is_parallel: bool) -> tuple[float, float]:
     """The extent that holds points (n, 3) at all angles of a turn."""
     angles = np.append(np.arange(0, min(abs(turn), 360), STEP), min(abs(turn), 360)) * np.sign(turn)
     wide = high = 0.0
@@ -128,17 +130,19 @@ def _swept(camera: Camera, axis: np.ndarray, points: np.ndarray, turn: float, is
     return wide, high
 
 
-def _facing(camera: Camera, axis: np.ndarray, surface: Surface, vertices: Sequence[int]) -> float:
+def _facing(camera: Camera, axis: FloatArray, surface: Surface, vertices: Sequence[int]) -> float:
     """The least turn, in degrees, after which most of the vertices are well seen."""
     locator = vtkStaticCellLocator()
     locator.SetDataSet(drawable(surface, Shading("smooth")))
     locator.BuildLocator()
     tolerance = 1e-6 * float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
 
-    def is_seen(eye: np.ndarray, point: np.ndarray) -> bool:
-        t, where, cell = mutable(0.0), [0.0] * 3, mutable(0)
-        way = point - eye
-        if not locator.IntersectWithLine(eye, eye + 1.001 * way, 0.0, t, where, [0.0] * 3, mutable(0), cell):
+    def is_seen(eye: FloatArray, point: FloatArray) -> bool:
+        t: Any = mutable(0.0)
+        part: Any = mutable(0)
+        cell: Any = mutable(0)
+        where, way = [0.0] * 3, point - eye
+        if not locator.IntersectWithLine([*eye], [*(eye + 1.001 * way)], 0.0, t, where, [0.0] * 3, part, cell):
             return True
         return float(np.linalg.norm(np.array(where) - eye)) >= float(np.linalg.norm(way)) - tolerance
 

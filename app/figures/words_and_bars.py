@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..scene.bands import band_edges, bar_parts
 from ..scene.field_actor import CASING
 from ..scene.levels import BOLD, levels
-from ..scene.style import RIM, Colour
+from ..scene.style import RGBA, RIM, Colour
 from .bars import TICK, Bar
 from .boxes import Box, Words
 from .glyphs import POINT
@@ -90,12 +90,12 @@ def _draw_bar(axes: Axes, page: Composition, bar: Bar) -> None:
         write(axes, page, words)
 
 
-def _across(axes: Axes, bar: Bar, value: float, part: tuple[float, float], colour: Colour, width: float) -> None:
+def _across(axes: Axes, bar: Bar, value: float, part: tuple[float, float], colour: Colour | RGBA, width: float) -> None:
     """A line across a bar at a value; part: from where to where, as shares of the bar's thickness."""
     from matplotlib.lines import Line2D
 
     at, box = bar.place(value), bar.box
-    look = {"color": colour, "linewidth": width * POINT, "solid_capstyle": "butt"}
+    look: dict[str, Any] = {"color": colour, "linewidth": width * POINT, "solid_capstyle": "butt"}
     if bar.is_upright:
         axes.add_artist(Line2D([box.x + share * box.width for share in part], [at, at], **look))
     else:
@@ -143,7 +143,7 @@ def _draw_lines_on_bar(axes: Axes, page: Composition, bar: Bar) -> None:
 def write(axes: Axes, page: Composition, words: Words, order: int = 1000) -> None:
     """Words where the layout has put them; order: what they lie over."""
     style = page.figure.style
-    look = {
+    look: dict[str, Any] = {
         "ha": "center",
         "va": "baseline",
         "size": words.size * POINT,

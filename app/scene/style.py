@@ -13,6 +13,7 @@ from .colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened
 from .oklab import oklab
 
 Colour = tuple[float, float, float]
+RGBA = tuple[float, float, float, float]
 
 WHITE, INK = (1.0, 1.0, 1.0), (0.08, 0.085, 0.1)
 
@@ -102,7 +103,7 @@ class Style:
         """The colour of the isoline at a fraction of the maximum."""
         return self.signed_isoline if signed and share == 0 else self.isoline
 
-    def rim(self, signed: bool, share: float) -> tuple[float, float, float, float] | None:
+    def rim(self, signed: bool, share: float) -> RGBA | None:
         """Red, green, blue and opacity of what is beside that isoline, so that it is seen; None for nothing."""
         if not (signed and self.coloured) or share == 0:
             return None
