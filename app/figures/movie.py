@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bihdist_core import BihdistError, OutputError, ParameterError, Surface
-from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.arrays import AnyArray, ByteArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.progress import Progress, part
@@ -231,7 +231,7 @@ def _write_mp4(path: Path, frames: Iterator[AnyArray], movie: Movie) -> None:
         writer.close()
 
 
-def _send(writer: Generator[None, np.ndarray | None, None], frame: FloatArray | None) -> None:
+def _send(writer: Generator[None, ByteArray | None, None], frame: ByteArray | None) -> None:
     try:
         writer.send(frame)
     except (OSError, StopIteration) as error:

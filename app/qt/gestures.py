@@ -2,8 +2,9 @@
 
 from typing import TYPE_CHECKING
 
-import numpy as np
 from qtpy import QtCore, QtWidgets
+
+from bihdist_core.arrays import AnyArray
 
 from ..document.tools import tools
 from .context import Context
@@ -210,7 +211,7 @@ class Gestures(QtCore.QObject):
         menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(panel, vertex))))
         menu.addAction("Copy values", lambda: _copy(self._values(panel, vertex)))
 
-    def _place(self, panel: int, vertex: int) -> np.ndarray:
+    def _place(self, panel: int, vertex: int) -> AnyArray:
         return self._context.session.surface_in(panel).vertices[vertex]
 
     def _values(self, id: int, vertex: int) -> str:

@@ -44,4 +44,4 @@ class HeldKeys(QtCore.QObject):
             return False
         if not event.isAutoRepeat():
             self.brush_held.emit(is_down)
-        return is_down
+        return bool(is_down)

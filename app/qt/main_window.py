@@ -306,7 +306,7 @@ class MainWindow(QtWidgets.QMainWindow):
         if is_lost and self.context.is_built and self._stack.currentWidget() is self._scroll:
             self.context.focus_panels()
             return True
-        return super().focusNextPrevChild(is_next)
+        return bool(super().focusNextPrevChild(is_next))
 
     def _show_dropping(self, is_dropping: bool) -> None:
         """Whether something is held over the window that may be dropped."""

@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping
 
-import numpy as np
 import pyvista
 from pyvistaqt import BackgroundPlotter
 
 from bihdist_core import Surface
+from bihdist_core.arrays import AnyArray
 
 
-def background_plotter(surface: Surface, fields: Mapping[str, np.ndarray]) -> BackgroundPlotter:
+def background_plotter(surface: Surface, fields: Mapping[str, AnyArray]) -> BackgroundPlotter:
     """Fields (n,) by name become arrays of the points; the first is drawn, NaN in grey."""
     mesh = pyvista.PolyData.from_regular_faces(surface.vertices, surface.faces)
     for name, field in fields.items():

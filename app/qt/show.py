@@ -14,12 +14,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import numpy.typing as npt
 import qtpy
 from qtpy import QtCore
 
 from bihdist_core import BihdistError, ParameterError
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.sources.source import Source, checked_source
 
 from ..document.beside_edits import MOST_SHOWN
@@ -59,9 +59,9 @@ class Pick:
 
     panel: int
     vertex: int
-    position: np.ndarray
+    position: FloatArray
     face: int
-    weights: np.ndarray
+    weights: AnyArray
     values: dict[int, float]
 
 
@@ -79,7 +79,7 @@ class ShownPanel:
     quantity: str
     label: str
     unit: str
-    field: np.ndarray | None
+    field: FloatArray | None
     failure: str
     plotter: "PanelPlotter"
     _drawn: "vtkPolyData"

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.sources.boundary import boundary_loops
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, SurfacePoint
@@ -216,7 +217,7 @@ class SourceGestures(Gesture):
         best = int(np.argmin([np.linalg.norm(x - hit.position) for x in nearest]))
         return members[best] if self._is_near(panel, nearest[best], hit, NEAR / 2) else None
 
-    def _nearest_of(self, panel: int, member: Member, hit: "Hit") -> np.ndarray:
+    def _nearest_of(self, panel: int, member: Member, hit: "Hit") -> AnyArray:
         """(3,) the point of a member that is nearest to a place."""
         pieces = pieces_of(member, self.context.session.surface_in(panel))
         start, stop = pieces.positions(self._grid.panel(panel).positions)
@@ -225,7 +226,7 @@ class SourceGestures(Gesture):
         points = start + np.clip(share, 0, 1)[:, None] * way
         return points[np.linalg.norm(points - hit.position, axis=1).argmin()]
 
-    def _is_near(self, panel: int, point: np.ndarray, hit: "Hit", pixels: float) -> bool:
+    def _is_near(self, panel: int, point: FloatArray, hit: "Hit", pixels: float) -> bool:
         view = self._grid.panel(panel).view
         away = view.place_of(point) - view.place_of(hit.position)
         return float(np.hypot(away.x(), away.y())) <= pixels
@@ -294,7 +295,7 @@ class SourceGestures(Gesture):
         drawn = source_from_strokes(strokes, self.context.session.surface_in(panel), bool(is_closed))
         (self.add if has_ctrl else self.put)(panel, drawn)
 
-    def _on_view(self, panel: int) -> np.ndarray:
+    def _on_view(self, panel: int) -> AnyArray:
         """(k, 2) where what has been drawn is seen."""
         widget, faces = self._grid.panel(panel), self.context.session.surface_in(panel).faces
         places = [place for stroke in self._strokes for place in stroke]

@@ -33,7 +33,7 @@ class LargeIcons(QtWidgets.QProxyStyle):
     def pixelMetric(self, metric, option=None, widget=None) -> int:
         if metric == QtWidgets.QStyle.PixelMetric.PM_SmallIconSize:
             return THUMBNAIL
-        return super().pixelMetric(metric, option, widget)
+        return int(super().pixelMetric(metric, option, widget))
 
 
 class NoUnderlines(QtWidgets.QProxyStyle):
@@ -42,7 +42,7 @@ class NoUnderlines(QtWidgets.QProxyStyle):
     def styleHint(self, hint, option=None, widget=None, returned=None) -> int:
         if hint == QtWidgets.QStyle.StyleHint.SH_UnderlineShortcut:
             return 0
-        return super().styleHint(hint, option, widget, returned)
+        return int(super().styleHint(hint, option, widget, returned))
 
 
 class Menus:

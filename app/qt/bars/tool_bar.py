@@ -137,7 +137,7 @@ class ToolBar(QtWidgets.QToolBar):
         done = super().event(event)
         if event.type() == QtCore.QEvent.Type.LayoutRequest:
             self.fit()  # a value or the source has become wider or narrower
-        return done
+        return bool(done)
 
     def minimumSizeHint(self) -> QtCore.QSize:
         return QtCore.QSize(1, self.height())

@@ -40,7 +40,7 @@ class ToolButton(BareButton):
         texts = self._texts(detail)
         metrics = QtGui.QFontMetrics(self._font)
         width = 2 * PADDING + SIDE + sum(GAP + metrics.horizontalAdvance(text) for text, _ in texts)
-        return width + (GAP - 2 + CHEVRON if self._has_arrow else 0)
+        return int(width + (GAP - 2 + CHEVRON if self._has_arrow else 0))
 
     @property
     def _has_arrow(self) -> bool:

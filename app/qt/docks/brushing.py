@@ -8,6 +8,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import Surface
 from bihdist_core.analysis.selecting import Brush
+from bihdist_core.arrays import AnyArray, IntArray
 from bihdist_core.progress import Progress
 
 from ...document.document import free_names
@@ -54,7 +55,7 @@ class Brushing(QtCore.QObject):
         self._brush: Brush | None = None
         self._waiting: list[tuple[Hit, float]] = []  # places touched before the brush is there
         self._is_lifted = True
-        self._stroke: np.ndarray | None = None  # (n,) bool
+        self._stroke: AnyArray | None = None  # (n,) bool
         self._is_erasing = False
         self._faces: set[int] = set()  # that the pointer itself has been in
         self._making = context.background("brush", _made)
@@ -77,7 +78,7 @@ class Brushing(QtCore.QObject):
         """The selection that the brush adds to; "" for a new one."""
         self.current = name
 
-    def select(self, vertices: np.ndarray, way: str = "new") -> None:
+    def select(self, vertices: IntArray, way: str = "new") -> None:
         """A new selection of vertices (k,), or these "added" to or "removed" from the current one."""
         session = self._context.session
         document = session.document

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.arrays import AnyArray
+
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number, tick, ticks
 
@@ -111,7 +113,7 @@ class Chart(QtWidgets.QWidget):
     @staticmethod
     def baseline(plot: QtCore.QRectF, metrics: QtGui.QFontMetricsF) -> float:
         """Of the words under the axis across."""
-        return round(plot.bottom() + 6 + metrics.ascent())
+        return float(round(plot.bottom() + 6 + metrics.ascent()))
 
     # ------------------------------------------------------------------ where
     @property
@@ -122,7 +124,7 @@ class Chart(QtWidgets.QWidget):
         right, bottom = round(self.RIGHT * scale), round(self.BOTTOM * scale)
         return QtCore.QRectF(left, top, max(self.width() - left - right, 1), max(self.height() - top - bottom, 1))
 
-    def pixels(self, x: float | np.ndarray, y: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def pixels(self, x: float | AnyArray, y: float | AnyArray) -> tuple[AnyArray, AnyArray]:
         """Where values are, in the widget's pixels."""
         plot = self.plot
         right = plot.left() + (np.asarray(x, float) - self.across.low) / self.across.span * plot.width()

@@ -5,10 +5,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError, SurfacePoint
+from bihdist_core.arrays import AnyArray
 
 from ...document.file import recipe_text
 from ...document.file_names import file_name
@@ -70,7 +70,7 @@ class _Waiting(QtCore.QObject):
         draughtsman.refused.connect(self._refuse)
         draughtsman.dropped.connect(self._drop)
 
-    def _take(self, number: int, found: tuple[np.ndarray, float]) -> None:
+    def _take(self, number: int, found: tuple[AnyArray, float]) -> None:
         if number == self.number:
             self.deleteLater()
             pixels, per_inch = found

@@ -2,8 +2,7 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
 from ...document.beside_edits import letter_of
@@ -44,7 +43,7 @@ class FieldFiles:
             elif panels:
                 self._context.fail(" ".join(self._why_not(panel) for panel in panels))
 
-    def _write(self, title: str, panel: Panel, name: str, fields: dict[str, np.ndarray], path: str, said: str) -> None:
+    def _write(self, title: str, panel: Panel, name: str, fields: dict[str, AnyArray], path: str, said: str) -> None:
         session = self._context.session
         surface, letter = session.surface_in(panel.id), letter_of(session.document, panel)
 
@@ -55,7 +54,7 @@ class FieldFiles:
         name = file_name([surface.name], *letter, name)
         self._context[Writing].save(title, name, FIELD_FORMATS, write, path, said)
 
-    def _fields(self, panels: Sequence[Panel]) -> dict[str, np.ndarray]:
+    def _fields(self, panels: Sequence[Panel]) -> dict[str, FloatArray]:
         """(n,) each, of the panels that have one, by name."""
         session = self._context.session
         there = [panel for panel in panels if self._has_field(panel)]

@@ -61,7 +61,7 @@ class Files(QtCore.QObject):
         elif event.type() == kinds.Drop:
             self.dropping.emit(False)
             self._take(event)
-        return super().eventFilter(watched, event)
+        return bool(super().eventFilter(watched, event))
 
     def _take(self, drop: QtGui.QDropEvent) -> None:
         paths = [url.toLocalFile() for url in drop.mimeData().urls() if url.isLocalFile()]

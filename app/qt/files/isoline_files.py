@@ -7,6 +7,7 @@ import numpy as np
 from bihdist_core import Surface
 from bihdist_core.analysis.isoline_output import ISOLINE_FORMATS, write_isolines
 from bihdist_core.analysis.isoline_tracing import isolines
+from bihdist_core.arrays import FloatArray
 from bihdist_core.errors import ParameterError
 
 from ...document.field_names import field_names
@@ -24,11 +25,11 @@ class Levels:
     """
 
     surface: Surface
-    field: np.ndarray
+    field: FloatArray
     name: str
     label: str
     maximum: float
-    values: np.ndarray
+    values: FloatArray
 
 
 def levels_of(context: Context, panel: int) -> Levels | None:

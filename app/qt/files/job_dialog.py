@@ -291,7 +291,7 @@ class Count(QtWidgets.QSpinBox):
 def _height(layout: QtWidgets.QLayout, width: int) -> int:
     """What it needs at a width; sentences of several lines depend on it."""
     layout.activate()
-    return layout.totalHeightForWidth(width) if layout.hasHeightForWidth() else layout.totalSizeHint().height()
+    return int(layout.totalHeightForWidth(width) if layout.hasHeightForWidth() else layout.totalSizeHint().height())
 
 
 def _sentence() -> QtWidgets.QLabel:

@@ -9,6 +9,7 @@ import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import BihdistError
+from bihdist_core.arrays import AnyArray
 
 from ...figures.worker import GONE, Worker
 from ..look.look import LOOK
@@ -132,13 +133,13 @@ class PreviewPane(QtWidgets.QWidget):
         self.is_true, self.is_waiting = False, True
         self.update()
 
-    def show_late(self, pixels: np.ndarray) -> None:
+    def show_late(self, pixels: AnyArray) -> None:
         """A picture of what was chosen before, while another one is drawn."""
         self.image, self._small = image_of(pixels), QtGui.QImage()
         self.say("", False)
         self.is_waiting = True
 
-    def show_picture(self, pixels: np.ndarray, caption: str, is_warning: bool) -> None:
+    def show_picture(self, pixels: AnyArray, caption: str, is_warning: bool) -> None:
         self.image, self.is_true = image_of(pixels), True
         self._small = QtGui.QImage()
         self.say(caption, is_warning)
@@ -191,7 +192,7 @@ class PreviewPane(QtWidgets.QWidget):
         return QtCore.QRect((self.width() - width) // 2, (self.height() - self.LINE - height) // 2, width, height)
 
 
-def image_of(pixels: np.ndarray) -> QtGui.QImage:
+def image_of(pixels: AnyArray) -> QtGui.QImage:
     """A picture (height, width, 3 or 4) uint8 that owns its memory."""
     height, width, channels = pixels.shape
     kinds = QtGui.QImage.Format

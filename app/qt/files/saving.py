@@ -61,7 +61,7 @@ def ask_path(context: Context, title: str, name: str, formats: Sequence[str]) ->
         return ""
     (path,) = dialog.selectedFiles()
     context.folder = os.path.dirname(path)
-    return path
+    return str(path)
 
 
 def written(context: Context, path: str, write: Callable[[str], object]) -> bool:

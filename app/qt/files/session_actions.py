@@ -298,7 +298,7 @@ def _mesh_instead(context: Context, message: str, path: str) -> str:
     if as_it_is is not None and box.clickedButton() is as_it_is:
         return path
     if box.clickedButton() is choose:
-        return QtWidgets.QFileDialog.getOpenFileName(context.widget, "The mesh of this session", "", MESH_FILES)[0]
+        return str(QtWidgets.QFileDialog.getOpenFileName(context.widget, "The mesh of this session", "", MESH_FILES)[0])
     return ""
 
 

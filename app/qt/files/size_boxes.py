@@ -60,7 +60,7 @@ class SizeBoxes(QtWidgets.QWidget):
     def _text(self) -> str:
         number = self.rows.checkedId()
         if 0 <= number < len(self._sizes):
-            return self._sizes[number][1]
+            return str(self._sizes[number][1])
         width, height = self.width_box.text().strip(), self.height_box.text().strip()
         dpi = self.dpi.text().strip()
         if not width and not height and not dpi:
@@ -78,7 +78,7 @@ class SizeBoxes(QtWidgets.QWidget):
 
     def name(self) -> str:
         """Of the chosen row."""
-        return self.rows.checkedButton().text()
+        return str(self.rows.checkedButton().text())
 
     def write(self, text: str) -> None:
         """Show a size as it is written: its row, or one's own."""

@@ -15,7 +15,7 @@ class BareButton(QtWidgets.QToolButton):
     @property
     def is_pointed(self) -> bool:
         """Whether the pointer is on it; while a menu is open Qt does not notice that it leaves."""
-        return self.underMouse() and self.rect().contains(self.mapFromGlobal(QtGui.QCursor.pos()))
+        return bool(self.underMouse() and self.rect().contains(self.mapFromGlobal(QtGui.QCursor.pos())))
 
     @property
     def has_keys(self) -> bool:

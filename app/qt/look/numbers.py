@@ -96,7 +96,7 @@ def _cell(font: str) -> float:
     known = QtGui.QFont()
     known.fromString(font)
     metrics = QtGui.QFontMetricsF(known)
-    return max(metrics.horizontalAdvance(digit) for digit in "0123456789")
+    return float(max(metrics.horizontalAdvance(digit) for digit in "0123456789"))
 
 
 def _runs(text: str) -> list[tuple[str, bool]]:

@@ -10,7 +10,7 @@ class TextBox(QtWidgets.QLineEdit):
         if event.type() == QtCore.QEvent.Type.ShortcutOverride and not self._edits(event):
             event.ignore()
             return True
-        return super().event(event)
+        return bool(super().event(event))
 
     def _edits(self, event: QtGui.QKeyEvent) -> bool:
         """Whether a key is for the text rather than for the window."""
@@ -18,9 +18,9 @@ class TextBox(QtWidgets.QLineEdit):
         if not event.modifiers() & (modifier.ControlModifier | modifier.AltModifier | modifier.MetaModifier):
             return True
         if event.matches(keys.Undo):
-            return self.isUndoAvailable()
+            return bool(self.isUndoAvailable())
         if event.matches(keys.Redo):
-            return self.isRedoAvailable()
+            return bool(self.isRedoAvailable())
         always = (keys.SelectAll, keys.Copy, keys.Cut, keys.Paste)
         moves = (keys.MoveToNextWord, keys.MoveToPreviousWord, keys.SelectNextWord, keys.SelectPreviousWord)
         deletes = (keys.DeleteStartOfWord, keys.DeleteEndOfWord)

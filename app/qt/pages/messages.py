@@ -129,7 +129,7 @@ class WhichFile(QtWidgets.QDialog):
 
     @property
     def chosen(self) -> str:
-        return self.list.currentItem().data(QtCore.Qt.ItemDataRole.UserRole)
+        return str(self.list.currentItem().data(QtCore.Qt.ItemDataRole.UserRole))
 
 
 class _PathRows(QtWidgets.QStyledItemDelegate):
@@ -308,7 +308,7 @@ class _TwoLines(QtWidgets.QWidget):
         return True
 
     def heightForWidth(self, width: int) -> int:
-        return max(len(self.lines(width)), 1) * QtGui.QFontMetrics(LOOK.font()).lineSpacing() + 2
+        return int(max(len(self.lines(width)), 1) * QtGui.QFontMetrics(LOOK.font()).lineSpacing() + 2)
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -8,6 +8,8 @@ import numpy as np
 from PIL import Image
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from ..look.look import LOOK
 from ..remembered import Recent
@@ -212,7 +214,7 @@ def cut_out(name: str) -> QtGui.QPixmap:
     return QtGui.QPixmap.fromImage(image)
 
 
-def without_ground(picture: np.ndarray) -> np.ndarray:
+def without_ground(picture: AnyArray) -> AnyArray:
     """(h, w, 3) bytes, of something on white, as (h, w, 4): white is seen through, but not lines that cross the thing.
 
     The ground is what is white and wide.  A pixel beside it is a mixture of white with what is there, for which the
@@ -232,7 +234,7 @@ def without_ground(picture: np.ndarray) -> np.ndarray:
     return found[edge:-edge, edge:-edge]
 
 
-def _largest(values: np.ndarray, steps: int) -> np.ndarray:
+def _largest(values: FloatArray, steps: int) -> AnyArray:
     """Over the square of so many pixels to each side."""
     for axis in (0, 1):
         before = values

@@ -99,7 +99,7 @@ class Tour(QtCore.QObject):
 
     @property
     def is_on(self) -> bool:
-        return self._again.isActive()
+        return bool(self._again.isActive())
 
     def start(self) -> None:
         """From the first step, also when it is on already."""

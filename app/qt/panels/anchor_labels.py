@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
 from qtpy import QtCore, QtGui
+
+from bihdist_core.arrays import FloatArray
 
 from ..look.look import LOOK
 
@@ -16,7 +17,7 @@ AWAY, HEIGHT, PAD, DOT = 9.0, 21.0, 5.0, 6.0
 class AnchorLabel:
     """A value at a position (3,); is_chosen: it stands out."""
 
-    position: np.ndarray
+    position: FloatArray
     text: str
     is_chosen: bool = False
 

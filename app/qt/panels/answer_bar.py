@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 
 from ...scene.bands import beyond
@@ -10,7 +11,7 @@ from ..look.numbers import number
 from .colour_bar import ColourBar
 
 
-def show_answer(bar: ColourBar, answer: Answer, scene: PanelScene, edges: np.ndarray, in_shares: bool) -> None:
+def show_answer(bar: ColourBar, answer: Answer, scene: PanelScene, edges: FloatArray, in_shares: bool) -> None:
     """Show the range of an answer with a field as a scene draws it, and a remark.
 
     edges: (k,) fractions of the maximum at which bands of colour end; in_shares: ticks are fractions of the maximum.

@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.arrays import FloatArray
+
 from ..look.look import LOOK
 from ..look.numbers import number, paint_number
 from ..look.theme import contrast
@@ -284,14 +286,14 @@ class ColourBar(QtWidgets.QWidget):
         painter.fillRect(box, colour)
 
 
-def _bands(colours: np.ndarray, edges: np.ndarray) -> list[tuple[float, QtGui.QColor]]:
+def _bands(colours: FloatArray, edges: FloatArray) -> list[tuple[float, QtGui.QColor]]:
     """Where each of the bands begins, 0 to 1, and its colour; none where colours (k, 3) run into each other."""
     if len(edges) != len(colours) - 1 or not len(edges):
         return []
     return [(float(at), QtGui.QColor.fromRgbF(*rgb)) for at, rgb in zip([0.0, *edges], colours, strict=True)]
 
 
-def _gradient(colours: np.ndarray) -> QtGui.QBrush:
+def _gradient(colours: FloatArray) -> QtGui.QBrush:
     """Colours (k, 3) from the left to the right end of whatever is filled with them."""
     return _gradient_of(colours.tobytes(), len(colours))
 

@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ..look.look import LOOK
 from .overlay import shrunk
 from .seen_places import SeenPlaces
@@ -23,7 +25,7 @@ class ExtremumMarks(SeenPlaces):
         super().__init__(view)
         self.is_maximum = np.empty(0, bool)
 
-    def show(self, positions: np.ndarray, is_maximum: np.ndarray) -> None:
+    def show(self, positions: FloatArray, is_maximum: AnyArray) -> None:
         """Positions (k, 3), and (k,) whether they are maxima."""
         if np.array_equal(positions, self.positions) and np.array_equal(is_maximum, self.is_maximum):
             return

@@ -8,6 +8,7 @@ import numpy as np
 from qtpy import QtCore
 
 from bihdist_core.analysis.upright import axis_of
+from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...document.camera import Camera, View
 from ...scene.camera import camera_seen, carried, outwards_at, show_camera, standard_camera
@@ -75,7 +76,7 @@ class Eye(QtCore.QObject):
         return camera_seen(self.camera, self.aspect)
 
     @property
-    def upright(self) -> np.ndarray | None:
+    def upright(self) -> FloatArray | None:
         """(3,) what stays upright; None if the surface turns freely."""
         up = self._session.document.up_of(self.surface)
         return axis_of(up) if self.is_turntable and up != "auto" else None
@@ -127,7 +128,7 @@ class Eye(QtCore.QObject):
         show_camera(self.camera, carried(self.known, before, after), self.aspect, None, is_parallel)
         return self.note()
 
-    def _source_seen(self) -> np.ndarray | None:
+    def _source_seen(self) -> AnyArray | None:
         """(3,) the way out of the surface where the first panel's field starts."""
         document, surface = self._session.document, self._loaded.surface
         names = [name for panel in document.panels_of(self.surface) for name in panel.shows.points]

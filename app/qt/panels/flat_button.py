@@ -46,7 +46,7 @@ class FlatButton(BareButton):
     @property
     def is_cut(self) -> bool:
         """Whether there is less room than the words need."""
-        return self.width() < self.sizeHint().width()
+        return bool(self.width() < self.sizeHint().width())
 
     def sizeHint(self) -> QtCore.QSize:
         if self.icon_name:

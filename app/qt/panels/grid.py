@@ -329,7 +329,7 @@ class PanelGrid(QtWidgets.QWidget):
                     self.activate(id)
         if event.type() == QtCore.QEvent.Type.KeyPress and self.keys(event):
             return True
-        return super().eventFilter(watched, event)
+        return bool(super().eventFilter(watched, event))
 
     def turn_wheel(self, factor: float) -> None:
         """-1 for a wheel that goes the other way."""

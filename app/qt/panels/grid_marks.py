@@ -2,8 +2,9 @@
 
 from collections.abc import Callable, Mapping
 
-import numpy as np
 from qtpy import QtGui
+
+from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...document.anchors import Anchors
 from ...document.document import Document, Panel
@@ -36,7 +37,7 @@ class GridMarks:
         self.lit: tuple[str, ...] = ()
         self.chosen_anchor = self.chosen_pair = ""
         self._is_drawn_on = self._keeps_steps = False
-        self._selected: Mapping[str, np.ndarray | None] = {}
+        self._selected: Mapping[str, AnyArray | None] = {}
         self._brush: QtGui.QCursor | None = None
 
     @property
@@ -135,7 +136,7 @@ class GridMarks:
             if self._session.surface is not None:
                 self.show_pins(self._session.document)
 
-    def show_selected(self, colours: Mapping[str, np.ndarray | None]) -> None:
+    def show_selected(self, colours: Mapping[str, FloatArray | None]) -> None:
         """Vertices that stand out in the panels of each surface, see `selected_colours`."""
         self._selected = colours
         for panel in self._panels.values():

@@ -343,7 +343,7 @@ class PanelHead(QtWidgets.QWidget):
         return [], False, False
 
     def _top(self, height: int) -> int:
-        return (self.height() - height) // 2
+        return int((self.height() - height) // 2)
 
     # ------------------------------------------------------------------ events
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
@@ -355,7 +355,7 @@ class PanelHead(QtWidgets.QWidget):
         )
         if pressed or reached:
             self.clicked.emit()
-        return super().eventFilter(watched, event)
+        return bool(super().eventFilter(watched, event))
 
     def mousePressEvent(self, event: QtGui.QMouseEvent) -> None:
         self.clicked.emit()

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ...scene.field_actor import CASING
 from ...scene.levels import BOLD
 from ...scene.line_labels import PAD, STRAIGHT
@@ -37,8 +39,8 @@ def label_font(ratio: float) -> QtGui.QFont:
 
 
 def painted(
-    picture: np.ndarray, written: Sequence[Written], style: Style, signed: bool, top: float, ratio: float
-) -> np.ndarray:
+    picture: AnyArray, written: Sequence[Written], style: Style, signed: bool, top: float, ratio: float
+) -> AnyArray:
     """A copy of a picture (h, w, 4) of a field that goes up to `top`, with these on it; ratio: device pixels each."""
     result = picture.copy()
     for label in written:
@@ -68,7 +70,7 @@ def painted(
     return _pixels(image)
 
 
-def _open(picture: np.ndarray, label: Written, style: Style, ratio: float) -> None:
+def _open(picture: AnyArray, label: Written, style: Style, ratio: float) -> None:
     """A gap in the line, in place: as the surface is on both sides of it."""
     height, width, _ = picture.shape
     across = style.isoline_width / 2 * (BOLD if label.is_bold or label.is_through else 1.0)
@@ -87,7 +89,7 @@ def _open(picture: np.ndarray, label: Written, style: Style, ratio: float) -> No
     inside = (np.abs(along) <= half) & (np.abs(side) <= band)
     along, side, off = along[inside], side[inside], off[inside]
 
-    def beside(which: int) -> np.ndarray:
+    def beside(which: int) -> AnyArray:
         at = np.floor(middle + along[:, None] * way + which * (band + 1) * normal).astype(int)
         return picture[at[:, 1].clip(0, height - 1), at[:, 0].clip(0, width - 1)].astype(float)
 
@@ -96,7 +98,7 @@ def _open(picture: np.ndarray, label: Written, style: Style, ratio: float) -> No
     picture[row, column] = np.round((1 - share) * beside(-1) + share * beside(1)).astype(np.uint8)
 
 
-def _pixels(image: QtGui.QImage) -> np.ndarray:
+def _pixels(image: QtGui.QImage) -> FloatArray:
     """(h, w, 4) a copy of its pixels."""
     memory = image.constBits()
     if hasattr(memory, "setsize"):  # of PyQt

@@ -10,6 +10,7 @@ import numpy as np
 from qtpy import QtCore, QtGui
 
 from bihdist_core import Surface
+from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...scene.camera import SeenNow
 from ...scene.corners import Rectangle
@@ -43,12 +44,12 @@ class Asked:
     """
 
     surface: Surface
-    outward: np.ndarray | None
-    field: np.ndarray
+    outward: AnyArray | None
+    field: FloatArray
     projection: SeenNow
     picture: tuple[float, float]
     parts: tuple[Part, ...]
-    marked: np.ndarray
+    marked: FloatArray
     apart: float
     size: float
     widths: dict[str, float]
@@ -219,8 +220,8 @@ def _written(label: Label, line: Contour, width: float) -> Written:
 
 
 def _cover(
-    covers: Callable[[np.ndarray], np.ndarray], part: Part, others: Sequence[Rectangle], frames: Sequence[Rectangle]
-) -> np.ndarray:
+    covers: Callable[[AnyArray], AnyArray], part: Part, others: Sequence[Rectangle], frames: Sequence[Rectangle]
+) -> AnyArray:
     """(k, l) whether places all over a part, row by row, are on the shape, and in none of other boxes.
 
     frames: these boxes' sides keep free, too, but not what is in them.
@@ -237,14 +238,14 @@ def _cover(
     return is_on.reshape(down, across)
 
 
-def _within(places: np.ndarray, box: Rectangle, beyond: float) -> np.ndarray:
+def _within(places: FloatArray, box: Rectangle, beyond: float) -> AnyArray:
     """Which of places (k, 2) are in a box that is larger by so much at each side."""
     left, right, top, bottom = box
     x, y = places.T
     return (x > left - beyond) & (x < right + beyond) & (y > top - beyond) & (y < bottom + beyond)
 
 
-def _is_on(cover: np.ndarray, box: Rectangle, places: np.ndarray) -> np.ndarray:
+def _is_on(cover: AnyArray, box: Rectangle, places: FloatArray) -> AnyArray:
     """The same of places (k, 2) of the part in this box."""
     rows, columns = cover.shape
     shares = _shares(places, box)
@@ -268,14 +269,14 @@ def _moved(lines: Sequence[Line], part: Part) -> list[Line]:
     return found
 
 
-def _shares(points: np.ndarray, box: Rectangle) -> np.ndarray:
+def _shares(points: FloatArray, box: Rectangle) -> AnyArray:
     """Points (…, 2) as shares of a box with y down."""
     return (points - _corner(box)) / _size(box)
 
 
-def _corner(box: Rectangle) -> np.ndarray:
+def _corner(box: Rectangle) -> AnyArray:
     return np.array([box[0], box[2]])
 
 
-def _size(box: Rectangle) -> np.ndarray:
+def _size(box: Rectangle) -> AnyArray:
     return np.array([box[1] - box[0], box[3] - box[2]])

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ...scene.axes import arms, middle
 from ...scene.camera import camera_seen, frame
 from ...scene.lines_of_sight import pixels_in
@@ -38,7 +40,7 @@ class MarksOver:
         self.pointed: Pointed | None = None
         self.sentence = ""
         self.notes: Sequence[str] = ()
-        self.strokes: Sequence[np.ndarray] = ()  # (k, 3) each: what has been drawn
+        self.strokes: Sequence[AnyArray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
         self._pins: tuple[PinMark, ...] = ()
         self._unseen: frozenset[int] | None = None  # which pins the surface hides; None until it is looked
@@ -109,12 +111,12 @@ class MarksOver:
         at = self._seen_pins()[number][1]
         return QtCore.QPoint(int(np.floor(at.x())), int(np.floor(at.y())))
 
-    def show_strokes(self, strokes: Sequence[np.ndarray]) -> None:
+    def show_strokes(self, strokes: Sequence[AnyArray]) -> None:
         """What has been drawn so far, points (k, 3)."""
         self.strokes = strokes
         self._view.update()
 
-    def show_dabs(self, points: np.ndarray | None, colour: str = "") -> None:
+    def show_dabs(self, points: FloatArray | None, colour: str = "") -> None:
         """More vertices (k, 3) that a brush has touched, shown as long as the brush is down; None for none."""
         if points is None:
             self._dabs.clear()
@@ -124,7 +126,7 @@ class MarksOver:
             self._dabs.append((colour, QtGui.QPolygonF([QtCore.QPointF(*place) for place in at.tolist()])))
         self._view.update()
 
-    def show_ends(self, points: np.ndarray) -> None:
+    def show_ends(self, points: FloatArray) -> None:
         """Rings at points (k, 3) that are joined with each other, dashed where the surface hides them."""
         if len(points) or len(self.ends):
             self.ends = points

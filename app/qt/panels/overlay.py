@@ -5,8 +5,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-import numpy as np
 from qtpy import QtCore, QtGui
+
+from bihdist_core.arrays import FloatArray
 
 from ...marks.line_looks import SOURCE
 from ...scene.axes import ARM, Arm
@@ -34,7 +35,7 @@ class Pointed:
     position: (3,); is_hidden: whether the surface is before it; value, share: what the label at the pointer says.
     """
 
-    position: np.ndarray
+    position: FloatArray
     is_own: bool
     is_hidden: bool = False
     value: str = ""

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ...scene.picking import pixel_of
 from ..look.look import LOOK
 from . import overlay
@@ -41,7 +43,7 @@ class CandidateMark:
     """Where the partner of a point would be, at a position (3,); value and share stand beside it."""
 
     number: int
-    position: np.ndarray
+    position: FloatArray
     value: str
     share: str
 
@@ -54,11 +56,11 @@ class PairMarks:
         self._marks: tuple[PinMark, ...] = ()
         self.candidate: CandidateMark | None = None
         self.is_meant = False
-        self.truth: tuple[np.ndarray, ...] = ()
+        self.truth: tuple[AnyArray, ...] = ()
         self._hidden: frozenset[int] | None = None  # what the surface is before; None until it is looked
 
     def show(
-        self, marks: tuple[PinMark, ...], candidate: CandidateMark | None, truth: tuple[np.ndarray, ...] = ()
+        self, marks: tuple[PinMark, ...], candidate: CandidateMark | None, truth: tuple[AnyArray, ...] = ()
     ) -> None:
         """Put drops at these places, and crosses at positions (3,)."""
         if marks or candidate or truth or self._marks or self.candidate or self.truth:
@@ -84,7 +86,7 @@ class PairMarks:
         """By number, but for those that an inset covers."""
         return {m.number: (m, at) for m in self._marks if (at := self._place(m.position)) is not None}
 
-    def _place(self, position: np.ndarray) -> QtCore.QPointF | None:
+    def _place(self, position: FloatArray) -> QtCore.QPointF | None:
         view = self._view
         x, y = pixel_of(view.renderer, position)
         if view.scene.insets.renderer_at(x, y) is not view.renderer:

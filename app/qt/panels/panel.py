@@ -9,6 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from bihdist_core import Surface
 from bihdist_core.analysis.places import Places
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import COMPARISON, Zoom
@@ -185,7 +186,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.scene.show_bands(self._edges)
 
     @property
-    def _edges(self) -> np.ndarray:
+    def _edges(self) -> AnyArray:
         """(k,) fractions of the maximum at which bands end."""
         is_signed = self.answer is not None and self.answer.is_signed
         return band_edges(self._lines, self.view.scene.maximum, is_signed)
@@ -214,7 +215,7 @@ class DistancePanel(QtWidgets.QWidget):
         return self._isolines
 
     @property
-    def marked(self) -> np.ndarray:
+    def marked(self) -> FloatArray:
         """(k, 3) where marks are."""
         largest = None if self.answer is None else self.answer.largest
         ids = [vertex for vertex in (self.marks.source, largest) if vertex is not None]
@@ -231,7 +232,7 @@ class DistancePanel(QtWidgets.QWidget):
         return self.marks.source
 
     @property
-    def positions(self) -> np.ndarray:
+    def positions(self) -> FloatArray:
         """(n, 3) where the vertices are drawn."""
         return self.marks.positions
 

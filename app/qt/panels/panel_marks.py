@@ -7,6 +7,7 @@ import numpy as np
 from bihdist_core import Surface
 from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.region_boundaries import Boundary
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.sources.pieces import Pieces
 
 from ...marks.field_marks import source_lines
@@ -98,7 +99,7 @@ class PanelMarks:
         self._view.scene.show_source_lines(lines)
         self._view.redraw()
 
-    def show_strokes(self, strokes: Sequence[tuple[np.ndarray, np.ndarray]]) -> None:
+    def show_strokes(self, strokes: Sequence[tuple[AnyArray, AnyArray]]) -> None:
         """What has been drawn so far: of each stroke the corners (k, 3) of faces, and the weights (k, 3) of these."""
         self._view.over.show_strokes([np.einsum("kc,kcx->kx", w, self.positions[corners]) for corners, w in strokes])
 
@@ -172,13 +173,13 @@ class PanelMarks:
             mark = CandidateMark(candidate.number, position, str(candidate.vertex), said)
         self._view.over.pairs.show(tuple(marks), mark, tuple(self.positions[vertex] for vertex in self._truth))
 
-    def show_selected(self, colours: np.ndarray | None) -> None:
+    def show_selected(self, colours: FloatArray | None) -> None:
         """Vertices that stand out, see `selected_colours`."""
         if colours is None or len(colours) == len(self.positions):
             self._view.scene.show_selected(colours)
             self._view.redraw()
 
-    def show_dabs(self, vertices: np.ndarray | None, colour: str = "") -> None:
+    def show_dabs(self, vertices: IntArray | None, colour: str = "") -> None:
         """More vertices (k,) that a brush has touched, None for none; see `MarksOver.show_dabs`."""
         self._view.over.show_dabs(None if vertices is None else self.positions[vertices], colour)
 

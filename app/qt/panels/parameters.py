@@ -48,7 +48,7 @@ class ChoiceControl(FlatButton):
 
     def least(self, with_slider: bool) -> int:
         """Pixels that it needs."""
-        return self.sizeHint().width()
+        return int(self.sizeHint().width())
 
     most = least
 
@@ -134,7 +134,7 @@ class NumberControl(QtWidgets.QWidget):
         self.button.symbol, self.button.has_arrow = self.sign, not with_slider
         width = self.button.sizeHint().width()
         self.button.symbol, self.button.has_arrow = shown
-        return width
+        return int(width)
 
     def _sign_width(self) -> int:
         return round(PAD + number_width(LOOK.font(), self.sign) + GAP + 0.5)

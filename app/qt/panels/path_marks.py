@@ -3,6 +3,8 @@
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ...marks.line_looks import PATH
 from ...scene.lines_of_sight import seen_in
 from ...scene.offscreen_renderer import OffscreenRenderer
@@ -21,7 +23,7 @@ class PathMarks:
         self.points = np.empty((0, 3))
         self.pixels, self.is_seen = np.empty((0, 2)), np.empty(0, bool)
 
-    def show(self, points: np.ndarray) -> bool:
+    def show(self, points: FloatArray) -> bool:
         """Through points (k, 3) of the surface, none if there are none; whether that has to be drawn."""
         before, self.points = self.points, points
         return bool(len(points) or len(before))
@@ -59,7 +61,7 @@ class PathMarks:
         painter.restore()
 
 
-def _runs(places: np.ndarray, is_meant: np.ndarray) -> list[QtGui.QPolygonF]:
+def _runs(places: FloatArray, is_meant: AnyArray) -> list[QtGui.QPolygonF]:
     """The pieces both of whose ends are meant; a change in between belongs to neither, so that they just meet."""
     meant = is_meant & np.isfinite(places).all(axis=1)
     pieces = meant[:-1] & meant[1:]

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from bihdist_core.arrays import FloatArray
+
 from ..look.look import LOOK
 from .overlay import shrunk
 
@@ -30,7 +32,7 @@ class PinMark:
     """A pin at a position (3,), in a colour such as "#1F7A3D"; is_lit: it stands out."""
 
     number: int
-    position: np.ndarray
+    position: FloatArray
     colour: str
     is_lit: bool = False
 
@@ -72,7 +74,7 @@ def drop_under(
 
 def is_in_drop(place: QtCore.QPointF, tip: QtCore.QPointF, share: float) -> bool:
     """Whether the drop with its tip at one place covers another, at a share of the usual size of marks."""
-    return drop_at(tip).contains(tip + (place - tip) / max(share, LEAST))
+    return bool(drop_at(tip).contains(tip + (place - tip) / max(share, LEAST)))
 
 
 def _upwards(

@@ -42,7 +42,7 @@ class Pointer:
     @property
     def is_up(self) -> bool:
         """Whether no button is down."""
-        return self._button == _NONE
+        return bool(self._button == _NONE)
 
     def draw_on(self, is_drawn_on: bool) -> None:
         """Whether the left button draws on the surface, and no longer turns it there."""

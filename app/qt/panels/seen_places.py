@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from qtpy import QtCore
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 REST_MS = 120
 """After the last move of the camera it is looked anew which of many places are hidden."""
 
@@ -24,14 +26,14 @@ class SeenPlaces(QtCore.QObject):
         self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
         self._rest.timeout.connect(self._look)
 
-    def place(self, positions: np.ndarray) -> None:
+    def place(self, positions: FloatArray) -> None:
         """Be at these positions (k, 3)."""
         if len(positions) or len(self.positions):
             self.positions, self._looked_from = positions, None
             self._is_seen = np.ones(len(positions), bool)
             self._view.update()
 
-    def seen(self) -> np.ndarray:
+    def seen(self) -> AnyArray:
         """(k,) which of them are seen; of many as it was where the camera rested last."""
         if self._looked_from != self._camera():
             if self._looked_from is None or len(self.positions) <= AT_ONCE:

@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from qtpy import QtCore, QtGui
 
+from bihdist_core.arrays import FloatArray
+
 from ...scene.picking import pixel_of
 from ...scene.source_disc import DASHED, DASHES, HALO, RIM
 from ...scene.style import Colour
@@ -36,7 +38,7 @@ class SourceMarks(SeenPlaces):
                     paint_dashed(painter, at, across, style.background, style.text)
         painter.restore()
 
-    def at(self, renderer: Any, position: np.ndarray) -> QtCore.QPointF:
+    def at(self, renderer: Any, position: FloatArray) -> QtCore.QPointF:
         """Where a position (3,) is seen in the view or in an inset, in logical pixels."""
         x, y = pixel_of(renderer, position)
         ratio = self._view.devicePixelRatioF()

@@ -7,6 +7,8 @@ import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ...scene import moves
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.picking import Hit, Picker, pixel_of
@@ -53,10 +55,10 @@ class View(QtWidgets.QWidget):
         self.picker: Picker | None = None
         self.handles = np.empty((0, 3))  # where the source's marks are
         self.wheel_factor = 1.0  # -1 for a wheel that goes the other way
-        self.upright: np.ndarray | None = None  # what stays upright while the surface turns
+        self.upright: FloatArray | None = None  # what stays upright while the surface turns
         self._picture: QtGui.QImage | None = None
         self._drawing = np.empty((0, 0, 4), np.uint8)
-        self._written: np.ndarray | None = None
+        self._written: AnyArray | None = None
         self.pictures = 0  # how many have been drawn
         self._is_stale = True
         self._is_empty = True
@@ -158,7 +160,7 @@ class View(QtWidgets.QWidget):
             self.drawn.emit()
         return self._picture
 
-    def _image(self, pixels: np.ndarray) -> QtGui.QImage:
+    def _image(self, pixels: AnyArray) -> QtGui.QImage:
         """In the memory of pixels (h, w, 4), which have to be kept."""
         height, width, _ = pixels.shape
         image = QtGui.QImage(pixels.data, width, height, 4 * width, QtGui.QImage.Format.Format_RGBX8888)
@@ -166,11 +168,11 @@ class View(QtWidgets.QWidget):
         return image
 
     @property
-    def picture(self) -> np.ndarray | None:
+    def picture(self) -> AnyArray | None:
         """(h, w, 4) uint8: the surface as it is seen now; None before it is drawn again."""
         return None if self._is_stale or self._is_empty or self._picture is None else self._drawing
 
-    def write(self, pixels: np.ndarray) -> None:
+    def write(self, pixels: AnyArray) -> None:
         """The picture (h, w, 4) with what is written on it, until the next one is drawn."""
         self._written, self._picture = pixels, self._image(pixels)
         self.update()
@@ -181,7 +183,7 @@ class View(QtWidgets.QWidget):
             self.scene.show_stand_in(False)
             self.redraw()
 
-    def shot(self) -> np.ndarray:
+    def shot(self) -> AnyArray:
         """(height, width, 3) uint8: the surface and what is written on it, without what lies over it."""
         self.draw_in_full()
         self._drawn()
@@ -189,7 +191,7 @@ class View(QtWidgets.QWidget):
         return (self._drawing if self._written is None else self._written)[..., :3].copy()
 
     # ------------------------------------------------------------------ places
-    def place_of(self, point: np.ndarray) -> QtCore.QPointF:
+    def place_of(self, point: FloatArray) -> QtCore.QPointF:
         """Where a point (3,) is seen, in logical pixels."""
         x, y = pixel_of(self.renderer, point)
         ratio = self.devicePixelRatioF()
@@ -203,7 +205,7 @@ class View(QtWidgets.QWidget):
         self.offscreen.fit(self.pixels)
         return self.picker.pick(self.scene.insets.renderer_at(*pixel), *pixel)
 
-    def sees(self, point: np.ndarray) -> bool:
+    def sees(self, point: FloatArray) -> bool:
         """Whether no part of the surface is before a point (3,) of it."""
         return self.picker is None or self.picker.sees(self.renderer, point)
 
@@ -212,7 +214,7 @@ class View(QtWidgets.QWidget):
         ratio = self.devicePixelRatioF()
         return (position.x() + 0.5) * ratio, (self.height() - position.y() - 0.5) * ratio
 
-    def pixel_size(self, point: np.ndarray) -> float:
+    def pixel_size(self, point: FloatArray) -> float:
         """How long a logical pixel is at a point (3,)."""
         camera = self.camera
         if camera.GetParallelProjection():
@@ -221,7 +223,7 @@ class View(QtWidgets.QWidget):
         return float(2 * depth * np.tan(np.radians(camera.GetViewAngle()) / 2) / max(self.height(), 1))
 
     @property
-    def source(self) -> np.ndarray | None:
+    def source(self) -> AnyArray | None:
         """(3,) where its first mark is."""
         return self.handles[0] if len(self.handles) else None
 
@@ -294,12 +296,12 @@ class View(QtWidgets.QWidget):
         moves.shift(self.camera, right * KEY_SHIFT, up * KEY_SHIFT, 1)
         self.moved.emit()
 
-    def centre(self, point: np.ndarray) -> None:
+    def centre(self, point: FloatArray) -> None:
         """Let a point (3,) be in the middle, and what is turned about."""
         moves.centre(self.camera, point)
         self.moved.emit()
 
-    def _focal_point(self) -> np.ndarray:
+    def _focal_point(self) -> AnyArray:
         return np.array(self.camera.GetFocalPoint())
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
@@ -150,7 +151,10 @@ class ErrorTable(QtWidgets.QWidget):
     @staticmethod
     def numbers(row: MapCurve) -> tuple[str, str, str]:
         """Of a line."""
-        return tuple("∞" if np.isinf(x) else number(x) for x in (row.errors.mean, row.errors.median, row.errors.area))
+        mean, median, area = (
+            "∞" if np.isinf(x) else number(x) for x in (row.errors.mean, row.errors.median, row.errors.area)
+        )
+        return mean, median, area
 
     def sizeHint(self) -> QtCore.QSize:
         count = len(self.rows) + len(self.failures)
@@ -199,7 +203,9 @@ class ErrorTable(QtWidgets.QWidget):
                 paint_number(painter, right - number_width(usual, text), baseline, text)
 
     @staticmethod
-    def _columns(heads: Sequence[str], lines: Sequence[tuple], small: QtGui.QFont, usual: QtGui.QFont) -> list[float]:
+    def _columns(
+        heads: Sequence[str], lines: Sequence[tuple[Any, ...]], small: QtGui.QFont, usual: QtGui.QFont
+    ) -> list[float]:
         """The widths of the columns of numbers, with the air before each."""
         metrics = QtGui.QFontMetricsF(small)
         return [

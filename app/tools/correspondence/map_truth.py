@@ -46,7 +46,7 @@ class MapTruth:
         """One of TRUTHS, but for "auto", which means one of the others."""
         truth, asked = self._context.document[Maps].truth, self._section.asked
         if truth.word != "auto" or asked is None:
-            return truth.word
+            return str(truth.word)
         return "identity" if is_same_ids(asked.one.surface, asked.two.surface) else "none"
 
     def _fill(self) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from bihdist_core import BihdistError, Cancelled, ShepardInterpolant, Surface, VertexError
 from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed
 from bihdist_core.distances.kinds import Spec
@@ -113,6 +114,6 @@ class InterpolantQuestion(ByDistance):
         known = {*last.anchors.tolist()}.difference(last.missing)
         return all(vertex_at(at, loaded.surface) in known for at, _ in self.anchors)
 
-    def start(self, field: np.ndarray, surface: Surface) -> Source:
+    def start(self, field: FloatArray, surface: Surface) -> Source:
         """The anchors."""
         return SourceSet(tuple(vertex_at(at, surface) for at, _ in self.anchors))

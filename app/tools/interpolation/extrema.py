@@ -1,15 +1,20 @@
 """The extrema that interpolants have besides their anchors: a table in the dock, and a line in each panel."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from qtpy import QtWidgets
 
 from bihdist_core.applications.tips import at_tips, tips
+from bihdist_core.arrays import AnyArray, IntArray
+from bihdist_core.progress import Progress
 
 from ...document.document import Document
 from ...document.quantities import kind_name
 from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
 from ...qt.docks.findings import Findings
+from ...session.loaded_mesh import LoadedMesh
 from .quantity import interpolated
 
 
@@ -19,8 +24,8 @@ class AnchorExtrema(FactTable):
     def __init__(self, context: Context, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self._context = context
-        self._ends: np.ndarray | None = None  # the tips of the surface; None until they are found
-        self._about: tuple | None = None
+        self._ends: IntArray | None = None  # the tips of the surface; None until they are found
+        self._about: tuple[object, ...] | None = None
         self._tips = context.background("tips", _found_tips)
         self._tips.answered.connect(self._take_tips)
         self._tips.failed.connect(self._no_tips)
@@ -34,7 +39,7 @@ class AnchorExtrema(FactTable):
             self._tips.ask(about)
         self.show_counts()
 
-    def _take_tips(self, _: object, found: np.ndarray) -> None:
+    def _take_tips(self, _: object, found: AnyArray) -> None:
         self._ends = found
         self.show_counts()
 
@@ -78,6 +83,6 @@ def in_words(near: int, elsewhere: int) -> tuple[str, str]:
     return f"{near + elsewhere} {word} besides the anchors{at_tips_too}", f"{near + elsewhere}{at_tips_too}"
 
 
-def _found_tips(about, progress):
+def _found_tips(about: tuple[LoadedMesh, str], progress: Progress) -> Iterator[IntArray]:
     loaded, areas = about
     yield tips(loaded.distances(areas).laplacian)

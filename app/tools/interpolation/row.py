@@ -117,7 +117,7 @@ class AnchorRow(QtWidgets.QWidget):
             self._choose()
         if event.type() == QtCore.QEvent.Type.KeyPress and self._pressed(watched, event.key()):
             return True
-        return super().eventFilter(watched, event)
+        return bool(super().eventFilter(watched, event))
 
     def _pressed(self, widget: QtCore.QObject, key: int) -> bool:
         """Whether that was a key of the list: up and down, and away with it where nothing is typed."""

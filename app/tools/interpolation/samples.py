@@ -4,6 +4,7 @@ import numpy as np
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError
+from bihdist_core.arrays import AnyArray
 from bihdist_core.sources.source import SourceSet
 
 from ...document.anchors import Anchors, add_anchor
@@ -28,7 +29,7 @@ class AnchorSamples(QtWidgets.QWidget):
         super().__init__()
         self._context = context
         self._sampling = Sampling(context[Findings].post, self._sampled, self._show_going)
-        self._asked: tuple[Document, np.ndarray, int] | None = None  # of whose anchors, by which panel
+        self._asked: tuple[Document, AnyArray, int] | None = None  # of whose anchors, by which panel
         self.add = QtWidgets.QPushButton("Add samples", autoDefault=False)
         self.add.setToolTip("Anchors at points that are farthest from each other, by the active panel's distance")
         self.add.clicked.connect(self.add_them)

@@ -7,6 +7,7 @@ from html import escape
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import Source
 
@@ -91,7 +92,7 @@ class PinDistances(QtWidgets.QWidget):
     def is_known(self) -> bool:
         return self.matrix() is not None
 
-    def matrix(self) -> np.ndarray | None:
+    def matrix(self) -> FloatArray | None:
         """(k, k) what is shown; None as long as it is not known."""
         return self.known(self.spec)
 
@@ -143,7 +144,7 @@ class PinDistances(QtWidgets.QWidget):
         self._fit()
         self._say_pair(*self.cells.cell)
 
-    def known(self, spec: Spec) -> np.ndarray | None:
+    def known(self, spec: Spec) -> AnyArray | None:
         """(k, k) the distances among the pins; None as long as they are not known."""
         session = self.context.session
         loaded = session.loaded()
@@ -180,7 +181,7 @@ class PinDistances(QtWidgets.QWidget):
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
         if event.type() == QtCore.QEvent.Type.Resize:
             self._fit()
-        return super().eventFilter(watched, event)
+        return bool(super().eventFilter(watched, event))
 
     def _fit(self) -> None:
         """Cells as wide as there is room for, and the line close under them."""

@@ -6,6 +6,7 @@ import numpy as np
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError
+from bihdist_core.arrays import FloatArray
 from bihdist_core.counts import counted
 from bihdist_core.formats.pins import PIN_FORMATS, Pins, read_pins, write_pins
 
@@ -71,7 +72,7 @@ class PinFiles:
         """The list with all digits, with a tab between columns."""
         self._copy(pins_text(self._pins(), self._context.session.surface, answers), "The list of pins")
 
-    def copy_matrix(self, matrix: np.ndarray) -> None:
+    def copy_matrix(self, matrix: FloatArray) -> None:
         """The same of the distances among them."""
         self._copy(matrix_text(self._pins(), matrix), "The distances among pins")
 

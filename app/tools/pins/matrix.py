@@ -5,6 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.arrays import FloatArray
+
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, number_width, paint_number
 from ...qt.look.theme import between
@@ -26,7 +28,7 @@ class PinMatrix(QtWidgets.QWidget):
         self.setMouseTracking(True)
         self.setAccessibleName("Distances among pins")
         self._pins: tuple[tuple[int, str], ...] = ()
-        self._matrix: np.ndarray | None = None
+        self._matrix: FloatArray | None = None
         self._texts: list[list[str]] = []
         self._room = 0
         self._across = 0.0  # the width of a column
@@ -34,7 +36,7 @@ class PinMatrix(QtWidgets.QWidget):
         LOOK.follow(self, self._fit)
 
     # ------------------------------------------------------------------ what is shown
-    def show_matrix(self, pins: Sequence[tuple[int, str]], matrix: np.ndarray | None) -> None:
+    def show_matrix(self, pins: Sequence[tuple[int, str]], matrix: FloatArray | None) -> None:
         """pins: their numbers and colours; matrix: (k, k), None while it is not known."""
         self._pins, self._matrix = tuple(pins), matrix
         self._texts = [] if matrix is None else [[number(value) for value in row] for row in matrix.tolist()]

@@ -23,9 +23,10 @@ def _pins_of(recipe: Recipe) -> dict[str, Any]:
         raise NotExpressible("Two pins are at one place.")
     if [pin.colour for pin in pins] != [k % MARK_COLOURS for k in range(len(pins))]:
         raise NotExpressible("Pins have other colours than usual.")
-    if not all(isinstance(point.at, int | SurfacePoint) for point in points):
+    places = [point.at for point in points if isinstance(point.at, int | SurfacePoint)]
+    if len(places) < len(points):
         raise NotExpressible("A pin is at more than a point.")
-    return {"pins": [point.at if isinstance(point.at, int) else words_of(point.at) for point in points]} if pins else {}
+    return {"pins": [at if isinstance(at, int) else words_of(at) for at in places]} if pins else {}
 
 
 def _with_pins(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:

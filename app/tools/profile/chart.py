@@ -5,6 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ...qt.docks.badges import BADGE, Badge, paint_badge
 from ...qt.docks.chart import Axis, CardLine, Chart, paint_card, paint_dot
 from ...qt.look.look import LOOK
@@ -40,7 +42,7 @@ class ProfileChart(Chart):
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
 
     # ------------------------------------------------------------------ what is shown
-    def show_path(self, arcs: np.ndarray, unit: str, knots: Sequence[tuple[float, Badge]]) -> None:
+    def show_path(self, arcs: AnyArray, unit: str, knots: Sequence[tuple[float, Badge]]) -> None:
         """Points at lengths (k,) in a unit; knots: the lengths at which it goes through marked points."""
         self.arcs, self.length_unit, self.knots = arcs, unit, knots
         self._fit()
@@ -63,7 +65,7 @@ class ProfileChart(Chart):
             self._head = ("" if arc is None else f"at {number(arc)} of {number(length)}", said)
             self.update()
 
-    def plotted(self, curve: ProfileCurve) -> np.ndarray:
+    def plotted(self, curve: ProfileCurve) -> AnyArray:
         """(k,) what is drawn of a curve."""
         return curve.shares if self.in_shares else curve.values
 
@@ -92,7 +94,7 @@ class ProfileChart(Chart):
         if is_override and event.key() == QtCore.Qt.Key.Key_Escape and self.at is not None:
             event.accept()  # it stops nothing else meanwhile
             return True
-        return super().event(event)
+        return bool(super().event(event))
 
     def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
         """The arrows go along the path, with Shift in larger steps."""
@@ -204,7 +206,7 @@ def _words(curve: ProfileCurve, at: float) -> tuple[str, str]:
     return number(at, curve.is_signed), part
 
 
-def value_at(arcs: np.ndarray, values: np.ndarray, arc: float) -> float:
+def value_at(arcs: AnyArray, values: FloatArray, arc: float) -> float:
     """Between two points values (k,) change linearly; NaN next to where there are none."""
     k = int(np.clip(np.searchsorted(arcs, arc, side="right") - 1, 0, len(arcs) - 2))
     span = arcs[k + 1] - arcs[k]
@@ -226,7 +228,7 @@ def apart(places: Sequence[float], step: float, low: float, high: float) -> list
     return found
 
 
-def _lines(x: np.ndarray, y: np.ndarray) -> list[QtGui.QPolygonF]:
+def _lines(x: AnyArray, y: AnyArray) -> list[QtGui.QPolygonF]:
     """The parts of a curve between places where it has no value."""
     known = np.isfinite(y)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], known, [False]]).astype(int)))

@@ -2,8 +2,9 @@
 
 from collections.abc import Sequence
 
-import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
+
+from bihdist_core.arrays import AnyArray
 
 from ...qt.docks.badges import Badge
 from ...qt.look.look import LOOK
@@ -38,7 +39,7 @@ class ProfileCharts(QtWidgets.QWidget):
         return self.charts[0].at
 
     @property
-    def arcs(self) -> np.ndarray:
+    def arcs(self) -> AnyArray:
         return self.charts[0].arcs
 
     @property
@@ -61,7 +62,7 @@ class ProfileCharts(QtWidgets.QWidget):
             self._show_count(1)
         self.charts[0].say(sentence)
 
-    def show_path(self, arcs: np.ndarray, unit: str, knots: Sequence[tuple[float, Badge]]) -> None:
+    def show_path(self, arcs: AnyArray, unit: str, knots: Sequence[tuple[float, Badge]]) -> None:
         """See `ProfileChart.show_path`."""
         for chart in self.charts:
             chart.show_path(arcs, unit, knots)

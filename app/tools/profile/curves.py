@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.difference import PERCENTAGE_POINTS
 
@@ -22,7 +21,7 @@ class ProfileCurve:
 
     name: str
     colour: str
-    values: np.ndarray
+    values: FloatArray
     whole: float
     unit: str = ""
     is_signed: bool = False
@@ -30,13 +29,13 @@ class ProfileCurve:
     is_dashed: bool = False
 
     @property
-    def shares(self) -> np.ndarray:
+    def shares(self) -> FloatArray:
         """(k,) the values as shares of the greatest."""
         return self.values / 100 if self.is_share else self.values / self.whole if self.whole > 0 else 0 * self.values
 
 
 def profile_curve(
-    document: Document, panel: int, answer: Answer, values: np.ndarray, colours: Sequence[str]
+    document: Document, panel: int, answer: Answer, values: FloatArray, colours: Sequence[str]
 ) -> ProfileCurve:
     """values: (k,) of the answer's field at the points of the path.  colours: for the panels, in the document's order.
 

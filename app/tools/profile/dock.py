@@ -9,6 +9,7 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.surface_paths import SurfacePath
+from bihdist_core.arrays import FloatArray
 
 from ...document.document import Document
 from ...document.profile import Profile, points_along
@@ -275,7 +276,7 @@ class ProfileDock(Instrument):
     def leaveEvent(self, event: QtCore.QEvent) -> None:
         self._point(None)
 
-    def _arc_near(self, point: np.ndarray) -> float | None:
+    def _arc_near(self, point: FloatArray) -> float | None:
         """The length up to the place of the path that is nearest to a point (3,) of the surface, if that is seen near
         it."""
         path = self.path
@@ -291,7 +292,7 @@ class ProfileDock(Instrument):
         self.choices.show(self.document, shares=word == "share")
 
 
-def nearest_arc(path: SurfacePath, point: np.ndarray) -> float:
+def nearest_arc(path: SurfacePath, point: FloatArray) -> float:
     """The length up to the point of a path that is nearest to a point (3,)."""
     a, b = path.points[:-1], path.points[1:]
     side = b - a

@@ -7,14 +7,20 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from textwrap import wrap
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bihdist_core import ParameterError
+from bihdist_core.arrays import FloatArray
 from bihdist_core.progress import Progress
 
 from ...figures.chart_page import USUAL_LOOK, ChartLook, faded, save_chart, style_axes
 from .curves import ProfileCurve, parted
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.text import Annotation
 
 LEAST_ACROSS = 2.8
 """Inches that each of several plots side by side has at least; else they stand below each other."""
@@ -47,7 +53,7 @@ class ProfileFigure:
     Curves of one unit share a plot; in_shares: all are drawn as fractions of their maxima, in percent.
     """
 
-    arcs: np.ndarray
+    arcs: FloatArray
     curves: tuple[ProfileCurve, ...]
     in_shares: bool = True
     unit: str = ""
@@ -71,7 +77,7 @@ def save_profile_figure(figure: ProfileFigure, path: str | os.PathLike[str], pro
     save_chart(path, figure.look, high, lambda page: _fill(page, figure, is_row), progress)
 
 
-def _fill(page, figure: ProfileFigure, is_row: bool) -> None:
+def _fill(page: Any, figure: ProfileFigure, is_row: bool) -> None:
     plots = figure.plots
     rows = page.subplots(*((1, len(plots)) if is_row else (len(plots), 1)), squeeze=False)
     named = []
@@ -92,7 +98,7 @@ def _fill(page, figure: ProfileFigure, is_row: bool) -> None:
         _spread(axes, figure.look.points, names)
 
 
-def _draw(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[np.ndarray]) -> None:
+def _draw(axes: "Axes", figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[FloatArray]) -> None:
     """drawn: (k,) of each curve."""
     for curve, values in zip(curves, drawn, strict=True):
         dashes = "--" if curve.is_dashed else "-"
@@ -101,7 +107,7 @@ def _draw(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Se
     axes.set_xlim(0, figure.arcs[-1] or 1.0)
 
 
-def _fit(axes, in_shares: bool, has_whole: bool) -> None:
+def _fit(axes: "Axes", in_shares: bool, has_whole: bool) -> None:
     """has_whole: 100% is the most that one of them can have."""
     if in_shares and min(axes.get_ylim()) > -5 and has_whole:
         axes.set_ylim(0, max(100.0, axes.get_ylim()[1] if axes.get_ylim()[1] > 106 else 100.0))
@@ -109,7 +115,7 @@ def _fit(axes, in_shares: bool, has_whole: bool) -> None:
         axes.set_ylim(bottom=0)
 
 
-def _mark(axes, figure: ProfileFigure, has_discs: bool) -> None:
+def _mark(axes: "Axes", figure: ProfileFigure, has_discs: bool) -> None:
     """The points that the path goes through, by lines and, over the plot, by discs; never one on another."""
     style, points = figure.look.style, figure.look.points
     across = 1.5 * points
@@ -121,7 +127,7 @@ def _mark(axes, figure: ProfileFigure, has_discs: bool) -> None:
         if not has_discs or not knot.colour or any(abs(knot.arc - other) < apart for other in taken):
             continue
         taken.append(knot.arc)
-        disc = {"boxstyle": "circle,pad=0.25", "facecolor": knot.colour, "edgecolor": "none"}
+        disc: dict[str, Any] = {"boxstyle": "circle,pad=0.25", "facecolor": knot.colour, "edgecolor": "none"}
         if not knot.number:
             disc |= {"edgecolor": style.mark_edge, "linewidth": 0.8, "boxstyle": "circle,pad=0.1"}
         axes.annotate(
@@ -139,7 +145,9 @@ def _mark(axes, figure: ProfileFigure, has_discs: bool) -> None:
         )
 
 
-def _name(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[np.ndarray]) -> list:
+def _name(
+    axes: "Axes", figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[FloatArray]
+) -> list["Annotation"]:
     """Each curve's name at its end, from the lowest up."""
     ends = [
         (float(values[np.isfinite(values)][-1]), curve)
@@ -162,7 +170,7 @@ def _name(axes, figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Se
     ]
 
 
-def _spread(axes, points: float, names: Sequence) -> None:
+def _spread(axes: "Axes", points: float, names: Sequence[Any]) -> None:
     """One above the other where they would touch."""
     low, high = axes.get_ylim()
     line = points * 1.25 / 72 / (axes.get_position().height * axes.figure.get_figheight())

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from bihdist_core.analysis.surface_paths import SurfacePath
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document
@@ -38,9 +39,9 @@ def profile_figure(document: Document, page: Page, path: SurfacePath, answers: M
     )
 
 
-def profile_fields(document: Document, answers: Mapping[int, Answer]) -> dict[str, np.ndarray]:
+def profile_fields(document: Document, answers: Mapping[int, Answer]) -> dict[str, FloatArray]:
     """The fields (n,) of the panels that have one, by names that differ."""
-    found: dict[str, np.ndarray] = {}
+    found: dict[str, FloatArray] = {}
     for panel in document.panels:
         answer = answers.get(panel.id)
         if answer is None or answer.field is None:

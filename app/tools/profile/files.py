@@ -5,11 +5,11 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-import numpy as np
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
 from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.whole_file import check_output
 
@@ -101,7 +101,7 @@ class ProfileFiles:
         """Of the panels that have a curve."""
         return {id: self._dock.context.session.shown[id].answer for id in self._dock.curves}
 
-    def _fields(self) -> dict[str, np.ndarray]:
+    def _fields(self) -> dict[str, FloatArray]:
         from .figure_curves import profile_fields
 
         return profile_fields(self._dock.context.document, self._answers)

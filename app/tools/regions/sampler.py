@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 
-import numpy as np
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError, Surface
 from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
+from bihdist_core.arrays import AnyArray, IntArray
 
 from ...document.document import Panel
 from ...document.file_names import file_name
@@ -26,7 +26,7 @@ class Sampler(QtWidgets.QWidget):
     def __init__(self, context: Context, post: Callable[[Callable[[], None]], None]) -> None:
         super().__init__()
         self._context = context
-        self._then: Callable[[np.ndarray], None] = lambda vertices: None
+        self._then: Callable[[AnyArray], None] = lambda vertices: None
         self._sampling = Sampling(post, self._sampled, self._show_going)
         self.count = QtWidgets.QSpinBox()
         self.count.setRange(1, MOST)
@@ -84,7 +84,7 @@ class Sampler(QtWidgets.QWidget):
         """Write them to a file once they are found."""
         surface = self._surface
 
-        def write(vertices: np.ndarray) -> None:
+        def write(vertices: IntArray) -> None:
             written(self._context, path, lambda path: write_samples(path, surface, vertices))
 
         self._ask(write)
@@ -92,7 +92,7 @@ class Sampler(QtWidgets.QWidget):
     def _save(self) -> None:
         surface = self._surface
 
-        def ask(vertices: np.ndarray) -> None:
+        def ask(vertices: IntArray) -> None:
             save(
                 self._context,
                 "Save farthest points",
@@ -103,14 +103,14 @@ class Sampler(QtWidgets.QWidget):
 
         self._ask(ask)
 
-    def _pin(self, vertices: np.ndarray) -> None:
+    def _pin(self, vertices: IntArray) -> None:
         session = self._context.session
         try:
             session.show(add_pins(session.document, vertices.tolist(), self._name))
         except BihdistError as error:
             self._say(str(error), is_error=True)
 
-    def _ask(self, then: Callable[[np.ndarray], None]) -> None:
+    def _ask(self, then: Callable[[AnyArray], None]) -> None:
         session, panel = self._context.session, self._panel
         loaded = session.loaded(panel.surface) if panel is not None else None
         if panel is None or loaded is None:

@@ -7,6 +7,7 @@ import numpy as np
 
 from bihdist_core import BihdistError, Cancelled, ParameterError, SolverError, Surface
 from bihdist_core.analysis.diagnostics import field_change
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed, percent, same_on
 from bihdist_core.distances.difference import PERCENTAGE_POINTS, difference_in_unit
@@ -70,17 +71,17 @@ class ChangeQuestion(ByDistance):
             remark=remark,
         )
 
-    def start(self, field: np.ndarray, surface: Surface) -> Source:
+    def start(self, field: FloatArray, surface: Surface) -> Source:
         """The point on the changed surface."""
         return source_at(self.at, surface)
 
 
-def crosses_itself(field: np.ndarray, faces: np.ndarray) -> bool:
+def crosses_itself(field: FloatArray, faces: IntArray) -> bool:
     """Whether the zeros of a field (n,) are no line but everywhere, as in what noise does to a distance."""
     corners = field[faces]
     crossed = int(((corners.min(axis=1) < 0) & (corners.max(axis=1) > 0)).sum())
     # A line once around a shape crosses a few times the root of the number of faces.
-    return crossed > ROUGH * np.sqrt(len(faces))
+    return bool(crossed > ROUGH * np.sqrt(len(faces)))
 
 
 def _sides(question: ChangeQuestion, loaded: LoadedMesh, progress: Progress | None) -> tuple[Answer, Answer]:
@@ -129,7 +130,7 @@ def change_numbers(question: ChangeQuestion, loaded: LoadedMesh, progress: Progr
     )
 
 
-def _common(before: np.ndarray | None, after: np.ndarray | None, ids: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _common(before: AnyArray | None, after: AnyArray | None, ids: IntArray) -> tuple[AnyArray, AnyArray]:
     """(k,) each: the fields at the vertices that both surfaces have, where they are finite."""
     assert before is not None
     assert after is not None
@@ -138,7 +139,7 @@ def _common(before: np.ndarray | None, after: np.ndarray | None, ids: np.ndarray
     return old[both], after[both]
 
 
-def _compared(before: np.ndarray | None, after: np.ndarray | None, ids: np.ndarray) -> tuple[np.ndarray, str]:
+def _compared(before: FloatArray | None, after: FloatArray | None, ids: IntArray) -> tuple[FloatArray, str]:
     """The field, and its numbers in words.  before: (n,); after: (n',); ids: (n',) of the vertices before, or -1."""
     assert before is not None
     assert after is not None

@@ -3,11 +3,11 @@
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 from bihdist_core.applications.changes import Perturbation, count_of
+from bihdist_core.arrays import IntArray
 from bihdist_core.counts import counted
 from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
 
@@ -218,7 +218,7 @@ class RobustnessDock(Instrument):
         if event.type() == QtCore.QEvent.Type.Wheel and not watched.hasFocus():
             event.ignore()
             return True
-        return super().eventFilter(watched, event)
+        return bool(super().eventFilter(watched, event))
 
     def show_closed(self) -> None:
         self.asking.forget()
@@ -315,7 +315,7 @@ class RobustnessDock(Instrument):
         self._picking.stop()
         self._brushing.switch(is_on, cuts=True)
 
-    def _cut(self, faces: np.ndarray, is_restored: bool) -> None:
+    def _cut(self, faces: IntArray, is_restored: bool) -> None:
         self._set(cut=cut_by(self.settings.cut, faces, is_restored))
 
     def _fill_cut(self) -> None:

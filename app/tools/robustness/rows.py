@@ -26,11 +26,11 @@ class Scale:
     digits: int = 0
 
     def at(self, step: int) -> float:
-        return round(self.low + (self.high - self.low) * (step / STEPS) ** self.power, self.digits)
+        return round(self.low + (self.high - self.low) * float((step / STEPS) ** self.power), self.digits)
 
     def step_of(self, value: float) -> int:
         share = (value - self.low) / (self.high - self.low) if self.high > self.low else 0.0
-        return round(STEPS * min(max(share, 0.0), 1.0) ** (1 / self.power))
+        return round(STEPS * float(min(max(share, 0.0), 1.0) ** (1 / self.power)))
 
 
 class AmountRow(QtWidgets.QWidget):

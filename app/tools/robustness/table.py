@@ -82,7 +82,7 @@ class ChangeTable(QtWidgets.QWidget):
 
     def text(self) -> str:
         """With tabulators and all digits."""
-        lines = [("distance", "mean fraction", "largest fraction", "mean", "largest", "unit")]
+        lines: list[tuple[str, ...]] = [("distance", "mean fraction", "largest fraction", "mean", "largest", "unit")]
         for name, each in self.numbers.items():
             cells = (each.share_mean, each.share_largest, each.mean, each.largest)
             lines.append((name, *map(repr, cells), each.unit))
@@ -115,9 +115,9 @@ class ChangeTable(QtWidgets.QWidget):
         painter.setFont(small)
         painter.setPen(QtGui.QColor(theme.quiet))
         baseline = _baseline(painter, 0.0, HEAD * scale)
-        for first, last, words, short in ((0, 1, GROUPS[0], SHORT_GROUPS[0]), (2, 3, GROUPS[1], SHORT_GROUPS[1])):
+        for first, last, group, short in ((0, 1, GROUPS[0], SHORT_GROUPS[0]), (2, 3, GROUPS[1], SHORT_GROUPS[1])):
             room = rights[last] - (rights[first] - widths[first])
-            text = words if number_width(small, words) <= room + gap / 2 else short
+            text = group if number_width(small, group) <= room + gap / 2 else short
             middle = rights[last] - room / 2
             paint_number(painter, middle - number_width(small, text) / 2, baseline, text)
             painter.fillRect(QtCore.QRectF(rights[last] - room, HEAD * scale, room, 1), QtGui.QColor(theme.border))
@@ -131,8 +131,8 @@ class ChangeTable(QtWidgets.QWidget):
         for name, words in self.rows:
             baseline = _baseline(painter, y, LINE * scale)
             painter.setPen(QtGui.QColor(theme.text))
-            for right, text in zip(rights, words, strict=True):
-                paint_number(painter, right - number_width(font, text), baseline, text)
+            for right, cell in zip(rights, words, strict=True):
+                paint_number(painter, right - number_width(font, cell), baseline, cell)
             room = max(rights[0] - widths[0] - GAP, 0)
             painter.drawText(
                 QtCore.QPointF(0, baseline), metrics.elidedText(name, QtCore.Qt.TextElideMode.ElideRight, room)
@@ -142,7 +142,7 @@ class ChangeTable(QtWidgets.QWidget):
 
 def _baseline(painter: QtGui.QPainter, top: float, height: float) -> float:
     metrics = QtGui.QFontMetricsF(painter.font())
-    return top + (height + metrics.ascent() - metrics.descent()) / 2
+    return float(top + (height + metrics.ascent() - metrics.descent()) / 2)
 
 
 def _names(questions: Sequence[ChangeQuestion]) -> list[str]:

@@ -6,6 +6,7 @@ import numpy as np
 from qtpy import QtCore, QtGui
 
 from bihdist_core.analysis.field_scatter import FieldScatter
+from bihdist_core.arrays import AnyArray, IntArray
 
 from ...qt.docks.chart import Axis, Chart, paint_dot
 from ...qt.look.look import LOOK
@@ -30,8 +31,8 @@ class ScatterChart(Chart):
         self._has_diagonal = False
         self._largest: int | None = None  # vertex
         self._marked: int | None = None  # the vertex that is pointed at
-        self._selections: Sequence[tuple[np.ndarray, int]] = ()
-        self._stroke: np.ndarray = np.empty(0, np.int64)
+        self._selections: Sequence[tuple[AnyArray, int]] = ()
+        self._stroke: AnyArray = np.empty(0, np.int64)
         self._stroke_colour = 0
         self._lasso: list[QtCore.QPointF] | None = None
         self._cell = np.empty(0, np.intp)
@@ -66,12 +67,12 @@ class ScatterChart(Chart):
             self._marked = vertex
             self.update()
 
-    def show_selections(self, selections: Sequence[tuple[np.ndarray, int]]) -> None:
+    def show_selections(self, selections: Sequence[tuple[AnyArray, int]]) -> None:
         """Vertices (k,), each with the number of a colour."""
         self._selections = selections
         self.redraw()
 
-    def show_stroke(self, vertices: np.ndarray, colour: int) -> None:
+    def show_stroke(self, vertices: IntArray, colour: int) -> None:
         """Those of a brush that is still down."""
         self._stroke, self._stroke_colour = vertices, colour
         self.update()

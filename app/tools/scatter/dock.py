@@ -10,6 +10,7 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import Surface
 from bihdist_core.analysis.field_scatter import FieldScatter, field_scatter
 from bihdist_core.analysis.field_statistics import Agreement, field_agreement
+from bihdist_core.arrays import AnyArray, IntArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress
@@ -270,7 +271,7 @@ class ScatterDock(Instrument):
         self.facts.show_facts(lines)
         self.chart.mark_largest(found.largest_at if request.has_common_unit else None)
 
-    def _show_stroke(self, vertices: np.ndarray) -> None:
+    def _show_stroke(self, vertices: IntArray) -> None:
         brushing = self.context[Brushing]
         self.chart.show_stroke(vertices, brushing.colour)
 
@@ -301,7 +302,7 @@ class ScatterDock(Instrument):
         scatter = replace(session.document[Scatter], shares=word == "shares")
         session.show(session.document.with_part(scatter))
 
-    def _select(self, corners: np.ndarray, keys: QtCore.Qt.KeyboardModifiers) -> None:
+    def _select(self, corners: AnyArray, keys: QtCore.Qt.KeyboardModifiers) -> None:
         modifier = QtCore.Qt.KeyboardModifier
         way = "added" if keys & modifier.ShiftModifier else "removed" if keys & modifier.ControlModifier else "new"
         self.context[Brushing].select(self.chart.scatter.inside(corners), way)

@@ -2,10 +2,14 @@
 
 import argparse
 import os
+from typing import TYPE_CHECKING
 
 from ...commands.field_of import FieldOf, field_of
 from ...commands.options import SOURCE, add_areas, add_distance, source
 from ...commands.terminal import progress_line
+
+if TYPE_CHECKING:
+    from ...figures.chart_page import ChartLook
 
 WORDS = "a distance in numbers, or how two go together, and their charts"
 TEXT = ".csv"
@@ -142,7 +146,7 @@ def _is_table(path: str) -> bool:
     return os.path.splitext(path)[1].lower() in TABLES
 
 
-def _look(options: argparse.Namespace):
+def _look(options: argparse.Namespace) -> "ChartLook":
     from ...document.page import Page
     from ...figures.chart_page import ChartLook
     from ...figures.scatter_figure import INCHES

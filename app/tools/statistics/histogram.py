@@ -3,6 +3,8 @@
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.arrays import AnyArray, FloatArray
+
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, number_width, paint_number, percent, share, tick, ticks
 
@@ -28,7 +30,7 @@ class Histogram(QtWidgets.QWidget):
         self.setFixedHeight(HEIGHT)
         LOOK.follow(self, self.update)
 
-    def show_bins(self, ends: np.ndarray, areas: np.ndarray, colours: np.ndarray, unit: str, is_signed: bool) -> None:
+    def show_bins(self, ends: AnyArray, areas: AnyArray, colours: FloatArray, unit: str, is_signed: bool) -> None:
         """ends: (b + 1,); areas: (b,) of each bin; colours: (b, 3), 0 to 1; unit: of the values."""
         total = areas.sum()
         self._ends, self._shares = ends, areas / total if total > 0 else areas
