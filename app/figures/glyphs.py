@@ -51,11 +51,11 @@ def _layer(
 
     rim = max(glyph.rim * reach, glyph.least_rim)
     path = _path(glyph.outline).transformed(Affine2D().scale(reach - layer.inset * rim).translate(*at))
+    opacity = 1.0 if page.is_opaque else layer.opacity
     look: dict[str, Any] = {"fill": False}
     if layer.fill:
-        opacity = 1.0 if page.is_opaque else layer.opacity
         look = {"facecolor": (*_colour(page, mark, layer.fill), opacity)}
-    look |= {"edgecolor": _colour(page, mark, layer.line) if layer.line else "none"}
+    look |= {"edgecolor": (*_colour(page, mark, layer.line), opacity) if layer.line else "none"}
     if layer.dashes:
         look["linestyle"] = (0, layer.dashes)
     width = layer.width * rim * POINT

@@ -81,7 +81,8 @@ def _write_beside(
     write: Callable[[Words, int], None],
 ) -> None:
     """The words of a mark, if it has any, off what is written already, to which they are added."""
-    words = _beside(page, shot, mark.text, place, [*insets, *written]) if mark.text else None
+    text = ", ".join(filter(None, (mark.text, mark.aside)))
+    words = _beside(page, shot, text, place, [*insets, *written]) if text else None
     if words and not page.figure.panels[shot.panel].failure:
         written.append(_box_of(page, words))
         _draw_ground(axes, page, written[-1], order)

@@ -27,7 +27,7 @@ class Layer:
 
     line, fill: colours, by names that `Style.named` knows, "own" for the mark's, "" for none.  width: of the line, in
     rims; dashes: lengths of a dash and of a gap, in widths.  inset: rims by which the outline is within the outside.
-    opacity: of the fill, where a page can have one.
+    opacity: where a page can have one.
     """
 
     line: str = ""
@@ -45,6 +45,7 @@ class Glyph:
     reach: from the place to the outside, as a fraction of what marks are across; least: in pixels at scale 1;
     of_text: as a fraction of the size of labels, at least.  pixels: the reach in the window, 0 if the fraction says it.
     rim: as a fraction of the reach; least_rim: in pixels.  join: of corners, "round" or "miter"; cap: of open lines.
+    screen: layers in the window, if these are others.
     rise: reaches from the place up to the middle of the shape, where a mark's number stands, in the colour `numeral`.
     rank: glyphs of a higher one are painted over others.  hidden: what is painted where the surface hides the
     place; None for nothing.
@@ -53,6 +54,7 @@ class Glyph:
     name: str
     outline: tuple[Subpath, ...]
     layers: tuple[Layer, ...]
+    screen: tuple[Layer, ...] = ()
     reach: float = 0.5
     least: float = 0.0
     of_text: float = 0.0
@@ -133,9 +135,13 @@ _TRIANGLE = Glyph(
     "triangle_up", UP, (Layer("mark_edge", 1.0, "white"),), least=3.0, pixels=6.0, rim=0.25, least_rim=0.6, join="round"
 )
 _OUTLINE = (Layer("white", 1.7), Layer("mark_edge", 0.7))
-TRIANGLE_UP = replace(_TRIANGLE, hidden=replace(_TRIANGLE, layers=_OUTLINE))
+_FAINT = tuple(replace(layer, opacity=0.7) for layer in _OUTLINE)
+TRIANGLE_UP = replace(_TRIANGLE, hidden=replace(_TRIANGLE, layers=_OUTLINE, screen=_FAINT))
 TRIANGLE_DOWN = replace(
-    TRIANGLE_UP, name="triangle_down", outline=DOWN, hidden=replace(_TRIANGLE, outline=DOWN, layers=_OUTLINE)
+    TRIANGLE_UP,
+    name="triangle_down",
+    outline=DOWN,
+    hidden=replace(_TRIANGLE, outline=DOWN, layers=_OUTLINE, screen=_FAINT),
 )
 """At a maximum and at a minimum."""
 
@@ -159,6 +165,7 @@ _CROSS = Glyph(
     "cross",
     tuple(Subpath((-1.0, -way), (((1.0, way),),), is_closed=False) for way in (-1.0, 1.0)),
     (Layer("mark_edge", 2.2), Layer("white", 1.0)),
+    screen=(Layer("mark_edge", 2.45), Layer("white", 1.18)),
     reach=0.45,
     least=3.0,
     pixels=6.0,
@@ -166,7 +173,7 @@ _CROSS = Glyph(
     cap="round",
 )
 _DASHED_CROSS = (Layer("mark_edge", 2.2, dashes=(3.0 / 2.2, 1.6 / 2.2)), Layer("white", 1.0, dashes=(3.0, 1.6)))
-CROSS = replace(_CROSS, hidden=replace(_CROSS, layers=_DASHED_CROSS, cap="butt"))
+CROSS = replace(_CROSS, hidden=replace(_CROSS, layers=_DASHED_CROSS, screen=(), cap="butt"))
 """Where a point belongs."""
 
 RISE = 2.0
@@ -174,6 +181,7 @@ _PIN = Glyph(
     "pin",
     _marker(RISE),
     (Layer("mark_edge", 3.2), Layer("white", 1.6, "own")),
+    screen=(Layer("mark_edge", 3.1), Layer("white", 1.73), Layer(fill="own")),
     reach=0.6,
     of_text=0.68,  # so that numerals are read
     pixels=8.5,
@@ -186,7 +194,8 @@ PIN = replace(
     _PIN,
     hidden=replace(
         _PIN,
-        layers=(Layer("white", 2.4, "white", opacity=0.92), Layer("own", 1.0, dashes=DASHED)),
+        layers=(Layer(fill="white", opacity=0.92), Layer("white", 2.4), Layer("own", 1.0, dashes=DASHED)),
+        screen=(),
         numeral="own",
     ),
 )
@@ -195,6 +204,7 @@ _CANDIDATE = replace(
     _PIN,
     name="candidate",
     layers=(Layer("mark_edge", 2.4, "own"), Layer("white", 1.0, dashes=DASHED)),
+    screen=(),
     rank=6,
 )
 CANDIDATE = replace(_CANDIDATE, hidden=_CANDIDATE)

@@ -15,7 +15,8 @@ class PointMark:
     """A vertex, or a place in a face with these corners and weights, of which the vertex is one.
 
     colour: such as "#1F7A3D", or a name that `Style.named` knows.  text: stands beside it; value: too, where values are
-    asked for.  number: stands in glyphs that have room for one.  name: in sentences, its vertex or its number if empty.
+    asked for.  aside: behind the text, less loud.  number: stands in glyphs that have room for one.  name: in
+    sentences, its vertex or its number if empty.  point: the name of the document's point that is there, if one is.
     """
 
     vertex: int
@@ -27,6 +28,8 @@ class PointMark:
     weights: tuple[float, ...] = ()
     name: str = ""
     value: str = ""
+    aside: str = ""
+    point: str = ""
 
     def on(self, vertices: FloatArray) -> FloatArray:
         """(3,) where it is on a surface with these vertices (n, 3)."""
@@ -55,6 +58,16 @@ class LineMark:
         at: FloatArray = np.einsum("kc,kcx->kx", self.weights, vertices[self.corners])
         return at
 
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, LineMark)
+            and (self.is_closed, self.look, self.name) == (other.is_closed, other.look, other.name)
+            and np.array_equal(self.corners, other.corners)
+            and np.array_equal(self.weights, other.weights)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
     @property
     def spans(self) -> IntArray:
         """(k, 3) the vertices that have a weight, of a place on an edge or in a corner one of them twice or thrice."""
@@ -71,6 +84,23 @@ class AreaMark:
     vertices: IntArray
     colour: str
 
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, AreaMark)
+            and self.colour == other.colour
+            and np.array_equal(self.vertices, other.vertices)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+@dataclass(frozen=True)
+class LegendRow:
+    """What a glyph stands for, where it has no number of its own: said in the corner of a view in the window."""
+
+    glyph: Glyph
+    text: str
+
 
 @dataclass(frozen=True)
 class Remark:
@@ -79,4 +109,4 @@ class Remark:
     text: str
 
 
-SurfaceMark = PointMark | LineMark | AreaMark | Remark
+SurfaceMark = PointMark | LineMark | AreaMark | LegendRow | Remark

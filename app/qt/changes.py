@@ -7,12 +7,7 @@ from qtpy import QtCore
 
 from ..document.anchors import Anchor, Anchors
 from ..document.document import Document, Point
-from ..document.pairs import Pairs
-from ..document.pins import Pins
-from ..document.selections import Selections, vertices_of
-from ..marks.primitives import AreaMark
-from ..scene.selected import selected_colours
-from ..scene.style import PINS, Style
+from ..scene.style import Style
 from ..session.loaded_mesh import LoadedMesh
 from .context import Context
 from .look.canvas import canvas_style
@@ -34,17 +29,6 @@ def _sources(context: Context) -> None:
     context[TypedSource].show()
 
 
-def _selections(context: Context) -> None:
-    document, colours = context.document, {}
-    for mesh in document.surfaces:
-        loaded = context.session.loaded(mesh.name)
-        if loaded is not None:
-            here = [each for each in document[Selections].selections if each.surface == mesh.name]
-            chosen = [AreaMark(vertices_of(each.runs), PINS[each.colour]) for each in here]
-            colours[mesh.name] = selected_colours(chosen, len(loaded.surface.vertices))
-    context.grid.marks.show_selected(colours)
-
-
 def _anchored(document: Document) -> list[tuple[Anchor, Point]]:
     """Where the anchors are, whatever other points do: a pin that is dragged redraws none."""
     return [(anchor, document.point(anchor.point)) for anchor in document[Anchors].anchors]
@@ -53,12 +37,10 @@ def _anchored(document: Document) -> list[tuple[Anchor, Point]]:
 TABLE = (
     Row(lambda d: d.points, _sources),
     Row(_anchored, lambda c: c.grid.marks.mark_anchors(c.document)),
-    Row(lambda d: (d.points, d[Pins].pins), lambda c: c.grid.marks.show_pins(c.document)),
-    Row(lambda d: (d.points, d[Pairs].pairs), lambda c: c.grid.marks.show_pairs(c.document)),
+    Row(lambda d: d, lambda c: c.grid.marks.show(c.document)),
     Row(lambda d: d.zooms, lambda c: c.grid.marks.show_insets(c.document)),
     Row(lambda d: (d.isolines, d.isolines.through and d.points), lambda c: c.grid.marks.show_isolines(c.document)),
     Row(lambda d: d.shading, lambda c: c.grid.show_shading()),
-    Row(lambda d: d[Selections].selections, _selections),
 )
 """What panels show besides their fields."""
 

@@ -205,7 +205,8 @@ def test_a_figure_has_a_cross_where_the_point_belongs_and_says_how_far_off_the_c
         assert [mark.vertex for mark in panel.marks if mark.glyph is CROSS] == [170]
         best = int(answer.field.argmin())
         error = GeodesicDistance(two.surface, "exact").between(170, best) / np.sqrt(two.surface.face_areas.sum())
-        assert f"{best}, {100 * error:.1f} % off" in [mark.text for mark in panel.marks if mark.glyph is CANDIDATE]
+        candidates = [(mark.text, mark.aside) for mark in panel.marks if mark.glyph is CANDIDATE]
+        assert (str(best), f"{100 * error:.1f} % off") in candidates
     unknown = figure_of(Recipe(with_truth(document, Truth("none"))), surfaces, answers)
     assert not [mark for panel in unknown.panels for mark in panel.marks if mark.glyph is CROSS]
     for drawn, name in ((figure, "with.png"), (unknown, "without.png")):

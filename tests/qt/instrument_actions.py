@@ -275,7 +275,7 @@ class InstrumentHands(Hands):
         from qtpy import QtCore
 
         view = self.chance.choice(self.window.grid.panels).view
-        seen = list(view.over.pairs._seen().values())
+        seen = view.over.points.standing("pairs")
         if not seen:
             return
         _, tip = self.chance.choice(seen)

@@ -187,7 +187,7 @@ def test_extrema_are_marked_on_interpolants_only(loaded):
         document, _ = add_anchor(document, 60 * k, float(k % 3))
     # So steep, the one by the geodesic distance has an extremum elsewhere.
     s.session.show(document.with_part(replace(document[Anchors], weights=Weights(6.0))))
-    dock, marks = dock_of(s), [panel.view.over.extrema for panel in s.panels]
+    dock, marks = dock_of(s), [panel.view.over.points for panel in s.panels]
 
     def rest():
         complete(s)
@@ -198,22 +198,22 @@ def test_extrema_are_marked_on_interpolants_only(loaded):
         return [int(near) + int(elsewhere) for _, near, elsewhere in dock.extrema.facts[1:]]
 
     rest()
-    assert [len(each.positions) for each in marks] == counted()
+    assert [len(each.positions("quality")) for each in marks] == counted()
     assert counted() == [0, 1]
     dock.shows.buttons["total"].click()
     rest()
-    assert not any(len(each.positions) for each in marks), "nobody asks for those of weights"
+    assert not any(len(each.positions("quality")) for each in marks), "nobody asks for those of weights"
     assert not dock.extrema.isVisible()
     dock.shows.buttons["interpolant"].click()
     rest()
     assert dock.extrema.isVisible()
     s.session.show(show_in(s.document, s.document.panels[1].id, quantity("geodesic")))
     rest()
-    assert [len(each.positions) for each in marks] == [*counted(), 0]
+    assert [len(each.positions("quality")) for each in marks] == [*counted(), 0]
     dock.end_tool()
     rest()
     assert "anchors" in s.document.docks
-    assert not any(len(each.positions) for each in marks)
+    assert not any(len(each.positions("quality")) for each in marks)
 
 
 def test_anchors_are_saved_and_read_and_kept_in_sessions(loaded, tmp_path):

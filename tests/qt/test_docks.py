@@ -59,7 +59,7 @@ def test_a_profile_stays_on_the_panels_whatever_they_look_like(screen, mesh_file
     s.open(mesh_file(bumpy(200)), 5)
     s.session.show(add_pins(s.document, (7, 90)))
     parts(s.window).docks.toggle("profile")
-    paths = [panel.view.over.path for panel in s.panels]
+    paths = [panel.view.over.lines for panel in s.panels]
     s.until(lambda: all(len(path.points) for path in paths))
     before = paths[0].points
     theme = LOOK.theme

@@ -9,6 +9,7 @@ from app.document.maps import MapColours, MapFile
 from app.document.pairs import add_pairs, place_point
 from app.document.prediction import predicts
 from app.figures.export import compute, open_document
+from app.marks.glyphs import CANDIDATE, CROSS
 from app.session.array_store import ArrayStore
 from bihdist_core import (
     BiharmonicDistance,
@@ -226,6 +227,12 @@ def judged(s):
     return parts(s.window).pairs.errors.judged
 
 
+def truth_in(panel):
+    """(k, 3) where crosses are."""
+    found = [each.position for each in panel.view.over.points.placed("pairs") if each.mark.glyph is CROSS]
+    return np.array(found).reshape(-1, 3)
+
+
 def test_the_truth_is_a_cross_and_the_candidate_says_how_far_it_is_off(two):
     s = two
     s.session.show(place_point(s.document, "A", 70))
@@ -233,17 +240,17 @@ def test_the_truth_is_a_cross_and_the_candidate_says_how_far_it_is_off(two):
     s.until(lambda: judged(s) is not None and judged(s).errors)
     other = surfaces(s)[1]
     for panel in s.panels[1:]:
-        marks = panel.view.over.pairs
-        assert np.array_equal(marks.truth, other.vertices[[70]])
-        assert list(marks.names()) == ["truth", "candidate"]
+        assert np.array_equal(truth_in(panel), other.vertices[[70]])
+        assert [row.text for row in panel.view.over.legend] == ["truth", "candidate"]
         field = panel.answer.field
         error = GeodesicDistance(other, "exact").between(70, int(field.argmin())) / np.sqrt(other.face_areas.sum())
         assert judged(s).errors[panel.id] == pytest.approx(error, abs=1e-6)
-        assert marks.candidate.share == f"{100 * error:.1f} % off"
-    assert s.panels[0].view.over.pairs.truth == ()
+        asides = [each.mark.aside for each in panel.view.over.points.placed("pairs") if each.mark.glyph is CANDIDATE]
+        assert asides == [f"{100 * error:.1f} % off"]
+    assert len(truth_in(s.panels[0])) == 0
     s.session.undo()
     complete(s)
-    assert all(panel.view.over.pairs.truth == () for panel in s.panels)
+    assert not any(len(truth_in(panel)) for panel in s.panels)
 
 
 def test_a_point_of_the_second_mesh_belongs_on_the_first(two, tmp_path):
@@ -254,8 +261,8 @@ def test_a_point_of_the_second_mesh_belongs_on_the_first(two, tmp_path):
     complete(s)
     s.until(lambda: judged(s) is not None and judged(s).errors)
     assert judged(s).places == (101,)
-    assert np.array_equal(s.panels[0].view.over.pairs.truth, surfaces(s)[0].vertices[[101]])
-    assert s.panels[1].view.over.pairs.truth == ()
+    assert np.array_equal(truth_in(s.panels[0]), surfaces(s)[0].vertices[[101]])
+    assert len(truth_in(s.panels[1])) == 0
 
 
 # ---------------------------------------------------------------------- the full map

@@ -130,6 +130,11 @@ def test_the_panels_stand_in_one_row_where_there_is_room(two):
         assert min(panel.width() for panel in s.panels) >= 280
 
 
+def candidate_in(panel):
+    (found,) = [each for each in panel.view.over.points.placed("pairs") if each.mark.glyph is CANDIDATE]
+    return found
+
+
 def test_a_click_predicts_by_every_distance_and_enter_accepts(two):
     s = two
     paired(s)
@@ -139,8 +144,8 @@ def test_a_click_predicts_by_every_distance_and_enter_accepts(two):
     for panel, kind in ((1, BiharmonicDistance), (2, GeodesicDistance)):
         expected = misfit(s, kind, vertex)
         assert s.answers[panel].field == pytest.approx(expected, abs=1e-9)
-        candidate = s.panels[panel].view.over.pairs.candidate
-        assert (candidate.number, candidate.value) == (4, str(int(np.argmin(expected))))
+        candidate = candidate_in(s.panels[panel])
+        assert (candidate.mark.number, candidate.mark.text) == (4, str(int(np.argmin(expected))))
         bar = s.panels[panel].bar._reading
         assert (bar.value, bar.unit) == (pytest.approx(expected.min(), abs=1e-9), "misfit of the best")
     assert "waits for its partner on B" in s.panels[0].bar.accessibleDescription()
@@ -163,7 +168,7 @@ def test_the_active_panel_says_which_candidate_is_accepted_and_its_drop_can_be_c
     best = [int(np.argmin(s.answers[k].field)) for k in (1, 2)]
 
     def meant():
-        return [panel.view.over.pairs.is_meant for panel in s.panels]
+        return [panel.view.over.points.is_meant for panel in s.panels]
 
     # The click has made the panel of the first mesh active, and the first that predicts is meant.
     assert meant() == [False, True, False]
@@ -176,7 +181,7 @@ def test_the_active_panel_says_which_candidate_is_accepted_and_its_drop_can_be_c
     assert [row.second for row in dock_of(s).rows.values()][-1] == f"{best[1]} ?"
     assert s.panels[1].view.grab().toImage() != label  # it no longer stands out
     view = s.panels[2].view
-    tip = view.place_of(view.over.pairs.candidate.position)
+    tip = view.place_of(candidate_in(s.panels[2]).position)
     QtTest.QTest.mouseClick(view, LEFT, pos=QtCore.QPoint(round(tip.x()), round(tip.y()) - 15))
     complete(s)
     assert places(s)[-1][1] == best[1]

@@ -7,6 +7,8 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 
 from app.document.pins import Pins
+from app.marks.glyphs import PIN
+from app.scene.style import PAPER
 from tests.qt.parts import parts
 from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click
 
@@ -82,9 +84,7 @@ def head_of(s, panel, vertex):
     """The middle of the drop of a pin."""
     from qtpy import QtCore
 
-    from app.qt.panels.pin_marks import RISE
-
-    return s.point_of(s.panels[panel], vertex) - QtCore.QPoint(0, round(RISE))
+    return s.point_of(s.panels[panel], vertex) - QtCore.QPoint(0, round(PIN.rise * PIN.pixels))
 
 
 def test_a_drop_that_is_clicked_selects_its_row(loaded):
@@ -126,14 +126,15 @@ def test_a_drop_that_is_clicked_selects_its_row(loaded):
 def test_a_drop_hangs_down_where_the_view_ends_above_it():
     from qtpy import QtCore
 
-    from app.qt.panels.pin_marks import HEAD, RIMS, RISE, drop_at
+    from app.qt.panels.glyph_painting import RIMS, outline_at
 
-    for y in (0.0, RISE, RISE + HEAD + RIMS - 1):
-        box = drop_at(QtCore.QPointF(50, y)).boundingRect()
+    rise, head = PIN.rise * PIN.pixels, PIN.pixels
+    for y in (0.0, rise, rise + head + RIMS - 1):
+        box = outline_at(PIN, QtCore.QPointF(50, y), PAPER).boundingRect()
         assert box.top() == y
-        assert box.bottom() == pytest.approx(y + RISE + HEAD)
-    box = drop_at(QtCore.QPointF(50, 40)).boundingRect()
-    assert (box.top(), box.bottom()) == (pytest.approx(40 - RISE - HEAD), 40)
+        assert box.bottom() == pytest.approx(y + rise + head)
+    box = outline_at(PIN, QtCore.QPointF(50, 40), PAPER).boundingRect()
+    assert (box.top(), box.bottom()) == (pytest.approx(40 - rise - head), 40)
 
 
 def test_a_drop_is_dragged_in_one_step_and_the_matrix_follows(loaded):

@@ -193,7 +193,7 @@ def test_the_path_is_dark_on_white_where_it_is_seen(loaded):
     s.settle()
     view = s.panels[0].view
     picture = view.grab().toImage()
-    pixels, is_seen = view.over.path.pixels, view.over.path.is_seen
+    pixels, is_seen = view.over.lines.pixels, view.over.lines.is_seen
     assert 0.2 < is_seen.mean() < 1
     ratio = view.devicePixelRatioF()
     well = np.flatnonzero(is_seen)[10:-10:20]
@@ -201,7 +201,7 @@ def test_the_path_is_dark_on_white_where_it_is_seen(loaded):
     assert np.mean(np.array(dark) < 110) > 0.8
     parts(s.window).docks.close("profile")
     s.settle()
-    assert not len(view.over.path.pixels)
+    assert not len(view.over.lines.pixels)
 
 
 def test_curves_follow_the_source_and_the_path_stays(loaded):
@@ -306,7 +306,7 @@ def test_panels_come_and_go_while_the_chart_is_pointed_at(loaded):
     s.settle()
     assert all(panel.view.over.pointed is not None for panel in s.panels[:1])
     parts(s.window).docks.close("profile")
-    assert not any(panel.head._dot or len(panel.view.over.path.points) for panel in s.panels)
+    assert not any(panel.head._dot or len(panel.view.over.lines.points) for panel in s.panels)
 
 
 def test_without_two_points_it_says_what_to_do(loaded):

@@ -13,7 +13,7 @@ from app.document.anchors import Anchor, Anchors
 from app.document.document import Point
 from app.document.looks import Isolines
 from app.document.pins import add_pins
-from app.qt.panels import pin_marks
+from app.qt.panels import glyph_painting
 from app.scene.levels import BOLD, ZERO, width_of
 from app.scene.proportion import LEAST, USUAL, proportion
 from app.scene.style import PAPER
@@ -64,7 +64,7 @@ def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(loaded):
     s.session.show(add_pins(s.document, s.seen(2)[:1]))
     s.settle()
     view = s.panels[0].view
-    tip = view.place_of(view.over._pins[0].position)
+    tip = view.place_of(view.over.points.positions("pins")[0])
 
     def reach(tip):
         """Pixels above the tip up to which the drop can be taken."""
@@ -75,8 +75,8 @@ def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(loaded):
     s.window.resize(700, 560)
     s.until(lambda: view.proportion < 0.9)
     s.settle(0.1)
-    share = max(view.proportion, pin_marks.LEAST)
-    tip = view.place_of(view.over._pins[0].position)
+    share = max(view.proportion, glyph_painting.LEAST)
+    tip = view.place_of(view.over.points.positions("pins")[0])
     if tip.y() > 40:  # upright, as before
         assert reach(tip) == pytest.approx(share * usual, abs=1.5)
 

@@ -6,6 +6,7 @@ import pytest
 from app.document.edits import move_source, put_point
 from app.document.pins import Pins
 from app.document.regions import DividedPanels
+from app.marks.glyphs import TRIANGLE_UP
 from bihdist_core import farthest_points, read_surface, region_boundaries, region_mesh, voronoi_regions
 from bihdist_core.distances.kinds import Spec
 from tests.qt.parts import parts
@@ -62,9 +63,9 @@ def test_quality_opens_by_its_key_and_follows_the_source(loaded):
     assert table.splitlines()[0].split("\t")[1:] == ["Biharmonic", "Geodesic", "Diffusion"]
     assert table.splitlines()[1].split("\t")[1:3] == ["0", "0"]
     extrema = parts(s.window).findings.found(0).extrema
-    marks = s.panels[0].view.over.extrema
-    assert marks.positions.tolist() == s.session.surface.vertices[extrema.maxima].tolist()
-    assert marks.is_maximum.all()
+    marks = s.panels[0].view.over.points
+    assert marks.positions("quality").tolist() == s.session.surface.vertices[extrema.maxima].tolist()
+    assert {each.mark.glyph for each in marks.placed("quality")} == {TRIANGLE_UP}
     assert len(dock(s, "quality").charts[0].circles) > 1
     s.session.show(move_source(s.document, 0, 200))
     s.until(lambda: s.session.is_complete)
@@ -81,7 +82,7 @@ def test_quality_opens_by_its_key_and_follows_the_source(loaded):
     assert (float(said["Isotropy"]), float(said["Largest kink"])) == (whole.isotropy, whole.kink)
     key(s, "q")
     assert not parts(s.window).docks._docks["quality"].isVisible()
-    assert not len(marks.positions)
+    assert not len(marks.positions("quality"))
 
 
 def test_a_difference_has_extrema_and_kinks_and_no_more(loaded):
@@ -100,7 +101,7 @@ def test_a_difference_has_extrema_and_kinks_and_no_more(loaded):
     assert (minima, maxima) == (str(len(extrema.minima)), str(len(extrema.maxima))) != ("0", "0")
     assert (isotropy, triangles) == ("–", "–")
     assert float(kink) > 0 <= float(length)
-    assert len(s.panels[2].view.over.extrema.positions) == len(extrema.minima) + len(extrema.maxima)
+    assert len(s.panels[2].view.over.points.positions("quality")) == len(extrema.minima) + len(extrema.maxima)
     table = dock(s, "quality").table
     assert "single place" in table.item(2, 2).toolTip()
     assert "no distance" in table.item(5, 2).toolTip()
@@ -110,22 +111,22 @@ def test_extrema_are_kept_on_the_surfaces_if_that_is_wanted(loaded, tmp_path):
     s = loaded
     key(s, "q")
     known(s)
-    marks = s.panels[0].view.over.extrema
-    shown = marks.positions.tolist()
+    marks = s.panels[0].view.over.points
+    shown = marks.positions("quality").tolist()
     press(dock(s, "quality").tick, 8)
     assert s.document.extrema
     key(s, "q")
-    assert marks.positions.tolist() == shown != []
+    assert marks.positions("quality").tolist() == shown != []
     s.session.show(move_source(s.document, 0, 200))
     s.until(lambda: s.session.is_complete)
     known(s)
     found = parts(s.window).findings.found(0)
-    assert marks.positions.tolist() == s.session.surface.vertices[found.extrema.maxima].tolist()
+    assert marks.positions("quality").tolist() == s.session.surface.vertices[found.extrema.maxima].tolist()
     assert found.whole is None
     s.session.undo()
     s.session.undo()
     assert not s.document.extrema
-    assert not len(marks.positions)
+    assert not len(marks.positions("quality"))
     key(s, "q")
     assert not dock(s, "quality").tick.isChecked()
 

@@ -92,7 +92,7 @@ def test_insets_have_the_disc_too_and_what_they_cover_has_none(shown):
     s.settle(0.3)
     view = s.panels[0].view
     (renderer,) = view.scene.insets.placed
-    assert is_disc(s.panels[0], view.over.sources.at(renderer, view.source))
+    assert is_disc(s.panels[0], view.over.points.at(renderer, view.source))
     assert is_disc(s.panels[0])
 
 
@@ -101,4 +101,4 @@ def test_nothing_is_marked_once_there_is_no_source(shown):
     show_at(s, ids[-1])
     panel = s.panels[0]
     panel.marks.begin(s.session.surface)
-    assert len(panel.view.over.sources.positions) == 0
+    assert len(panel.view.over.points.positions("field")) == 0

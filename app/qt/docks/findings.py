@@ -7,6 +7,8 @@ from contextlib import suppress
 
 from qtpy import QtCore
 
+from bihdist_core.analysis.quality import OtherExtrema
+
 from ...document.document import Panel
 from ...session.quality import Found, Quality
 from ...session.questions import Question, are_about_the_same, questions
@@ -154,16 +156,13 @@ class Findings(QtCore.QObject):
         marked = {panel.id for panel in self._context.document.panels if self._is_marked(panel)}
         for panel in self._context.grid.panels:
             extrema = self.found(panel.id).extrema if panel.id in marked else None
-            if extrema is None:
-                panel.marks.mark_extrema()
-            else:
-                panel.marks.mark_extrema(extrema.minima, extrema.maxima)
+            self._context.grid.marks.show_found(panel.id, OtherExtrema, extrema)
 
     # ------------------------------------------------------------------ regions
     def _show_regions(self, panel: int) -> None:
         divided = self._dividing.divided(panel)
         if any(shown.id == panel for shown in self._context.grid.panels):
-            self._context.grid.panel(panel).marks.show_regions(() if divided is None else divided.boundaries)
+            self._context.grid.marks.show_found(panel, Divided, divided)
         self.regions_changed.emit(panel)
 
     # ------------------------------------------------------------------ threads

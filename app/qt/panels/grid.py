@@ -208,7 +208,6 @@ class PanelGrid(QtWidgets.QWidget):
             if loaded is not None and (surfaces is None or panel.surface in surfaces):
                 panel.show_surface(loaded)
                 panel.head.show_letter(panel.head.letter, loaded.surface.name)
-        self.marks.begin_surfaces()
         self.pointing.leave()
         self.show_shading()
 
@@ -235,7 +234,7 @@ class PanelGrid(QtWidgets.QWidget):
                     shown[other], bar_end(document, shown, other, self._session.loaded), document.height, in_shares
                 )
                 self.marks.show_isolines_again(document, other)
-                self.marks.show_pairs_in(document, other)
+                self.marks.show_in(document, other)
         self.pointing.show_again_soon()
 
     def show_error_estimate(self, id: int) -> None:

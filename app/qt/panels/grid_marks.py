@@ -4,22 +4,26 @@ from collections.abc import Callable, Mapping
 
 from qtpy import QtGui
 
-from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.distances.answers import Answer
 
 from ...document.anchors import Anchors
 from ...document.document import Document, Panel
-from ...document.pairs import pair_words
+from ...document.pairs import Pairs, pair_words
 from ...document.prediction import predicts_in
+from ...document.tools import tools
+from ...marks.marked_panel import MarkedPanel
 from ...session.anchors import anchors_on
 from ...session.isoline_points import IsolinePoint, passed
 from ...session.map_answers import colours_words
-from ...session.pair_locations import candidate_in, located_pair_points
-from ...session.pin_locations import located_pins
+from ...session.pair_locations import candidate_in
 from ...session.questions import pieces_at, vertex_at
 from ...session.session import Session
 from ..look.numbers import tick
 from .moving import Moving
 from .panel import DistancePanel
+
+NOTHING = Answer(label="")
+"""Of a panel that has no answer yet."""
 
 SELECTED_MS = 600
 """After a selection has changed, until large surfaces are drawn with it in full; the next stroke may begin before."""
@@ -37,7 +41,6 @@ class GridMarks:
         self.lit: tuple[str, ...] = ()
         self.chosen_anchor = self.chosen_pair = ""
         self._is_drawn_on = self._keeps_steps = False
-        self._selected: Mapping[str, AnyArray | None] = {}
         self._brush: QtGui.QCursor | None = None
 
     @property
@@ -48,14 +51,7 @@ class GridMarks:
         """A panel shows a surface from now on: what is marked there whatever the field."""
         panel.view.pointer.draw_on(self._is_drawn_on)
         panel.show_isolines(self._session.document.isolines)
-        self._select(panel)
         panel.view.pointer.set_brush(self._brush_of(panel))
-
-    def begin_surfaces(self) -> None:
-        """Other surfaces are there."""
-        for panel in self._panels.values():
-            if self._session.loaded(panel.surface) is not None:
-                self._select(panel)
 
     # ------------------------------------------------------------------ sources and anchors
     def expect_sources(self, document: Document) -> None:
@@ -73,11 +69,11 @@ class GridMarks:
             panel.view.pointer.draw_on(is_drawn_on)
 
     def mark_anchors(self, document: Document) -> None:
-        """Put the anchors of each panel's surface where they are."""
+        """Let the anchors of each panel's surface be taken hold of, with their values beside them."""
         for panel in document.panels:
             loaded, marks = self._session.loaded(panel.surface), self._panels[panel.id].marks
             anchors = anchors_on(document, panel.surface, loaded)
-            self._panels[panel.id].mark_anchors([vertex for vertex, _ in anchors])
+            marks.expect_anchors([vertex for vertex, _ in anchors])
             if not any(part.has_anchors for part in panel.shows.parts):
                 marks.hold_anchors(None)
                 continue
@@ -91,28 +87,53 @@ class GridMarks:
             self.chosen_anchor = point
             self.mark_anchors(self._session.document)
 
-    # ------------------------------------------------------------------ pairs
-    def show_pairs(self, document: Document) -> None:
-        """Put the points of pairs on each panel's surface, and say in panels without a prediction what waits."""
-        for panel in document.panels:
-            self.show_pairs_in(document, panel.id)
+    # ------------------------------------------------------------------ what tools mark
+    def show(self, document: Document) -> None:
+        """What tools mark in each panel, and in panels without a prediction what waits."""
+        changed = [self.show_in(document, panel.id) for panel in document.panels]
+        if any(changed):
+            self._moving.moved(SELECTED_MS)
 
-    def show_pairs_in(self, document: Document, id: int) -> None:
-        panel, widget = document.panel(id), self._panels[id]
-        loaded, shown = self._session.loaded(panel.surface), self._session.shown.get(id)
-        if loaded is None:
-            return
+    def show_in(self, document: Document, id: int) -> bool:
+        """What tools mark in a panel; whether other vertices are selected there."""
+        panel, widget, shown = document.panel(id), self._panels[id], self._session.shown.get(id)
+        surfaces = {mesh.name: self._session.loaded(mesh.name) for mesh in document.surfaces}
+        there = {name: loaded for name, loaded in surfaces.items() if loaded is not None}
+        if panel.surface not in there:
+            return False
         answer = None if shown is None else shown.answer
+        marked = MarkedPanel(document, panel, there, answer or NOTHING, widget.marks.found)
+        has_other_areas = [
+            widget.marks.show(tool.word, tool.load(tool.marks)(marked), self._lit_points(document))
+            for tool in tools()
+            if tool.marks
+        ]
+        self._show_prediction(document, panel, answer)
+        return any(has_other_areas)
+
+    def show_found(self, id: int, kind: type, found: object | None) -> None:
+        """Mark what has been found beside the window's thread for a panel, by its type; None for nothing."""
+        known = self._panels[id].marks.found
+        if found is not known.get(kind):
+            known[kind] = found
+            if id in [panel.id for panel in self._session.document.panels]:
+                self.show_in(self._session.document, id)
+
+    def _lit_points(self, document: Document) -> frozenset[str]:
+        """What stands out, with both points of a pair."""
+        pair = next((pair for pair in document[Pairs].pairs if self.chosen_pair in pair.points), None)
+        return frozenset((*self.lit, *(() if pair is None else pair.points)))
+
+    def _show_prediction(self, document: Document, panel: Panel, answer: Answer | None) -> None:
         candidate = candidate_in(document, panel, answer)
-        widget.marks.show_pairs(located_pair_points(document, panel.surface, loaded), candidate, self.chosen_pair)
         is_plain = predicts_in(panel) and candidate is None and (answer is None or not answer.failure)
         alone = sum(other.surface == panel.surface and predicts_in(other) for other in document.panels) == 1
         is_first = document.panels_of(panel.surface)[0] == panel
-        widget.show_prediction(
+        self._panels[panel.id].show_prediction(
             None if candidate is None else candidate.misfit,
             # Once for each surface, and where it waits.
             (pair_words(document, panel.surface) if is_first else ("",)) if is_plain else colours_words(answer),
-            loaded.surface.name if is_plain and alone else "",
+            self._session.loaded(panel.surface).surface.name if is_plain and alone else "",
         )
 
     def choose_pair(self, point: str) -> None:
@@ -120,32 +141,16 @@ class GridMarks:
         if point != self.chosen_pair:
             self.chosen_pair = point
             if self._session.surface is not None:
-                self.show_pairs(self._session.document)
-
-    # ------------------------------------------------------------------ pins and selections
-    def show_pins(self, document: Document) -> None:
-        """Put the pins of each panel's surface where they are."""
-        for panel in document.panels:
-            pins = located_pins(document, panel.surface, self._session.loaded(panel.surface).surface)
-            self._panels[panel.id].marks.show_pins(pins, self.lit)
+                self.show(self._session.document)
 
     def light_pins(self, points: tuple[str, ...]) -> None:
         """Let the pins at these points stand out."""
         if points != self.lit:
             self.lit = points
             if self._session.surface is not None:
-                self.show_pins(self._session.document)
+                self.show(self._session.document)
 
-    def show_selected(self, colours: Mapping[str, FloatArray | None]) -> None:
-        """Vertices that stand out in the panels of each surface, see `selected_colours`."""
-        self._selected = colours
-        for panel in self._panels.values():
-            self._select(panel)
-        self._moving.moved(SELECTED_MS)
-
-    def _select(self, panel: DistancePanel) -> None:
-        panel.marks.show_selected(self._selected.get(panel.surface))
-
+    # ------------------------------------------------------------------ brushes
     def set_brush(self, brush: QtGui.QCursor | None) -> None:
         """What a drag paints with in the panels of the first surface, None if it turns them."""
         self._brush = brush

@@ -8,42 +8,40 @@ from qtpy import QtCore, QtGui
 
 from bihdist_core.arrays import AnyArray, FloatArray
 
+from ...marks.primitives import LegendRow
 from ...scene.axes import arms, middle
 from ...scene.camera import camera_seen, frame
 from ...scene.lines_of_sight import pixels_in
-from ...scene.picking import pixel_of
 from . import overlay
 from .anchor_labels import AnchorLabel, paint_anchor_labels
-from .extremum_marks import ExtremumMarks, paint_note
+from .line_marks import LineMarks
+from .notes import paint_legend, paint_note
 from .overlay import Pointed
-from .pair_marks import PairMarks, paint_legend
-from .path_marks import PathMarks
-from .pin_marks import PinMark, drop_under, paint_pins
-from .source_marks import SourceMarks
+from .point_marks import PointMarks
 
 if TYPE_CHECKING:
     from .view import View
+
+HELD = {"pins": "pin", "pairs": "pair"}
+"""The tools whose marks can be taken hold of, and what these are called then."""
 
 DAB = 4.0
 """Pixels across of a vertex that a brush touches."""
 
 
 class MarksOver:
-    """view: what they lie over.  The path alone is told by a drawing of the surface where it is hidden."""
+    """view: what they lie over.  Lines alone are told by a drawing of the surface where they are hidden."""
 
     def __init__(self, view: "View") -> None:
         self._view = view
-        self.extrema = ExtremumMarks(view)
-        self.sources = SourceMarks(view)
-        self.path = PathMarks()
-        self.pairs = PairMarks(view)
+        self.points = PointMarks(view)
+        self.lines = LineMarks()
+        self.legend: Sequence[LegendRow] = ()
         self.pointed: Pointed | None = None
         self.sentence = ""
         self.notes: Sequence[str] = ()
         self.strokes: Sequence[AnyArray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
-        self._pins: tuple[PinMark, ...] = ()
-        self._unseen: frozenset[int] | None = None  # which pins the surface hides; None until it is looked
         self._covered = QtCore.QRect()  # by the ring and its label
         self._labels: tuple[AnchorLabel, ...] = ()
         self._unlabelled: frozenset[int] | None = None  # which of them the surface hides; None until it is looked
@@ -78,38 +76,31 @@ class MarksOver:
         before, self._covered = self._covered, self._cover()
         self._view.update(before | self._covered)
 
-    def show_pins(self, pins: tuple[PinMark, ...]) -> None:
-        """Put drops at these places."""
-        if pins != self._pins:
-            self._pins, self._unseen = pins, None
-            self._view.update()
-
     def show_anchors(self, labels: Sequence[AnchorLabel]) -> None:
         """Write values beside anchors."""
         if labels or self._labels:
             self._labels, self._unlabelled = tuple(labels), None
             self._view.update()
 
+    def show_legend(self, rows: Sequence[LegendRow]) -> None:
+        """What glyphs stand for."""
+        if rows != self.legend:
+            self.legend = rows
+            self._view.update()
+
     def drop_at(self, position: QtCore.QPoint) -> tuple[str, int] | None:
-        """What drop is under a point of the view: ("pin", number) or ("pair", number); None for none."""
-        pair = self.pairs.number_at(position)
-        pin = 0 if pair else self.pin_at(position)
-        return ("pair", pair) if pair else ("pin", pin) if pin else None
+        """What pin is under a point of the view: ("pin", number), or ("pair", number) of a pair's; None for none."""
+        found = self.points.standing_at(position)
+        return None if found is None or found[0] not in HELD else (HELD[found[0]], found[1])
 
     def tip_of_drop(self, kind: str, number: int) -> QtCore.QPoint:
         """The pixel of its place."""
-        return self.pairs.tip_of(number) if kind == "pair" else self.tip_of(number)
+        return self.points.tip_of(next(key for key, held in HELD.items() if held == kind), number)
 
     def pin_at(self, position: QtCore.QPoint) -> int:
-        """The number of the pin whose drop is under a point of the view; 0 for none."""
-        if not self._pins:
-            return 0
-        return drop_under(QtCore.QPointF(position), self._seen_pins(), self._hidden_pins(), self._view.proportion)
-
-    def tip_of(self, number: int) -> QtCore.QPoint:
-        """The pixel of the place of a pin that is seen."""
-        at = self._seen_pins()[number][1]
-        return QtCore.QPoint(int(np.floor(at.x())), int(np.floor(at.y())))
+        """The number of the pin under a point of the view; 0 for none."""
+        found = self.points.standing_at(position)
+        return found[1] if found is not None and found[0] == "pins" else 0
 
     def show_strokes(self, strokes: Sequence[AnyArray]) -> None:
         """What has been drawn so far, points (k, 3)."""
@@ -134,9 +125,9 @@ class MarksOver:
 
     def see(self) -> None:
         """Another picture has been drawn: what is hidden in it?"""
-        self._unseen = self._unlabelled = None
-        self.pairs.see()
-        self.path.see(self._view.scene, self._view.offscreen)
+        self._unlabelled = None
+        self.points.see_again()
+        self.lines.see(self._view.scene, self._view.offscreen)
         self._covered = self._cover()
 
     # ------------------------------------------------------------------ painting
@@ -144,24 +135,21 @@ class MarksOver:
         """What lies lowest first."""
         view = self._view
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        self.path.paint(painter, view.scene.style, view.devicePixelRatioF(), view.proportion)
+        self.lines.paint(painter, view.scene.style, view.devicePixelRatioF(), view.proportion)
         for colour, places in self._dabs:
             painter.setPen(QtGui.QPen(QtGui.QColor(colour), DAB))
             painter.drawPoints(places)
-        self.extrema.paint(painter)
-        self.sources.paint(painter)
+        self.points.paint_flat(painter)
         if self._has_axes:
             at = middle(view.width(), view.height(), view.scene.insets.corners)
             overlay.paint_axes(painter, arms(frame(camera_seen(view.camera, 1.0))), at)
         if self._labels:
             paint_anchor_labels(painter, self._seen_labels(), QtCore.QRectF(view.rect()))
-        if self._pins:
-            paint_pins(painter, self._seen_pins(), self._hidden_pins(), view.proportion)
-        self.pairs.paint(painter)
-        if self.pairs.names() and not self.sentence:
-            paint_legend(painter, QtCore.QRectF(view.rect()), self.pairs.names())
+        self.points.paint_standing(painter)
+        if self.legend and not self.sentence:
+            paint_legend(painter, QtCore.QRectF(view.rect()), self.legend)
         elif self.notes and not self.sentence:
-            paint_note(painter, QtCore.QRectF(view.rect()), self.notes)
+            paint_note(painter, QtCore.QRectF(view.rect()), view.scene.style, self.notes)
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)
         for end in self.ends:
@@ -193,16 +181,6 @@ class MarksOver:
             found |= overlay.label_place(at, self.pointed.value, self.pointed.share, view)
         return found.toAlignedRect().adjusted(-2, -2, 2, 2)
 
-    def _seen_pins(self) -> dict[int, tuple[PinMark, QtCore.QPointF]]:
-        """By their numbers: the pins with their places, but for those that an inset covers."""
-        view = self._view
-        found, renderer, ratio = {}, view.renderer, view.devicePixelRatioF()
-        for pin in self._pins:
-            x, y = pixel_of(renderer, pin.position)
-            if view.scene.insets.renderer_at(x, y) is renderer:
-                found[pin.number] = (pin, QtCore.QPointF(x / ratio, view.height() - y / ratio))
-        return found
-
     def _seen_labels(self) -> list[tuple[AnchorLabel, QtCore.QPointF]]:
         """Those whose places are seen."""
         if self._unlabelled is None:
@@ -214,9 +192,3 @@ class MarksOver:
             for k, label in enumerate(self._labels)
             if k not in self._unlabelled
         ]
-
-    def _hidden_pins(self) -> frozenset[int]:
-        """The numbers of those that the surface is before."""
-        if self._unseen is None:
-            self._unseen = frozenset(pin.number for pin in self._pins if not self._view.sees(pin.position))
-        return self._unseen

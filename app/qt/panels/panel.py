@@ -222,10 +222,6 @@ class DistancePanel(QtWidgets.QWidget):
         ids += self.marks.anchors
         return np.concatenate([self.positions[ids], self.marks.dots])
 
-    def mark_anchors(self, vertices: Sequence[int]) -> None:
-        """Rings at the vertices of anchors, in their order."""
-        self.marks.mark_anchors(vertices)
-
     @property
     def source(self) -> int | None:
         """Where its field starts."""
@@ -259,7 +255,6 @@ class DistancePanel(QtWidgets.QWidget):
             self.view.scene.show_field(answer.field, maximum, answer.is_signed, not answer.is_rough)
             self._show_bands()
         self.marks.mark_source()
-        self.mark_anchors(self.marks.anchors)
         self.view.scene.mark_largest(None if answer.largest is None else self.positions[answer.largest])
         self.show_waiting(None)
         self.show_error_estimate(shown)

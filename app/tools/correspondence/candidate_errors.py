@@ -87,12 +87,11 @@ class CandidateErrors(QtCore.QObject):
 
     def _show(self) -> None:
         document, judged = self._context.document, self.judged
-        places, errors = ((), {}) if judged is None else (judged.places, judged.errors)
         there = {panel.id: panel for panel in document.panels}
         for panel in self._context.grid.panels:
             shown = there.get(panel.id)
             is_here = shown is not None and shown.surface == self._surface_name() and predicts_in(shown)
-            panel.marks.show_truth(places if is_here else (), errors.get(panel.id) if is_here else None)
+            self._context.grid.marks.show_found(panel.id, CandidatesJudged, judged if is_here else None)
 
     def _surface_name(self) -> str:
         """Of the candidates."""

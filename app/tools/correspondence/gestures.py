@@ -110,7 +110,7 @@ class PairGestures(Gesture):
         """Let the candidate stand out that Enter takes."""
         found = self.candidate(may_be_late=True)
         for panel in self._grid.panels:
-            panel.view.over.pairs.mean(found is not None and panel.id == found[0])
+            panel.view.over.points.mean(found is not None and panel.id == found[0])
 
     def accept(self) -> None:
         """The best candidate is the partner."""

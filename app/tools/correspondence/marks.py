@@ -7,31 +7,39 @@ from bihdist_core.distances.answers import Answer
 from ...document.maps import Maps, Truth
 from ...marks.glyphs import CANDIDATE, CROSS, PIN
 from ...marks.marked_panel import MarkedPanel
-from ...marks.primitives import PointMark
+from ...marks.primitives import LegendRow, PointMark
 from ...scene.style import PINS, WAITING
 from ...session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
 from ...session.pair_locations import LocatedPairPoint, candidate_in, located_pair_points
 
 
-def marks(marked: MarkedPanel) -> list[PointMark]:
+def marks(marked: MarkedPanel) -> list[PointMark | LegendRow]:
     """The points on a panel's surface, and the best candidate of its answer with where the point belongs."""
     document, panel = marked.document, marked.panel
-    found = [pair_mark(each) for each in located_pair_points(document, panel.surface, marked.loaded)]
+    found: list[PointMark | LegendRow] = [
+        pair_mark(each) for each in located_pair_points(document, panel.surface, marked.loaded)
+    ]
     candidate = candidate_in(document, panel, marked.answer)
-    if candidate is None:
-        return found
-    judged = _judged(marked, candidate.vertex)
-    name = f"The place where point {candidate.number} belongs"
-    found += [PointMark(vertex, CROSS, name=name) for vertex in judged.places]
-    off = judged.errors.get(panel.id)
-    fraction = f"{100 * candidate.share:.1f} %" if off is None else f"{100 * off:.1f} % off"
-    text, name = f"{candidate.vertex}, {fraction}", f"The candidate for point {candidate.number}"
-    return [*found, PointMark(candidate.vertex, CANDIDATE, WAITING, text, candidate.number, name=name)]
+    judged = marked.find(CandidatesJudged, lambda: None if candidate is None else _judged(marked, candidate.vertex))
+    if judged is not None and judged.places:
+        name = "The place where the point belongs"
+        if candidate is not None:
+            name = f"The place where point {candidate.number} belongs"
+        found += [*(PointMark(vertex, CROSS, name=name) for vertex in judged.places), LegendRow(CROSS, "truth")]
+    if candidate is not None:
+        off = None if judged is None else judged.errors.get(panel.id)
+        aside = f"{100 * candidate.share:.1f} %" if off is None else f"{100 * off:.1f} % off"
+        name, text = f"The candidate for point {candidate.number}", str(candidate.vertex)
+        found.append(PointMark(candidate.vertex, CANDIDATE, WAITING, text, candidate.number, name=name, aside=aside))
+        found.append(LegendRow(CANDIDATE, "candidate"))
+    return found
 
 
 def pair_mark(located: LocatedPairPoint) -> PointMark:
     colour = WAITING if located.is_waiting else PINS[located.pair.colour]
-    return PointMark(located.vertex, PIN, colour, number=located.number, name=f"Point {located.number}")
+    return PointMark(
+        located.vertex, PIN, colour, number=located.number, name=f"Point {located.number}", point=located.point
+    )
 
 
 def _judged(marked: MarkedPanel, vertex: int) -> CandidatesJudged:

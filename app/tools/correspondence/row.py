@@ -6,7 +6,7 @@ from ...qt.docks.dock import PAD
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number_width, paint_number
 from ...qt.panels.flat_button import FlatButton
-from ...qt.panels.pin_marks import BRIGHT, HEAD, paint_badge
+from ...qt.panels.number_badge import BRIGHT, RADIUS, paint_badge
 
 HEIGHT = 28
 BADGE_ROOM, BIN_ROOM = 34, 32
@@ -91,12 +91,12 @@ class PairRow(QtWidgets.QWidget):
             painter.fillRect(self.rect(), QtGui.QColor(theme.selection))
         elif self.underMouse():
             painter.fillRect(self.rect(), QtGui.QColor(theme.hover))
-        middle = QtCore.QPointF(PAD + HEAD * LOOK.scale, self.height() / 2)
+        middle = QtCore.QPointF(PAD + RADIUS * LOOK.scale, self.height() / 2)
         paint_badge(painter, middle, self._number, self._colour)
         if self._is_waiting:
             painter.setPen(QtGui.QPen(BRIGHT, 1.5))
             painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-            painter.drawEllipse(middle, HEAD * LOOK.scale, HEAD * LOOK.scale)
+            painter.drawEllipse(middle, RADIUS * LOOK.scale, RADIUS * LOOK.scale)
         painter.setFont(LOOK.font())
         metrics = painter.fontMetrics()
         baseline = round((self.height() + metrics.ascent() - metrics.descent()) / 2)

@@ -15,7 +15,7 @@ def marks(marked: MarkedPanel) -> list[PointMark]:
 def pin_mark(pin: LocatedPin) -> PointMark:
     colour = PINS[pin.pin.colour]
     if pin.vertex is not None:
-        return PointMark(pin.vertex, PIN, colour, number=pin.number)
+        return PointMark(pin.vertex, PIN, colour, number=pin.number, point=pin.point)
     corners, weights = tuple(pin.corners.tolist()), tuple(pin.weights.tolist())
     nearest = corners[int(pin.weights.argmax())]
-    return PointMark(nearest, PIN, colour, number=pin.number, corners=corners, weights=weights)
+    return PointMark(nearest, PIN, colour, number=pin.number, corners=corners, weights=weights, point=pin.point)

@@ -10,7 +10,7 @@ from bihdist_core.arrays import FloatArray
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number, number_width, paint_number
 from ...qt.look.theme import between
-from ...qt.panels.pin_marks import paint_badge
+from ...qt.panels.number_badge import paint_badge
 
 CELL = 26
 HEAD = 30

@@ -9,7 +9,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number_width, paint_number
 from ...qt.look.text_box import TextBox
-from ...qt.panels.pin_marks import paint_badge
+from ...qt.panels.number_badge import paint_badge
 
 ROW = 30
 PAD = 6

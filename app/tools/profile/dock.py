@@ -209,7 +209,7 @@ class ProfileDock(Instrument):
     def _put_path(self, places: Places | None) -> None:
         """Over the panels of its surface."""
         for panel in self.context.grid.panels:
-            panel.marks.show_path(places if panel in self._panels else None)
+            self.context.grid.marks.show_found(panel.id, Places, places if panel in self._panels else None)
 
     def _show_way(self) -> None:
         self.way.setText(self.path.label if self.path is not None else WAYS[self.document[Profile].way])

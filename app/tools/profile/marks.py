@@ -12,14 +12,15 @@ from ...session.profiling import path_of
 
 def marks(marked: MarkedPanel) -> list[LineMark | Remark]:
     """On panels of its surface; or a sentence on why there is none."""
-    if not shows_path(marked.document):
-        return []
     try:
-        surface, path = path_of(marked.document, marked.surfaces)
+        path = marked.find(Places, lambda: _path(marked))
     except BihdistError as error:
         return [Remark(f"No path is drawn: {error}")]
-    return [path_mark(path.places)] if surface == marked.panel.surface else []
+    return [] if path is None else [LineMark(path.corners, path.weights, look=PATH)]
 
 
-def path_mark(places: Places) -> LineMark:
-    return LineMark(places.corners, places.weights, look=PATH)
+def _path(marked: MarkedPanel) -> Places | None:
+    if not shows_path(marked.document):
+        return None
+    surface, path = path_of(marked.document, marked.surfaces)
+    return path.places if surface == marked.panel.surface else None

@@ -7,10 +7,10 @@ from ...scene.style import PINS
 
 
 def marks(marked: MarkedPanel) -> list[AreaMark]:
-    """The selections of the panel's surface; VertexError where that has no such vertex."""
+    """The selections of the panel's surface; for a figure, VertexError where that has no such vertex."""
     selections = marked.document[Selections].selections
     chosen = [each for each in selections if each.surface == marked.panel.surface and each.runs]
-    for each in chosen:
+    for each in chosen if marked.is_for_figure else ():
         last = each.runs[-1][1]
         if last >= len(marked.loaded.surface.vertices):
             marked.loaded.surface.check_vertex(last)

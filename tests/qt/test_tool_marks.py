@@ -1,0 +1,39 @@
+"""What a tool of somebody else marks is painted in the window."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from app.document import tools
+from app.document.edits import move_source
+from tests.figures.marked_tool import FLAG, TOOL
+from tests.shapes import bumpy
+
+pytest.importorskip("qtpy")
+
+
+def test_points_lines_and_areas_of_a_tool_are_painted_and_follow_the_answers(screen, mesh_file, monkeypatch):
+    entry = SimpleNamespace(name="farthest", load=lambda: TOOL)
+    monkeypatch.setattr(tools, "entry_points", lambda group: [entry])
+    tools.tools.cache_clear()
+    try:
+        s = screen()
+        s.open(mesh_file(bumpy(300)), 5)
+        for source in (5, 200):
+            s.session.show(move_source(s.document, 0, source))
+            s.until(lambda: s.session.is_complete)
+            s.settle(0.1)
+            for panel in s.panels:
+                farthest = int(np.nanargmax(panel.answer.field))
+                (placed,) = panel.view.over.points.placed("farthest")
+                assert (placed.mark.vertex, placed.mark.glyph) == (farthest, FLAG)
+                assert np.array_equal(placed.position, panel.positions[farthest])
+                # Lines that the surface does not draw lie over it, as closed as they are said to be.
+                faces = s.session.surface.faces
+                near = faces[(faces == farthest).any(axis=1)]
+                assert len(panel.view.over.lines.points) == 4 * len(near)
+                tint = panel.view.scene._field._tints["selected"]
+                assert np.flatnonzero(tint.any(axis=1)).tolist() == np.unique(near).tolist()
+    finally:
+        tools.tools.cache_clear()
