@@ -10,7 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from bihdist_core.arrays import ByteArray, FloatArray
 
 from ..document.looks import Isolines, Shading
-from ..marks.line_looks import BOUNDARY, SOURCE
+from ..marks.line_looks import BOUNDARY, SOURCE, LineLook
 from .field_actor import FieldActor, light
 from .insets import Insets
 from .levels import Levels
@@ -21,6 +21,9 @@ from .style import PAPER, Style
 
 if TYPE_CHECKING:
     from .panel_plotter import PanelPlotter
+
+LOOKS = (BOUNDARY, SOURCE)
+"""Of lines that are drawn with the surface, which hides them."""
 
 
 class PanelScene:
@@ -37,15 +40,13 @@ class PanelScene:
         self.bounds: Sequence[float] = (0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
         self.seconds = 0.0  # that the last picture of all of it took
         self._field = FieldActor(style, scale)
-        self._lines = RimmedLines(SOURCE, style, scale)
+        self._lines = {look: RimmedLines(look, style, scale) for look in LOOKS}
         self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
         self._anchored = Marks(style.marker_size * scale, style.mark_edge, are_rings=True)
         self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
-        self._regions = RimmedLines(BOUNDARY, style, scale)
         marks = (self._largest, self._anchored, self._passed)
-        solid = [self._field.actor, self._regions.actor, self._lines.actor, *(each.actor for each in marks)]
-        solid += [self._field.stand_in.actor]
-        self._sized = (self._regions, self._lines, *marks)
+        self._sized: list[RimmedLines | Marks] = [*self._lines.values(), *marks]
+        solid = [self._field.actor, *(each.actor for each in self._sized), self._field.stand_in.actor]
         self._proportion = 1.0
         self.insets = Insets(plotter, solid, self._field, style, scale)
         self.renderer.SetBackground(*style.background)
@@ -85,10 +86,10 @@ class PanelScene:
     def show_surface(self, mesh: vtkPolyData, bounds: Sequence[float]) -> None:
         """Show a surface made by `drawable`, without a field yet."""
         self.show_shape(mesh, bounds)
-        self.show_source_lines([])
+        for look in LOOKS:
+            self.show_lines(look, [])
         self.mark_largest(None)
         self.mark_anchors(np.empty((0, 3)))
-        self.show_regions([])
         self._field.show_selected(None)
         self.mark_passed(np.empty((0, 3)))
         self.insets.show((), np.empty((0, 3)))
@@ -145,10 +146,6 @@ class PanelScene:
         """These, and one of each value `through`."""
         self._field.show_isolines(isolines, through)
 
-    def show_regions(self, curves: Sequence[tuple[FloatArray, bool]]) -> None:
-        """Boundaries of regions: points (k, 3) of each curve, and whether it is closed."""
-        self._regions.show(curves)
-
     def show_bands(self, edges: FloatArray) -> None:
         """Where bands end, see `FieldActor.show_bands`."""
         self._field.show_bands(edges)
@@ -184,9 +181,9 @@ class PanelScene:
         return self._field.maximum
 
     # ------------------------------------------------------------------ marks
-    def show_source_lines(self, lines: Sequence[tuple[FloatArray, bool]]) -> None:
-        """Points (k, 3) of each line that the field starts from, and whether the last joins the first."""
-        self._lines.show(lines)
+    def show_lines(self, look: LineLook, lines: Sequence[tuple[FloatArray, bool]]) -> None:
+        """Points (k, 3) of each line of one of LOOKS, and whether the last joins the first."""
+        self._lines[look].show(lines)
 
     def mark_largest(self, position: FloatArray | None) -> None:
         """Where a signed field is largest."""

@@ -83,7 +83,7 @@ def outline_at(glyph: Glyph, tip: QtCore.QPointF, style: Style) -> QtGui.QPainte
 
 def covers(glyph: Glyph, tip: QtCore.QPointF, place: QtCore.QPointF, style: Style, proportion: float) -> bool:
     """Whether the glyph about one place covers another."""
-    return outline_at(glyph, tip, style).contains(tip + (place - tip) / _share(glyph, proportion))
+    return bool(outline_at(glyph, tip, style).contains(tip + (place - tip) / _share(glyph, proportion)))
 
 
 def paint_sample(painter: QtGui.QPainter, glyph: Glyph, middle: QtCore.QPointF, colour: QtGui.QColor) -> None:

@@ -11,7 +11,7 @@ from bihdist_core.sources.pieces import Pieces
 
 from ...marks.field_marks import source_lines
 from ...marks.glyphs import RING
-from ...marks.line_looks import BOUNDARY
+from ...marks.line_looks import BOUNDARY, SOURCE
 from ...marks.primitives import AreaMark, LegendRow, LineMark, PointMark, SurfaceMark
 from ...scene.selected import selected_colours
 from ...session.isoline_points import IsolinePoint
@@ -87,7 +87,7 @@ class PanelMarks:
         if self._held is None:
             self._view.handles = places
         self._put_source(places)
-        self._view.scene.show_source_lines(lines)
+        self._view.scene.show_lines(SOURCE, lines)
         self._view.redraw()
 
     def _put_source(self, places: np.ndarray) -> None:
@@ -156,7 +156,7 @@ class PanelMarks:
     def _put_lines(self) -> None:
         lines = [line for each in self._shown.values() for line in _of(LineMark, each)]
         placed = [(line, line.positions(self.positions)) for line in lines]
-        self._view.scene.show_regions([(at, line.is_closed) for line, at in placed if line.look == BOUNDARY])
+        self._view.scene.show_lines(BOUNDARY, [(at, line.is_closed) for line, at in placed if line.look == BOUNDARY])
         over = [
             (line.look, np.concatenate([at, at[:1]]) if line.is_closed else at)
             for line, at in placed
