@@ -25,7 +25,7 @@ def marks(marked: MarkedPanel) -> list[SurfaceMark]:
     faces = marked.loaded.surface.faces
     near = faces[(faces == vertex).any(axis=1)]
     return [
-        PointMark(vertex, FLAG, MAGENTA),
+        PointMark(vertex, FLAG, MAGENTA, "farthest"),
         *(LineMark(np.repeat(face[None], 3, axis=0), np.eye(3), True, EDGE) for face in near),
         AreaMark(np.unique(near), CYAN),
     ]

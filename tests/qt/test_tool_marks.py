@@ -29,6 +29,7 @@ def test_points_lines_and_areas_of_a_tool_are_painted_and_follow_the_answers(scr
                 (placed,) = panel.view.over.points.placed("farthest")
                 assert (placed.mark.vertex, placed.mark.glyph) == (farthest, FLAG)
                 assert np.array_equal(placed.position, panel.positions[farthest])
+                assert [label.text for label in panel.view.over._labels] == ["farthest"]
                 # Lines that the surface does not draw lie over it, as closed as they are said to be.
                 faces = s.session.surface.faces
                 near = faces[(faces == farthest).any(axis=1)]

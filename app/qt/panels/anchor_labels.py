@@ -1,4 +1,4 @@
-"""The values of anchors, painted beside them."""
+"""The values of anchors, and the texts of other marks, painted beside them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

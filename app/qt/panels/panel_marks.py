@@ -65,6 +65,7 @@ class PanelMarks:
         self.positions = surface.vertices
         for tool in self._shown:
             self._put_points(tool)
+        self._put_labels()
         self._put_rings()
         self._put_lines()
         self._put_ends()
@@ -110,14 +111,14 @@ class PanelMarks:
         if names is None:
             if self._held is not None:
                 self._held, view.handles = None, np.empty((0, 3))
-                view.over.show_anchors(())
+                self._put_labels()
             return
         places = self.positions[list(self.anchors)]
         view.handles = places
         self._held = [
             AnchorLabel(at, text, name == chosen) for at, text, name in zip(places, texts, names, strict=True) if text
         ]
-        view.over.show_anchors(self._held)
+        self._put_labels()
 
     # ------------------------------------------------------------------ what tools mark
     def show(self, tool: str, marks: Sequence[SurfaceMark], lit: Collection[str] = ()) -> bool:
@@ -130,6 +131,7 @@ class PanelMarks:
             return False
         self._shown[tool], self._lit[tool] = now, lit
         self._put_points(tool)
+        self._put_labels()
         if _rings(before) != _rings(now):
             self._put_rings()
         if _of(LineMark, before) != _of(LineMark, now):
@@ -146,6 +148,12 @@ class PanelMarks:
         points = [mark for mark in _of(PointMark, self._shown[tool]) if mark.glyph != RING]
         places = np.array([mark.on(self.positions) for mark in points]).reshape(-1, 3)
         self._view.over.points.show(tool, points, places, self._lit[tool])
+
+    def _put_labels(self) -> None:
+        """The values of held anchors, and the texts of marks; those that have an aside are labelled by themselves."""
+        marks = [mark for each in self._shown.values() for mark in _of(PointMark, each) if mark.text and not mark.aside]
+        texts = [AnchorLabel(mark.on(self.positions), mark.text) for mark in marks]
+        self._view.over.show_anchors([*(self._held or ()), *texts])
 
     def _put_rings(self) -> None:
         """Drawn with the surface, which hides them."""
