@@ -18,7 +18,8 @@ from .maps import Map
 from .results import is_complete, said_of
 from .storage import Folder
 from .task import Failure, Report, Row, Task, done_before
-from .work_order import ALL, LAYOUTS, MAXIMA, OWN, WorkOrder, result_name
+from .work_kinds import MAXIMA
+from .work_order import ALL, LAYOUTS, OWN, WorkOrder, result_name
 
 MESHES = (".obj", ".off", ".ply", ".stl", ".vtk", ".vtp")
 COLUMNS = (

@@ -30,7 +30,7 @@ from .memory import PART_BYTES, allowed, needed
 from .results import Blocks, facts_of, write_facts, write_result
 from .storage import Folder
 from .task import Failure, Part, Report, Row, Task, done_before
-from .work_order import MAXIMA
+from .work_kinds import MAXIMA
 from .works import (
     WORK,
     Made,

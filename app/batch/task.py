@@ -8,7 +8,8 @@ from .maps import Map
 from .memory import too_big
 from .results import facts_of
 from .storage import Folder
-from .work_order import READ, WorkOrder, result_name
+from .work_kinds import KINDS
+from .work_order import WorkOrder, result_name
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ class Task:
         """The checksum of the mesh, and those of what else a work reads, by what it is."""
         own, *others = self.checksums.split("+")
         files = dict(zip((self.map or self.wanted).files, others, strict=True))
-        return own, {what: sum for what, sum in files.items() if self.map or what in READ.get(work, ())}
+        return own, {what: sum for what, sum in files.items() if self.map or what in KINDS[work].reads}
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,8 @@ from dataclasses import asdict, dataclass
 
 from bihdist_core.errors import ParameterError
 
-WORKS = ("fields", "pairs", "nearest", "eigen", "fps", "figure", "evaluate")
-MAXIMA = "maxima"
-"""A work that is done before figures that share their range: the largest value of each panel."""
+from .work_kinds import KINDS, MAXIMA, WORKS
+
 SIZE, SHARED, OWN = RANGES = ("size", "shared", "own")
 """Where colours of figures end: at one value over the root of each mesh's area, to the power that a distance has; at
 one value in mesh units; at the maximum of each mesh."""
@@ -17,9 +16,6 @@ ARRAYS = ("npy", "npz", "mat", "zarr")
 """Formats of arrays."""
 LAYOUTS = ("dist", "geodist")
 """Folders of .mat files as benchmarks of shape matching read them (see `layouts`)."""
-READ = {"fields": {"landmarks", "mask"}, "pairs": {"landmarks", "labels", "mask"}, "nearest": {"landmarks", "mask"},
-        "fps": {"mask"}}  # fmt: skip
-"""What a work reads beside the mesh: a change of it is one of its results."""
 ALL = "(all maps)"
 """The name in the tables of what is of all maps together."""
 RULES = ("vertices", "farthest", "sample", "landmarks", "all")
@@ -71,7 +67,7 @@ class WorkOrder:
         if not self.works:
             raise ParameterError(f"Nothing is to be done; name some of {', '.join(WORKS)}.")
         for work in self.works:
-            if work not in (*WORKS, MAXIMA):
+            if work not in KINDS:
                 raise ParameterError(f"There is no work {work!r}; it is one of {', '.join(WORKS)}.")
         if "pairs" in self.works and not (self.labels or self.sources.several):
             raise ParameterError(
@@ -87,29 +83,15 @@ class WorkOrder:
 
     def results(self) -> list[tuple[str, str]]:
         """Each work with the distance it is done with, "" for none."""
-        found = []
-        for work in (*WORKS, MAXIMA):
-            if work in self.works:
-                with_distance = work in ("fields", "pairs", "nearest", "fps")
-                found += [(work, distance) for distance in (self.distances if with_distance else ("",))]
-        return found
+        chosen = [kind for kind in KINDS.values() if kind.word in self.works]
+        return [(kind.word, each) for kind in chosen for each in (self.distances if kind.by_distance else ("",))]
 
     def key(self, work: str, distance: str, checksums: str, version: str) -> str:
         """What tells this result from others: of a mesh and other files (by their checksums), options and version."""
         says = asdict(self)
-        of_work = {
-            "fields": {"areas", "sources", "dtype", "arrays", "mask", "normalise"},
-            "pairs": {"areas", "sources", "dtype", "arrays", "mask", "labels", "layout", "normalise"},
-            "nearest": {"areas", "sources", "dtype", "arrays", "mask", "nearest", "normalise"},
-            "eigen": {"areas", "eigenpairs", "dtype", "arrays", "normalise"},
-            "fps": {"areas", "sources", "arrays", "mask", "normalise"},
-            "figure": {"recipe", "range", "maxima"},
-            "evaluate": {"areas", "samples", "arrays"},
-            MAXIMA: {"recipe"},
-        }[work]
         # What stands in files is in their checksums, wherever they are.
         says["sources"]["file"], says["mask"], says["labels"] = "", bool(self.mask), bool(self.labels)
-        says = {name: value for name, value in says.items() if name in of_work}
+        says = {name: value for name, value in says.items() if name in KINDS[work].fields}
         text = json.dumps([work, distance, checksums, version, says], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 

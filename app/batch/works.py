@@ -25,6 +25,7 @@ from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of, source_from_words
 
 from .results import Array
+from .work_kinds import KINDS
 from .work_order import WorkOrder
 
 
@@ -214,13 +215,7 @@ def fps(mesh: Mesh, words: str) -> Made:
     return Made({"vertices": found}, _said(mesh.distance(words)))
 
 
-WORK: dict[str, Callable[..., Made]] = {
-    "fields": fields,
-    "pairs": pairs,
-    "nearest": neighbours,
-    "eigen": eigen,
-    "fps": fps,
-}
+WORK: dict[str, Callable[..., Made]] = {kind.word: globals()[kind.function] for kind in KINDS.values() if kind.function}
 
 
 def _said(distance: Distance) -> dict[str, Any]:

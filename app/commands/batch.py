@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
 
+from ..batch.work_kinds import KINDS, WORKS, works_of
 from ..version import version
 from .options import PARAMETERS, add_areas, add_distance, count, source, specs
 from .terminal import tell
@@ -24,25 +25,9 @@ if TYPE_CHECKING:
 INTERRUPTED = 130
 """The exit status, as everywhere."""
 
-FROM_SOURCES = ("fields", "pairs", "nearest", "fps")
 RULES = ("source", "sources", "landmarks", "sample")
 OF_RECIPE = ("distance", "areas", *PARAMETERS)
 """Options that a recipe says itself."""
-COUNTS_FOR = {
-    **dict.fromkeys(("maps", "truth", "symmetry", "samples"), ("evaluate",)),
-    **dict.fromkeys(("recipe", "range"), ("figure",)),
-    "nearest": ("nearest",),
-    "eigenpairs": ("eigen",),
-    "dtype": ("fields", "pairs", "nearest", "eigen"),
-    "format": (*FROM_SOURCES, "eigen", "evaluate"),
-    **dict.fromkeys(("labels", "layout"), ("pairs",)),
-    "normalise": (*FROM_SOURCES, "eigen"),
-    **dict.fromkeys(("mask", "sources", "landmarks", "sample"), FROM_SOURCES),
-    **dict.fromkeys(("source", "distance", *PARAMETERS), (*FROM_SOURCES, "figure")),
-    "areas": (*FROM_SOURCES, "eigen", "figure", "evaluate"),
-}
-"""The works that an option has an effect on.  Those that are not given are None."""
-
 WORDS = "the same work on many meshes: fields, pairs, neighbours, eigenpairs, farthest points, figures, into a folder"
 
 
@@ -54,9 +39,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="WORKS",
         required=True,
         type=lambda text: tuple(word.strip() for word in text.split(",") if word.strip()),
-        help="some of fields, pairs, nearest, eigen, fps, figure, evaluate, with commas: distances of all vertices "
-        "from the sources; among the sources; their nearest vertices; eigenpairs; farthest points; a picture; errors "
-        "of maps",
+        help=f"some of {', '.join(WORKS)}, with commas: {'; '.join(KINDS[word].meaning for word in WORKS)}",
     )
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--source", type=source, metavar="V", nargs="+", help="vertices, as of `field`, on each mesh")
@@ -225,13 +208,12 @@ def _check_together(options: argparse.Namespace) -> None:
     """ParameterError for options that would be left without effect."""
     from bihdist_core.errors import ParameterError
 
-    from ..batch.work_order import WORKS
-
     asked = {*options.do}
     if not asked or not asked <= {*WORKS}:
         return  # a work that there is not is refused before its options
-    for name, works in COUNTS_FOR.items():
-        if getattr(options, name) is None:
+    for name in vars(options):
+        works = works_of("distance" if name in PARAMETERS else name)
+        if not works or getattr(options, name) is None:
             continue
         counts = asked.intersection(works)
         if not counts:
@@ -242,7 +224,7 @@ def _check_together(options: argparse.Namespace) -> None:
             raise ParameterError(f"--{name} has no effect on the means between parcels; leave it out.")
     if options.seed is not None and options.sample is None:
         raise ParameterError("--seed goes with --sample.")
-    takes_several = asked.intersection(FROM_SOURCES) - ({"pairs"} if options.labels else set())
+    takes_several = asked.intersection(works_of("sources")) - ({"pairs"} if options.labels else set())
     if len(options.source or ()) > 1 and not takes_several:
         raise ParameterError("Figures have one source; name one vertex after --source.")
     if options.layout and options.format not in (None, "npy"):

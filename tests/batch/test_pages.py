@@ -15,7 +15,8 @@ from app.batch.figures import length_power, shared_ends
 from app.batch.pages import write_pages
 from app.batch.storage import Folder
 from app.batch.task import Failure
-from app.batch.work_order import MAXIMA, RANGES, WorkOrder
+from app.batch.work_kinds import MAXIMA
+from app.batch.work_order import RANGES, WorkOrder
 from app.document.camera import Camera
 from app.document.document import comparison
 from app.document.file import recipe_text
