@@ -77,8 +77,8 @@ class DegenerateFaces:
 
     def some(self, index: IntArray) -> "DegenerateFaces":
         """Those at some places (j,)."""
-        kept = {f.name: getattr(self, f.name)[..., index] for f in fields(self) if f.name != "surface"}
-        return DegenerateFaces(self.surface, **kept)
+        columns = {f.name: getattr(self, f.name)[..., index] for f in fields(self) if f.name != "surface"}
+        return DegenerateFaces(self.surface, **columns)
 
     @property
     def lack(self) -> FloatArray:

@@ -304,7 +304,7 @@ def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, l
     a, b, c = whole.T
     proper = np.flatnonzero((a != b) & (b != c) & (c != a))
     unique = _without_repeats(whole, proper)
-    said = [
+    repairs = [
         f"{count} {'face' if count == 1 else 'faces'} {what} dropped"
         for count, what in [
             (len(f) - len(proper), "with a repeated vertex"),
@@ -314,7 +314,7 @@ def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, l
     ]
     if not len(unique):
         raise MeshError(f"{name}: every face names a vertex twice; a surface needs at least one triangle.")
-    return whole[unique], said
+    return whole[unique], repairs
 
 
 def _without_repeats(faces: IntArray, some: IntArray) -> IntArray:

@@ -20,9 +20,9 @@ def clipped(polygons: FloatArray, sizes: IntArray, values: FloatArray) -> tuple[
         there = s < sizes
         following = np.where(s + 1 < sizes, s + 1, 0)
         u, v = at[:, s], at[rows, following]
-        kept = rows[there & (u >= 0)]
-        cut[kept, cut_sizes[kept]] = polygons[kept, s]
-        cut_sizes[kept] += 1
+        inside = rows[there & (u >= 0)]
+        cut[inside, cut_sizes[inside]] = polygons[inside, s]
+        cut_sizes[inside] += 1
         crossed = rows[there & (((u > 0) & (v < 0)) | ((u < 0) & (v > 0)))]
         t = (u[crossed] / (u[crossed] - v[crossed]))[:, None]
         cut[crossed, cut_sizes[crossed]] = (1 - t) * polygons[crossed, s] + t * polygons[crossed, following[crossed]]

@@ -41,8 +41,8 @@ def write_nearest(
         return
     with whole_file(path) as temporary, temporary.open("wb") as file:
         if extension == ".npz":
-            said = {name: np.array(str(fact)) for name, fact in facts.items()}
-            np.savez(file, **{**said, "sources": sources, "indices": indices, "distances": distances})  # type: ignore[arg-type]
+            texts = {name: np.array(str(fact)) for name, fact in facts.items()}
+            np.savez(file, **{**texts, "sources": sources, "indices": indices, "distances": distances})  # type: ignore[arg-type]
             return
         lines = ",\n".join(
             json.dumps({"vertex": vertex, "indices": found[there].tolist(), "distances": away[there].tolist()})

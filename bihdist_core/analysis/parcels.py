@@ -113,28 +113,28 @@ def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None
 
     ParameterError for labels or a mask of another shape or kind, and if there is none.
     """
-    given, n = np.asarray(labels), len(surface.vertices)
-    if given.shape != (n,) or given.dtype.kind not in "iu":
+    numbers, n = np.asarray(labels), len(surface.vertices)
+    if numbers.shape != (n,) or numbers.dtype.kind not in "iu":
         raise ParameterError(
             f"Labels are whole numbers, one for each of the {n:,} vertices of {surface.name}; "
-            f"these have the shape {given.shape} and the type {given.dtype}."
+            f"these have the shape {numbers.shape} and the type {numbers.dtype}."
         )
-    counts = (given >= 0) & (surface.component_of_vertex >= 0)
+    counts = (numbers >= 0) & (surface.component_of_vertex >= 0)
     if mask is not None:
         counts &= checked_mask(surface, mask)
     vertices = np.flatnonzero(counts)
     if not len(vertices):
         raise ParameterError(f"No vertex of {surface.name} has a label and is not masked.")
-    return vertices[np.lexsort((given[vertices], surface.component_of_vertex[vertices]))]
+    return vertices[np.lexsort((numbers[vertices], surface.component_of_vertex[vertices]))]
 
 
 def checked_mask(surface: Surface, mask: npt.ArrayLike) -> BoolArray:
     """(n,) which vertices count; ParameterError for anything but n times yes or no."""
-    given, n = np.asarray(mask), len(surface.vertices)
+    flags, n = np.asarray(mask), len(surface.vertices)
     what = f"A mask has 0 or 1 for each of the {n:,} vertices of {surface.name}"
-    if given.shape != (n,):
-        raise ParameterError(f"{what}; this one has the shape {given.shape}.")
-    wrong = np.flatnonzero(~np.isin(given, (0, 1)))
+    if flags.shape != (n,):
+        raise ParameterError(f"{what}; this one has the shape {flags.shape}.")
+    wrong = np.flatnonzero(~np.isin(flags, (0, 1)))
     if len(wrong):
-        raise ParameterError(f"{what}; vertex {wrong[0]} has {given[wrong[0]]}.")
-    return given.astype(bool)
+        raise ParameterError(f"{what}; vertex {wrong[0]} has {flags[wrong[0]]}.")
+    return flags.astype(bool)

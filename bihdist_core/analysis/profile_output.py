@@ -47,6 +47,6 @@ def write_profile(
             points = [
                 [f, b0, b1] for f, (b0, b1, _) in zip(places.faces.tolist(), places.weights.tolist(), strict=True)
             ]
-            said = {"points": points, "method": along.label, "length": along.length, "arcs": along.arcs.tolist()}
-            said["fields"] = {name: column.tolist() for name, column in values.items()}
-            file.write((json.dumps(said) + "\n").encode())
+            record = {"points": points, "method": along.label, "length": along.length, "arcs": along.arcs.tolist()}
+            record["fields"] = {name: column.tolist() for name, column in values.items()}
+            file.write((json.dumps(record) + "\n").encode())

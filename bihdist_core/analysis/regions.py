@@ -184,10 +184,10 @@ def _segments(f: FloatArray, corners: IntArray, faces: IntArray, rivals: IntArra
                     share = slack[tied, corner] / apart[tied, corner]
                     outside[tied] = (share < 0) | (share > 1)
                 high = np.where(outside, -1, high)
-            kept = np.flatnonzero(high > low)
-            t = np.stack([low, high], 1)[kept][..., None]
-            weights = (1 - t) * ends[kept, :1] + t * ends[kept, 1:]
-            parts.append((np.stack([i, j], 1)[kept], faces[both[kept]], weights, cut_by[kept]))
+            proper = np.flatnonzero(high > low)
+            t = np.stack([low, high], 1)[proper][..., None]
+            weights = (1 - t) * ends[proper, :1] + t * ends[proper, 1:]
+            parts.append((np.stack([i, j], 1)[proper], faces[both[proper]], weights, cut_by[proper]))
     return parts
 
 

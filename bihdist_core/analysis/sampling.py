@@ -43,10 +43,10 @@ def farthest_points(
         )
     if len(set(points)) < len(points) or len(np.unique(distance.surface.component_of_vertex[points])) > 1:
         raise ParameterError(f"The starts {points} are not different vertices of one component.")
-    report, given = progress or silent, len(points)
+    report, start_count = progress or silent, len(points)
     nearest = np.full(len(distance.surface.vertices), np.nan)
     for k in range(count):
-        if k >= given:
+        if k >= start_count:
             farthest = int(np.nanargmax(nearest)) if np.isfinite(nearest).any() else points[0]
             if not nearest[farthest] > 0:
                 raise ParameterError(f"{count:,} points asked for; the component of vertex {points[0]} has {k:,}.")

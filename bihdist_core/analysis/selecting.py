@@ -50,8 +50,8 @@ class Brush:
             nearest: IntArray = corners[[apart.argmin()]].astype(np.int64)
             return nearest
         _, piece = csgraph.connected_components(self._edges[within][:, within], directed=False)
-        wanted = np.unique(piece[np.searchsorted(within, begins)])
-        return within[np.isin(piece, wanted)]
+        pieces = np.unique(piece[np.searchsorted(within, begins)])
+        return within[np.isin(piece, pieces)]
 
 
 def cut_out(surface: Surface, vertices: npt.ArrayLike) -> tuple[Surface, IntArray]:

@@ -38,5 +38,5 @@ def surface_notes(surface: Surface) -> SurfaceNotes:
         (len(surface.degenerate_faces), f"face {HELD}", f"faces {HELD}"),
         (parts if parts > 1 else 0, "", "components, with no distance from one to another (grey, NaN)"),
     ]
-    said, warned = ([counted(*each) for each in some if each[0]] for some in (facts, warnings))
-    return SurfaceNotes((*surface.facts, *said), tuple(surface.repairs), tuple(warned))
+    sentences, warned = ([counted(*each) for each in some if each[0]] for some in (facts, warnings))
+    return SurfaceNotes((*surface.facts, *sentences), tuple(surface.repairs), tuple(warned))

@@ -163,8 +163,8 @@ class Stars:
             side = int(off[best, :, 1].argmin())
             around = np.concatenate([self[int(corners[best, (side + end) % 3])] for end in (0, 1)])
         found = self._crossings(q, np.array(faces, np.int64), start, stop, tolerance)
-        length, wanted = (float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in (found.points(x), q))
-        if not abs(length - wanted) <= OFF * wanted:
+        length, expected = (float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in (found.points(x), q))
+        if not abs(length - expected) <= OFF * expected:
             raise SolverError(f"A path from vertex {start} to {stop} was not found again on {self.surface.name}.")
         return found
 
@@ -186,8 +186,8 @@ class Stars:
             parameters.append(share)
         ends, t = np.array([*at, (stop, stop)]), np.array([*parameters, 0.0])
         moves = (ends[1:] != ends[:-1]).any(axis=1) | (t[1:] != t[:-1])
-        kept = np.append(True, moves)
-        return Crossings(ends[kept], t[kept], faces[moves])
+        distinct = np.append(True, moves)
+        return Crossings(ends[distinct], t[distinct], faces[moves])
 
 
 def _foot(a: FloatArray, b: FloatArray, q: FloatArray) -> FloatArray:

@@ -59,17 +59,17 @@ def truncation_loss(
     ]
     is_simple = len(components) == 1 and not pieces.along.any()
     usual = np.arange(1, checked_count(most) + 1) if is_simple else _some_counts(checked_count(most))
-    wanted = usual if counts is None else np.asarray(counts)
+    counted = usual if counts is None else np.asarray(counts)
     if (
-        wanted.ndim != 1
-        or not len(wanted)
-        or wanted.dtype.kind not in "iu"
-        or not (np.diff(wanted, prepend=0) > 0).all()
+        counted.ndim != 1
+        or not len(counted)
+        or counted.dtype.kind not in "iu"
+        or not (np.diff(counted, prepend=0) > 0).all()
     ):
         raise ParameterError(f"counts are whole numbers of at least 1, ascending, not {counts!r}.")
     highest = max(component.most_eigenpairs for component in components)
-    wanted = wanted[wanted <= highest]
-    if not len(wanted):
+    counted = counted[counted <= highest]
+    if not len(counted):
         raise ParameterError(f"{laplacian.surface.name} has {highest:,} eigenpairs at {_words(at)}.")
     report = progress or silent
     distance = BiharmonicDistance(laplacian, part(report, 0, 0.2))
@@ -79,10 +79,10 @@ def truncation_loss(
         raise ParameterError(f"{laplacian.surface.name} has no second point beside {_words(at)}.")
     for k, component in enumerate(components):
         step = part(report, 0.3 + 0.6 * k / len(components), 0.3 + 0.6 * (k + 1) / len(components))
-        spectrum = component.spectrum(int(wanted[-1]), step)
+        spectrum = component.spectrum(int(counted[-1]), step)
     report(0.9, "sums over eigenpairs")
     if not is_simple:
-        return TruncationLoss(at, wanted, *_losses_of_fields(laplacian, at, exact, wanted, part(report, 0.9, 1)))
+        return TruncationLoss(at, counted, *_losses_of_fields(laplacian, at, exact, counted, part(report, 0.9, 1)))
     (component,) = components
     local = component.local(pieces.touched)
     means, worst, places = _losses(
@@ -91,11 +91,11 @@ def truncation_loss(
         np.einsum("kc,kcj->kj", pieces.start, spectrum.eigenvectors[local]),
         exact[component.vertices] / largest,
         component.areas / component.areas.sum(),
-        wanted,
+        counted,
         largest,
     )
     report(1.0, "sums over eigenpairs")
-    return TruncationLoss(at, wanted, means, worst, component.vertices[places])
+    return TruncationLoss(at, counted, means, worst, component.vertices[places])
 
 
 def _words(source: Source) -> str:

@@ -100,14 +100,14 @@ def joined_runs(ends: Iterable[tuple[int, int]]) -> Runs:
 
 def words_of_change(change: Perturbation) -> str:
     """What is not as usual, but for checksums, as `change_from_words` reads it."""
-    said = []
+    words = []
     for each in fields(change):
         value = getattr(change, each.name)
         if value == each.default or each.name == "pose_sha256":
             continue
         text = words_of_runs(value) if each.name == "cut" else value
-        said.append(f"{each.name}={value[0]}:{value[1]}" if each.name in ("weld", "handle") else f"{each.name}={text}")
-    return ",".join(said)
+        words.append(f"{each.name}={value[0]}:{value[1]}" if each.name in ("weld", "handle") else f"{each.name}={text}")
+    return ",".join(words)
 
 
 def change_from_words(text: str) -> Perturbation:

@@ -75,12 +75,12 @@ class Correspondence:
         """The vectors of all vertices, times the roots of the weights: (n, k) each."""
         root, found = np.sqrt(self.weights), []
         for side, distance in enumerate((self.distance_m, self.distance_n)):
-            kept, points = self._columns[side], self.pairs[:, side].tolist()
-            missing = [vertex for vertex in dict.fromkeys(points) if vertex not in kept]
+            known, points = self._columns[side], self.pairs[:, side].tolist()
+            missing = [vertex for vertex in dict.fromkeys(points) if vertex not in known]
             if missing:
                 columns = distance.from_sources(missing, part(progress, side / 2, side / 2 + 0.5))
-                kept.update(zip(missing, np.ascontiguousarray(columns.T), strict=True))
-            found.append(_normalised(np.stack([kept[vertex] for vertex in points], axis=1)) * root)
+                known.update(zip(missing, np.ascontiguousarray(columns.T), strict=True))
+            found.append(_normalised(np.stack([known[vertex] for vertex in points], axis=1)) * root)
         self._of_m, self._of_n = found
 
     def misfit(self, x: npt.ArrayLike) -> FloatArray:

@@ -34,11 +34,11 @@ def refined_around(surface: Surface, sources: npt.ArrayLike, least: float, reach
         longest = rank[of_side].argmax(axis=0)
         edge = of_side[longest, np.arange(count)]
         away = tree.query(x)[0][surface.faces].min(axis=1)
-        wanted = (length[edge] > np.maximum(away, least) / edges) & (away < reach)
-        if not wanted.any():
+        is_long = (length[edge] > np.maximum(away, least) / edges) & (away < reach)
+        if not is_long.any():
             break
         cut = np.zeros(len(length), bool)
-        cut[edge[wanted]] = True
+        cut[edge[is_long]] = True
         while True:
             more = cut[of_side].any(axis=0) & ~cut[edge]
             if not more.any():
@@ -68,6 +68,6 @@ def _bisected(surface: Surface, of_side: IntArray, longest: IntArray, cut: BoolA
         np.stack([a, m, p], 1)[~whole_a],
         np.stack([p, m, c], 1)[~whole_a],
     ]
-    kept = np.delete(faces, touched, axis=0)
+    others = np.delete(faces, touched, axis=0)
     points = np.concatenate([x, x[surface.edges[cut]].mean(axis=1)])
-    return Surface(points, np.concatenate([kept, *new]), surface.name)
+    return Surface(points, np.concatenate([others, *new]), surface.name)

@@ -85,15 +85,15 @@ def without(surface: Surface, vertices: npt.ArrayLike) -> Surface:
     """
     gone = np.zeros(len(surface.vertices), bool)
     gone[np.asarray(vertices, int)] = True
-    kept = surface.faces[~gone[surface.faces].all(axis=1)]
-    if not len(kept):
+    left = surface.faces[~gone[surface.faces].all(axis=1)]
+    if not len(left):
         raise ParameterError(f"Nothing of {surface.name} would be left; take out less.")
-    rest = Surface(surface.vertices, kept, surface.name)
-    was, now = (each.component_of_vertex[kept[:, 0]] for each in (surface, rest))
+    rest = Surface(surface.vertices, left, surface.name)
+    was, now = (each.component_of_vertex[left[:, 0]] for each in (surface, rest))
     # Components are numbered from the largest.
     largest = np.full(surface.component_count, rest.component_count)
     np.minimum.at(largest, was, now)
-    return Surface(rest.vertices, kept[now == largest[was]], surface.name)
+    return Surface(rest.vertices, left[now == largest[was]], surface.name)
 
 
 def without_faces(surface: Surface, cut: Runs) -> Surface:
@@ -104,12 +104,12 @@ def without_faces(surface: Surface, cut: Runs) -> Surface:
     count, last = len(surface.faces), max((last for _, last in cut), default=-1)
     if last >= count:
         raise ParameterError(f"{surface.name} has {count:,} faces, numbered from 0, and none is {last}.")
-    kept = np.ones(count, bool)
+    is_left = np.ones(count, bool)
     for first, last in cut:
-        kept[first : last + 1] = False
-    if not kept.any():
+        is_left[first : last + 1] = False
+    if not is_left.any():
         raise ParameterError(f"Nothing of {surface.name} would be left; take out less.")
-    return Surface(surface.vertices, surface.faces[kept], surface.name)
+    return Surface(surface.vertices, surface.faces[is_left], surface.name)
 
 
 def posed(surface: Surface, pose: Surface) -> Surface:
@@ -215,8 +215,8 @@ def perturbed(
     if change.simplify is not None:
         # Counted are vertices that belong to faces.
         result, before = _without_loose_vertices(result)
-        result, kept = simplified(result, change.simplify, progress)
-        ids = before[kept]
+        result, ids_left = simplified(result, change.simplify, progress)
+        ids = before[ids_left]
     if change.noise:
         result = noisy(result, change.noise, change.seed, change.along)
     if change.holes:

@@ -195,8 +195,8 @@ def _harmless(x: FloatArray, faces: IntArray, u: IntArray, v: IntArray, relaxed:
     new = np.cross(x[a] - x[v[which]], x[b] - x[v[which]])
     bad = np.einsum("ij,ij->i", old, new) <= KEEP_NORMAL * np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
     bad |= _shapes(x[v[which]], x[a], x[b]) <= least[which]
-    kept: BoolArray = np.bincount(which[bad], minlength=len(u)) == 0
-    return kept
+    is_allowed: BoolArray = np.bincount(which[bad], minlength=len(u)) == 0
+    return is_allowed
 
 
 def _shapes(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:

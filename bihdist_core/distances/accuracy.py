@@ -220,7 +220,7 @@ def accuracy_of_pairs(
     rounding, springs = perturbation.of(y, z)
     residual = np.abs(np.einsum("ij,ij->j", z, component.stiffness @ y - b))
     computed = fields[target, column]
-    kept = computed > corrected * top
-    by = times * (rounding + SPARE * residual + np.where(kept, springs, 0))
-    found = np.where(kept, np.abs(computed - np.sqrt(squares)), 0)
+    is_large = computed > corrected * top
+    by = times * (rounding + SPARE * residual + np.where(is_large, springs, 0))
+    found = np.where(is_large, np.abs(computed - np.sqrt(squares)), 0)
     return float((change_of_root(computed**2, by) + SPARE * found).max() / top)

@@ -235,8 +235,8 @@ class Distances:
             what = "vertices" if pieces.vertices is not None else "lines" if pieces.along.any() else "places"
         else:
             components = [self.laplacian.component_of(source).index]
-        asked = (spec, tuple(components), what)
-        if known_failure := self._failures.get(asked):
+        key = (spec, tuple(components), what)
+        if known_failure := self._failures.get(key):
             return Answer(label=str(spec), failure=known_failure)
         try:
             distance = self.get(spec, part(progress, 0, 0.8))
@@ -258,7 +258,7 @@ class Distances:
             raise
         except BihdistError as error:
             # The same for every such source of the components: what fails is the distance.
-            self._failures[asked] = str(error)
+            self._failures[key] = str(error)
             return failed(str(spec), error)
         except MemoryError as error:
             return failed(str(spec), error)

@@ -170,8 +170,8 @@ class Spec:
 
     def _with(self, names: Sequence[str]) -> str:
         kind = self.kind
-        said = ", ".join(f"{name}={kind.parameter(name).written(self[name])}" for name in names)
-        return f"{self.word}({said})" if said else self.word
+        values = ", ".join(f"{name}={kind.parameter(name).written(self[name])}" for name in names)
+        return f"{self.word}({values})" if values else self.word
 
     def __getitem__(self, name: str) -> Value:
         return dict(self.values)[self.kind.parameter(name).name]

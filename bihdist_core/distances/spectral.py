@@ -194,12 +194,12 @@ class PowerDistance(SpectralDistance):
         return max(shares)
 
     def _said_of(self, accuracy: float, components: Sequence[int]) -> str:
-        said = super()._said_of(accuracy, components)
+        sentence = super()._said_of(accuracy, components)
         if all(self.k >= self.laplacian.components[index].most_eigenpairs for index in components):
-            return said
+            return sentence
         with np.errstate(all="ignore"):
             beyond = rounded_up(self.beyond(components))
-        return f"{said} as a sum of {self.k:,} eigenpairs; all of them would change it by at most {beyond}"
+        return f"{sentence} as a sum of {self.k:,} eigenpairs; all of them would change it by at most {beyond}"
 
     def _left_out(self, component: Component, next_value: float, tails: FloatArray) -> FloatArray:
         # What is asked for is the sum of the first.

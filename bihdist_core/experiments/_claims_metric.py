@@ -134,7 +134,7 @@ def _truncated_claim(doubles: Table, note: str) -> Claim:
         )
     confused = [row for row in doubles.rows if float(row[1] or 0) <= ROUNDING]
     count, gap, there, way = (confused[-1] if confused else min(doubles.rows, key=lambda row: float(row[1] or 0)))[:4]
-    said = ", ".join(f"{float(row[1] or 0):.2g} from {row[0]}" for row in doubles.rows)
+    least = ", ".join(f"{float(row[1] or 0):.2g} from {row[0]}" for row in doubles.rows)
     return Claim(
         "claims-truncated",
         {
@@ -142,7 +142,7 @@ def _truncated_claim(doubles: Table, note: str) -> Claim:
             "biharmonic distance of the same points over the largest": Estimate(float(there or 0)),
         },
         f"Two points in faces, {float(way or 0):.2f} roots of the area apart along edges, by {count} eigenpairs; "
-        f"machine rounding is {np.finfo(float).eps:.1g}. The least found, over the largest: {said} eigenpairs. No "
+        f"machine rounding is {np.finfo(float).eps:.1g}. The least found, over the largest: {least} eigenpairs. No "
         "closed surface fits into the plane of two functions without falling on itself; into three dimensions it need "
         f"not fit, and five have room for all. {note}",
     )

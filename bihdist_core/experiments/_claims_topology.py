@@ -159,12 +159,12 @@ def _claim(id: str, pictured: Change | None, others: list[Change], ways: list[fl
         )
     note = ""
     if pictured:
-        said = ", ".join(
+        changes_found = ", ".join(
             f"{kind} {percent(pictured[kind].normalised_mean)} and {percent(pictured[kind].normalised_largest)}"
             for kind in DISTANCES
             if kind in pictured
         )
-        note = f"At the pictured join, from its own place, over the maximum, mean and largest change: {said}. "
+        note = f"At the pictured join, from its own place, over the maximum, mean and largest change: {changes_found}. "
     along = [(ratio, way) for ratio, way in zip(ratios[shown:], ways, strict=True) if ratio is not None]
     is_whole = pictured is not None and len(known) == len(found)
     note += _shortcuts([ratio for ratio, _ in along], [way for _, way in along])
@@ -178,10 +178,12 @@ def _ratio(change: Change) -> float:
 def _shortcuts(ratios: list[float], ways: list[float]) -> str:
     """Of the other joins, those that are shortcuts, in words."""
     short = [ratio for ratio, way in zip(ratios, ways, strict=True) if way >= FAR_ROUND]
-    said = f"Of the {len(ways)} other joins {len(short)} make the way between their ends at most half as long"
+    sentence = f"Of the {len(ways)} other joins {len(short)} make the way between their ends at most half as long"
     if not short:
-        return f"{said}."
-    return f"{said}; there geodesic distance changes {min(short):.2g} to {max(short):.2g} times as much as biharmonic."
+        return f"{sentence}."
+    return (
+        f"{sentence}; there geodesic distance changes {min(short):.2g} to {max(short):.2g} times as much as biharmonic."
+    )
 
 
 def _cut_changes(before: Fields, after: Fields) -> dict[str, FieldChange]:

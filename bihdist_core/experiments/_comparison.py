@@ -73,10 +73,10 @@ def compared(
         reasons = parts.why(*(f"{kind} on {name}" for name in names for kind in DISTANCES))
         if not any(panel.field is not None for panel in panels):
             raise SolverError(reasons)
-        said = f"Nothing was measured: {reasons}"
-        unmeasured = tuple(Claim(f"{id}-{k}", failure=said) for k in range(1, 5))
+        note = f"Nothing was measured: {reasons}"
+        unmeasured = tuple(Claim(f"{id}-{k}", failure=note) for k in range(1, 5))
         surfaces = {name: shapes[name] for name in names}
-        return Result(id, title, said, surfaces, tuple(panels), claims=unmeasured, not_done=tuple(parts.not_done))
+        return Result(id, title, note, surfaces, tuple(panels), claims=unmeasured, not_done=tuple(parts.not_done))
     return Result(
         id,
         title,
@@ -153,9 +153,9 @@ def _opposite(surface: Surface, source: int) -> BoolArray:
 def _note(k: int, charts: list[Chart]) -> str:
     if k != 3:
         return ""
-    said = ("; ".join(f"{s.name} {s.y[0]:.3g} to {s.y[-1]:.3g}" for s in chart.series) for chart in charts)
+    ranges = ("; ".join(f"{s.name} {s.y[0]:.3g} to {s.y[-1]:.3g}" for s in chart.series) for chart in charts)
     return "".join(
-        f"From the largest to the smallest circle, {c.heading}: {t}. " for c, t in zip(charts, said, strict=True)
+        f"From the largest to the smallest circle, {c.heading}: {t}. " for c, t in zip(charts, ranges, strict=True)
     )
 
 

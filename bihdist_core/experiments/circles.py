@@ -172,8 +172,8 @@ def _around(surface: Surface, vertex: int, chosen: BoolArray) -> tuple[Surface, 
     """Of the faces that are chosen (m,) bool those that hang together with a vertex, and (k,) its vertices' ids."""
     used, compact = np.unique(surface.faces[chosen], return_inverse=True)
     piece = Surface(surface.vertices[used], compact.reshape(-1, 3), surface.name)
-    part_of_it, kept = piece.component(int(piece.component_of_vertex[np.searchsorted(used, vertex)]))
-    return part_of_it, used[kept]
+    part_of_it, ids = piece.component(int(piece.component_of_vertex[np.searchsorted(used, vertex)]))
+    return part_of_it, used[ids]
 
 
 def _over(numerator: FloatArray, denominator: FloatArray) -> list[float]:

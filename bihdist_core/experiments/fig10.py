@@ -112,8 +112,8 @@ def _all_known(pair: tuple[Distance, Distance], points: IntArray, progress: Prog
         for start in range(0, len(points), BLOCK):
             progress(start / len(points), f"distances from known points, {pair[0].label}")
             some = points[start : start + BLOCK]
-            for kept, fields in zip(columns, lanes.map(lambda d, some=some: d.from_sources(some), pair), strict=True):
-                kept.update(zip(some.tolist(), np.ascontiguousarray(fields.T), strict=True))
+            for known, fields in zip(columns, lanes.map(lambda d, some=some: d.from_sources(some), pair), strict=True):
+                known.update(zip(some.tolist(), np.ascontiguousarray(fields.T), strict=True))
     return Correspondence(*pair, np.stack([points, points], 1), known_columns=columns)
 
 

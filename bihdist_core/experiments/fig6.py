@@ -149,8 +149,8 @@ def _cases(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progr
     ]
     made = fine and parts.do(title, simplified, fine, coarse_count, part(progress, 0.5, 1))
     if fine is not None and made:
-        coarse, kept = made
-        cases.append(Change(title, fine, (coarse,), kept, np.arange(coarse_count)))
+        coarse, ids = made
+        cases.append(Change(title, fine, (coarse,), ids, np.arange(coarse_count)))
     if shapes.own is None:
         same = np.arange(len(shapes[name].vertices))
         posed = parts.do("another pose", shapes.__getitem__, "figure_pose2")
@@ -262,8 +262,8 @@ def _claims(found: dict[str, Found], parts: Parts, titles: list[list[str]]) -> l
         numbers = {
             name: by_source([c.normalised_mean for c in each.every["biharmonic"]]) for name, each in done.items()
         }
-        said = "; ".join(f"{case}: {_said(found[case])}" for case in cases if case in found)
-        note = f"Mean change from the pictured source, after division by the maximum (raw in parentheses), {said}."
+        means = "; ".join(f"{case}: {_said(found[case])}" for case in cases if case in found)
+        note = f"Mean change from the pictured source, after division by the maximum (raw in parentheses), {means}."
         # What is neither done nor noted as failed is the pose, of a mesh of a reader.
         failure = parts.why(*cases) or ("" if numbers else "There is no other pose of this mesh to compare it with.")
         # The quick version simplifies other sizes than the statement names.

@@ -62,8 +62,8 @@ class Claim:
     @property
     def measured(self) -> str:
         """The claim's numbers in a line; why there are none, if so."""
-        said = [f"{part.name}: {part.said(self.numbers[part.name])}" for part in self._measured()]
-        return "; ".join(said) or self.failure or "not measured"
+        sentences = [f"{part.name}: {part.said(self.numbers[part.name])}" for part in self._measured()]
+        return "; ".join(sentences) or self.failure or "not measured"
 
     def _measured(self) -> list[Part]:
         return [part for part in self.statement.parts if part.name in self.numbers]

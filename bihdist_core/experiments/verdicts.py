@@ -194,12 +194,12 @@ class Part:
     @property
     def rule(self) -> str:
         """The rule in words."""
-        said = self.limit.words
+        rule = self.limit.words
         if self.by == "once":
-            return said
+            return rule
         if self.by == "interval":
-            return f"{said}, the whole {100 * CONFIDENCE:g} % interval"
-        return f"{said}, pictured {self.of} and {100 * MOST:g} % of random ones"
+            return f"{rule}, the whole {100 * CONFIDENCE:g} % interval"
+        return f"{rule}, pictured {self.of} and {100 * MOST:g} % of random ones"
 
     def counts(self, numbers: Numbers) -> tuple[int, int | None]:
         """How many random sources or measurements tell something, and how many of the sources meet the limit."""
@@ -217,17 +217,17 @@ class Part:
                 return f"{self.limit.said(numbers.value)} (no interval)"
             value, ends = self.limit.said(numbers.value), _span(self.limit, numbers.low, numbers.high)
             return value if ends == value else f"{value} ({ends})"
-        said = []
+        ranges = []
         known = numbers.known
         if known.pictured:
-            said.append(f"{_span(self.limit, min(known.pictured), max(known.pictured))} pictured")
+            ranges.append(f"{_span(self.limit, min(known.pictured), max(known.pictured))} pictured")
         elif numbers.pictured:
-            said.append("0/0 pictured")
+            ranges.append("0/0 pictured")
         if known.random:
-            said.append(f"{_span(self.limit, min(known.random), max(known.random))} {self._from(len(known.random))}")
+            ranges.append(f"{_span(self.limit, min(known.random), max(known.random))} {self._from(len(known.random))}")
         if missing := len(numbers.random) - len(known.random):
-            said.append(f"0/0 {self._from(missing)}")
-        return "; ".join(said)
+            ranges.append(f"0/0 {self._from(missing)}")
+        return "; ".join(ranges)
 
     def _from(self, count: int) -> str:
         return f"from {count} random {self.of if count > 1 else self.of[:-1]}"

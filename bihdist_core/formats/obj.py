@@ -56,8 +56,8 @@ def read_obj(raw: bytes, name: str) -> Polygons:
     before = np.cumsum(is_vertex)[is_face]
     corners = _corners(face_rows, before, len(vertices), name)
     loose = int(is_loose.sum())
-    said = (f"{counted(loose, 'line or point statement')} ignored",) if loose else ()
-    return Polygons(vertices, face_rows.sizes, corners, said)
+    facts = (f"{counted(loose, 'line or point statement')} ignored",) if loose else ()
+    return Polygons(vertices, face_rows.sizes, corners, facts)
 
 
 def _vertices(rows: NumberLines, name: str) -> FloatArray:

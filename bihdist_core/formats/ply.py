@@ -72,8 +72,8 @@ def _from_strips(vertices: FloatArray, values: FloatArray, name: str) -> Polygon
     sizes = np.diff(np.append(-1, breaks)) - 1
     ids = checked_corners(values[whole != -1], sizes, len(vertices), lambda k: f"{name}: strip {k}")
     faces = strip_triangles(sizes, ids)
-    said = f"{counted(int((sizes > 0).sum()), 'triangle strip')} divided into {counted(len(faces), 'triangle')}"
-    return Polygons(vertices, np.full(len(faces), 3), faces.ravel(), facts=(said,))
+    fact = f"{counted(int((sizes > 0).sum()), 'triangle strip')} divided into {counted(len(faces), 'triangle')}"
+    return Polygons(vertices, np.full(len(faces), 3), faces.ravel(), facts=(fact,))
 
 
 def _header(raw: bytes, name: str) -> tuple[str | None, list[_Element], int]:

@@ -88,8 +88,8 @@ def triangulated(polygons: Polygons) -> tuple[IntArray, list[str], list[str]]:
     split = sizes > 3
     made = int((sizes[split] - 2).sum())
     words = "quad" if (sizes[split] == 4).all() else "polygon"
-    said = f"{counted(int(split.sum()), words)} divided into {counted(made, 'triangle')}"
-    return faces, left_out, [said]
+    fact = f"{counted(int(split.sum()), words)} divided into {counted(made, 'triangle')}"
+    return faces, left_out, [fact]
 
 
 def _fan(start: int, size: int) -> IntArray:

@@ -32,11 +32,11 @@ def read_stl(raw: bytes, name: str) -> Polygons:
         place = ", ".join(f"{c:g}" for c in corners[bad[0]])
         raise MeshError(f"{name}: triangle {bad[0] // 3} has a corner at ({place}); all must be finite numbers.")
     vertices, ids = merged(corners)
-    said = (
+    fact = (
         f"{counted(len(corners), 'triangle corner')} at {counted(len(vertices), 'place')} merged into one vertex each, "
         "numbered in the order of the file"
     )
-    return Polygons(vertices, np.full(len(corners) // 3, 3), ids, facts=(said,))
+    return Polygons(vertices, np.full(len(corners) // 3, 3), ids, facts=(fact,))
 
 
 def merged(points: FloatArray) -> tuple[FloatArray, IntArray]:

@@ -32,17 +32,17 @@ def aside(work: Callable[..., Result], *arguments: Any, progress: Progress | Non
     if is_alone() or not sys.executable or getattr(sys, "frozen", False):
         return work(*arguments, progress=report)
     child = ChildProcess(SERVED, framed(__name__.encode()))
-    told: list[bytearray] = []
+    reports: list[bytearray] = []
     try:
-        answers = child.ask(framed(b"".join(_packed((work, arguments)))), told.append)
+        answers = child.ask(framed(b"".join(_packed((work, arguments)))), reports.append)
         while True:
             try:
                 answer = answers.get(timeout=REPORT_EVERY)
                 break
             except Empty:
-                if told:
-                    report(*pickle.loads(told[-1]))
-                    del told[:-1]
+                if reports:
+                    report(*pickle.loads(reports[-1]))
+                    del reports[:-1]
                 else:
                     report(0.0, "starting a process")
     finally:

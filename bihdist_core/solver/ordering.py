@@ -186,13 +186,13 @@ class _Cutter:
             side = self._halves(live, i, j, region, 1 << level)
             # Moving separators pays where they are long.
             separate(side, i, j, region, move=m > LARGE << level)
-            kept = np.flatnonzero(side < 2)
-            region = self.node[live[kept]] * 2 + side[kept]
-            self.node[live[kept]] = region
-            kept = kept[_stable_order(region - (root << level + 1), 2 << level)]
-            live = live[kept]
+            rest = np.flatnonzero(side < 2)
+            region = self.node[live[rest]] * 2 + side[rest]
+            self.node[live[rest]] = region
+            rest = rest[_stable_order(region - (root << level + 1), 2 << level)]
+            live = live[rest]
             new = np.full(m, -1)
-            new[kept] = np.arange(len(kept))
+            new[rest] = np.arange(len(rest))
             stay = (side[i] == side[j]) & (side[i] < 2)
             i, j = new[i[stay]], new[j[stay]]
             self.job.advance(m)

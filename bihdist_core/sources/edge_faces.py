@@ -30,8 +30,8 @@ class EdgeFaces:
 
     def one_at(self, edges: IntArray) -> tuple[IntArray, IntArray]:
         """(k,) a face at each of the edges (k, 2), and (k, 2) which of its corners the ends are."""
-        wanted = edges.min(axis=1) * self._count + edges.max(axis=1)
-        faces = self._order[np.searchsorted(self._key, wanted)] % len(self._faces)
+        keys = edges.min(axis=1) * self._count + edges.max(axis=1)
+        faces = self._order[np.searchsorted(self._key, keys)] % len(self._faces)
         return faces, np.argmax(self._faces[faces][:, None, :] == edges[:, :, None], axis=2)
 
 
