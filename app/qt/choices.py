@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from qtpy import QtCore, QtWidgets
 
@@ -86,7 +87,7 @@ class Choices:
         if chosen:
             self._shade(crease=crease, normals="creased")
 
-    def _shade(self, **changes) -> None:
+    def _shade(self, **changes: Any) -> None:
         session = self._context.session
         session.show(replace(session.document, shading=replace(session.document.shading, **changes)))
 

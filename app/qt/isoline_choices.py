@@ -1,6 +1,8 @@
 """What the user chooses of isolines."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from qtpy import QtWidgets
 
@@ -89,13 +91,13 @@ class IsolineChoices:
         session.show(pass_through_none(session.document))
 
     # ------------------------------------------------------------------
-    def _change(self, key: str, **changes: object) -> None:
+    def _change(self, key: str, **changes: Any) -> None:
         session = self._context.session
         isolines = replace(session.document.isolines, **changes)
         session.show(replace(session.document, isolines=isolines), key=key)
         self._context.choice_changed.emit()
 
-    def _ask(self, said: str, now: str, take) -> None:
+    def _ask(self, said: str, now: str, take: Callable[[str], None]) -> None:
         """For a text, until it is one that can be taken."""
         dialog = QtWidgets.QInputDialog(self._context.widget)
         dialog.setWindowTitle("Isolines")

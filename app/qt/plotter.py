@@ -11,7 +11,7 @@ from bihdist_core.arrays import AnyArray
 
 def background_plotter(surface: Surface, fields: Mapping[str, AnyArray]) -> BackgroundPlotter:
     """Fields (n,) by name become arrays of the points; the first is drawn, NaN in grey."""
-    mesh = pyvista.PolyData.from_regular_faces(surface.vertices, surface.faces)
+    mesh = pyvista.PolyData.from_regular_faces(surface.vertices, surface.faces.astype(int, copy=False))
     for name, field in fields.items():
         mesh.point_data[name] = field
     plotter = BackgroundPlotter(title=f"{surface.name} - PyVista")

@@ -66,11 +66,11 @@ def check_libraries() -> None:
             _load_x_plugin()
     except (ImportError, OSError) as error:
         reason = _reason(error)
-        library = re.match(r"lib[\w.+-]+\.so[.\d]*", reason)
-        if library is None:
+        missing = re.match(r"lib[\w.+-]+\.so[.\d]*", reason)
+        if missing is None:
             raise BihdistError(f"The window needs Qt, which cannot be loaded: {reason}.") from None
         raise BihdistError(
-            f"The window needs {library[0]}, which is not installed; on Debian or Ubuntu: apt-get install {PACKAGES}"
+            f"The window needs {missing[0]}, which is not installed; on Debian or Ubuntu: apt-get install {PACKAGES}"
         ) from None
 
 

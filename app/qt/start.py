@@ -13,6 +13,7 @@ from qtpy import QtCore
 from bihdist_core import BihdistError
 
 from ..document.document import Document
+from ..document.looks import Isolines
 from ..samples import SAMPLES
 from .application import application, check_screen
 from .files.files import Files
@@ -99,7 +100,7 @@ def run_viewer(
 
 def as_preferred(document: Document, preferences: Preferences) -> Document:
     """A document as the user wants what is opened anew."""
-    return replace(document, isolines=preferences.isolines, snap=preferences.snap)
+    return replace(document, isolines=Isolines(preferences.isolines), snap=preferences.snap)
 
 
 def beginning_at(preferences: Preferences, shown: Document | str) -> Preferences:

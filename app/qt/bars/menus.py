@@ -1,6 +1,7 @@
 """The window's menus, made of its actions."""
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from qtpy import QtGui, QtWidgets
 
@@ -30,7 +31,7 @@ TURNS = (
 class LargeIcons(QtWidgets.QProxyStyle):
     """For menus whose icons are pictures."""
 
-    def pixelMetric(self, metric, option=None, widget=None) -> int:
+    def pixelMetric(self, metric: Any, option: Any = None, widget: Any = None) -> int:
         if metric == QtWidgets.QStyle.PixelMetric.PM_SmallIconSize:
             return THUMBNAIL
         return int(super().pixelMetric(metric, option, widget))
@@ -39,7 +40,7 @@ class LargeIcons(QtWidgets.QProxyStyle):
 class NoUnderlines(QtWidgets.QProxyStyle):
     """For menu bars: their keys are found without."""
 
-    def styleHint(self, hint, option=None, widget=None, returned=None) -> int:
+    def styleHint(self, hint: Any, option: Any = None, widget: Any = None, returned: Any = None) -> int:
         if hint == QtWidgets.QStyle.StyleHint.SH_UnderlineShortcut:
             return 0
         return int(super().styleHint(hint, option, widget, returned))

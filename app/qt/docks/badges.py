@@ -91,7 +91,8 @@ class BadgeButton(FlatButton):
 
     def __init__(self, parent: QtWidgets.QWidget, name: str) -> None:
         super().__init__(parent, has_arrow=False)
-        self._name, self._badge = name, Badge("", SOURCE, "")
+        self._name = name
+        self._badge: Badge | None = Badge("", SOURCE, "")
         self.setMenu(QtWidgets.QMenu(self))
 
     def show_badge(self, badge: Badge | None) -> None:

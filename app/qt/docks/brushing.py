@@ -20,6 +20,7 @@ from ..panels.events import BrushLift, BrushTouch
 
 if TYPE_CHECKING:
     from ...scene.picking import Hit
+    from ..panels.panel import DistancePanel
 
 RADII = (4, 28)
 """Of the brush, in logical pixels: a cursor can be no larger."""
@@ -97,7 +98,7 @@ class Brushing(QtCore.QObject):
         session.show(after)
 
     @property
-    def _panels(self) -> list:
+    def _panels(self) -> "list[DistancePanel]":
         """Those of the first surface, which alone is painted on."""
         return [panel for panel in self._grid.panels if panel.surface == self._grid.eye.surface]
 

@@ -124,7 +124,8 @@ class Docks:
         return [self._instrument(word) for word, dock in self._docks.items() if not dock.isHidden()]
 
     def _instrument(self, word: str) -> Instrument:
-        return self._docks[word].content
+        instrument: Instrument = self._docks[word].content
+        return instrument
 
     # ------------------------------------------------------------------ where they are
     def places(self) -> DockPlaces | None:

@@ -9,6 +9,7 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError, SurfacePoint
 from bihdist_core.arrays import AnyArray
+from bihdist_core.distances.answers import Answer
 
 from ...document.file import recipe_text
 from ...document.file_names import file_name
@@ -51,7 +52,7 @@ def copy_line(context: Context, recipe: Recipe, surfaces: Surfaces, is_python: b
     return line
 
 
-def copy_picture(context: Context, recipe: Recipe, surfaces: Surfaces, answers: list) -> None:
+def copy_picture(context: Context, recipe: Recipe, surfaces: Surfaces, answers: list[Answer]) -> None:
     """Put the figure itself on the clipboard once it is drawn, which the window does not wait for."""
     draughtsman = context[Exports].previews
     _Waiting(draughtsman, context).number = draughtsman.ask(

@@ -83,7 +83,7 @@ def _complete_recipe(context: Context) -> Recipe | None:
     return shown_recipe(context)
 
 
-def _opened(dialog: JobDialog, context) -> JobDialog:
+def _opened(dialog: JobDialog, context: Context) -> JobDialog:
     def announce(export: Export) -> None:
         export.saved.connect(lambda path: context.tell(f"Saved {os.path.basename(path)}"))
         export.failed.connect(lambda sentence: context.fail(f"{os.path.basename(export.path)}: {sentence}"))

@@ -34,7 +34,7 @@ class Draughtsman(QtCore.QObject):
 
     def __init__(self, parent: QtCore.QObject | None = None) -> None:
         super().__init__(parent)
-        self._asked: dict[str, tuple[int, Callable[..., Any], tuple]] = {}
+        self._asked: dict[str, tuple[int, Callable[..., Any], tuple[Any, ...]]] = {}
         self._number, self._is_closed = 0, False
         self._change = threading.Condition()
         self._worker: Worker | None = None
@@ -90,7 +90,7 @@ class Draughtsman(QtCore.QObject):
                     else:
                         self.answered.emit(number, result)
 
-    def _made(self, function: Callable[..., Any], arguments: tuple) -> Any:
+    def _made(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
         with self._change:
             if self._worker is None:
                 self._worker = Worker()

@@ -8,7 +8,7 @@ import numpy as np
 from PIL import Image
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.arrays import AnyArray
 
 from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from ..look.look import LOOK
@@ -234,7 +234,7 @@ def without_ground(picture: AnyArray) -> AnyArray:
     return found[edge:-edge, edge:-edge]
 
 
-def _largest(values: FloatArray, steps: int) -> AnyArray:
+def _largest(values: AnyArray, steps: int) -> AnyArray:
     """Over the square of so many pixels to each side."""
     for axis in (0, 1):
         before = values

@@ -5,6 +5,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -152,7 +153,7 @@ class ColourBar(QtWidgets.QWidget):
         self._is_compact = compact
         self._apply_theme()
 
-    def _say(self, **changes: object) -> None:
+    def _say(self, **changes: Any) -> None:
         """While there is no field, there is nothing to say."""
         if self._reading is not None and (said := replace(self._reading, **changes)) != self._reading:
             self._reading = said

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 
 from ...scene.field_actor import CASING
 from ...scene.levels import BOLD
@@ -89,16 +89,17 @@ def _open(picture: AnyArray, label: Written, style: Style, ratio: float) -> None
     inside = (np.abs(along) <= half) & (np.abs(side) <= band)
     along, side, off = along[inside], side[inside], off[inside]
 
-    def beside(which: int) -> AnyArray:
+    def beside(which: int) -> FloatArray:
         at = np.floor(middle + along[:, None] * way + which * (band + 1) * normal).astype(int)
-        return picture[at[:, 1].clip(0, height - 1), at[:, 0].clip(0, width - 1)].astype(float)
+        paint: FloatArray = picture[at[:, 1].clip(0, height - 1), at[:, 0].clip(0, width - 1)].astype(float)
+        return paint
 
     share = ((side / (band + 1)) + 1)[:, None] / 2
     column, row = np.floor(middle + off).astype(int).T
     picture[row, column] = np.round((1 - share) * beside(-1) + share * beside(1)).astype(np.uint8)
 
 
-def _pixels(image: QtGui.QImage) -> FloatArray:
+def _pixels(image: QtGui.QImage) -> ByteArray:
     """(h, w, 4) a copy of its pixels."""
     memory = image.constBits()
     if hasattr(memory, "setsize"):  # of PyQt

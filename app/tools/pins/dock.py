@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
@@ -236,7 +237,7 @@ class PinsDock(Instrument):
     def show_positions(self, is_on: bool) -> None:
         self.list_otherwise(positions=is_on)
 
-    def list_otherwise(self, **changes: object) -> None:
+    def list_otherwise(self, **changes: Any) -> None:
         """Fields of the document's `PinList`."""
         self._show(
             lambda document: document.with_part(

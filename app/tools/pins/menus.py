@@ -1,9 +1,14 @@
 """The menus of pins: of the whole list, and of the rows that are selected."""
 
+from typing import TYPE_CHECKING
+
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.edits import move_source
 from ...scene.style import PINS
+
+if TYPE_CHECKING:
+    from .dock import PinsDock
 
 COLOURS = ("Green", "Orange", "Violet", "Olive", "Plum", "Slate", "Brown", "Teal", "Blue", "Ochre")
 
@@ -11,7 +16,7 @@ COLOURS = ("Green", "Orange", "Violet", "Olive", "Plum", "Slate", "Brown", "Teal
 class PinMenu:
     """dock: that of pins, whose edits the menus call; whole: the menu in its head."""
 
-    def __init__(self, dock) -> None:
+    def __init__(self, dock: "PinsDock") -> None:
         self._dock = dock
         self.whole = QtWidgets.QMenu(dock)
         self.whole.aboutToShow.connect(self._fill_whole)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from qtpy import QtCore, QtWidgets
 
@@ -28,7 +29,7 @@ class ProfileChoices:
     def __init__(self, dock) -> None:
         self._dock = dock
 
-    def show(self, document: Document, **profile: object) -> None:
+    def show(self, document: Document, **profile: Any) -> None:
         self._dock.context.edit(document.with_part(replace(document[Profile], **profile)))
 
     def choose_way(self, way: str) -> None:

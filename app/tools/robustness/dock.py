@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from qtpy import QtCore, QtWidgets
 
@@ -282,7 +283,7 @@ class RobustnessDock(Instrument):
             panel.marks.mark_ends([*joined, *self._picking.picked] if is_first else ())
 
     # ------------------------------------------------------------------ edits
-    def _set(self, key: str = "", is_live: bool = False, **changes: object) -> None:
+    def _set(self, key: str = "", is_live: bool = False, **changes: Any) -> None:
         """key: of the step of the history, which a slider that moves goes on with."""
         self.settings = replace(self.settings, **changes)
         self._show_ends()
