@@ -25,7 +25,7 @@ def main(folder):
     wait(lambda: any(each.objectName() == "circle measures" for each in window.findChildren(QtWidgets.QLabel)))
     (label,) = window.findChildren(QtWidgets.QLabel, "circle measures")
     print(label.text())
-    view = [each for each in window.findChildren(QtWidgets.QWidget) if type(each).__name__ == "View"][1]
+    view = [each for each in window.findChildren(QtWidgets.QWidget) if type(each).__name__ == "PanelView"][1]
     before = viewer.screenshot(f"{folder}/before.png").read_bytes()
     wait(lambda: viewer.panels[1].field is not None)
     QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=view.rect().center())

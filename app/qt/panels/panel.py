@@ -33,9 +33,9 @@ from .end_box import EndPopUp
 from .head import PanelHead
 from .overlay import Pointed
 from .panel_marks import PanelMarks
+from .panel_view import PanelView
 from .stopped import Stopped, stopped_words
 from .value_words import copied_words, value_words
-from .view import View
 from .waiting import Waiting
 
 COMPACT_BELOW = 360
@@ -56,7 +56,7 @@ class DistancePanel(QtWidgets.QWidget):
         super().__init__(parent)
         self.id, self.surface = -1, ""
         self.head = PanelHead(DistanceFrom(COMPARISON[0]), self)
-        self.view = View(offscreen, self)
+        self.view = PanelView(offscreen, self)
         self.marks = PanelMarks(self.view)
         self.bar = ColourBar(self)
         self.bar.end_wanted.connect(self.ask_end)

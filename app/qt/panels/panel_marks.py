@@ -16,7 +16,7 @@ from ...marks.primitives import AreaMark, LegendRow, LineMark, PointMark, Surfac
 from ...scene.selected import selected_colours
 from ...session.isoline_points import IsolinePoint
 from .anchor_labels import AnchorLabel
-from .view import View
+from .panel_view import PanelView
 
 DISC = PointMark(0)
 """Where a field starts."""
@@ -27,7 +27,7 @@ Kind = TypeVar("Kind", PointMark, LineMark, AreaMark, LegendRow)
 class PanelMarks:
     """view: that they are seen in.  positions: (n, 3) where the vertices are drawn, in a height field raised."""
 
-    def __init__(self, view: View) -> None:
+    def __init__(self, view: PanelView) -> None:
         self._view = view
         self.positions = np.empty((0, 3))
         self._forget()

@@ -1,16 +1,13 @@
 """What the mouse does in a view: it turns, holds a mark of the source, a pin or a pair, draws or paints;
 each becomes an event."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...scene import moves
 from .events import BrushLift, BrushTouch, Click, Hover, MarkClick, MarkDrag, MarkRelease, MenuWanted, Stroke, StrokeEnd
-
-if TYPE_CHECKING:
-    from .view import View
+from .marks_over import MarksOver
+from .view import View
 
 STROKE_STEP = 5
 """Pixels from one point of what is drawn to the next."""
@@ -27,8 +24,8 @@ _NONE = QtCore.Qt.MouseButton.NoButton
 class Pointer:
     """view: the one whose events it emits.  One button counts: the first that went down."""
 
-    def __init__(self, view: "View") -> None:
-        self._view = view
+    def __init__(self, view: View, over: MarksOver) -> None:
+        self._view, self._over = view, over
         self.is_drawn_on = False  # whether the left button draws
         self.brush: QtGui.QCursor | None = None  # what drags paint with, instead of turning
         self._button = _NONE
@@ -76,8 +73,8 @@ class Pointer:
         if self._is_stroke:
             view.happened.emit(Stroke(hit))
         may_hold = is_left and not self._is_stroke and (is_plain or event.modifiers() == _CTRL)
-        self._drop = view.over.drop_at(event.pos()) if may_hold else None
-        self._grip = view.over.tip_of_drop(*self._drop) - event.pos() if self._drop else QtCore.QPoint()
+        self._drop = self._over.drop_at(event.pos()) if may_hold else None
+        self._grip = self._over.tip_of_drop(*self._drop) - event.pos() if self._drop else QtCore.QPoint()
         self._held = view.mark_at(event.pos()) if may_hold and is_plain and not self._drop else -1
         if self._held >= 0 or self._drop:
             view.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
@@ -122,7 +119,7 @@ class Pointer:
         if self._is_brushing:
             self._is_brushing = False
             view.happened.emit(BrushLift())
-            view.point_again()
+            self.point_again()
             return
         held, self._held = self._held >= 0, -1
         drop, self._drop = self._drop, None
@@ -139,7 +136,7 @@ class Pointer:
                 view.happened.emit(MarkRelease(drop[0] if drop else ""))
             else:
                 view.let_go.emit()
-            view.point_again()
+            self.point_again()
         elif drop:
             view.happened.emit(MarkClick(*drop, has_ctrl))
         elif press is not None and event.button() == QtCore.Qt.MouseButton.RightButton:
@@ -152,11 +149,17 @@ class Pointer:
 
     def double_click(self, event: QtGui.QMouseEvent) -> None:
         """The first click has moved the source there, or has chosen a pin."""
-        if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._view.over.drop_at(event.pos()):
+        if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._over.drop_at(event.pos()):
             hit = self._view.pick(event.pos())
             if hit is not None:
                 self._view.centre(hit.position)
         self._press = None
+
+    def point_again(self) -> None:
+        """What is under the pointer now, after the camera or the surface has moved."""
+        view, position = self._view, self._place
+        if self.is_up and view.underMouse() and view.rect().contains(position):
+            view.happened.emit(Hover(view.pick(position)))
 
     # ------------------------------------------------------------------ what it does
     def _show_cursor(self, position: QtCore.QPoint) -> None:
@@ -165,7 +168,7 @@ class Pointer:
             self._view.setCursor(self.brush)
         elif self.is_drawn_on:
             self._view.setCursor(QtCore.Qt.CursorShape.CrossCursor)
-        elif self._view.over.drop_at(position) or self._view.mark_at(position) >= 0:
+        elif self._over.drop_at(position) or self._view.mark_at(position) >= 0:
             self._view.setCursor(QtCore.Qt.CursorShape.OpenHandCursor)
         else:
             self._view.unsetCursor()

@@ -1,7 +1,4 @@
-"""The picture of a panel.  Gestures become events; it decides nothing.
-
-The surface is drawn off the screen, once for each change; what lies over it is painted by Qt, and costs no drawing.
-"""
+"""The picture of a panel: a surface that is drawn off the screen, once for each change, and where places are in it."""
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
@@ -15,18 +12,12 @@ from ...scene.picking import Hit, Picker, pixel_of
 from ...scene.proportion import proportion
 from ...scene.style import Style
 from ..look.look import LOOK
-from .events import Hover, MenuWanted
-from .marks_over import MarksOver
-from .pointer import Pointer
 
 MARK_SLACK = 4.0
 """Pixels beside a mark of the source at which it can still be taken hold of."""
 
 MOST_HELD = 300
 """Marks up to which each can be taken hold of."""
-
-NOTCH = 1.1
-"""By how much a notch of the wheel enlarges."""
 
 DIMMED = 0.28
 """How opaque a field is that is no longer the answer."""
@@ -36,7 +27,7 @@ KEY_TURN, KEY_SHIFT = 15.0, 0.05
 
 
 class View(QtWidgets.QWidget):
-    """A scene on the screen."""
+    """A scene on the screen.  What lies over it, and what the mouse does, is `PanelView`'s."""
 
     pressed = QtCore.Signal()  # any button
     happened = QtCore.Signal(object)  # one of `events`
@@ -49,12 +40,10 @@ class View(QtWidgets.QWidget):
     def __init__(self, offscreen: OffscreenRenderer, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.offscreen = offscreen
-        self.over, self.pointer = MarksOver(self), Pointer(self)
         self.plotter = offscreen.new_plotter(self.redraw)
         self.scene = offscreen.new_scene(scale=self.devicePixelRatioF(), plotter=self.plotter)
         self.picker: Picker | None = None
         self.handles = np.empty((0, 3))  # where the source's marks are
-        self.wheel_factor = 1.0  # -1 for a wheel that goes the other way
         self.upright: FloatArray | None = None  # what stays upright while the surface turns
         self._picture: QtGui.QImage | None = None
         self._drawing = np.empty((0, 0, 4), np.uint8)
@@ -117,7 +106,7 @@ class View(QtWidgets.QWidget):
 
     def show_empty(self, is_empty: bool) -> None:
         """Whether there is no surface: then nothing is drawn."""
-        self._is_empty, self._picture, self.over.pointed = is_empty, None, None
+        self._is_empty, self._picture = is_empty, None
         self.redraw()
 
     def redraw(self) -> None:
@@ -144,7 +133,13 @@ class View(QtWidgets.QWidget):
             painter.setOpacity(DIMMED)
         painter.drawImage(QtCore.QPointF(0, 0), picture)
         painter.setOpacity(1.0)
-        self.over.paint(painter)
+        self.paint_over(painter)
+
+    def paint_over(self, painter: QtGui.QPainter) -> None:
+        """What lies over the picture."""
+
+    def see_again(self) -> None:
+        """Another picture has been drawn: other places may be hidden."""
 
     def _drawn(self) -> QtGui.QImage:
         """The picture, drawn if something has changed since."""
@@ -155,7 +150,7 @@ class View(QtWidgets.QWidget):
             self._drawing, self._written = self.offscreen.picture(self.scene, (width, height)), None
             self._picture = self._image(self._drawing)
             self._is_stale = False
-            self.over.see()
+            self.see_again()
             self.pictures += 1
             self.drawn.emit()
         return self._picture
@@ -240,40 +235,6 @@ class View(QtWidgets.QWidget):
         nearest = int(away.argmin())
         reach = (self.mark_size / 2 + MARK_SLACK) * self.devicePixelRatioF()
         return nearest if away[nearest] <= reach and self.sees(self.handles[nearest]) else -1
-
-    # ------------------------------------------------------------------ the mouse
-    def mousePressEvent(self, event: QtGui.QMouseEvent) -> None:
-        self.pointer.press(event)
-
-    def mouseMoveEvent(self, event: QtGui.QMouseEvent) -> None:
-        self.pointer.move(event)
-
-    def mouseReleaseEvent(self, event: QtGui.QMouseEvent) -> None:
-        self.pointer.release(event)
-
-    def mouseDoubleClickEvent(self, event: QtGui.QMouseEvent) -> None:
-        self.pointer.double_click(event)
-
-    def contextMenuEvent(self, event: QtGui.QContextMenuEvent) -> None:
-        """By the keyboard; that of the mouse comes when its button is let go."""
-        if event.reason() == QtGui.QContextMenuEvent.Reason.Keyboard and not self._is_empty:
-            middle = self.rect().center()
-            self.happened.emit(MenuWanted(self.pick(middle), self.mapToGlobal(middle)))
-
-    def wheelEvent(self, event: QtGui.QWheelEvent) -> None:
-        if not self._is_empty and event.angleDelta().y():
-            notches = event.angleDelta().y() / 120 * self.wheel_factor
-            self.zoom(NOTCH**notches, event.position().toPoint())
-        event.accept()
-
-    def leaveEvent(self, event: QtCore.QEvent) -> None:
-        self.happened.emit(Hover(None))
-
-    def point_again(self) -> None:
-        """What is under the pointer now, after the camera or the surface has moved."""
-        position = self.mapFromGlobal(QtGui.QCursor.pos())
-        if self.pointer.is_up and self.underMouse() and self.rect().contains(position):
-            self.happened.emit(Hover(self.pick(position)))
 
     # ------------------------------------------------------------------ the camera
     def zoom(self, factor: float, position: QtCore.QPoint | None = None) -> None:
