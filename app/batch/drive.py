@@ -15,7 +15,7 @@ from ..document.file import checksum
 from ..samples import mesh_path
 from .engines import Engine
 from .maps import Map
-from .results import is_complete, said_of
+from .results import facts_in, is_complete
 from .storage import Folder
 from .task import Failure, Report, Row, Task, done_before
 from .work_kinds import MAXIMA
@@ -241,7 +241,7 @@ def write_tables(
     """
     rows = sorted([*outcome.rows, *lines], key=lambda row: (row.name, row.work, row.distance))
     cells = [(each.name, each.work, each.distance, each.reason) for each in outcome.failures]
-    said = {line[:3] for line in cells} | {(row.name, row.work, row.distance) for row in rows}
+    known = {line[:3] for line in cells} | {(row.name, row.work, row.distance) for row in rows}
     names, of_maps = set(meshes), None if maps is None else set(maps)
 
     def may_stay(name: str, work: str) -> bool:
@@ -249,7 +249,7 @@ def write_tables(
             return of_maps is None or name in of_maps
         return name in names
 
-    kept = [line for line in _lines(folder, "summary.csv", COLUMNS) if tuple(line[:3]) not in said]
+    kept = [line for line in _lines(folder, "summary.csv", COLUMNS) if tuple(line[:3]) not in known]
     table = [tuple(map(str, _cells(row))) for row in rows]
     taken = {row[3] for row in table}  # the file of a layout is that of the last distance
     table += [(*line[:-1], "") for line in kept if line[3] not in taken and _is_there(folder, line)]
@@ -257,7 +257,7 @@ def write_tables(
     cells += [
         (line[0], line[1], line[2], line[3])
         for line in _lines(folder, "failures.csv", REASONS)
-        if tuple(line[:3]) not in said and may_stay(line[0], line[1])
+        if tuple(line[:3]) not in known and may_stay(line[0], line[1])
     ]
     if cells:
         folder.write("failures.csv", _table(REASONS, sorted(cells)))
@@ -271,7 +271,7 @@ def _is_there(folder: Folder, line: Sequence[str]) -> bool:
     layout = next((each for each in LAYOUTS if file.startswith(f"{each}/")), "")
     if name == ALL:
         return folder.size(file) is not None
-    facts = said_of(folder, result_name(name, work, distance, layout))
+    facts = facts_in(folder, result_name(name, work, distance, layout))
     return facts is not None and facts.get("file") == file and is_complete(folder, facts)
 
 

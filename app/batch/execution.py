@@ -35,12 +35,12 @@ from .works import (
     WORK,
     Made,
     Mesh,
+    facts_of_fields,
     fields,
     neighbours,
     neighbours_made,
     pairs_made,
     parcels_made,
-    said_of_fields,
 )
 
 PARTS = ".parts"
@@ -121,7 +121,7 @@ def _made(task: Task, mesh: Mesh, work: str, distance: str, folder: Folder, name
         from .figures import figure_made
 
         facts = figure_made(task.mesh, mesh, folder, f"{name}.png")
-        return write_facts(folder, name, key, f"{name}.png", {**facts, **_said_of(task, mesh, work)})
+        return write_facts(folder, name, key, f"{name}.png", {**facts, **_facts_of_mesh(task, mesh, work)})
     if task.map is not None:
         made = evaluated(mesh, task.map)
     elif work == MAXIMA:
@@ -134,7 +134,7 @@ def _made(task: Task, mesh: Mesh, work: str, distance: str, folder: Folder, name
 
 
 def _written(task: Task, mesh: Mesh, work: str, folder: Folder, name: str, key: str, made: Made) -> dict[str, Any]:
-    facts = {**made.facts, **_said_of(task, mesh, work)}
+    facts = {**made.facts, **_facts_of_mesh(task, mesh, work)}
     if facts.get("accuracy") and work != "fps" and task.wanted.dtype == "float32":
         facts["accuracy"] += ", written in single precision: within 6e-8 of each value"
     layout = task.wanted.layout if work == "pairs" else ""
@@ -159,7 +159,7 @@ def _numbers(facts: dict[str, Any]) -> dict[str, FloatArray]:
     }
 
 
-def _said_of(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
+def _facts_of_mesh(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
     surface, notes = mesh.surface, surface_notes(mesh.surface)
     own, others = task.read(work)
     scaled: dict[str, Any] = {}
@@ -259,7 +259,7 @@ def _join(task: Task, part: Part) -> Report:
             lambda: _both_ways(folder, task, parts) if is_both else (_read_part(folder, task, p) for p in parts),
         )
         if part.work == "fields":
-            made = Made({"fields": blocks}, said_of_fields(distance, sources, task.wanted.sources.rule))
+            made = Made({"fields": blocks}, facts_of_fields(distance, sources, task.wanted.sources.rule))
         else:
             made = Made(*pairs_made(mesh, distance, sources, blocks))
     facts = _written(task, mesh, part.work, folder, name, key, made)

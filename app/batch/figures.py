@@ -109,7 +109,7 @@ def figure_made(path: str, mesh: Mesh, folder: Folder, file: str) -> dict[str, A
         small = as_jpeg(thumbnail(temporary.read_bytes()))
     folder.write(thumbnail_name(mesh.name), small)
     ends = mesh.wanted.maxima or [0.0] * len(answers)
-    said = [
+    panels = [
         {
             "shows": str(panel.shows).replace(" - ", " − "),
             "label": answer.label,
@@ -121,7 +121,7 @@ def figure_made(path: str, mesh: Mesh, folder: Folder, file: str) -> dict[str, A
         }
         for panel, answer, end in zip(document.panels, answers, ends, strict=True)
     ]
-    return {"panels": said, "range": mesh.wanted.range}
+    return {"panels": panels, "range": mesh.wanted.range}
 
 
 def _fitted(document: Document, surface: Surface) -> Document:

@@ -112,12 +112,12 @@ def evaluated(mesh: "Mesh", given: Map) -> Made:
     partners = read_map(given.symmetry, other.surface, other.surface) if given.symmetry else None
     distance = error_distance(other, len(np.unique(right[ids])))
     errors = map_errors(distance, found[ids], right[ids])
-    said: dict[str, Any] = {**_numbers(errors)}
+    facts: dict[str, Any] = {**_numbers(errors)}
     arrays = {"errors": errors}
     if partners is not None:
         arrays[WITH_PARTNERS] = map_errors(distance, found[ids], right[ids], partners)
-        said |= {f"{name}_with_partners": n for name, n in _numbers(arrays[WITH_PARTNERS]).items()}
-    said |= {
+        facts |= {f"{name}_with_partners": n for name, n in _numbers(arrays[WITH_PARTNERS]).items()}
+    facts |= {
         "distance": distance.identity or distance.label,
         "parameters": {"method": distance.method},
         "label": distance.label,
@@ -127,7 +127,7 @@ def evaluated(mesh: "Mesh", given: Map) -> Made:
         "vertices_mapped": "all" if len(ids) == len(found) else ids.tolist(),
         "area_under_curve_to": LIMIT,
     }
-    return Made(arrays, said)
+    return Made(arrays, facts)
 
 
 def _numbers(errors: FloatArray) -> dict[str, float | None]:

@@ -29,13 +29,13 @@ def write_pages(folder: Folder, rows: Sequence[Row], failures: Sequence[Failure]
         cells.append(Cell(name, picture))
         if folder.size(thumbnail_name(name)) is None:
             folder.write(thumbnail_name(name), as_jpeg(picture))
-    words = said_of_ends(list(drawn.values()))
+    words = ends_in_words(list(drawn.values()))
     folder.write(SHEET, as_png(contact_sheet(cells, words)))
     folder.write(PAGE, _page(cells, drawn, words).encode())
     return [SHEET, PAGE]
 
 
-def said_of_ends(drawn: Sequence[Row]) -> list[str]:
+def ends_in_words(drawn: Sequence[Row]) -> list[str]:
     """Where the colours end, a line for each panel."""
     facts = drawn[0].facts
     if facts["range"] == OWN:
@@ -66,7 +66,7 @@ def _figure(cell: Cell, drawn: dict[str, Row]) -> str:
             f'<figure><p class="missing">{html.escape(cell.failure)}</p><figcaption><b>{name}</b></figcaption></figure>'
         )
     facts = drawn[cell.name].facts
-    said = [
+    parts = [
         f"{panel['shows'] if len(facts['panels']) > 1 else ''} max {panel['maximum']:.4g} {panel['unit']}".strip()
         for panel in facts["panels"]
     ]
@@ -75,7 +75,7 @@ def _figure(cell: Cell, drawn: dict[str, Row]) -> str:
     return (
         f'<figure><a href="{file}"><img src="{quote(thumbnail_name(cell.name))}" alt="{name}" loading="lazy" '
         f'width="{wide}" height="{high}"></a><figcaption><b>{name}</b> <a href="{beside}">JSON</a><br>'
-        f"{facts['vertices']:,} vertices · {html.escape(' · '.join(said))}</figcaption></figure>"
+        f"{facts['vertices']:,} vertices · {html.escape(' · '.join(parts))}</figcaption></figure>"
     )
 
 

@@ -52,11 +52,11 @@ Array = AnyArray | Blocks
 
 def facts_of(folder: Folder, name: str, key: str) -> dict[str, Any] | None:
     """What is said of a result that is there, complete; None if it is not, or is of other work."""
-    facts = said_of(folder, name)
+    facts = facts_in(folder, name)
     return facts if facts is not None and facts.get("key") == key and is_complete(folder, facts) else None
 
 
-def said_of(folder: Folder, name: str) -> dict[str, Any] | None:
+def facts_in(folder: Folder, name: str) -> dict[str, Any] | None:
     """What a JSON says, be its file complete or not; None if there is none, or no JSON of ours."""
     try:
         facts = json.loads(folder.read(f"{name}.json") or b"null")
@@ -100,7 +100,7 @@ def write_result(
 
 def _forget(folder: Folder, name: str, file: str) -> None:
     """What was there of other work: its JSON, and its file if that has another name."""
-    before = (said_of(folder, name) or {}).get("file")
+    before = (facts_in(folder, name) or {}).get("file")
     folder.remove(f"{name}.json")
     if before != file and isinstance(before, str) and before.startswith(f"{name}."):
         folder.remove(before)
@@ -108,10 +108,10 @@ def _forget(folder: Folder, name: str, file: str) -> None:
 
 def write_facts(folder: Folder, name: str, key: str, file: str, facts: Mapping[str, Any]) -> dict[str, Any]:
     """The JSON beside a file that is complete."""
-    said = {"file": file, "bytes": folder.size(file), **facts, "key": key}
-    text = json.dumps(said, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    facts_in_file = {"file": file, "bytes": folder.size(file), **facts, "key": key}
+    text = json.dumps(facts_in_file, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     folder.write(f"{name}.json", text.encode())
-    return said
+    return facts_in_file
 
 
 def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:

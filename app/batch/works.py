@@ -136,13 +136,13 @@ def fields(mesh: Mesh, words: str, begin: int = 0, end: int | None = None) -> Ma
     if mesh.mask is not None:
         columns[~mesh.mask] = np.nan
     return Made(
-        {"fields": _in(columns, mesh.wanted.dtype)}, said_of_fields(distance, sources, mesh.wanted.sources.rule)
+        {"fields": _in(columns, mesh.wanted.dtype)}, facts_of_fields(distance, sources, mesh.wanted.sources.rule)
     )
 
 
-def said_of_fields(distance: Distance, sources: list[Source], rule: str = "") -> dict[str, Any]:
+def facts_of_fields(distance: Distance, sources: list[Source], rule: str = "") -> dict[str, Any]:
     is_all = rule == "all" and len(sources) == len(distance.surface.vertices)
-    return {**_said(distance), "sources": "all" if is_all else _named(sources)}
+    return {**_facts_of_distance(distance), "sources": "all" if is_all else _named(sources)}
 
 
 def pairs(mesh: Mesh, words: str) -> Made:
@@ -163,7 +163,7 @@ def pairs_made(
     arrays: dict[str, Array] = {"dist": among}
     if mesh.wanted.arrays in ("npz", "mat"):
         arrays["sqrt_area"] = np.array(area)
-    return arrays, {**said_of_fields(distance, sources, mesh.wanted.sources.rule), "sqrt_area": area}
+    return arrays, {**facts_of_fields(distance, sources, mesh.wanted.sources.rule), "sqrt_area": area}
 
 
 def neighbours(mesh: Mesh, words: str, begin: int = 0, end: int | None = None) -> Made:
@@ -184,14 +184,14 @@ def sources_as_vertices(sources: list[Source]) -> list[int]:
 def neighbours_made(
     mesh: Mesh, distance: Distance, sources: list[Source], indices: IntArray, values: FloatArray
 ) -> Made:
-    said = {"indices": "-1 where there is none", "order": "nearest first, equal ones by number"}
+    facts = {"indices": "-1 where there is none", "order": "nearest first, equal ones by number"}
     arrays = {"indices": indices, "distances": _in(values, mesh.wanted.dtype)}
-    return Made(arrays, {**said_of_fields(distance, sources, mesh.wanted.sources.rule), **said})
+    return Made(arrays, {**facts_of_fields(distance, sources, mesh.wanted.sources.rule), **facts})
 
 
 def parcels_made(distance: Distance, found: Parcels, dtype: str) -> Made:
-    said = {**_said(distance), "labels": found.labels.tolist(), "counts": found.counts.tolist()}
-    return Made({"means": _in(found.means, dtype)}, {**said, "means": "of the distances of all pairs of vertices"})
+    facts = {**_facts_of_distance(distance), "labels": found.labels.tolist(), "counts": found.counts.tolist()}
+    return Made({"means": _in(found.means, dtype)}, {**facts, "means": "of the distances of all pairs of vertices"})
 
 
 def eigen(mesh: Mesh, words: str = "") -> Made:
@@ -201,24 +201,24 @@ def eigen(mesh: Mesh, words: str = "") -> Made:
     found = eigenpairs(laplacian, min(mesh.wanted.eigenpairs, most))
     vectors = _in(found.eigenvectors, mesh.wanted.dtype)
     arrays = {"eigenvalues": found.eigenvalues, "eigenvectors": vectors, "areas": laplacian.areas}
-    said: dict[str, Any] = {
+    facts: dict[str, Any] = {
         "parameters": {"eigenpairs": len(found.eigenvalues)},
         "unit": "eigenvalues: 1 / mesh units^2",
     }
-    said["normalisation"] = "sum of areas times eigenvector squared is 1"
-    return Made(arrays, said)
+    facts["normalisation"] = "sum of areas times eigenvector squared is 1"
+    return Made(arrays, facts)
 
 
 def fps(mesh: Mesh, words: str) -> Made:
     """(k,) the vertices, each the farthest from those before it; the first is the highest."""
     found = np.array(mesh.sources(words))
-    return Made({"vertices": found}, _said(mesh.distance(words)))
+    return Made({"vertices": found}, _facts_of_distance(mesh.distance(words)))
 
 
 WORK: dict[str, Callable[..., Made]] = {kind.word: globals()[kind.function] for kind in KINDS.values() if kind.function}
 
 
-def _said(distance: Distance) -> dict[str, Any]:
+def _facts_of_distance(distance: Distance) -> dict[str, Any]:
     error_estimate = distance.error_estimate()
     return {
         "distance": distance.identity or distance.label,

@@ -311,7 +311,7 @@ def _progress(total: int) -> "Iterator[Tell]":
 
 
 def _line(report: "Report", done: int, of: int) -> None:
-    said = f"{len(report.failures)} failed" if report.failures else ""
-    if not said and report.rows and not any(row.is_new for row in report.rows):
-        said = "there before"
-    print(f"{done} of {of}: {report.task.words}{': ' if said else ''}{said}", file=sys.stderr)
+    remark = f"{len(report.failures)} failed" if report.failures else ""
+    if not remark and report.rows and not any(row.is_new for row in report.rows):
+        remark = "there before"
+    print(f"{done} of {of}: {report.task.words}{': ' if remark else ''}{remark}", file=sys.stderr)

@@ -48,7 +48,7 @@ def _one(options: argparse.Namespace) -> Facts:
         distances = Distances(laplacian)
         known = [distances.get(spec, progress) for spec in chosen.specs]
         fields = [distance.from_sources(options.source, progress) for distance in known]
-        said = "".join(dict.fromkeys(accuracy(distance) for distance in known))
+        estimates = "".join(dict.fromkeys(accuracy(distance) for distance in known))
     labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
     columns, label = fields[0], " − ".join(labels)
     if chosen.is_difference:
@@ -57,4 +57,4 @@ def _one(options: argparse.Namespace) -> Facts:
     names = distinct([field_name(chosen, [each]) for each in options.source])
     write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
     size = f"{columns.shape[0]:,} vertices, {counted(columns.shape[1], 'source')}"
-    return {"said": [f"{label}, {size}{said}"], "label": label, "shape": list(columns.shape), "fields": names}
+    return {"said": [f"{label}, {size}{estimates}"], "label": label, "shape": list(columns.shape), "fields": names}

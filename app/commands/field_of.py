@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class FieldOf:
-    """field: (n,), NaN where there is none; word: of letters, digits and `_`; said: how accurate it is.
+    """field: (n,), NaN where there is none; word: of letters, digits and `_`; estimate: how accurate it is, in words.
 
     is_signed: it has values on both sides of 0.
     """
@@ -26,7 +26,7 @@ class FieldOf:
     label: str
     word: str
     unit: str
-    said: str
+    estimate: str
     is_signed: bool
 
     @property

@@ -81,13 +81,13 @@ def _loops(surface: "Surface") -> str:
     from bihdist_core import BoundaryLoop
     from bihdist_core.sources.pieces import pieces_of
 
-    count, said = surface.boundary_loop_count, []
+    count, lines = surface.boundary_loop_count, []
     for number in range(min(count, MOST_LOOPS)):
         start, stop = pieces_of(BoundaryLoop(number), surface).positions(surface.vertices)
-        said.append(f"loop:{number} {float(np.linalg.norm(stop - start, axis=1).sum()):.4g} long")
+        lines.append(f"loop:{number} {float(np.linalg.norm(stop - start, axis=1).sum()):.4g} long")
     if count > MOST_LOOPS:
-        said.append("...")
-    return f"{count} ({', '.join(said)})" if said else "0"
+        lines.append("...")
+    return f"{count} ({', '.join(lines)})" if lines else "0"
 
 
 def _accuracies(surface: "Surface", areas: str) -> list[tuple[str, str]]:
@@ -96,13 +96,13 @@ def _accuracies(surface: "Surface", areas: str) -> list[tuple[str, str]]:
     from bihdist_core.distances.answers import Distances
     from bihdist_core.distances.kinds import Spec
 
-    said = []
+    lines = []
     with progress_line() as progress:
         distances = Distances(Laplacian(surface, areas))
         for word in ("biharmonic", "commute-time"):
             try:
                 distance = distances.get(Spec.of(word), progress)
-                said.append((distance.label, accuracy(distance, everywhere=True).removeprefix(", ")))
+                lines.append((distance.label, accuracy(distance, everywhere=True).removeprefix(", ")))
             except SolverError as error:
-                said.append((f"{word}, exact", str(error)))
-    return said
+                lines.append((f"{word}, exact", str(error)))
+    return lines

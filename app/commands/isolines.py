@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> None:
         write_isolines(options.output, lines)
         length = sum(line.length for line in lines)
         size = f"{counted(len(lines), 'curve')} at {counted(len(values), 'value')}, together {length:.6g} long"
-        print(f"{options.output}: {it.label}, {size}{it.said}")
+        print(f"{options.output}: {it.label}, {size}{it.estimate}")
     if options.region:
         # Of a difference 5 % are five percentage points, and not a fraction of its largest value.
         ends = region_from_words(options.region, 1.0 if it.scale != 1 else it.top)
@@ -87,8 +87,8 @@ def _values(it: FieldOf, wanted: Isolines, through: Sequence[int]) -> "FloatArra
 
     it.surface.check_vertices(list(through))
     found = levels(wanted, it.top, it.top, it.is_signed, [float(it.field[vertex]) for vertex in through])
-    if said := too_many(found, wanted, it.top):
-        raise ParameterError(said)
+    if reason := too_many(found, wanted, it.top):
+        raise ParameterError(reason)
     if not len(found.values):
         raise ParameterError("There are no isolines; name a number of steps with --isolines.")
     return found.values

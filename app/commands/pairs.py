@@ -124,14 +124,14 @@ def _write_nearest(options: argparse.Namespace, spec: "Spec") -> Facts:
         sources = np.flatnonzero(surface.component_of_vertex >= 0) if asked is None else surface.check_vertices(asked)
         distance = Distances(laplacian).get(spec, progress)
         indices, values = nearest(distance, sources, options.nearest, progress=progress)
-        said = accuracy(distance)
+        estimate = accuracy(distance)
     facts = {
         "distance": str(spec), "label": distance.label, "unit": distance.unit, "normalisation": "none",
         "mesh": surface.name, "checksum": checksum(found_mesh(options.mesh)), "version": version(),
     }  # fmt: skip
     write_nearest(options.output, sources, indices, values, facts)
     found = int((indices >= 0).sum())
-    line = f"{distance.label}, {counted(found, 'neighbour')} of {counted(len(sources), 'vertex', 'vertices')}{said}"
+    line = f"{distance.label}, {counted(found, 'neighbour')} of {counted(len(sources), 'vertex', 'vertices')}{estimate}"
     return {"said": [line], "pairs": found, "distances": [str(spec)]}
 
 
@@ -156,7 +156,7 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         distance = Distances(laplacian).get(spec, progress)
-        said = accuracy(distance, everywhere=True)
+        estimate = accuracy(distance, everywhere=True)
     dtype = options.dtype or "float32"
     known = begun(distance, options.output, dtype)
     if known and options.fresh:
@@ -175,7 +175,7 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
         raise
     count = len(laplacian.surface.vertices)
     return {
-        "said": [f"{distance.label}, all pairs of {count:,} vertices{said}"],
+        "said": [f"{distance.label}, all pairs of {count:,} vertices{estimate}"],
         "pairs": count**2,
         "distances": [str(spec)],
     }

@@ -56,15 +56,15 @@ def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
     if not text:
         raise OutputError(f"`bihdist {options.command}` writes no text; name a file instead of -.")
     with tempfile.TemporaryDirectory() as folder:
-        path, said = os.path.join(folder, f"output{text}"), io.StringIO()
+        path, printed = os.path.join(folder, f"output{text}"), io.StringIO()
         options.output = path
         try:
-            with redirect_stdout(said):
+            with redirect_stdout(printed):
                 yield
         except BihdistError as error:
             raise type(error)(str(error).replace(path, "-")) from error
         finally:
-            sys.stderr.write(said.getvalue().replace(path, "-"))
+            sys.stderr.write(printed.getvalue().replace(path, "-"))
         with open(path, encoding="utf-8") as file:
             shutil.copyfileobj(file, sys.stdout)
 

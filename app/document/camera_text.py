@@ -23,17 +23,17 @@ def read_camera(text: str) -> View:
 
     ParameterError for anything else.
     """
-    said = re.sub(r"^--(camera|view)[=\s]+", "", text.strip()).strip().strip("\"'")
-    if said.lower() in VIEWS:
-        return said.lower()
-    if said.startswith("{"):
-        return _from_json(said)
+    words = re.sub(r"^--(camera|view)[=\s]+", "", text.strip()).strip().strip("\"'")
+    if words.lower() in VIEWS:
+        return words.lower()
+    if words.startswith("{"):
+        return _from_json(words)
     try:
-        numbers = [float(word) for word in re.split(r"[,;\s]+", said.strip("()[]"))]
+        numbers = [float(word) for word in re.split(r"[,;\s]+", words.strip("()[]"))]
     except ValueError:
         numbers = []
     if len(numbers) != 11:
-        shown = said if len(said) <= SHOWN else f"{said[:SHOWN]}…"
+        shown = words if len(words) <= SHOWN else f"{words[:SHOWN]}…"
         raise ParameterError(
             f"{shown!r} is no camera; copy one with Copy camera, or paste eleven numbers: position, focal point, up "
             "and extent."

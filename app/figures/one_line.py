@@ -120,8 +120,8 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
         raise NotExpressible("One of several sources is where nobody has put it.")
     starts = [Starts(at) for at in places if at is not None]
     words = [str(each) for each in shows]
-    said: dict[str, Any] = {} if words == [str(spec) for spec in COMPARISON] else {"distances": words}
-    return said | ({"source": starts} if starts else {})
+    values: dict[str, Any] = {} if words == [str(spec) for spec in COMPARISON] else {"distances": words}
+    return values | ({"source": starts} if starts else {})
 
 
 PANELS = Row(

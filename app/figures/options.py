@@ -37,19 +37,19 @@ from ..document.tools import tools
 
 # ---------------------------------------------------------------------- isolines
 def _isolines_of(recipe: Recipe) -> dict[str, Any]:
-    isolines, said = recipe.document.isolines, dict[str, Any]()
+    isolines, values = recipe.document.isolines, dict[str, Any]()
     if isolines.spacing is not None:
-        said["isoline_spacing"] = isolines.spacing
+        values["isoline_spacing"] = isolines.spacing
     elif isolines.values:
-        said["isoline_values"] = list(isolines.values)
+        values["isoline_values"] = list(isolines.values)
     elif isolines.count != USUAL.document.isolines.count:
-        said["isolines"] = isolines.count
+        values["isolines"] = isolines.count
     if not isolines.round:
-        said["equal_isolines"] = True
+        values["equal_isolines"] = True
     vertices = [vertex_of(recipe.document.point(name)) for name in isolines.through]
     if None in vertices or not _has_own_points(recipe.document):
         raise NotExpressible("An isoline passes through a point that is more than that.")
-    return said | ({"isoline_through": vertices} if vertices else {})
+    return values | ({"isoline_through": vertices} if vertices else {})
 
 
 def _has_own_points(document: Document) -> bool:
@@ -112,10 +112,10 @@ def _views_of(recipe: Recipe) -> dict[str, Any]:
     if len(cameras) > 1 or (cameras and recipe.views[-1] is not cameras[0]):
         raise NotExpressible("There are several cameras.")
     names = [view for view in recipe.views if isinstance(view, str)]
-    said: dict[str, Any] = {"views": names} if names and (names != ["auto"] or cameras) else {}
+    values: dict[str, Any] = {"views": names} if names and (names != ["auto"] or cameras) else {}
     for camera in cameras:
-        said["camera"] = tuple(map(float, (*camera.position, *camera.focal_point, *camera.up, *camera.extent)))
-    return said
+        values["camera"] = tuple(map(float, (*camera.position, *camera.focal_point, *camera.up, *camera.extent)))
+    return values
 
 
 def _with_views(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
@@ -182,8 +182,8 @@ def _zooms_of(recipe: Recipe) -> dict[str, Any]:
     zooms = recipe.document.zooms
     if any(zoom.corner != "auto" for zoom in zooms):
         raise NotExpressible("An inset has a corner of its own.")
-    said = [(zoom.vertex, zoom.factor, *(() if zoom.isolines is None else (zoom.isolines,))) for zoom in zooms]
-    return {"zooms": said} if said else {}
+    values = [(zoom.vertex, zoom.factor, *(() if zoom.isolines is None else (zoom.isolines,))) for zoom in zooms]
+    return {"zooms": values} if values else {}
 
 
 def _with_zooms(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
@@ -229,8 +229,8 @@ def _colours_of(recipe: Recipe) -> dict[str, Any]:
     colours = recipe.document.colours
     if colours.stops:
         raise NotExpressible("The colours came from a file.")
-    said = {"colours": colours.map, "reversed": colours.reversed, "bands": colours.bands}
-    return {name: value for name, value in said.items() if value}
+    values = {"colours": colours.map, "reversed": colours.reversed, "bands": colours.bands}
+    return {name: value for name, value in values.items() if value}
 
 
 def _with_colours(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
@@ -328,12 +328,12 @@ def _with_range(
 def _shading_of(recipe: Recipe) -> dict[str, Any]:
     """An angle alone would make it creased."""
     shading, usual = recipe.document.shading, USUAL.document.shading
-    said: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     if (shading.normals, shading.crease) != (usual.normals, usual.crease):
-        said["shading"] = shading.normals
+        values["shading"] = shading.normals
     if shading.crease != usual.crease:
-        said["crease"] = shading.crease
-    return said | ({"wireframe": True} if shading.wireframe else {})
+        values["crease"] = shading.crease
+    return values | ({"wireframe": True} if shading.wireframe else {})
 
 
 SHADING = Row(

@@ -250,8 +250,8 @@ class _Taker:
             return []
         own = float(np.nanmax(np.abs(panel.field) if panel.signed else panel.field, initial=0.0))
         found = levels(wanted, self._top, own, panel.signed, panel.through)
-        if said := too_many(found, wanted, own):
-            raise ParameterError(said)
+        if reason := too_many(found, wanted, own):
+            raise ParameterError(reason)
         return contours_seen(self._sight, panel.field, found)
 
     def _seen_lines(self, look: LineLook) -> SeenLines:

@@ -68,8 +68,8 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
     for shown, answer, top in zip(figure.panels, answers, tops, strict=True):
         if shown.field is None:
             # What is plain, or has colours of its own, is shown as it is meant.
-            said = "not shown" if shown.failure else shown.hint
-            parts.append(": ".join(words for words in (shown.heading or answer.label, said) if words))
+            note = "not shown" if shown.failure else shown.hint
+            parts.append(": ".join(words for words in (shown.heading or answer.label, note) if words))
             continue
         low = -top if shown.signed else 0.0
         parts.append(

@@ -62,16 +62,16 @@ def page(title: str, introduction: str, sections: Sequence[Section], quick: bool
     if changed:
         links += ' · <a href="#changes">what changed</a>'
     body = "\n".join(_section(section) for section in sections)
-    said = ""
+    html = ""
     if every:
         how = f"<p>{escape(verdicts.HOW)}</p>" + (f"<p class=warning>⚠ {escape(verdicts.QUICK)}</p>" if quick else "")
-        said = f"<h2>Verdicts</h2>{verdicts.counts(every)}{verdicts.overview(claims)}{how}"
+        html = f"<h2>Verdicts</h2>{verdicts.counts(every)}{verdicts.overview(claims)}{how}"
     return f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>
 <style>{STYLE}{verdicts.STYLE}</style></head><body>
 <h1>{escape(title)}</h1>
 <p>{escape(introduction)}</p>
-{said}
+{html}
 <nav>{links}</nav>
 {missing_words}
 {body}
@@ -87,14 +87,14 @@ def _section(section: Section) -> str:
     if section.failure:
         return "\n".join([*parts, f'<p class="no">Not done: {escape(section.failure)}</p></section>'])
     if section.not_done:
-        said = "".join(f"<li>{escape(str(each))}</li>" for each in section.not_done)
-        parts.append(f'<p class="no">Not done:</p><ul class="no">{said}</ul>')
+        html = "".join(f"<li>{escape(str(each))}</li>" for each in section.not_done)
+        parts.append(f'<p class="no">Not done:</p><ul class="no">{html}</ul>')
     for caption, picture in section.pictures:
         code = base64.b64encode(picture).decode()
-        said = f"<figcaption>{escape(caption)}</figcaption>" if len(section.pictures) > 1 else ""
+        html = f"<figcaption>{escape(caption)}</figcaption>" if len(section.pictures) > 1 else ""
         # Drawn with more pixels than the page has: shown as wide as it is meant to be.
         wide = f'alt="{escape(caption)}" width="{_width(picture) // FINER}"'
-        parts.append(f'<figure>{said}<img {wide} src="data:image/png;base64,{code}"></figure>')
+        parts.append(f'<figure>{html}<img {wide} src="data:image/png;base64,{code}"></figure>')
     if section.charts:
         kind = "charts several" if len(section.charts) > 1 else "charts"
         parts.append(f'<div class="{kind}">' + "".join(section.charts) + "</div>")
@@ -116,8 +116,8 @@ def _table(table: Table) -> str:
     rows = ["".join(_cell(cell) for cell in row) for row in table.rows[:LONGEST_TABLE]]
     body = "".join(f"<tr>{row}</tr>" for row in rows)
     more = len(table.rows) - LONGEST_TABLE
-    said = f"<p class=quiet>{more} more rows in the .csv file.</p>" if more > 0 else ""
-    return f"<details><summary>{escape(table.heading)}</summary><table><tr>{head}</tr>{body}</table>{said}</details>"
+    html = f"<p class=quiet>{more} more rows in the .csv file.</p>" if more > 0 else ""
+    return f"<details><summary>{escape(table.heading)}</summary><table><tr>{head}</tr>{body}</table>{html}</details>"
 
 
 def _cell(cell: str | int | float | None) -> str:

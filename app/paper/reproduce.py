@@ -161,8 +161,8 @@ def _with_pictures(section: Section, asked: Mapping[str, Picture], say: Callable
 
 def _judged(result: Result) -> str:
     """How many of the statements have each verdict."""
-    said = [(verdict, sum(claim.verdict == verdict for claim in result.claims)) for verdict in (*VERDICTS, None)]
-    return ", ".join(f"{count} {_many(verdict, count)}" for verdict, count in said if count) or "no statements"
+    counts = [(verdict, sum(claim.verdict == verdict for claim in result.claims)) for verdict in (*VERDICTS, None)]
+    return ", ".join(f"{count} {_many(verdict, count)}" for verdict, count in counts if count) or "no statements"
 
 
 def _many(verdict: str | None, count: int) -> str:

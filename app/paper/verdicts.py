@@ -50,12 +50,12 @@ def chip(verdict: str | None) -> str:
 
 def counts(claims: Sequence[Claim]) -> str:
     """How many of the statements hold, hold partly, do not, in a line."""
-    said = []
+    html = []
     for verdict in (HOLDS, PARTLY, FAILS, None):
         count = sum(claim.verdict == verdict for claim in claims)
         if count or verdict is not None:
-            said.append(f"<span class=count>{chip(verdict)} <span class=big>{count}</span></span>")
-    return f"<p class=counts>{''.join(said)}<span>of {len(claims)} statements</span></p>"
+            html.append(f"<span class=count>{chip(verdict)} <span class=big>{count}</span></span>")
+    return f"<p class=counts>{''.join(html)}<span>of {len(claims)} statements</span></p>"
 
 
 def overview(sections: Sequence[tuple[str, Sequence[Claim]]]) -> str:
@@ -114,29 +114,29 @@ def _statement(section: str, claim: Claim) -> str:
     notes = [escape(claim.note)] if claim.note else []
     if claim.failure:
         notes.insert(0, f"Not measured: {escape(claim.failure)}")
-    said = f"<p class=quiet>{' '.join(notes)}</p>" if notes else ""
+    html = f"<p class=quiet>{' '.join(notes)}</p>" if notes else ""
     if claim.warning:
-        said = f"<p class=warning>⚠ {escape(claim.warning)}</p>{said}"
+        html = f"<p class=warning>⚠ {escape(claim.warning)}</p>{html}"
     return (
         f'<div class="statement {KINDS[claim.verdict]}" id="{_place(section, claim)}"><p>{chip(claim.verdict)} '
         f"<span class=text>{escape(claim.text)}</span> <span class=quiet><span class=id>{claim.id}</span>: "
         f"{WORDS[stated.words]}, {escape(stated.where)}</span></p>"
         "<table><tr><th class=what>measured</th><th class=numbers>numbers</th><th class=spread>spread</th>"
         "<th>rule</th></tr>"
-        f"{rows}</table>{said}</div>"
+        f"{rows}</table>{html}</div>"
     )
 
 
 def _part(part: Part, numbers: Numbers | None) -> str:
     verdict = part.judge(numbers)
-    said = "not measured" if numbers is None else escape(part.said(numbers))
+    html = "not measured" if numbers is None else escape(part.said(numbers))
     if isinstance(numbers, BySource) and numbers.random:
-        said += f" ({part.counts(numbers)[1]} within)"
+        html += f" ({part.counts(numbers)[1]} within)"
     strip = "" if numbers is None else _strip(part.limit, numbers)
     needed = " (needed)" if part.needed else ""
     return (
         f'<tr><td><span class="{KINDS[verdict]}" title="{verdict or UNJUDGED}">{SIGNS[verdict]}</span> '
-        f"{escape(part.name)}{needed}</td><td>{_unbroken(said)}</td><td>{strip}</td>"
+        f"{escape(part.name)}{needed}</td><td>{_unbroken(html)}</td><td>{strip}</td>"
         f"<td>{_unbroken(escape(part.rule))}</td></tr>"
     )
 

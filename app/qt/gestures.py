@@ -218,8 +218,8 @@ class Gestures(QtCore.QObject):
         """What every panel of the same surface has there."""
         place = " ".join(number(x) for x in self._place(id, vertex))
         name = self._grid.panel(id).surface
-        said = [panel.said_of(vertex) for panel in self._grid.panels if panel.surface == name]
-        return "\n".join([f"vertex {vertex} at {place}", *said])
+        lines = [panel.words_at(vertex) for panel in self._grid.panels if panel.surface == name]
+        return "\n".join([f"vertex {vertex} at {place}", *lines])
 
 
 def _copy(text: str) -> None:

@@ -40,8 +40,8 @@ class IsolineChoices:
 
     def ask_spacing(self) -> None:
         now = self._context.document.isolines.spacing
-        said = f"From one isoline to the next, {IN_UNIT}:"
-        self._ask(said, "" if now is None else f"{now:.6g}", self.spacing)
+        question = f"From one isoline to the next, {IN_UNIT}:"
+        self._ask(question, "" if now is None else f"{now:.6g}", self.spacing)
 
     def spacing(self, text: str) -> None:
         """A typed one; ParameterError if it makes more lines than can be drawn."""
@@ -50,14 +50,14 @@ class IsolineChoices:
         for shown in session.shown.values():
             answer = shown.answer
             own = answer.maximum / answer.scale
-            if said := too_many(levels(wanted, own, own, answer.is_signed), wanted, own):
-                raise ParameterError(said)
+            if reason := too_many(levels(wanted, own, own, answer.is_signed), wanted, own):
+                raise ParameterError(reason)
         self._change("", spacing=wanted.spacing, values=())
 
     def ask_values(self) -> None:
         now = self._context.document.isolines.values
-        said = f"Isolines at these values, {IN_UNIT}, with spaces between them:"
-        self._ask(said, " ".join(f"{value:.6g}" for value in now), self.values)
+        question = f"Isolines at these values, {IN_UNIT}, with spaces between them:"
+        self._ask(question, " ".join(f"{value:.6g}" for value in now), self.values)
 
     def values(self, text: str) -> None:
         """Typed ones."""
@@ -97,18 +97,18 @@ class IsolineChoices:
         session.show(replace(session.document, isolines=isolines), key=key)
         self._context.choice_changed.emit()
 
-    def _ask(self, said: str, now: str, take: Callable[[str], None]) -> None:
+    def _ask(self, question: str, now: str, take: Callable[[str], None]) -> None:
         """For a text, until it is one that can be taken."""
         dialog = QtWidgets.QInputDialog(self._context.widget)
         dialog.setWindowTitle("Isolines")
         dialog.setTextValue(now)
-        dialog.setLabelText(said)
+        dialog.setLabelText(question)
         while dialog.exec():
             try:
                 take(dialog.textValue())
                 break
             except ParameterError as error:
-                dialog.setLabelText(f"{said}\n{error}")
+                dialog.setLabelText(f"{question}\n{error}")
         self._context.choice_changed.emit()
         dialog.deleteLater()
 

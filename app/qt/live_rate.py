@@ -16,7 +16,7 @@ class LiveRate:
     def __init__(self, session: Session, status: StatusBar) -> None:
         self._session, self._status = session, status
         self._shown: deque[float] = deque()
-        self._begun = self._said = 0.0
+        self._begun = self._told = 0.0
         self._is_going = False
 
     def begin(self) -> None:
@@ -31,8 +31,8 @@ class LiveRate:
             return
         now = time.monotonic()
         self._shown.append(now)
-        if now - self._said > SAY_EVERY and now - self._begun > SAY_EVERY:
-            self._said = now
+        if now - self._told > SAY_EVERY and now - self._begun > SAY_EVERY:
+            self._told = now
             self._status.show_rate(self._words(now))
 
     def end(self) -> None:

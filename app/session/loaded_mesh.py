@@ -257,8 +257,8 @@ def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
     content = mesh_content(path)
     surface, found = surface_in(content, os.path.basename(path)), hashlib.sha256(content).hexdigest()
     if mesh.sha256 and found != mesh.sha256:
-        said = f"The mesh {mesh.path} is not what it was when it was written down (its checksum differs). {remedy}"
-        raise ParameterError(said.strip())
+        sentence = f"The mesh {mesh.path} is not what it was when it was written down (its checksum differs). {remedy}"
+        raise ParameterError(sentence.strip())
     return surface, found
 
 

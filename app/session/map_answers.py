@@ -102,7 +102,7 @@ class MapQuestion(Question):
         except (BihdistError, MemoryError) as error:
             return failed(str(self), error)
         found.flags.writeable = colours.flags.writeable = False
-        remark = _said(found, other.surface)
+        remark = _reached_in_words(found, other.surface)
         return Answer(label=label, colours=colours, leads_to=found, error_estimate=ErrorEstimate(), remark=remark)
 
 
@@ -117,12 +117,12 @@ def map_question(shows: MapColours, document: Document, surface: str) -> Positio
     return MapQuestion(mesh, areas, shows.by, other, () if there is None else pairs_on(document, surface, there))
 
 
-def _said(found: IntArray, onto: Surface) -> str:
+def _reached_in_words(found: IntArray, onto: Surface) -> str:
     """How much of the other surface is reached, and how many vertices are mapped nowhere."""
     reached, count = len(np.unique(found[found != NOWHERE])), len(onto.vertices)
-    said = f"{reached:,} of {count:,} vertices of {onto.name} are reached"
+    sentence = f"{reached:,} of {count:,} vertices of {onto.name} are reached"
     lost = int((found == NOWHERE).sum())
-    return f"{said}, {lost:,} are mapped nowhere (grey)" if lost else said
+    return f"{sentence}, {lost:,} are mapped nowhere (grey)" if lost else sentence
 
 
 def colours_words(answer: Answer | None) -> tuple[str, ...]:

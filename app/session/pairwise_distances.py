@@ -61,7 +61,7 @@ class PairwiseDistances:
         wanted = {(loaded, areas, spec) for spec in asked.specs}
         # What nobody asks for any more is forgotten, but for the same pins' other distances.
         self._known = {key: known for key, known in self._known.items() if key[:2] == (loaded, areas)}
-        self._failures = {key: said for key, said in self._failures.items() if key[:2] == (loaded, areas)}
+        self._failures = {key: reason for key, reason in self._failures.items() if key[:2] == (loaded, areas)}
         self._units = {key: unit for key, unit in self._units.items() if key[:2] == (loaded, areas)}
         missing = [key for key in wanted if key not in self._failures and self.matrix(*key, places) is None]
         old, self._asked = self._asked, asked

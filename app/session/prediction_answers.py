@@ -122,8 +122,8 @@ class PredictionQuestion(ByDistance):
         if np.isnan(field).all():
             return Answer(label=label, failure="The point is on another component than one of the pairs' points.")
         best, share = candidate_of(field)
-        said = f"the best is vertex {best}, misfit {field[best]:.4g}, {100 * share:.1f} % of the largest"
-        return Answer(label=label, unit=MISFIT, field=field, error_estimate=ErrorEstimate(), remark=said)
+        sentence = f"the best is vertex {best}, misfit {field[best]:.4g}, {100 * share:.1f} % of the largest"
+        return Answer(label=label, unit=MISFIT, field=field, error_estimate=ErrorEstimate(), remark=sentence)
 
     def is_at_hand(self, loaded: "LoadedMesh") -> bool:
         """Whether the distances from all points of the pairs are known, or nothing waits."""

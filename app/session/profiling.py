@@ -72,9 +72,9 @@ def wanted_path(
     places = tuple(_place(point.at, point.name) for point in points)
     if SECTIONS.get(profile.way) == "whole" and len(places) > 2:
         raise ParameterError("The whole section is that through two points; choose them above.")
-    surface, said = surfaces(points[0].surface), [point_words(document, point.name) for point in points]
+    surface, words = surfaces(points[0].surface), [point_words(document, point.name) for point in points]
     components = surface.component_of_vertex[Places.of(surface, places).corners[:, 0]].tolist()
-    for (before, a, one), (after, b, other) in pairwise(zip(said, places, components, strict=True)):
+    for (before, a, one), (after, b, other) in pairwise(zip(words, places, components, strict=True)):
         if a == b:
             raise ParameterError(f"From {before} to {after} there is no path: they are at the same place.")
         if one != other:
@@ -197,8 +197,8 @@ class PathWorker:
         self._post(lambda: self._tell(wanted, path))
 
     def _failed(self, wanted: PathWanted, error: Exception) -> None:
-        said = failure_in_words(error)
-        self._post(lambda: self._tell(wanted, said))
+        reason = failure_in_words(error)
+        self._post(lambda: self._tell(wanted, reason))
 
     def _report(self, fraction: float | None, text: str) -> None:
         self._post(lambda: self._going(text))

@@ -194,7 +194,7 @@ def _statistics(d: Driver) -> None:
         _press(d, box)
         d.pointer("type", words)
     d.until(lambda: dock.levels.band is not None)
-    scroll.ensureWidgetVisible(dock.levels.said)
+    scroll.ensureWidgetVisible(dock.levels.note)
     dock.levels.select()
     d.complete()
     d.shot("region between two values")

@@ -107,7 +107,7 @@ def test_the_curves_are_those_of_the_pairs_by_each_distance(two):
         found = section(s).named_curves()[name]
         assert (found.mean, found.median, found.area) == pytest.approx((curve.mean, curve.median, curve.area), abs=1e-6)
         assert float(numbers(s)[name][0]) == pytest.approx(curve.mean, rel=1e-3)
-    assert section(s).said.text() == f"over {COUNT:,} vertices; geodesic, exact"
+    assert section(s).note.text() == f"over {COUNT:,} vertices; geodesic, exact"
     assert section(s).truth.button.text() == "truth: same ids"
 
 
@@ -164,7 +164,7 @@ def test_without_a_truth_the_section_says_so(make):
     s.session.show(add_pairs(s.document, [(3, 3), (60, 20)]))
     complete(s)
     assert section(s).truth.button.text() == "truth: not known"
-    assert "same ids" in section(s).said.text()
+    assert "same ids" in section(s).note.text()
     assert not section(s).chart.isVisible()
     assert not section(s).mirror.isEnabled()
     assert section(s).full.isEnabled()
@@ -376,11 +376,11 @@ def test_over_how_many_vertices_is_said_while_they_are_judged(two, monkeypatch):
     s = two
     section(s).truth._choose(samples=100)
     s.until(lambda: whole(s) and section(s).judgement.wanted == 100)
-    assert section(s).said.text() == "over 100 sampled vertices; geodesic, exact"
+    assert section(s).note.text() == "over 100 sampled vertices; geodesic, exact"
     monkeypatch.setattr(judging, "EVERY", 0.0)
     section(s)._judging._kept = None
     shown = []
-    section(s)._background.answered.connect(lambda asked, judged: shown.append(section(s).said.text()))
+    section(s)._background.answered.connect(lambda asked, judged: shown.append(section(s).note.text()))
     section(s).truth._choose(samples=0)
     s.until(lambda: whole(s) and section(s).judgement.wanted == COUNT)
     assert any(f" of {COUNT:,} vertices" in words for words in shown)

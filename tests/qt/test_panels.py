@@ -295,8 +295,8 @@ def test_a_first_mesh_that_fails_leaves_the_page_to_start_from_which_says_why(sc
     s.window.open(str(tmp_path / "gone.off"))
     s.until(lambda: s.refusals)
     page = s.window._start_page
-    assert (page.isVisible(), page.message.isVisible(), page.message.said) == (True, True, s.refusals[-1])
-    assert "gone.off" in page.message.said
+    assert (page.isVisible(), page.message.isVisible(), page.message.whole) == (True, True, s.refusals[-1])
+    assert "gone.off" in page.message.whole
     assert not s.window.grid.isVisible()
     assert (parts(s.window).typed_source.box.text(), parts(s.window).typed_source.box.isEnabled()) == ("", False)
     assert not s.window.actions_by_word["save"].isEnabled()

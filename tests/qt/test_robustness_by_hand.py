@@ -54,7 +54,7 @@ def test_faces_are_cut_out_by_brush_and_come_back(loaded, monkeypatch):
     stroke(s, 3, middle + QtCore.QPoint(0, 30), middle + QtCore.QPoint(30, 30))
     more = change_of(s).cut
     assert count_of(more) > count_of(cut)
-    assert dock.cut.said.text() == f"{count_of(more)} faces"
+    assert dock.cut.note.text() == f"{count_of(more)} faces"
     ctrl = QtCore.Qt.KeyboardModifier.ControlModifier
     monkeypatch.setattr(QtWidgets.QApplication, "keyboardModifiers", staticmethod(lambda: ctrl))
     stroke(s, 3, middle + QtCore.QPoint(0, 30), middle + QtCore.QPoint(30, 30))
@@ -106,7 +106,7 @@ def test_another_pose_is_read_and_what_is_none_is_refused(loaded, mesh_file):
     complete(s)
     check(s, Perturbation(pose=pose))
     assert change_of(s).pose_sha256
-    assert dock.pose.said.text() == "pose.off"
+    assert dock.pose.note.text() == "pose.off"
     dock.take_pose(mesh_file(bumpy(300), "other.off"))
     s.until(lambda: s.refusals)
     assert "300 vertices" in s.refusals[0]

@@ -115,7 +115,7 @@ def test_isolines_and_the_region_between_two_values_are_saved(loaded, tmp_path):
         box.high.setText("2 %" if words == "5 %" else "")
         s.settle(0.5)
         assert box.band is None
-    assert "smaller first" in box.said.text()
+    assert "smaller first" in box.note.text()
 
 
 def test_the_histogram_is_saved_and_copied(loaded, tmp_path):

@@ -98,9 +98,9 @@ class BadgeButton(FlatButton):
     def show_badge(self, badge: Badge | None) -> None:
         self._badge = badge
         self.setText("" if badge is not None else "choose")
-        said = f"{self._name}: {badge.name if badge is not None else 'none yet'}"
-        self.setToolTip(said)
-        self.setAccessibleName(said)
+        description = f"{self._name}: {badge.name if badge is not None else 'none yet'}"
+        self.setToolTip(description)
+        self.setAccessibleName(description)
         self.updateGeometry()
         self.update()
 

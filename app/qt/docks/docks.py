@@ -152,7 +152,7 @@ class Docks:
             dock.head.add(widget, after_title=True)
         for widget in instrument.head_widgets():
             dock.head.add(widget)
-        instrument.said.connect(dock.head.say)
+        instrument.note_changed.connect(dock.head.say)
         for button in dock.findChildren(QtWidgets.QAbstractButton):
             # Its outline is for keys.
             button.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)

@@ -25,7 +25,7 @@ class Instrument(QtWidgets.QWidget):
     title: ClassVar[str]
     area: ClassVar[str] = "right"
 
-    said = QtCore.Signal(str)  # a note beside the title
+    note_changed = QtCore.Signal(str)  # a note beside the title
 
     def __init__(self, context: Context) -> None:
         super().__init__()

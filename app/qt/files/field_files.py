@@ -38,12 +38,12 @@ class FieldFiles:
             fields = self._fields(panels)
             if fields:
                 left_out = [panel for panel in panels if not self._has_field(panel)]
-                said = "".join(f"; {self._why_not(panel)}" for panel in left_out)
-                self._write("Save all fields", panels[0], "fields", fields, path, said)
+                remark = "".join(f"; {self._why_not(panel)}" for panel in left_out)
+                self._write("Save all fields", panels[0], "fields", fields, path, remark)
             elif panels:
                 self._context.fail(" ".join(self._why_not(panel) for panel in panels))
 
-    def _write(self, title: str, panel: Panel, name: str, fields: dict[str, AnyArray], path: str, said: str) -> None:
+    def _write(self, title: str, panel: Panel, name: str, fields: dict[str, AnyArray], path: str, remark: str) -> None:
         session = self._context.session
         surface, letter = session.surface_in(panel.id), letter_of(session.document, panel)
 
@@ -52,7 +52,7 @@ class FieldFiles:
 
         title = f"{title} of {letter}: {surface.name}" if letter else title
         name = file_name([surface.name], *letter, name)
-        self._context[Writing].save(title, name, FIELD_FORMATS, write, path, said)
+        self._context[Writing].save(title, name, FIELD_FORMATS, write, path, remark)
 
     def _fields(self, panels: Sequence[Panel]) -> dict[str, FloatArray]:
         """(n,) each, of the panels that have one, by name."""

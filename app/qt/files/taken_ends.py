@@ -81,13 +81,13 @@ class TakenEnds(QtCore.QObject):
         self._end_waiting()
         context = self._context
         try:
-            document, said = ended_as(context.document, ends, os.path.basename(request[0]))
+            document, sentence = ended_as(context.document, ends, os.path.basename(request[0]))
         except BihdistError as error:
             context.fail(error)
             return
         context.edit(document)
-        context.tell(said)
-        self.taken.emit(said)
+        context.tell(sentence)
+        self.taken.emit(sentence)
 
     def _refuse(self, request: list[str], error: Exception) -> None:
         if request is self._wanted:

@@ -31,14 +31,14 @@ class Writing(QtCore.QObject):
         formats: tuple[str, ...],
         write: Callable[[str], None],
         path: str,
-        said: str = "",
+        remark: str = "",
     ) -> None:
-        """path: asks for one if it is empty.  said: besides that it is written."""
+        """path: asks for one if it is empty.  remark: besides that it is written."""
         path = path or ask_path(self._context, title, name, formats)
 
         def work() -> str:
             write(path)
-            return f"{saved_words(path)}{said}"
+            return f"{saved_words(path)}{remark}"
 
         if path:
             self._waiting.append(work)

@@ -29,8 +29,8 @@ class Desktop(QtCore.QObject):
             self._is_asked = True
             self._watch()
         sources: tuple[Callable[[], bool | None], ...] = (self._portal_is_dark, registry_is_dark, palette_is_dark)
-        said = (source() for source in sources)
-        return DARK if next((is_dark for is_dark in said if is_dark is not None), False) else LIGHT
+        answers = (source() for source in sources)
+        return DARK if next((is_dark for is_dark in answers if is_dark is not None), False) else LIGHT
 
     def _watch(self) -> None:
         app = QtWidgets.QApplication.instance()

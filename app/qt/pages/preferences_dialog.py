@@ -43,9 +43,9 @@ class PreferencesDialog(QtWidgets.QDialog):
         self.again = QtWidgets.QPushButton("Reset all preferences", objectName="link", autoDefault=False)
         self.again.setToolTip("Everything as at the first start, also the window's place; Cancel undoes it")
         self.again.clicked.connect(self.reset)
-        self.said = QtWidgets.QLabel("")
-        self.said.setProperty("quiet", True)
-        self.said.setMinimumWidth(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(RESET) + 4)
+        self.note = QtWidgets.QLabel("")
+        self.note.setProperty("quiet", True)
+        self.note.setMinimumWidth(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(RESET) + 4)
         column = QtWidgets.QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
@@ -72,7 +72,7 @@ class PreferencesDialog(QtWidgets.QDialog):
         self._preferences = Preferences()
         self._show(self._preferences)
         LOOK.choose(self._preferences.theme)
-        self.said.setText(RESET)
+        self.note.setText(RESET)
 
     def _show(self, preferences: Preferences) -> None:
         self.theme.choose(preferences.theme)
@@ -129,7 +129,7 @@ class PreferencesDialog(QtWidgets.QDialog):
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         row.addWidget(self.again)
-        row.addWidget(self.said)
+        row.addWidget(self.note)
         row.addStretch(1)
         row.addWidget(buttons)
         return footer

@@ -164,14 +164,14 @@ class Refusal(QtWidgets.QLabel):
 
     def __init__(self) -> None:
         super().__init__(visible=False)
-        self.said = ""
+        self.whole = ""
         self.setProperty("refusal", True)
         self.setTextFormat(QtCore.Qt.TextFormat.PlainText)
         self.setTextInteractionFlags(QtCore.Qt.TextInteractionFlag.TextSelectableByMouse)
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
 
     def show_text(self, text: str) -> None:
-        self.said = text
+        self.whole = text
         self.setToolTip(text)
         self.setVisible(bool(text))
         self._elide()
@@ -181,7 +181,7 @@ class Refusal(QtWidgets.QLabel):
         self._elide()
 
     def _elide(self) -> None:
-        self.setText("\n".join(lines_of(self.said, self.font(), self.contentsRect().width(), MESSAGE_LINES)))
+        self.setText("\n".join(lines_of(self.whole, self.font(), self.contentsRect().width(), MESSAGE_LINES)))
 
 
 def lines_of(text: str, font: QtGui.QFont, width: float, most: int) -> list[str]:

@@ -37,8 +37,8 @@ def show_answer(bar: ColourBar, answer: Answer, scene: PanelScene, edges: FloatA
     )
     bar.show_shares(not signed)
     if answer.signs:
-        said = answer.largest_words
-        bar.show_note(said, said.partition(" of its maximum" if " % " in said else " at vertex")[0])
+        sentence = answer.largest_words
+        bar.show_note(sentence, sentence.partition(" of its maximum" if " % " in sentence else " at vertex")[0])
     elif answer.field is not None and answer.largest is not None:
         value = float(answer.field[answer.largest])
         bar.show_note(f"largest {number(value, signed=True)} at vertex {answer.largest}")

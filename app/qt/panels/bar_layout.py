@@ -184,8 +184,8 @@ def _choices(reading: Reading) -> list[tuple[list[Word], list[Word], bool]]:
     short_remark = [Word(reading.short_note)] if reading.short_note else remark
     cut_remark = [replace(short_remark[0], least=cut)] if reading.note else []
     if reading.words:
-        said = Word(reading.words, is_quiet=False)
-        return [([said], remark, False), ([said], [], False), ([replace(said, least=cut)], [], False)]
+        word = Word(reading.words, is_quiet=False)
+        return [([word], remark, False), ([word], [], False), ([replace(word, least=cut)], [], False)]
     if reading.value is None:
         whole = [(unit, remark, bool(unit)), ([], remark, False), (unit, short_remark, bool(unit))]
         return [*whole, ([], short_remark, False), ([], cut_remark, False)]

@@ -155,8 +155,8 @@ class ColourBar(QtWidgets.QWidget):
 
     def _say(self, **changes: Any) -> None:
         """While there is no field, there is nothing to say."""
-        if self._reading is not None and (said := replace(self._reading, **changes)) != self._reading:
-            self._reading = said
+        if self._reading is not None and (reading := replace(self._reading, **changes)) != self._reading:
+            self._reading = reading
             self._lay_out()
 
     def _apply_theme(self) -> None:
@@ -165,11 +165,11 @@ class ColourBar(QtWidgets.QWidget):
 
     def _lay_out(self) -> None:
         self._layout, reading = lay_out(self._reading, self.width(), self._is_compact), self._reading
-        said = "" if reading is None else reading.sentence
+        sentence = "" if reading is None else reading.sentence
         ends = "no values" if reading is None else f"{number(reading.low)} to {number(reading.high)}"
         is_sentence = bool(self._sentence) and reading is None
-        self.setToolTip(self._sentence[0] if is_sentence else "" if self._layout.is_whole else said)
-        described = f"{ends}: {said}" if said else ends
+        self.setToolTip(self._sentence[0] if is_sentence else "" if self._layout.is_whole else sentence)
+        described = f"{ends}: {sentence}" if sentence else ends
         self.setAccessibleDescription(self._sentence[0] if is_sentence else described)
         self.update()
 

@@ -139,12 +139,12 @@ class PanelHead(QtWidgets.QWidget):
         """What to look for, the accuracy and remarks, as rich text; empty for the hint alone."""
         self._info = text
         hint = self.shows.hint
-        said = text or f"{escape(hint[:1].upper() + hint[1:])}."
+        html = text or f"{escape(hint[:1].upper() + hint[1:])}."
         if self._warning:
-            said += f"<p>{escape(self._warning)}</p>"
+            html += f"<p>{escape(self._warning)}</p>"
         # A plain sentence on one line would become a tip as wide as the screen.
-        self.info.setToolTip(f"<qt>{said}</qt>")
-        self._said = said  # laid out when somebody wants to read it
+        self.info.setToolTip(f"<qt>{html}</qt>")
+        self._sheet_html = html  # laid out when somebody wants to read it
 
     def show_warning(self, text: str) -> None:
         """That the answer is poor, and why; empty for one that is not."""
@@ -210,7 +210,7 @@ class PanelHead(QtWidgets.QWidget):
             control.add_to(menu)
 
     def _open_info(self, control: QtWidgets.QWidget) -> None:
-        self._sheet_words.setText(self._said)
+        self._sheet_words.setText(self._sheet_html)
         self._sheet.open_under(control)
 
     # ------------------------------------------------------------------ parameters

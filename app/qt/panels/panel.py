@@ -317,15 +317,15 @@ class DistancePanel(QtWidgets.QWidget):
         self._warn()
         if not shown.is_preview:
             self.head.show_method(shown.asked.specs, shown.answer.label)
-        said = [shown.answer.label, self.head.shows.hint, accuracy.text]
-        self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in said if text))
+        texts = [shown.answer.label, self.head.shows.hint, accuracy.text]
+        self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in texts if text))
 
     def _warn(self) -> None:
         """Of what is not as one would think."""
         accuracy = None if self.answer is None else self.answer.accuracy
         is_poor = accuracy is not None and accuracy.is_poor and not self._is_preview
         poor = f"Not exact here: only {accuracy.text}." if is_poor else ""
-        self.head.show_warning(" ".join(said for said in (poor, self.view.scene.too_many) if said))
+        self.head.show_warning(" ".join(text for text in (poor, self.view.scene.too_many) if text))
 
     def show_waiting(self, progress: tuple[float, str] | None, is_old: bool = True) -> None:
         """What is being computed; None when nothing is.  is_old: the field that is shown is not what is asked for."""
@@ -394,6 +394,6 @@ class DistancePanel(QtWidgets.QWidget):
         else:
             self.bar.show_value(float(place.values(answer.field)[0]))
 
-    def said_of(self, vertex: int) -> str:
+    def words_at(self, vertex: int) -> str:
         """Its value in words, for the clipboard."""
         return copied_words(None if self._is_waiting else self.answer, vertex, self.head.shows)

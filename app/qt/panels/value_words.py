@@ -34,5 +34,5 @@ def copied_words(answer: Answer | None, vertex: int, shows: Quantity) -> str:
         return ""
     value, part = value_words(answer, vertex, shows)
     unit = "" if percent(answer.unit) else answer.unit
-    said = f"{answer.label}: {value} {unit}{f' ({part})' if part else ''}"
-    return said.strip()
+    sentence = f"{answer.label}: {value} {unit}{f' ({part})' if part else ''}"
+    return sentence.strip()

@@ -48,12 +48,12 @@ def run(options: argparse.Namespace) -> None:
         spec = same_on(chosen, sides, progress)
         on_one, on_two = (side.get(spec, progress) for side in sides)
         found = Correspondence(on_one, on_two, pairs, progress=progress).map(progress=progress)
-        said = accuracy(max(on_one, on_two, key=lambda distance: distance.accuracy or 0.0))
+        estimate = accuracy(max(on_one, on_two, key=lambda distance: distance.accuracy or 0.0))
     write_map(options.output, found)
     missing = int((found < 0).sum())
     none = f", {missing} without one to compare" if missing else ""
     size = f"{len(found):,} vertices to {len(two.surface.vertices):,}"
-    print(f"{options.output}: {on_one.label}, {counted(len(pairs), 'pair')}, {size}{none}{said}")
+    print(f"{options.output}: {on_one.label}, {counted(len(pairs), 'pair')}, {size}{none}{estimate}")
     if truth is not None:
         with progress_line() as progress:
             (line,), _ = judged(two, found[:, None], truth, progress=progress)

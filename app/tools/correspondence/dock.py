@@ -112,7 +112,7 @@ class PairsDock(Instrument):
             self.begin()
 
     def show_document(self, document: Document, before: Document | None) -> None:
-        self.said.emit(str(len(document[Pairs].pairs)) if document[Pairs].pairs else "")
+        self.note_changed.emit(str(len(document[Pairs].pairs)) if document[Pairs].pairs else "")
         self._show_rows(document)
         self.errors.show_document(document)
 
@@ -154,11 +154,11 @@ class PairsDock(Instrument):
         self._head.setVisible(bool(document[Pairs].pairs))
         self._waiting.setVisible(half is not None and is_on)
         self.accept.setVisible(found is not None)
-        said = f"Click its partner on\u00a0{other}"
+        hint = f"Click its partner on\u00a0{other}"
         if found is not None:
             by = kind_name(document.panel(found[0]).shows.spec.kind).lower()
-            said = f"Enter takes\u00a0{found[1].vertex}, by\u00a0{by}; or click another\u00a0vertex on\u00a0{other}"
-        self.or_click.setText(said)
+            hint = f"Enter takes\u00a0{found[1].vertex}, by\u00a0{by}; or click another\u00a0vertex on\u00a0{other}"
+        self.or_click.setText(hint)
         has_maps = shows_maps(document)  # the section of errors leads back to predictions
         self.hint.setVisible(is_alone or (not is_on and not has_maps) or (is_on and half is None))
         self.hint.setText(ALONE if is_alone else NO_PANEL if not is_on else NEXT if document[Pairs].pairs else HINT)

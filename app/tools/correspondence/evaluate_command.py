@@ -65,8 +65,8 @@ def run(options: argparse.Namespace) -> None:
     columns = np.stack([found[ids] for found in maps.values()], axis=1)
     for words, also in (("", None), *([(", partners count", partners)] if partners is not None else [])):
         with progress_line() as progress:
-            said, found_curves = judged(two, columns, truth[ids], also, options.geodesic, progress)
-        for path, line, curve in zip(maps, said, found_curves, strict=True):
+            lines, found_curves = judged(two, columns, truth[ids], also, options.geodesic, progress)
+        for path, line, curve in zip(maps, lines, found_curves, strict=True):
             curves[f"{Path(path).stem}{words}"] = curve
             print(f"{path}: {line}{words}")
     if options.output:
@@ -88,14 +88,14 @@ def judged(
     from bihdist_core.applications.map_errors import LIMIT, error_curve, error_distance, map_errors
 
     distance = error_distance(laplacian, len(np.unique(truth)), method, progress)
-    said, curves = [], []
+    lines, curves = [], []
     for errors in map_errors(distance, found, truth, partners, progress).T:
         curve = error_curve(errors)
         lost = int(np.isinf(errors).sum())
         none = f", {counted(lost, 'vertex', 'vertices')} mapped nowhere" if lost else ""
-        said.append(
+        lines.append(
             f"mean {curve.mean:.4g}, median {curve.median:.4g}, area under the curve to {LIMIT:g} {curve.area:.4g}; "
             f"{distance.label} over root of area, {counted(len(curve.errors), 'vertex', 'vertices')}{none}"
         )
         curves.append(curve)
-    return said, curves
+    return lines, curves

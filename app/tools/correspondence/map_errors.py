@@ -42,8 +42,8 @@ class MapErrors(QtWidgets.QWidget):
         self._dotted: list[Any] = []  # panels that have a dot of these
         self.truth = MapTruth(self)
         self.chart, self.table = ErrorChart(), ErrorTable()
-        self.said = QtWidgets.QLabel(wordWrap=True)
-        self.said.setProperty("quiet", True)
+        self.note = QtWidgets.QLabel(wordWrap=True)
+        self.note.setProperty("quiet", True)
         self.full = QtWidgets.QPushButton("Compute full map", autoDefault=False)
         self.full.setToolTip("Where every vertex of A is on B, by each distance, in colours")
         self.full.clicked.connect(self.show_or_leave_maps)
@@ -80,7 +80,7 @@ class MapErrors(QtWidgets.QWidget):
         inside.setContentsMargins(PAD, 8, PAD, PAD)
         inside.setSpacing(8)
         inside.addLayout(top)
-        for widget in (self.chart, self.table, self.said):
+        for widget in (self.chart, self.table, self.note):
             inside.addWidget(widget)
         inside.addLayout(bottom)
         whole = QtWidgets.QVBoxLayout(self)
@@ -131,7 +131,7 @@ class MapErrors(QtWidgets.QWidget):
     def _refuse(self, asked: Asked, sentence: str) -> None:
         self.judgement = None
         self._show()
-        self.said.setText(sentence)
+        self.note.setText(sentence)
 
     @property
     def is_whole(self) -> bool:
@@ -160,7 +160,7 @@ class MapErrors(QtWidgets.QWidget):
         failures = [] if judged is None else self._failures(judged)
         self.table.setVisible(bool(curves or failures))
         self.table.show_rows(curves, failures)
-        self.said.setText(NO_TRUTH if word == "none" else NO_MAP if not has_maps else self._over(judged))
+        self.note.setText(NO_TRUTH if word == "none" else NO_MAP if not has_maps else self._over(judged))
         has_full = shows_maps(document)
         self.full.setText("Show predictions" if has_full else "Compute full map")
         self.full.setEnabled(bool(has_full or document[Maps].maps or whole_pairs(document)))

@@ -34,9 +34,9 @@ class PairRow(QtWidgets.QWidget):
 
     def show_pair(self, number: int, colour: str, first: str, second: str, is_waiting: bool) -> None:
         """first, second: what is said of its places; is_waiting: one of them is but a candidate."""
-        said = (number, colour, first, second, is_waiting)
-        if said != (self._number, self._colour, self.first, self.second, self._is_waiting):
-            self._number, self._colour, self.first, self.second, self._is_waiting = said
+        shown = (number, colour, first, second, is_waiting)
+        if shown != (self._number, self._colour, self.first, self.second, self._is_waiting):
+            self._number, self._colour, self.first, self.second, self._is_waiting = shown
             words = f"Pair {number}: {first or 'nothing'} on A, {second or 'nothing'} on B"
             self.setAccessibleName(words)
             self.bin.setToolTip(f"Remove pair {number}")

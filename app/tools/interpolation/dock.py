@@ -131,7 +131,7 @@ class AnchorsDock(Instrument):
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document, before: Document | None) -> None:
         anchors = self._anchors(document)
-        self.said.emit(str(len(anchors)) if anchors else "")
+        self.note_changed.emit(str(len(anchors)) if anchors else "")
         self._show_rows(anchors)
         parts = [part for panel in document.panels for part in panel.shows.parts if isinstance(part, Interpolant)]
         is_on = bool(parts)

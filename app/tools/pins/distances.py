@@ -160,14 +160,14 @@ class PinDistances(QtWidgets.QWidget):
         if loaded is None or self.spec is None:
             return
         if i >= 0 and max(i, j) < len(places):
-            said = [f"{escape(places[i].name)} to {escape(places[j].name)}"]
+            parts = [f"{escape(places[i].name)} to {escape(places[j].name)}"]
             specs = self._compared
             for spec in specs:
                 matrix = self.known(spec)
                 if matrix is not None:
                     value = "not connected" if np.isnan(matrix[i, j]) else number(float(matrix[i, j]))
-                    said.append(f"{escape(spec_name(spec, specs).lower())}&nbsp;<b>{value}</b>")
-            self.line.setText("&nbsp;&nbsp; ".join(said))
+                    parts.append(f"{escape(spec_name(spec, specs).lower())}&nbsp;<b>{value}</b>")
+            self.line.setText("&nbsp;&nbsp; ".join(parts))
             return
         failure, progress = self._among.failure(loaded, areas, self.spec), self._among.progress
         if failure:

@@ -151,7 +151,7 @@ class PinsDock(Instrument):
             return
         self.places = located_pins(document, document.surfaces[0].name, loaded.surface)
         self.ways.choose("share" if document[Pins].pin_list.shares else "value")
-        self.said.emit(str(len(self.places)) if self.places else "")
+        self.note_changed.emit(str(len(self.places)) if self.places else "")
         self.empty.setVisible(not self.places)
         self.table.setVisible(bool(self.places))
         self._show_rows()
@@ -205,7 +205,7 @@ class PinsDock(Instrument):
                 tips.append(f"{answer.label or title}: {one} {answer.unit}{f' ({other})' if other else ''}")
                 quiet.append(is_old)
             where = place.words
-            said = f"{place.name}: {short_words_of(place.at)} at {' '.join(number(x) for x in at)}"
+            text = f"{place.name}: {short_words_of(place.at)} at {' '.join(number(x) for x in at)}"
             colour = PINS[place.pin.colour]
             rows.append(
                 PinRow(
@@ -214,7 +214,7 @@ class PinsDock(Instrument):
                     colour,
                     place.pin.name,
                     where,
-                    said,
+                    text,
                     tuple(values),
                     tuple(tips),
                     tuple(quiet),
@@ -336,7 +336,7 @@ def written(place: LocatedPin, answer: Answer) -> tuple[str, str]:
     value = np.nan if answer.field is None else place.value(answer.field)
     if np.isnan(value):
         return "–", "–"
-    said = number(value, answer.is_signed) + percent(answer.unit)
+    text = number(value, answer.is_signed) + percent(answer.unit)
     if answer.signs:
-        return said, said  # in percentage points, or in a unit of which no maximum is a whole
-    return said, share(value / answer.maximum, answer.is_signed) if answer.maximum > 0 else "–"
+        return text, text  # in percentage points, or in a unit of which no maximum is a whole
+    return text, share(value / answer.maximum, answer.is_signed) if answer.maximum > 0 else "–"

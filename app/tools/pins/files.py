@@ -46,8 +46,10 @@ class PinFiles:
             self._context.fail(error)
             return
         size = float(np.ptp(surface.vertices, axis=0).max())
-        said = snapped(written, size)
-        self._context.tell(f"Saved {counted(len(written), 'pin')} in {Path(path).name}{f': {said}' if said else ''}")
+        remark = snapped(written, size)
+        self._context.tell(
+            f"Saved {counted(len(written), 'pin')} in {Path(path).name}{f': {remark}' if remark else ''}"
+        )
 
     def choose_and_read(self) -> None:
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self._context.widget, "Read pins", str(self._folder), READ)

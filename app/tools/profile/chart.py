@@ -53,16 +53,16 @@ class ProfileChart(Chart):
         self._fit()
 
     @property
-    def said(self) -> str:
+    def head_text(self) -> str:
         """Where on the surface the pointer is."""
         return self._head[1]
 
-    def show_at(self, arc: float | None, said: str = "") -> None:
-        """The line of the pointer; said: where on the surface that is."""
-        if (arc, said) != (self.at, self._head[1]):
+    def show_at(self, arc: float | None, text: str = "") -> None:
+        """The line of the pointer; text: where on the surface that is."""
+        if (arc, text) != (self.at, self._head[1]):
             self.at = arc
             length = float(self.arcs[-1])
-            self._head = ("" if arc is None else f"at {number(arc)} of {number(length)}", said)
+            self._head = ("" if arc is None else f"at {number(arc)} of {number(length)}", text)
             self.update()
 
     def plotted(self, curve: ProfileCurve) -> AnyArray:
@@ -190,8 +190,8 @@ class ProfileChart(Chart):
             if np.isfinite(height):
                 heights.append(float(self.pixels(0, height)[1]))
                 paint_dot(painter, QtCore.QPointF(round(x) + 0.5, heights[-1]), curve.colour)
-            said = _words(curve, float(value_at(self.arcs, curve.values, self.at)))
-            lines.append(CardLine(curve.name, said, curve.colour))
+            text = _words(curve, float(value_at(self.arcs, curve.values, self.at)))
+            lines.append(CardLine(curve.name, text, curve.colour))
         is_low = bool(heights) and float(np.mean(heights)) < plot.center().y()
         paint_card(painter, QtCore.QPointF(x, 0), plot, self._head, lines, is_low)
 

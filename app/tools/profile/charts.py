@@ -74,15 +74,15 @@ class ProfileCharts(QtWidgets.QWidget):
         while len(self.charts) < len(parts):
             self._add()
             self.charts[-1].show_path(first.arcs, first.length_unit, first.knots)
-            self.charts[-1].show_at(first.at, first.said)
+            self.charts[-1].show_at(first.at, first.head_text)
         for chart, (unit, are_shares, some) in zip(self.charts, parts, strict=False):
             chart.show_curves(some, are_shares, unit)
         self._show_count(len(parts))
 
-    def show_at(self, arc: float | None, said: str = "") -> None:
-        """The line of the pointer in all charts; said: where on the surface that is."""
+    def show_at(self, arc: float | None, text: str = "") -> None:
+        """The line of the pointer in all charts; text: where on the surface that is."""
         for chart in self.charts:
-            chart.show_at(arc, said)
+            chart.show_at(arc, text)
 
     # ------------------------------------------------------------------ side by side
     def _add(self) -> None:

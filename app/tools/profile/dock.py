@@ -174,7 +174,7 @@ class ProfileDock(Instrument):
         return x, y, z
 
     def _found(self, wanted: PathWanted, found: SurfacePath | str) -> None:
-        self.said.emit("")
+        self.note_changed.emit("")
         if isinstance(found, str):
             self._show_none(found)
             return
@@ -183,7 +183,7 @@ class ProfileDock(Instrument):
         self._show_path()
 
     def _going(self, text: str) -> None:
-        self.said.emit(text)
+        self.note_changed.emit(text)
 
     def _show_none(self, sentence: str) -> None:
         self.path = self._places = None

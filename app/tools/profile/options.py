@@ -42,16 +42,16 @@ def _path_of(recipe: Recipe) -> dict[str, Any]:
     if not shows_path(document):
         return {}
     try:
-        said: dict[str, Any] = {"profile": profile_words(document) or True}
+        values: dict[str, Any] = {"profile": profile_words(document) or True}
     except ParameterError as error:
         raise NotExpressible(str(error)) from error
     if profile.way != "auto":
-        said["way"] = profile.way
+        values["way"] = profile.way
     if profile.way in SECTIONS:
         if profile.across is None:
             raise NotExpressible("The plane of the section turns with the view.")
-        said["across"] = profile.across
-    return said
+        values["across"] = profile.across
+    return values
 
 
 def _with_path(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:

@@ -157,13 +157,13 @@ class QualityDock(Instrument):
             if found.whole is not None:
                 self._before[panel.id] = found
             for row, measure in enumerate(MEASURES):
-                text, said = (NONE, "") if failed else (measure.written(found), measure.said(found))
+                text, tip = (NONE, "") if failed else (measure.written(found), measure.sentence(found))
                 is_old = text == WAITING
                 progress_display |= is_old
                 # Until there are new ones the old numbers stay, so that one sees how they change.
                 cell = self.table.item(row, k)
                 cell.setText(measure.written(old) if is_old else text)
-                cell.setToolTip("From where the source was; it is being measured." if is_old else said)
+                cell.setToolTip("From where the source was; it is being measured." if is_old else tip)
                 cell.setForeground(QtGui.QColor(LOOK.theme.disabled if is_old else LOOK.theme.text))
             sampled |= {} if failed or found.triangles is None or found.is_sampled else {panel.id: found.points}
             whole = found.whole or (None if failed or found.failure else old.whole)
@@ -171,7 +171,7 @@ class QualityDock(Instrument):
             self.charts[panel.id].show_circles(whole.circles if whole is not None else (), colour)
         # Only exact geodesic distances take long enough for it to be seen.
         share = f"triangles, {min(sampled.values())} of {TRIANGLE_POINTS:,} points" if sampled else ""
-        self.said.emit("measuring…" if progress_display else share)
+        self.note_changed.emit("measuring…" if progress_display else share)
 
     def _failed(self, panel: int) -> bool:
         """Whether there is no field that could be measured."""

@@ -15,13 +15,13 @@ WAITING, NONE = "…", "–"
 class Measure:
     """name: in the table; tip: what it means; written: of what has been found, WAITING where it has not yet.
 
-    said: a sentence on one panel's number, or "".  value: the number, where it is not a count.
+    sentence: on one panel's number, or "".  value: the number, where it is not a count.
     """
 
     name: str
     tip: str
     written: Callable[[Found], str]
-    said: Callable[[Found], str] = lambda found: ""
+    sentence: Callable[[Found], str] = lambda found: ""
     value: Callable[[Found], float] | None = None
 
     def with_all_digits(self, found: Found) -> str:
@@ -36,7 +36,7 @@ def _minima(found: Found) -> str:
     return str(len(found.extrema.minima))
 
 
-def _minima_said(found: Found) -> str:
+def _minima_sentence(found: Found) -> str:
     if found.extrema is None or not len(found.extrema.minima):
         return ""
     return f"The deepest, at vertex {found.extrema.minima[0]}, by {share(found.extrema.minima_depth[0])} of the maximum"
@@ -48,7 +48,7 @@ def _maxima(found: Found) -> str:
     return str(len(found.extrema.maxima))
 
 
-def _maxima_said(found: Found) -> str:
+def _maxima_sentence(found: Found) -> str:
     if found.extrema is None or len(found.extrema.maxima) < 2:
         return ""
     second, height = found.extrema.maxima[1], found.extrema.maxima_height[1]
@@ -77,7 +77,7 @@ def _kink_length(found: Found) -> float:
     return found.whole.kink_length
 
 
-def _isotropy_said(found: Found) -> str:
+def _isotropy_sentence(found: Found) -> str:
     if found.whole is None:
         return found.failure
     if found.whole.circles:
@@ -85,7 +85,7 @@ def _isotropy_said(found: Found) -> str:
     return "Circles are around a single place that a distance starts from; here is none."
 
 
-def _kink_said(found: Found) -> str:
+def _kink_sentence(found: Found) -> str:
     if found.whole is None or found.whole.kink_edge[0] < 0:
         return ""
     first, second = found.whole.kink_edge
@@ -102,15 +102,15 @@ def _triangles(found: Found) -> str:
     return share(found.triangles.violations / found.triangles.triples)
 
 
-def _triangles_said(found: Found) -> str:
+def _triangles_sentence(found: Found) -> str:
     sample = found.triangles
     if sample is None:
         return found.triangles_failure or "It is being measured; exact geodesic distances take their time."
     so_far = "" if found.is_sampled else f"; so far, among {found.points:,} points"
-    said = f"{sample.violations:,} of {sample.triples:,} triples break it"
+    sentence = f"{sample.violations:,} of {sample.triples:,} triples break it"
     if sample.violations:
-        return f"{said}, the worst by {100 * sample.worst:.2g} % of the largest distance{so_far}"
-    return f"{said}; the closest has {100 * sample.tightest:.2g} % to spare{so_far}"
+        return f"{sentence}, the worst by {100 * sample.worst:.2g} % of the largest distance{so_far}"
+    return f"{sentence}; the closest has {100 * sample.tightest:.2g} % to spare{so_far}"
 
 
 MEASURES = (
@@ -120,21 +120,21 @@ MEASURES = (
         "source. White triangles that point down. A distance should have none. Of a difference or a field that starts "
         "nowhere, all minima.",
         _minima,
-        _minima_said,
+        _minima_sentence,
     ),
     Measure(
         "Maxima",
         "Maxima that persist over a thousandth of the range or more. White triangles that point up. One at the end of "
         "each limb is the shape's; more are the distance's.",
         _maxima,
-        _maxima_said,
+        _maxima_sentence,
     ),
     Measure(
         "Isotropy",
         "The greatest over the least value on the geodesic circle around the source whose radius is 4 % of the root of "
         "the area, or four edges if that is more. 1 where the distance grows equally in all directions.",
         _of_whole(_isotropy),
-        _isotropy_said,
+        _isotropy_sentence,
         _isotropy,
     ),
     Measure(
@@ -142,7 +142,7 @@ MEASURES = (
         "How far the gradient jumps across an edge away from the source, over its length. About 2 where it turns "
         "round, as on a ridge; a smooth field's shrinks with the edges.",
         _of_whole(_kink),
-        _kink_said,
+        _kink_sentence,
         _kink,
     ),
     Measure(
@@ -157,6 +157,6 @@ MEASURES = (
         "Of 100,000 random triples among 40 random points, those that break the triangle inequality by more than "
         "rounding. A metric has none, wherever it starts.",
         _triangles,
-        _triangles_said,
+        _triangles_sentence,
     ),
 )

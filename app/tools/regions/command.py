@@ -55,11 +55,11 @@ def run(options: argparse.Namespace) -> None:
         distance = Distances(laplacian).get(chosen, progress)
         columns = distance.from_sources(pins.vertices, progress)
         regions = voronoi_regions(surface, columns)
-        said = accuracy(distance)
+        estimate = accuracy(distance)
     ids = pins.ids.tolist()
     if options.output:
         write_labels(options.output, surface, regions, ids)
-        print(f"{options.output}: {counted(len(pins), 'region')} by {distance.label}{said}")
+        print(f"{options.output}: {counted(len(pins), 'region')} by {distance.label}{estimate}")
     if options.mesh_output:
         mesh = region_mesh(surface, columns)
         write_region_mesh(options.mesh_output, mesh, ids)

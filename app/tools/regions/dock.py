@@ -204,7 +204,7 @@ class RegionsDock(Instrument):
             self._words.setText(failure)
             self._words.show()
         is_on_its_way = any(not self._findings.is_divided(panel.id) for _, panel in shown) and bool(document[Pins].pins)
-        self.said.emit("dividing…" if is_on_its_way else "")
+        self.note_changed.emit("dividing…" if is_on_its_way else "")
 
     def text(self) -> str:
         """The areas, or their shares of the whole, with tabulators and all digits; pins by their numbers."""

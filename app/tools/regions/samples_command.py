@@ -51,6 +51,6 @@ def run(options: argparse.Namespace) -> None:
         )
         distance = Distances(laplacian).get(chosen, progress)
         found = farthest_points(distance, starts, options.count, progress)
-        said = accuracy(distance)
+        estimate = accuracy(distance)
     write_samples(options.output, surface, found)
-    print(f"{options.output}: {counted(len(found), 'sample')} by {distance.label}{said}")
+    print(f"{options.output}: {counted(len(found), 'sample')} by {distance.label}{estimate}")

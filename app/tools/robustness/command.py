@@ -63,8 +63,8 @@ def run(options: argparse.Namespace) -> None:
         seed=options.seed,
     )
     if change.changes_nothing:
-        said = "--pose, --cut, --simplify, --noise, --holes, --weld or --handle"
-        raise ParameterError(f"Nothing would change; say {said}.")
+        options_named = "--pose, --cut, --simplify, --noise, --holes, --weld or --handle"
+        raise ParameterError(f"Nothing would change; say {options_named}.")
     chosen = specs(options, list(dict.fromkeys(options.distance or [])))
     with progress_line() as progress:
         before = laplacian_of(options.mesh)

@@ -200,7 +200,7 @@ class RobustnessDock(Instrument):
         self._controls.setEnabled(not reason)
         for widget in (self._line, self._results):
             widget.setVisible(mesh is not None)
-        self.said.emit("" if mesh is None else _size_of(self.context.session.loaded(mesh.name)))
+        self.note_changed.emit("" if mesh is None else _size_of(self.context.session.loaded(mesh.name)))
         self.table.show_document(document)
         self._show_ends()
 

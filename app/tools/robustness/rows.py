@@ -118,7 +118,7 @@ class ChosenRow(QtWidgets.QWidget):
         self.button = QtWidgets.QPushButton(button, autoDefault=False, checkable=is_check)
         self.button.setToolTip(tip)
         self.button.setAccessibleName(f"{words}: {button}")
-        self.said = MessageLabel()
+        self.note = MessageLabel()
         self.cross = FlatButton(self, "close")
         self.cross.setToolTip(f"{words}: take it back")
         self.cross.setAccessibleName(self.cross.toolTip())
@@ -131,14 +131,14 @@ class ChosenRow(QtWidgets.QWidget):
         row.setSpacing(8)
         row.addWidget(label(words))
         row.addWidget(self.button)
-        row.addWidget(self.said, 1)
+        row.addWidget(self.note, 1)
         row.addWidget(self.cross)
         self.show_chosen("")
 
     def show_chosen(self, words: str) -> None:
         """ "" for nothing."""
-        self.said.setText(words)
-        self.said.setToolTip(words)
+        self.note.setText(words)
+        self.note.setToolTip(words)
         self.cross.setVisible(bool(words))
 
 

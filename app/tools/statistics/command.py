@@ -69,7 +69,7 @@ def _tell(it: FieldOf) -> None:
     from bihdist_core import field_statistics
 
     found = field_statistics(it.surface, it.field)
-    print(f"{it.label}{f', {it.unit}' if it.unit else ''}{it.said}")
+    print(f"{it.label}{f', {it.unit}' if it.unit else ''}{it.estimate}")
     print(f"  greatest {_written(found.greatest, it)} at vertex {found.greatest_at}")
     print(f"  least {_written(found.least, it)} at vertex {found.least_at}")
     print(f"  mean by area {_written(found.mean, it)}, standard deviation {_written(found.deviation, it)}")

@@ -237,10 +237,10 @@ class StatisticsDock(Instrument):
         """The value, and its fraction of the maximum, which means nothing of a difference."""
         signed = answer.is_signed and with_sign
         top = 0.0 if answer.signs else answer.maximum
-        said = repr(float(value)) if exact else number(value, signed) + percent(answer.unit)
+        text = repr(float(value)) if exact else number(value, signed) + percent(answer.unit)
         if not top > 0:
-            return (said,)
-        return said, repr(float(value / top)) if exact else share(value / top, signed)
+            return (text,)
+        return text, repr(float(value / top)) if exact else share(value / top, signed)
 
     def _say_bin(self, words: str) -> None:
         self._unit.setText(words or "fraction of the area")

@@ -71,14 +71,14 @@ class LevelBox(QtWidgets.QWidget):
         row.addWidget(QtWidgets.QLabel("to"))
         row.addWidget(self.high, 1)
         row.addWidget(self.more)
-        self.said = QtWidgets.QLabel(wordWrap=True)
-        self.said.setProperty("quiet", True)
+        self.note = QtWidgets.QLabel(wordWrap=True)
+        self.note.setProperty("quiet", True)
         column = QtWidgets.QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
         column.addWidget(self.lines)
         column.addLayout(row)
-        column.addWidget(self.said)
+        column.addWidget(self.note)
         self._soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
         self._soon.timeout.connect(self._look)
         self._background = context.background("region", _done)
@@ -105,7 +105,7 @@ class LevelBox(QtWidgets.QWidget):
 
     def _look(self) -> None:
         levels = self._levels
-        self.said.setText("The region between two values of the field: type one or both.")
+        self.note.setText("The region between two values of the field: type one or both.")
         for box in (self.low, self.high):
             mark_wrong(box, False)
         if levels is None or not (self.low.text().strip() or self.high.text().strip()):
@@ -121,7 +121,7 @@ class LevelBox(QtWidgets.QWidget):
 
     def _refuse(self, request: object, sentence: str) -> None:
         self.band = None
-        self.said.setText(sentence)
+        self.note.setText(sentence)
         for box in (self.low, self.high):
             mark_wrong(box, bool(box.text().strip()))
 
@@ -129,7 +129,7 @@ class LevelBox(QtWidgets.QWidget):
         self.band = found
         self.more.setEnabled(True)
         part = found.area / self._levels.surface.face_areas.sum()
-        self.said.setText(f"{counted(len(found.vertices), 'vertex', 'vertices')}, {share(float(part))} of the area")
+        self.note.setText(f"{counted(len(found.vertices), 'vertex', 'vertices')}, {share(float(part))} of the area")
 
     # ------------------------------------------------------------------ what becomes of it
     def select(self) -> None:
