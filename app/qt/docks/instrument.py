@@ -15,10 +15,9 @@ NO_FIELD = "The panel shows no field now."
 
 
 class Instrument(QtWidgets.QWidget):
-    """word: one of `DOCKS`; title: for the user; icon: of the tool bar; area: "right" or "below".
+    """word: the tool's; title: for the user; area: "right" or "below".
 
-    window: the main window, with its session and its grid.  Only instruments in open docks are told anything; one that
-    is opened gets `show_document` first.
+    Only instruments in open docks are told anything; one that is opened gets `show_document` first.
     """
 
     word: ClassVar[str]
@@ -37,7 +36,7 @@ class Instrument(QtWidgets.QWidget):
         return []
 
     def title_widgets(self) -> list[QtWidgets.QWidget]:
-        """The same, beside the title."""
+        """Buttons and choices beside the title, from left to right."""
         return []
 
     def on_opened(self) -> None:
