@@ -203,7 +203,7 @@ def test_the_window_opens_before_pyvista_is_imported(application):
     import sys
 
     code = (
-        "import sys\n"
+        "import os, sys\n"
         "from app.qt.application import application\n"
         "from app.qt.main_window import MainWindow\n"
         "from app.qt.preferences import Preferences\n"
@@ -211,8 +211,10 @@ def test_the_window_opens_before_pyvista_is_imported(application):
         "window = MainWindow(None, Preferences())\n"
         "window.remembers, window.context.quiet = False, True\n"
         "window.show(); app.processEvents(); window.build_panels(); app.processEvents()\n"
-        "print('pyvista' in sys.modules)\n"
+        "print('pyvista' in sys.modules, flush=True)\n"
         "window.close()\n"
+        # Left to the interpreter, Qt's and VTK's objects go in an order that nobody decides, and it may crash.
+        "os._exit(0)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False"]
