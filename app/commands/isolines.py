@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bihdist_core.counts import counted
 
 from ..document.looks import TWENTY_STEPS, Isolines
-from ..figures.options import ISOLINES, isolines_with
+from ..figures.look_options import ISOLINES, isolines_with
 from .field_of import FieldOf, field_of
 from .options import SOURCE, add_areas, add_distance, add_rows, given, source
 from .terminal import progress_line

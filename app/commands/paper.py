@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from ..figures.options import UP, up_meaning
+from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
 from .options import add_rows
 from .terminal import progress_line

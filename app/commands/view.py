@@ -7,7 +7,9 @@ from typing import NoReturn
 
 from ..document.option import Row
 from ..document.page import Recipe
-from ..figures.options import COLOURS, UP, VERTEX_AREAS, tool_rows, up_meaning, with_rows
+from ..figures.look_options import COLOURS
+from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
+from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
 from .options import PANELS, SOURCE, add_distance, add_rows, given, given_parameters, quantities, source
 

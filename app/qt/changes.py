@@ -68,17 +68,21 @@ class Changes(QtCore.QObject):
         context, session, grid = self._context, self._context.session, self._context.grid
         document = session.document
         loaded = tuple(session.loaded(mesh.name) for mesh in document.surfaces)
-        is_dressed = grid.show_style(self._style)  # in other colours
+        has_other_style = grid.show_style(self._style)  # in other colours
         is_other = loaded != self._loaded
-        other_panels = is_other or is_dressed or (document.panels, document.fields) != (before.panels, before.fields)
+        other_panels = (
+            is_other or has_other_style or (document.panels, document.fields) != (before.panels, before.fields)
+        )
         if other_panels:
             grid.show_panels(document)
         if is_other:
             shown, self._loaded = self._loaded, loaded
             is_remade = _is_remade(shown, loaded)
             self.surfaces_changed.emit(loaded, is_remade)
-            grid.show_surface([mesh.name for mesh in document.surfaces[1:]] if is_remade and not is_dressed else None)
-        elif is_dressed:
+            grid.show_surface(
+                [mesh.name for mesh in document.surfaces[1:]] if is_remade and not has_other_style else None
+            )
+        elif has_other_style:
             grid.show_surface()
         for row in TABLE:
             if other_panels or row.of(document) != row.of(before):
@@ -86,7 +90,7 @@ class Changes(QtCore.QObject):
         is_raised = document.height != before.height
         if other_panels or is_raised or document.range != before.range:
             for panel in document.panels:
-                if session.is_answered(panel.id) or (is_dressed and panel.id in session.shown):
+                if session.is_answered(panel.id) or (has_other_style and panel.id in session.shown):
                     self.answered.emit(panel.id)
         context[Views].document_changed(before, is_other, is_raised)
 
