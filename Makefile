@@ -39,12 +39,14 @@ check:
 	$(checks)
 	$(PYTHON_HERE) -m pytest tests/packaging/test_import_rules.py
 
-QUICK = tests/packaging/test_import_rules.py tests/packaging/test_words.py tests/app/test_document.py \
-    tests/app/test_history.py tests/app/test_one_line.py tests/core/test_solver.py
+QUICK = $(addprefix tests/packaging/test_,import_rules.py words.py) \
+    $(addprefix tests/app/test_,document.py history.py one_line.py) \
+    $(addprefix tests/core/test_,components.py distances.py factor.py isolines.py laplacian.py mesh_io.py operators.py \
+    ordering.py sources.py surface.py)
 quick:
 	@.ci/set-up dev
 	$(checks)
-	$(PYTHON_HERE) -m pytest $(QUICK)
+	$(PYTHON_HERE) -m pytest -n 2 $(QUICK)
 
 # The tests get screens of their own, so that they neither need nor disturb the user's; then all of them run in several
 # processes (see tests/conftest.py), where on one screen they would take the pointer from each other.
