@@ -41,8 +41,6 @@ COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
 
 AREAS = ("voronoi", "barycentric")
 CORNERS = ("auto", "top right", "top left", "bottom right", "bottom left")
-TOOLS = ("source",)
-"""What a click does; `source` moves the point that the panel's field starts from."""
 
 MOST_PANELS = 1000
 LONGEST_NAME = 60
@@ -171,7 +169,6 @@ class Document:
     camera: View = "auto"
     zooms: tuple[Zoom, ...] = ()
     height: float = 0.0
-    tool: str = "source"
     next_id: int = 0
     fields: tuple[FieldArray, ...] = ()
     colours: Colours = OF_THE_STYLE
@@ -207,7 +204,6 @@ class Document:
             raise ParameterError(f"There are at most {MOST_PANELS} panels, not {len(self.panels)}.")
         if self.areas not in AREAS:
             raise ParameterError(f"There are no areas {self.areas!r}; choose one of {', '.join(AREAS)}.")
-        one_of(self.tool, TOOLS, "tool")
         one_of(self.range, RANGES, "range")
         one_of(self.up, UPS, "direction")
         one_of(self.projection, PROJECTIONS, "projection")

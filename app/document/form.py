@@ -21,7 +21,7 @@ from .looks import Isolines
 from .quantities import Quantity, quantity_from, read_spec
 from .tools import part_types
 
-ALWAYS = {"surfaces", "points", "panels", "areas", "isolines", "camera", "zooms", "height", "tool", "next_id"}
+ALWAYS = {"surfaces", "points", "panels", "areas", "isolines", "camera", "zooms", "height", "next_id"}
 """Parts of a document that stand in each file."""
 
 BEFORE = {"up": "y"}
@@ -48,10 +48,11 @@ def document_from(data: Any, where: str = "document") -> Document:
         kind: {kind.key: reader_of(kind, READERS)} if kind.key else field_readers(kind, READERS)
         for kind in part_types()
     }
-    readers: dict[str, Reader] = dict(own)
+    readers: dict[str, Reader] = {**own, "tool": text}  # which was always the same
     for more in of_parts.values():
         readers |= more
     values = record(data, where, readers, ALWAYS)
+    values.pop("tool", None)
     parts = []
     for kind, more in of_parts.items():
         found = {name: values.pop(name) for name in more if name in values}

@@ -32,7 +32,8 @@ class Tool:
     found.  dock: its `Instrument`, if it has one.  gesture: its `Gesture`, what clicks and drags mean.  commands:
     modules of commands, by their words.  quantities: subclasses of `Quantity` that panels can show.  parts:
     subclasses of `Part`, of documents.  options: a tuple of `Row`, what figures can be told of them.
-    marks: a function from a `MarkedPanel` to what is marked there, primitives of `marks.primitives`.
+    marks: a function from a `MarkedPanel` to what is marked there, primitives of `marks.primitives`.  actions: a tuple
+    of `Act`, what can be done by a menu or a key beside opening the dock.
     """
 
     package: str
@@ -51,6 +52,7 @@ class Tool:
     parts: tuple[str, ...] = ()
     options: str = ""
     marks: str = ""
+    actions: str = ""
 
     def load(self, name: str) -> Any:
         """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""

@@ -141,7 +141,6 @@ ROWS = (
     attribute("page.crop", "without the empty margins"),
     SHADING,
     VERTEX_AREAS,
-    unsaid("what a click does in the window", "Document.tool"),
     unsaid("for panels that are still to come", "Document.next_id"),
     unsaid("where instruments stand in the window", "Document.dock_places"),
     unsaid("what the pointer does in the window", "Document.snap"),

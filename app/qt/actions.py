@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ..document.tools import tools
 from .context import Context
 from .look.icons import put_icon
 
@@ -29,6 +30,11 @@ class Act:
     is_check: bool = False
     is_on: bool = False
     lack: str = ""
+
+
+def acts_of_tools() -> tuple[Act, ...]:
+    """What tools add to the menus and keys, beside opening their docks."""
+    return tuple(act for tool in tools() if tool.actions for act in tool.load(tool.actions))
 
 
 class Actions:

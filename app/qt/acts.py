@@ -8,7 +8,7 @@ from qtpy import QtCore, QtWidgets
 
 from ..document.edits import PANEL_EDITS
 from ..document.tools import Tool, docked_tools
-from .actions import Act
+from .actions import Act, acts_of_tools
 from .choices import Choices
 from .context import Context
 from .files.curve_files import CurveFiles
@@ -17,6 +17,7 @@ from .files.files import Files
 from .files.session_actions import SessionFile
 from .guide import Guide
 from .progress_display import ProgressDisplay
+from .snapping import Snapping
 from .typed_source import TypedSource
 from .views import Views
 
@@ -82,10 +83,6 @@ def _shift(right: int, up: int) -> Callable[[Context], object]:
 
 def _zoom(factor: float) -> Callable[[Context], object]:
     return lambda context: context.active and context.active.view.zoom(factor)
-
-
-def _step(right: int, up: int) -> Callable[[Context], object]:
-    return lambda context: _gestures(context).sources.step(right, up)
 
 
 def _of_view(word: str, text: str, do: Callable[[Context], object], *keys: str) -> Act:
@@ -332,21 +329,12 @@ TOOLS = (
     Act(
         "snap",
         "Snap to &vertices",
-        lambda c: _gestures(c).sources.set_snapping(c.actions["snap"].isChecked()),
+        lambda c: c[Snapping].set(c.actions["snap"].isChecked()),
         ("V",),
         "The source is put on vertices, and not anywhere in faces",
         needs_mesh=True,
         is_check=True,
         is_on=True,
-    ),
-    Act(
-        "draw source",
-        "&Draw a source",
-        lambda c: _gestures(c).sources.set_drawing(c.actions["draw source"].isChecked()),
-        ("D",),
-        "Drag over the surface: distances from a curve",
-        needs_mesh=True,
-        is_check=True,
     ),
     Act(
         "save curve",
@@ -367,10 +355,6 @@ TOOLS = (
         needs_mesh=True,
         is_check=True,
     ),
-    Act("step left", "Step along an edge to the left", _step(-1, 0), ("Ctrl+Left",), of_view=True, needs_mesh=True),
-    Act("step right", "Step along an edge to the right", _step(1, 0), ("Ctrl+Right",), of_view=True, needs_mesh=True),
-    Act("step up", "Step along an edge up", _step(0, 1), ("Ctrl+Up",), of_view=True, needs_mesh=True),
-    Act("step down", "Step along an edge down", _step(0, -1), ("Ctrl+Down",), of_view=True, needs_mesh=True),
     Act("stop", "&Stop what is being computed", lambda c: stop(c), ("Esc",)),
 )
 INSTRUMENTS = tuple(map(_dock, docked_tools().values()))
@@ -381,4 +365,4 @@ HELP = (
     Act("tour", "A &tour in five steps", lambda c: c[Guide].start_tour()),
     Act("about", "&About", lambda c: c[Guide].show_about()),
 )
-ALL = (*FILE, *EDIT, *VIEW, *TURNS, *PANELS, *TOOLS, *INSTRUMENTS, *HELP)
+ALL = (*FILE, *EDIT, *VIEW, *TURNS, *PANELS, *TOOLS, *acts_of_tools(), *INSTRUMENTS, *HELP)

@@ -10,16 +10,20 @@ if TYPE_CHECKING:
     from ..scene.picking import Hit
     from .panels.events import Click
 
+FIRST, LAST = -1, 1
+"""Of the gestures of tools, when they are asked whether something is meant for them."""
+
 
 class Gesture(QtCore.QObject):
     """One for each window, from its beginning on; a tool's row names it (`gesture`).
 
-    kind: of the pin markers on panels that are the tool's, "" for none.  comes_first: what it takes is meant for no
-    other tool, whatever the panel shows.  follows: what it moves may be led by the pointer, without a button.
+    kind: of the pin markers on panels that are the tool's, "" for none.  turn: FIRST if what it takes is meant for no
+    other tool, whatever the panel shows, LAST if it takes what no other does.  follows: what it moves may be led by the
+    pointer, without a button.
     """
 
     kind: ClassVar[str] = ""
-    comes_first: ClassVar[bool] = False
+    turn: ClassVar[int] = 0
     follows: ClassVar[bool] = False
 
     def __init__(self, context: Context) -> None:

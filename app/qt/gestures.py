@@ -16,7 +16,7 @@ from .held_keys import HeldKeys
 from .isoline_choices import IsolineChoices
 from .look.numbers import number
 from .panels.events import Click, Hover, MarkClick, MarkDrag, MarkRelease, MenuWanted
-from .source_gestures import SourceGestures
+from .snapping import Snapping
 
 if TYPE_CHECKING:
     from ..scene.picking import Hit
@@ -29,16 +29,14 @@ REST_MS = 200
 
 
 class Gestures(QtCore.QObject):
-    """is_live: whether the source follows the pointer; sources: what is done to it, where no other tool is on."""
+    """is_live: whether the source follows the pointer."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
         self._context, self._grid = context, context.grid
-        self._dragging, self.sources = context[Dragging], context[SourceGestures]
+        self._dragging = context[Dragging]
         made = [context[tool.load(tool.gesture)] for tool in tools() if tool.gesture]
-        self._first = [gesture for gesture in made if gesture.comes_first]
-        self._others = [gesture for gesture in made if not gesture.comes_first]
-        self._all: tuple[Gesture, ...] = (*self._first, *self._others, self.sources)
+        self._all: list[Gesture] = sorted(made, key=lambda gesture: gesture.turn)
         self.is_live = False
         self._has_followed = False  # what is led, since the pointer leads it
         self._rest_soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
@@ -96,12 +94,12 @@ class Gestures(QtCore.QObject):
     # ------------------------------------------------------------------ the keys
     def put_down(self) -> bool:
         """Let the pointer mean what it usually does; whether it has meant something else."""
-        if any(gesture.put_down() for gesture in (*self._first, self.sources)):
+        if any(gesture.put_down() for gesture in self._all if gesture.turn):
             return True
         if self.is_live:
             self._context.actions["live"].trigger()
             return True
-        return any(gesture.put_down() for gesture in self._others)
+        return any(gesture.put_down() for gesture in self._all if not gesture.turn)
 
     def remove_chosen(self) -> None:
         """The pair or the anchor that stands out."""
@@ -147,8 +145,8 @@ class Gestures(QtCore.QObject):
         widget, surface = self._grid.panel(panel), context.session.surface_in(panel)
         context.pointed.emit(vertex, widget.surface)
         context.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], widget.head.letter)
-        gesture = self._on(panel)
-        at, was = (None if each is None else self.sources.at(panel, each) for each in (hit, last))
+        gesture, snapping = self._on(panel), context[Snapping]
+        at, was = (None if each is None else snapping.at(panel, each) for each in (hit, last))
         is_elsewhere = last is None or panel != last_in or at != was
         if self.is_live and gesture.follows and hit is not None and is_elsewhere:
             self._dragging.is_on = self._has_followed = True

@@ -1,6 +1,7 @@
 """The program's own tools, a folder each; what a row of this table does not name is not part of the program."""
 
 TOOLS = (
+    "source",
     "pins",
     "profile",
     "scatter",

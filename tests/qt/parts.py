@@ -20,7 +20,8 @@ WHERE = {
     "picking": "tools.robustness.gestures:ChangeGestures",
     "progress_display": "qt.progress_display:ProgressDisplay",
     "session_file": "qt.files.session_actions:SessionFile",
-    "sources": "qt.source_gestures:SourceGestures",
+    "snapping": "qt.snapping:Snapping",
+    "sources": "tools.source.gestures:SourceGestures",
     "typed_source": "qt.typed_source:TypedSource",
     "views": "qt.views:Views",
 }

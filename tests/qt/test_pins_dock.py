@@ -114,7 +114,7 @@ def test_pins_in_faces_are_listed_and_compared(loaded, tmp_path):
     dock = dock_of(s)
     type_ids(s, dock, "12, f17:0.2,0.5")
     assert ids(s) == [12, SurfacePoint.of(17, 0.2, 0.5)]
-    parts(s.window).sources.set_snapping(False)
+    parts(s.window).snapping.set(False)
     (vertex,) = seen_vertices(s, 1)
     shift_click(s, vertex)
     place = ids(s)[2]

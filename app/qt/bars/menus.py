@@ -10,6 +10,7 @@ from bihdist_core.analysis.upright import DIRECTIONS
 from ...document.tools import docked_tools
 from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from .. import remembered
+from ..actions import acts_of_tools
 from ..choices import Choices
 from ..context import Context
 from ..files.files import Files
@@ -105,10 +106,8 @@ class Menus:
             "&Up", lambda word: context[Views].stand(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
         )
         self._fill(self.up, [None, "next up", "other end up"])
-        steps = ("step left", "step right", "step up", "step down")
-        self._fill(self.tools, ["source id", "draw source", "save curve", "snap", "live", None])
-        self._fill(self.tools, ["source before", "source after", None])
-        self._fill(self.tools, [*steps, None, "stop"])
+        self._fill(self.tools, ["source id", "save curve", "snap", "live", None, "source before", "source after", None])
+        self._fill(self.tools, [*(act.word for act in acts_of_tools()), None, "stop"])
         file, edit, view, panels, tools, about = (
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
         )

@@ -12,7 +12,7 @@ from ...document.pins import Pin, Pins, add_pins, remove_pins
 from ...qt.context import Context
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
-from ...qt.source_gestures import SourceGestures
+from ...qt.snapping import Snapping
 
 if TYPE_CHECKING:
     from ...scene.picking import Hit
@@ -23,7 +23,7 @@ class PinGestures(Gesture):
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
-        self._grid, self._sources = context.grid, context[SourceGestures]
+        self._grid, self._at = context.grid, context[Snapping].at
 
     def takes(self, panel: int, click: Click) -> bool:
         return click.has_shift
@@ -36,7 +36,7 @@ class PinGestures(Gesture):
         session = self.context.session
         surface = session.document.panel(panel).surface
         try:
-            session.show(add_pins(session.document, [self._sources.at(panel, hit)], surface))
+            session.show(add_pins(session.document, [self._at(panel, hit)], surface))
         except ParameterError as error:  # there are too many
             self.context.fail(error)
 
@@ -45,7 +45,7 @@ class PinGestures(Gesture):
         view = self._grid.panel(panel).view
         number = view.over.pin_at(view.mapFromGlobal(where))
         if not number and hit is not None:
-            number = self._number_at(panel, self._sources.at(panel, hit))
+            number = self._number_at(panel, self._at(panel, hit))
         if number:
             pin = self._pin(number)
             menu.addAction(f"Source at {_name(pin, number)}", lambda: self._move_source(panel, pin.point))
@@ -78,7 +78,7 @@ class PinGestures(Gesture):
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """All the way is one step; a place that another pin has is passed."""
         session = self.context.session
-        document, at = session.document, self._sources.at(panel, hit)
+        document, at = session.document, self._at(panel, hit)
         pin = self._pin(number)
         point = document.point(pin.point)
         if at != point.at and not self._number_at(panel, at):

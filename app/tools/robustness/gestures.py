@@ -6,10 +6,10 @@ from qtpy import QtCore
 
 from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
-from ...qt.gesture import Gesture
+from ...qt.gesture import FIRST, Gesture
 from ...qt.panels.events import Click
 
-FIRST, SECOND = "Click the first of two places", "Click the second place"
+CLICK_FIRST, CLICK_SECOND = "Click the first of two places", "Click the second place"
 NEW = "That part of the surface is new; click one that was there before"
 
 
@@ -21,7 +21,7 @@ class ChangeGestures(Gesture):
     """
 
     changed = QtCore.Signal()
-    comes_first = True
+    turn = FIRST
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -35,7 +35,7 @@ class ChangeGestures(Gesture):
     def pick(self, word: str, done: Callable[[tuple[int, int]], None]) -> None:
         """done: called with both vertices."""
         self.word, self._done, self.picked = word, done, ()
-        self.context.tell(FIRST)
+        self.context.tell(CLICK_FIRST)
         self.changed.emit()
 
     def stop(self) -> None:
@@ -65,7 +65,7 @@ class ChangeGestures(Gesture):
             return
         if not self.picked:
             self.picked = (vertex,)
-            self.context.tell(SECOND)
+            self.context.tell(CLICK_SECOND)
             self.changed.emit()
         elif vertex != self.picked[0]:
             done, pair = self._done, (self.picked[0], vertex)

@@ -9,7 +9,7 @@ from bihdist_core import Surface
 from bihdist_core.sources.plane_walk import PlaneWalk
 from bihdist_core.sources.source import Curve, Member, Source, SurfacePoint
 
-from ..document.source_edits import place_at, source_from
+from ...document.source_edits import place_at, source_from
 
 ROUNDABOUT = 3.0
 """A way on the surface between two places drawn one after another is at most so many times as long as the straight

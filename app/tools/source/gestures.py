@@ -11,17 +11,18 @@ from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
-from ..document.edits import move_source, source_name
-from ..document.source_edits import members_of, place_at, place_in, points_of, with_member, with_moved, without_member
-from ..session.stroke_sources import source_from_strokes
-from .context import Context
-from .dragging import Dragging
-from .files.curve_files import CurveFiles
-from .gesture import Gesture
-from .panels.events import Click, Stroke, StrokeEnd
+from ...document.edits import move_source, source_name
+from ...document.source_edits import members_of, place_in, points_of, with_member, with_moved, without_member
+from ...qt.context import Context
+from ...qt.dragging import Dragging
+from ...qt.files.curve_files import CurveFiles
+from ...qt.gesture import LAST, Gesture
+from ...qt.panels.events import Click, Stroke, StrokeEnd
+from ...qt.snapping import Snapping
+from .strokes import source_from_strokes
 
 if TYPE_CHECKING:
-    from ..scene.picking import Hit
+    from ...scene.picking import Hit
 
 NEAR = 24.0
 """Pixels from the pointer to a member of the source, or to a boundary, that a menu means."""
@@ -42,11 +43,12 @@ class SourceGestures(Gesture):
     is_drawing: whether the left button draws.
     """
 
+    turn = LAST
     follows = True
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
-        self._grid = context.grid
+        self._grid, self.at = context.grid, context[Snapping].at
         self.is_drawing = False
         self._moved: tuple[str, Source, Member] | None = None  # a point, what it was, and which member moves
         self._strokes: list[list[SurfacePoint]] = []
@@ -86,25 +88,6 @@ class SourceGestures(Gesture):
         self.context.edit(move_source(self.context.document, panel, at), key, live)
 
     # ------------------------------------------------------------------ points
-    @property
-    def is_snapping(self) -> bool:
-        """Whether the source is put on vertices."""
-        return self.context.document.snap
-
-    def at(self, panel: int, hit: "Hit") -> Source:
-        """The source that a place in a panel means."""
-        if self.is_snapping:
-            return hit.vertex
-        faces = self.context.session.surface_in(panel).faces
-        return place_at(faces[hit.face], hit.face, hit.weights)
-
-    def set_snapping(self, is_snapping: bool) -> None:
-        """Whether the source is put on vertices, or anywhere in faces, also at the next start."""
-        self.context.session.keep_snapping(is_snapping)
-        self.context.prefer(snap=is_snapping)
-        where = "on vertices" if is_snapping else "anywhere in faces"
-        self.context.tell(f"A click puts the source {where}")
-
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """One of the marks of a panel's source is over a place."""
         session = self.context.session
