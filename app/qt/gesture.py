@@ -17,12 +17,12 @@ FIRST, LAST = -1, 1
 class Gesture(QtCore.QObject):
     """One for each window, from its beginning on; a tool's row names it (`gesture`).
 
-    kind: of the pin markers on panels that are the tool's, "" for none.  turn: FIRST if what it takes is meant for no
-    other tool, whatever the panel shows, LAST if it takes what no other does.  follows: what it moves may be led by the
-    pointer, without a button.
+    tool: the word of the one whose pin markers can be dragged, "" for none.  turn: FIRST if what it takes is meant for
+    no other tool, whatever the panel shows, LAST if it takes what no other does.  follows: what it moves may be led by
+    the pointer, without a button.
     """
 
-    kind: ClassVar[str] = ""
+    tool: ClassVar[str] = ""
     turn: ClassVar[int] = 0
     follows: ClassVar[bool] = False
 

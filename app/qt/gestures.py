@@ -45,7 +45,7 @@ class Gestures(QtCore.QObject):
         events.on(Click, self._click)
         events.on(MarkClick, self._click_mark)
         events.on(MarkDrag, self._drag)
-        events.on(MarkRelease, lambda panel, mark: self._release(mark.kind))
+        events.on(MarkRelease, lambda panel, mark: self._release(mark.tool))
         events.on(Hover, lambda panel, hover: self._hover(panel, hover.hit))
         events.on(MenuWanted, self._open_menu)
         context[HeldKeys].live_key_up.connect(self._live_key_up)
@@ -62,9 +62,9 @@ class Gestures(QtCore.QObject):
         """That of the tool that is on in a panel."""
         return next(gesture for gesture in self._all if gesture.is_on(panel))
 
-    def _of(self, kind: str) -> list[Gesture]:
-        """Those whose pin markers are of a kind; with "" those that have none."""
-        return [gesture for gesture in self._all if gesture.kind == kind]
+    def _of(self, tool: str) -> list[Gesture]:
+        """Those of the tool of a pin marker, by its word; with "" those that have none."""
+        return [gesture for gesture in self._all if gesture.tool == tool]
 
     # ------------------------------------------------------------------ clicks and drags
     def _click(self, panel: int, click: Click) -> None:
@@ -73,21 +73,21 @@ class Gestures(QtCore.QObject):
         next(gesture for gesture in self._all if gesture.takes(panel, click)).click(panel, click)
 
     def _click_mark(self, panel: int, mark: MarkClick) -> None:
-        for gesture in self._of(mark.kind):
+        for gesture in self._of(mark.tool):
             gesture.click_mark(panel, mark.number, mark.has_ctrl)
 
     def _drag(self, panel: int, mark: MarkDrag) -> None:
-        if not mark.kind:
+        if not mark.tool:
             self._dragging.is_on = True
-        for gesture in self._of(mark.kind) if mark.kind else [self._on(panel)]:
+        for gesture in self._of(mark.tool) if mark.tool else [self._on(panel)]:
             gesture.drag(panel, mark.number, mark.hit)
 
-    def _release(self, kind: str = "") -> None:
+    def _release(self, tool: str = "") -> None:
         """It has arrived: now all is answered, and what is late is said to be."""
-        if not kind:
+        if not tool:
             self._rest_soon.stop()
             self._dragging.is_on = False
-        for gesture in self._of(kind):
+        for gesture in self._of(tool):
             gesture.release()
         self._context.edit(self._context.document)
 

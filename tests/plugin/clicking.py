@@ -5,7 +5,7 @@ import sys
 import bihdist
 from bihdist.document.page import Recipe
 from bihdist.figures.one_line import command_line
-from qtpy import QtCore, QtWidgets
+from qtpy import QtCore, QtGui, QtWidgets
 from qtpy.QtTest import QTest
 
 
@@ -15,6 +15,20 @@ def wait(is_so):
             return
         QTest.qWait(50)
     raise TimeoutError
+
+
+def drag(view, start, now):
+    """The pin marker, which stands where the view was clicked, to a place below it."""
+    left, tip = QtCore.Qt.MouseButton.LeftButton, view.rect().center()
+    heads = (tip - QtCore.QPoint(0, up) for up in range(2, 60))
+    head = next(at for at in heads if view.over.points.standing_at(at))
+    QTest.mousePress(view, left, pos=head)
+    for down in (8, 16, 24, 32):
+        at = QtCore.QPointF(head + QtCore.QPoint(0, down))
+        none = QtCore.Qt.KeyboardModifier.NoModifier
+        QtWidgets.QApplication.sendEvent(view, QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, at, left, left, none))
+    QTest.mouseRelease(view, left, pos=head + QtCore.QPoint(0, 32))
+    wait(lambda: now() != start)
 
 
 def main(folder):
@@ -31,6 +45,7 @@ def main(folder):
     QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=view.rect().center())
     wait(lambda: label.text().startswith("radius"))
     print(label.text())
+    drag(view, viewer.document.point("circle"), lambda: viewer.document.point("circle"))
     assert viewer.screenshot(f"{folder}/after.png").read_bytes() != before
     print(command_line(Recipe(viewer.document), "out.png"))
     viewer.close()

@@ -110,7 +110,7 @@ class Screen:
             for y in range(3, 18):
                 hit = view.pick(QPoint(view.width() * x // 20, view.height() * y // 20))
                 at = None if hit is None else self.point_of(shown, hit.vertex)
-                again = None if at is None or view.over.drop_at(at) is not None else view.pick(at)
+                again = None if at is None or view.over.points.standing_at(at) is not None else view.pick(at)
                 if again is not None and again.vertex == hit.vertex:
                     found[hit.vertex] = hit.position
         ids = list(found)

@@ -43,7 +43,7 @@ def _at(d: Driver, panel: int, x: float, y: float) -> None:
     places = [((i + 0.5) / 40, (j + 0.5) / 40) for i in range(40) for j in range(40)]
     for near in sorted(places, key=lambda at: (at[0] - x) ** 2 + (at[1] - y) ** 2):
         at = QtCore.QPoint(round(near[0] * view.width()), round(near[1] * view.height()))
-        if view.pick(at) is not None and view.mark_at(at) < 0 and view.over.drop_at(at) is None:
+        if view.pick(at) is not None and view.mark_at(at) < 0 and view.over.points.standing_at(at) is None:
             d.point(panel, *near)
             return
 

@@ -229,7 +229,7 @@ def test_a_drag_of_a_drop_is_one_step_and_of_the_waiting_point_costs_no_solve(tw
 
 def drag(s, view, start, stop):
     """A drop by its head, so that its tip goes from one place to another."""
-    head = QtCore.QPoint(0, 15 if view.over.drop_at(start - QtCore.QPoint(0, 15)) is None else -15)
+    head = QtCore.QPoint(0, 15 if view.over.points.standing_at(start - QtCore.QPoint(0, 15)) is None else -15)
     QtTest.QTest.mousePress(view, LEFT, pos=start + head)
     for k in range(1, 7):
         place = start + head + (stop - start) * k / 6

@@ -68,8 +68,8 @@ def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(loaded):
 
     def reach(tip):
         """Pixels above the tip up to which the drop can be taken."""
-        at = QtCore.QPoint(round(tip.x()), 0)
-        return max(k for k in range(40) if view.over.pin_at(QtCore.QPoint(at.x(), round(tip.y()) - k)) == 1)
+        x, y, points = round(tip.x()), round(tip.y()), view.over.points
+        return max(k for k in range(40) if points.standing_at(QtCore.QPoint(x, y - k)) == ("pins", 1))
 
     usual = reach(tip)
     s.window.resize(700, 560)

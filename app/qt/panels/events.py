@@ -42,18 +42,18 @@ class Click:
 
 @dataclass(frozen=True, eq=False)
 class MarkClick:
-    """On a pin marker.  kind: of marker, "pin" or "pair"; number: from 1."""
+    """On a pin marker.  tool: whose it is, by its word; number: from 1."""
 
-    kind: str
+    tool: str
     number: int
     has_ctrl: bool = False
 
 
 @dataclass(frozen=True, eq=False)
 class MarkDrag:
-    """The tip of a pin marker, or with the kind "" a mark of the source by its number from 0, is over a place."""
+    """The tip of a pin marker, or with the tool "" a mark of the source by its number from 0, is over a place."""
 
-    kind: str
+    tool: str
     number: int
     hit: Hit
 
@@ -62,7 +62,7 @@ class MarkDrag:
 class MarkRelease:
     """The button is up that has dragged a mark."""
 
-    kind: str
+    tool: str
 
 
 @dataclass(frozen=True, eq=False)

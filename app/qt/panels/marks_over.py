@@ -22,9 +22,6 @@ from .point_marks import PointMarks
 if TYPE_CHECKING:
     from .view import View
 
-HELD = {"pins": "pin", "pairs": "pair"}
-"""The tools whose marks can be taken hold of, and what these are called then."""
-
 DAB = 4.0
 """Pixels across of a vertex that a brush touches."""
 
@@ -87,20 +84,6 @@ class MarksOver:
         if rows != self.legend:
             self.legend = rows
             self._view.update()
-
-    def drop_at(self, position: QtCore.QPoint) -> tuple[str, int] | None:
-        """What pin is under a point of the view: ("pin", number), or ("pair", number) of a pair's; None for none."""
-        found = self.points.standing_at(position)
-        return None if found is None or found[0] not in HELD else (HELD[found[0]], found[1])
-
-    def tip_of_drop(self, kind: str, number: int) -> QtCore.QPoint:
-        """The pixel of its place."""
-        return self.points.tip_of(next(key for key, held in HELD.items() if held == kind), number)
-
-    def pin_at(self, position: QtCore.QPoint) -> int:
-        """The number of the pin under a point of the view; 0 for none."""
-        found = self.points.standing_at(position)
-        return found[1] if found is not None and found[0] == "pins" else 0
 
     def show_strokes(self, strokes: Sequence[AnyArray]) -> None:
         """What has been drawn so far, points (k, 3)."""

@@ -150,15 +150,15 @@ class PointMarks(QtCore.QObject):
         return sorted(found, key=lambda each: each[0].level)
 
     def standing_at(self, position: QtCore.QPoint) -> tuple[str, int] | None:
-        """The tool and the number of the uppermost mark that stands under a point of the view."""
+        """The tool and the number of the uppermost mark that stands under a point; None if it has no number."""
         view, place = self._view, QtCore.QPointF(position)
         for each, tip in reversed(self.standing()):
             if covers(each.mark.glyph, tip, place, view.scene.style, view.proportion):
-                return each.key, each.mark.number or 0
+                return (each.key, each.mark.number) if each.mark.number else None
         return None
 
     def tip_of(self, key: str, number: int) -> QtCore.QPoint:
-        """The pixel of the place of a mark that stands, by its tool and its number."""
+        """The pixel of the place of a mark that stands, by its tool and number."""
         at = next(at for each, at in reversed(self.standing(key)) if each.mark.number == number)
         return QtCore.QPoint(int(np.floor(at.x())), int(np.floor(at.y())))
 

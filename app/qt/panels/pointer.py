@@ -73,8 +73,8 @@ class Pointer:
         if self._is_stroke:
             view.happened.emit(Stroke(hit))
         may_hold = is_left and not self._is_stroke and (is_plain or event.modifiers() == _CTRL)
-        self._drop = self._over.drop_at(event.pos()) if may_hold else None
-        self._grip = self._over.tip_of_drop(*self._drop) - event.pos() if self._drop else QtCore.QPoint()
+        self._drop = self._over.points.standing_at(event.pos()) if may_hold else None
+        self._grip = self._over.points.tip_of(*self._drop) - event.pos() if self._drop else QtCore.QPoint()
         self._held = view.mark_at(event.pos()) if may_hold and is_plain and not self._drop else -1
         if self._held >= 0 or self._drop:
             view.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
@@ -149,7 +149,7 @@ class Pointer:
 
     def double_click(self, event: QtGui.QMouseEvent) -> None:
         """The first click has moved the source there, or has chosen a pin."""
-        if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._over.drop_at(event.pos()):
+        if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._over.points.standing_at(event.pos()):
             hit = self._view.pick(event.pos())
             if hit is not None:
                 self._view.centre(hit.position)
@@ -168,7 +168,7 @@ class Pointer:
             self._view.setCursor(self.brush)
         elif self.is_drawn_on:
             self._view.setCursor(QtCore.Qt.CursorShape.CrossCursor)
-        elif self._over.drop_at(position) or self._view.mark_at(position) >= 0:
+        elif self._over.points.standing_at(position) or self._view.mark_at(position) >= 0:
             self._view.setCursor(QtCore.Qt.CursorShape.OpenHandCursor)
         else:
             self._view.unsetCursor()

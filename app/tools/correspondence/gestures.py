@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 class PairGestures(Gesture):
     """See `Gesture`; beside them how far candidates are from the truth is found."""
 
-    kind, follows = "pair", True
+    tool, follows = "pairs", True
     chosen = QtCore.Signal(str)  # a point of the pair that stands out from now on, "" for none
 
     def __init__(self, context: Context) -> None:

@@ -163,7 +163,7 @@ class PinsDock(Instrument):
 
     def _choose(self, panel: int, mark: MarkClick) -> None:
         """A pin marker has been clicked: its row is selected, or only it is no longer; with Ctrl besides the others."""
-        if mark.kind == "pin" and self.word in self.context.document.docks:
+        if mark.tool == self.word in self.context.document.docks:
             point, chosen = self.context.document[Pins].pins[mark.number - 1].point, set(self.table.points)
             self.table.select(tuple(chosen ^ {point}) if mark.has_ctrl else () if chosen == {point} else (point,))
 

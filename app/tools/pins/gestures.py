@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class PinGestures(Gesture):
-    kind = "pin"
+    tool = "pins"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -43,7 +43,8 @@ class PinGestures(Gesture):
     def offer_always(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
         """What can be done with the drop under the pointer, or with the place."""
         view = self._grid.panel(panel).view
-        number = view.over.pin_at(view.mapFromGlobal(where))
+        found = view.over.points.standing_at(view.mapFromGlobal(where))
+        number = found[1] if found and found[0] == self.tool else 0
         if not number and hit is not None:
             number = self._number_at(panel, self._at(panel, hit))
         if number:

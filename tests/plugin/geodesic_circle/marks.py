@@ -1,7 +1,7 @@
 """What is to be seen of the circle."""
 
 import numpy as np
-from bihdist.marks.glyphs import RING
+from bihdist.marks.glyphs import PIN
 from bihdist.marks.line_looks import PATH
 from bihdist.marks.marked_panel import MarkedPanel
 from bihdist.marks.primitives import LineMark, PointMark, SurfaceMark
@@ -23,4 +23,4 @@ def marks(marked: MarkedPanel) -> list[SurfaceMark]:
         )
         for curve in circle.curves
     ]
-    return [*lines, PointMark(vertex, RING, text=f"{circle.length:.3g}, {circle.area:.3g}")]
+    return [*lines, PointMark(vertex, PIN, number=1, text=f"{circle.length:.3g}, {circle.area:.3g}")]
